@@ -59,6 +59,8 @@ pub enum Scale {
     Linear,
     /// By decades.
     Log,
+    /// By decades, and zero where ten to this would stand, which is labelled so: less than that cannot be told from it.
+    LogAndZero(i32),
 }
 
 /// A named row of points.

@@ -1,9 +1,9 @@
 //! How right and how fast each way of searching is: the span diagram over one prime and over two, with second opinions, and
-//! cut short; rankings of larger and smaller pools; brute force over a prime and in floating point.
+//! cut short; rankings of larger and smaller pools; a search that prunes; brute force over a prime and in floating point.
 //!
 //! The truth comes from a third prime, which no way uses: variant by variant where there are few enough to look at each, and
-//! else by the whole diagram over that prime, with as many variants as may be looked at drawn at random. Verdicts are the
-//! same on every run; only times differ.
+//! else by the whole diagram over that prime, with as many variants as may be looked at drawn at random. A ranking is judged only
+//! by one of which it is proven that no further variant can win. Verdicts are the same on every run; only times differ.
 
 mod looked;
 pub mod pictures;
@@ -14,14 +14,17 @@ pub mod way;
 
 pub use truth::Effort;
 
-use super::timing::Stopwatch;
+use super::timing::{Stopwatch, Timing};
 use crate::model::mechanism::Mechanism;
 use crate::score::request::{Check, List, Method, Request};
 use crate::score::run::RunError;
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::Approximate;
+use crate::search::check::pruned::Pruned;
 use crate::search::diagram::Stop;
+use rayon::prelude::*;
 use record::{Record, Trial};
+use std::hint::black_box;
 use truth::{Truth, listed};
 use way::Way;
 
@@ -78,7 +81,7 @@ pub fn trial(
     for (n, &way) in ways.iter().enumerate() {
         progress(way, n, ways.len());
         records.extend(match way {
-            Way::Brute | Way::Float(_) => Some(by_looking(&truth, way, watch)?),
+            way if way.looks() => Some(by_looking(&truth, way, watch)?),
             _ => by_diagram(&truth, way, (mechanism, &way.request(&base)), watch)?,
         });
     }
@@ -94,37 +97,57 @@ pub fn trial(
     })
 }
 
-/// A search by the diagram; `None` where a budget of nodes cuts nothing, for every layer may have a few hundred.
+/// A search by the diagram; `None` where a budget of nodes cuts nothing, for every layer may have a few hundred. Counting is
+/// timed without a list, and without the file's ranking.
 fn by_diagram(
     truth: &Truth,
     way: Way,
     (mechanism, request): (&Mechanism, &Request),
     watch: Stopwatch,
 ) -> Result<Option<Record>, RunError> {
-    let (found, time) = watch.time(|| listed(mechanism, request));
+    let (found, naming) = watch.time(|| listed(mechanism, request));
     let (outcome, list) = found?;
     if matches!(way, Way::Nodes(_)) && outcome.stop == Stop::Exhausted {
         return Ok(None);
     }
     let judge = |choices: &[usize]| Ok::<_, RunError>(looked::by_diagram(&outcome, choices));
     let judged = looked::judge_all(&truth.looked, judge)?;
-    Ok(Some(Record {
+    let counts = || truth.counts_right(&looked::cells_of_counts(&outcome));
+    let mut record = Record {
         way,
-        time,
+        counting: None,
+        naming: Some(naming),
         by_proportion: false,
-        counts: truth.counts_right(&looked::cells_of_counts(&outcome)),
+        counts: None,
         best: truth.best_right(&list)?,
         variants: truth.variants_right(&judged),
-    }))
+    };
+    if !way.only_names() {
+        let mut unranked = mechanism.clone();
+        unranked.ranking = None;
+        let request = Request {
+            list: List::Nothing,
+            rank: Vec::new(),
+            ..request.clone()
+        };
+        record.counting = Some(watch.time(|| listed(&unranked, &request)).1);
+        record.counts = counts();
+    }
+    Ok(Some(record))
 }
 
-/// A search by looking at each variant, over the first prime or in floating point.
+/// A search by looking at variants one by one, over the first prime or in floating point.
 fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunError> {
     let search = truth.over(0)?;
     let (look, ready) = match way {
         Way::Float(e) => {
             let (all, ready) = watch.time(|| Approximate::new(&search, e, e.default_tolerance()));
             (Look::Float(all?), ready)
+        }
+        Way::Pruned => {
+            let order = search.orders().determinate;
+            let (all, ready) = watch.time(|| Pruned::new(&search, &order));
+            (Look::Pruned(all), ready)
         }
         _ => {
             let (all, ready) = watch.time(|| Matrices::new(&search));
@@ -135,34 +158,55 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
         let seen = match &look {
             Look::Float(all) => all.look(choices),
             Look::Exact(all) => Some(all.look(choices)),
+            Look::Pruned(all) => all.look(choices),
         };
         let judged = seen.map(|seen| looked::judged(&search, choices, seen));
         Ok(judged.transpose()?.flatten())
     };
-    let (judged, time) = watch.time(|| looked::judge_all::<RunError>(&truth.looked, judge));
+    let (judged, mut time) = watch.time(|| looked::judge_all::<RunError>(&truth.looked, judge));
     let judged = judged?;
-    let time = match truth.whole {
-        true => time,
-        false => time.scaled(looked::ratio(&search.size(), truth.looked.len())),
-    };
+    match (&look, truth.whole) {
+        // One by one the branches would be gone down again for each.
+        (Look::Pruned(all), _) => time = branches(truth, all, watch),
+        (_, true) => {}
+        (_, false) => time = time.scaled(looked::ratio(&search.size(), truth.looked.len())),
+    }
+    let counting = time.plus(ready.median);
     let whole = truth.whole.then_some(&judged);
     let cells = whole.map(|j| looked::cells(&search, j));
     let best = whole.map(|j| looked::cheapest(&search, &truth.looked, j, truth.top));
+    let best = match best {
+        Some(best) if truth.pool.is_none() => truth.best_right(&best)?,
+        _ => None,
+    };
     Ok(Record {
         way,
-        time: time.plus(ready.median),
+        counting: Some(counting),
+        naming: best.map(|_| counting),
         by_proportion: !truth.whole,
         counts: cells.and_then(|c| truth.counts_right(&c)),
-        best: match best {
-            Some(best) if truth.pool.is_none() => truth.best_right(&best)?,
-            _ => None,
-        },
+        best,
         variants: truth.variants_right(&judged),
     })
+}
+
+/// The time of all branches of a search that prunes, or of some in proportion to all: those below beginnings drawn at random,
+/// each with the same chance, of so many variants together as are looked at.
+fn branches(truth: &Truth, all: &Pruned, watch: Stopwatch) -> Timing {
+    let (beginnings, of) = looked::beginnings(&truth.search, all.order(), truth.looked.len());
+    let visit = |beginning: &Vec<usize>| {
+        let mut found = 0usize;
+        all.visit(beginning, &mut |_, seen| found += black_box(seen).motion);
+        found
+    };
+    let all_of_them = || beginnings.par_iter().map(visit).sum::<usize>();
+    let time = watch.time(all_of_them).1;
+    time.scaled(looked::ratio(&of, beginnings.len()))
 }
 
 /// What looks at a variant.
 enum Look {
     Exact(Matrices),
     Float(Approximate),
+    Pruned(Pruned),
 }

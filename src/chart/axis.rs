@@ -71,6 +71,10 @@ fn measure(scale: Scale, value: f64) -> Option<f64> {
     match scale {
         Scale::Linear => (value.abs() <= 1e300).then_some(value),
         Scale::Log => (value > 0.0 && value.is_finite()).then(|| value.log10()),
+        Scale::LogAndZero(least) => {
+            let least = f64::from(least);
+            (value >= 0.0 && value.is_finite()).then(|| value.log10().max(least))
+        }
     }
 }
 
@@ -91,7 +95,9 @@ impl Ruler {
         let (lo, hi) = range.unwrap_or((0.0, 1.0));
         let mut ruler = match scale {
             Scale::Linear => linear(lo, hi, fit, room),
-            Scale::Log => log(lo, hi, fit, room),
+            Scale::Log => log(lo, hi, fit, room, None),
+            // The zero is always on it.
+            Scale::LogAndZero(least) => log(lo.min(f64::from(least)), hi, fit, room, Some(least)),
         };
         ruler.drop_crowded(room);
         ruler
@@ -264,7 +270,8 @@ fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
     }
 }
 
-fn log(lo: f64, hi: f64, fit: Fit, room: Room) -> Ruler {
+/// By decades; one of them may stand for zero.
+fn log(lo: f64, hi: f64, fit: Fit, room: Room, zero: Option<i32>) -> Ruler {
     let decades = |lo: f64, hi: f64| (hi + 1e-9).floor() - (lo - 1e-9).ceil() + 1.0;
     let (mut lo, mut hi) = if decades(lo, hi) >= 2.0 {
         let pad = if fit == Fit::Tight {
@@ -284,18 +291,21 @@ fn log(lo: f64, hi: f64, fit: Fit, room: Room) -> Ruler {
     let plain = first >= -3 && last <= 5;
     let most = counts(room).next().unwrap_or(1.0) as i32 + 1;
     let mut ruler = Ruler {
-        scale: Scale::Log,
+        scale: zero.map_or(Scale::Log, Scale::LogAndZero),
         lo,
         hi,
         ticks: Vec::new(),
         fine: Vec::new(),
     };
     for step in [1, 2, 3, 5, 10, 20, 50, 100, 200, 500] {
-        let decades = (first..=last).filter(|e| e % step == 0);
+        let decades = (first..=last).filter(|e| e % step == 0 || Some(*e) == zero);
         ruler.ticks = decades
             .map(|e| Tick {
                 at: ruler.fraction(f64::from(e)).clamp(0.0, 1.0),
-                label: Some(decade(e, plain)),
+                label: Some(match Some(e) == zero {
+                    true => Label::plain("0".to_owned()),
+                    false => decade(e, plain),
+                }),
             })
             .collect();
         if ruler.ticks.len() as i32 <= most && !ruler.crowded(room) {

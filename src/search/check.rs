@@ -4,6 +4,7 @@ pub mod brute;
 pub mod brute_float;
 pub mod full_matrices;
 pub mod other_poses;
+pub mod pruned;
 pub mod second_opinion;
 pub mod second_prime;
 pub mod singular_values;

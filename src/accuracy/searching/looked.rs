@@ -8,6 +8,8 @@ use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute;
 use crate::search::check::brute::Seen;
 use crate::search::question::space::Variable;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
@@ -76,6 +78,45 @@ pub(super) fn every(search: &Search, most: usize) -> Option<Vec<Vec<usize>>> {
         variables.iter().map(digit).collect()
     };
     Some((0..size).map(variant).collect())
+}
+
+/// Beginnings of variants in an order of their variables, and how many there are: all, or some drawn at random, with no more
+/// variants below them together than `most`.
+pub(super) fn beginnings(
+    search: &Search,
+    order: &[usize],
+    most: usize,
+) -> (Vec<Vec<usize>>, BigUint) {
+    /// Of a large space so many branches are looked at.
+    const SOME: usize = 64;
+    let choices = |v: &usize| search.space.variables[*v].choices.len();
+    let (mut length, mut below) = (order.len(), 1);
+    while length > 0 && below * choices(&order[length - 1]) * SOME <= most {
+        length -= 1;
+        below *= choices(&order[length]);
+    }
+    let begun = &order[..length];
+    let of: BigUint = begun.iter().map(|v| BigUint::from(choices(v))).product();
+    let every = of.to_usize().filter(|n| n * below <= most);
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let one = |mut n: usize| -> Vec<usize> {
+        let mut digit = |v: &usize| {
+            let (choice, rest) = (n % choices(v), n / choices(v));
+            n = rest;
+            choice
+        };
+        begun.iter().map(&mut digit).collect()
+    };
+    let mut drawn = || -> Vec<usize> {
+        let mut choice =
+            |v: &usize| usize::try_from(random.next_u64() % choices(v) as u64).unwrap_or(0);
+        begun.iter().map(&mut choice).collect()
+    };
+    let some = match every {
+        Some(n) => (0..n).map(one).collect(),
+        None => (0..(most / below).max(1)).map(|_| drawn()).collect(),
+    };
+    (some, of)
 }
 
 /// How many times as many variants a space has as were looked at.

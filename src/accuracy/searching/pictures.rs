@@ -2,110 +2,134 @@
 
 use super::record::{Record, Share, Trial};
 use super::table;
-use super::way::Way;
 use crate::accuracy::pareto::front;
 use crate::accuracy::timing::Machine;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
 use crate::format::number::{duration, grouped};
 use crate::format::phrase::list;
 
-fn chart(
+/// A way with its median time in seconds and how often it is right.
+type Point<'a> = (&'a Record, f64, Share);
+
+/// What a chart shows: its title, the axes' labels, and a sentence.
+struct Words {
     title: String,
-    (label, why): (&str, &str),
-    records: &[(&Record, Share)],
-    machine: &Machine,
-) -> Chart {
-    let points: Vec<_> = records
+    time: String,
+    wrong: String,
+    why: String,
+}
+
+fn chart(words: Words, points: &[Point<'_>], machine: &Machine) -> Chart {
+    let places: Vec<_> = points
         .iter()
-        .map(|(r, s)| (r.time.median, s.percent()))
+        .map(|(_, t, s)| (*t, -s.percent_wrong()))
         .collect();
-    let front: Vec<_> = front(&points).into_iter().map(|i| records[i]).collect();
+    let front: Vec<_> = front(&places).into_iter().map(|i| points[i]).collect();
     // Nothing is right before the fastest.
-    let first = front.first().map(|(r, _)| (r.time.median, 0.0));
-    let rest = front.iter().map(|(r, s)| (r.time.median, s.percent()));
+    let first = front.first().map(|(_, t, _)| (*t, 100.0));
+    let rest = front.iter().map(|(_, t, s)| (*t, s.percent_wrong()));
     let mut steps: Vec<(f64, f64)> = first.into_iter().chain(rest).collect();
-    let slowest = records
-        .iter()
-        .map(|(r, _)| r.time.median)
-        .fold(0.0, f64::max);
+    let slowest = points.iter().map(|p| p.1).fold(0.0, f64::max);
     if let Some(&(_, share)) = steps.last() {
         steps.push((slowest, share));
     }
-    let names: Vec<String> = front
-        .iter()
-        .map(|(r, s)| {
-            format!(
-                "{} ({:.0} %, {})",
-                r.way,
-                s.percent(),
-                duration(r.time.median)
-            )
-        })
-        .collect();
+    let name = |(r, t, s): &Point<'_>| match s.right == s.of {
+        true => format!("{} (none wrong, {})", r.way, duration(*t)),
+        false => format!(
+            "{} ({:.1} % wrong, {})",
+            r.way,
+            s.percent_wrong(),
+            duration(*t)
+        ),
+    };
+    let names: Vec<String> = front.iter().map(name).collect();
     let mut series = vec![Series {
         name: "Pareto front".to_owned(),
         points: steps,
         style: Style::Steps,
     }];
-    series.extend(records.iter().map(|(r, s)| Series {
+    series.extend(points.iter().map(|(r, t, s)| Series {
         name: r.way.to_string(),
-        points: vec![(r.time.median, s.percent())],
+        points: vec![(*t, s.percent_wrong())],
         style: Style::Points,
     }));
+    // A decade below one of all, so that nothing wrong stands apart from a little.
+    let most = points.iter().map(|p| p.2.of).max().unwrap_or(1);
+    let decade = i32::try_from(most.max(1).ilog10()).unwrap_or(0);
     Chart {
-        title,
+        title: words.title,
         subtitle: format!(
-            "No way is both faster and more often right than {}. {why} On {machine}.",
-            list(&names)
+            "No way is both faster and less often wrong than {}. {} On {machine}.",
+            list(&names),
+            words.why
         ),
         x: Axis {
-            label: "time, s".to_owned(),
+            label: words.time,
             scale: Scale::Log,
         },
         y: Axis {
-            label: label.to_owned(),
-            scale: Scale::Linear,
+            label: words.wrong,
+            scale: Scale::LogAndZero(-decade),
         },
         series,
     }
 }
 
-/// The share of right counts against time.
+/// The share of wrong counts against the time of counting; of ways that give counts.
 #[must_use]
-pub fn counts(trial: &Trial, machine: &Machine) -> Chart {
-    let records: Vec<_> = trial.records.iter().map(|r| (r, r.answers())).collect();
-    let why = match trial.whole {
-        true => "Counts of determinate and of admissible variants, by W and number of changes.",
-        false => {
-            "Counts of determinate and of admissible variants, by W and number of changes; for brute force, whose \
-             time is in proportion to all, the share of right ones among the variants it looked at."
-        }
+pub fn counts(trial: &Trial, machine: &Machine) -> Option<Chart> {
+    let given = trial.records.iter();
+    let points: Vec<_> = given
+        .filter_map(|r| Some((r, r.counting?.median, r.counts?)))
+        .collect();
+    let words = Words {
+        title: format!("{}: wrong counts against time", trial.mechanism),
+        time: format!("{} of counting, s", machine.time()),
+        wrong: "wrong counts, %".to_owned(),
+        why: "Counts of determinate and of admissible variants, by W and number of changes."
+            .to_owned(),
     };
-    chart(
-        format!("{}: right counts against time", trial.mechanism),
-        ("right counts, %", why),
-        &records,
-        machine,
-    )
+    (!points.is_empty()).then(|| chart(words, &points, machine))
 }
 
-/// The share of right ones among the best against time; none where no way names any.
+/// The share of variants that are judged wrongly against the time for all, where brute force cannot look at all; elsewhere
+/// the counts say as much.
+#[must_use]
+pub fn variants(trial: &Trial, machine: &Machine) -> Option<Chart> {
+    let given = trial.records.iter();
+    let points: Vec<_> = given
+        .filter_map(|r| Some((r, r.counting?.median, r.variants)))
+        .collect();
+    let words = Words {
+        title: format!("{}: variants judged wrongly against time", trial.mechanism),
+        time: format!("{} for all variants, s", machine.time()),
+        wrong: format!(
+            "of {} variants judged wrongly, %",
+            grouped(&trial.looked.to_string())
+        ),
+        why: "What looks at variants one by one looked at some; its time is in proportion to all."
+            .to_owned(),
+    };
+    (!trial.whole).then(|| chart(words, &points, machine))
+}
+
+/// The share of wrong ones among the best against the time of naming them; none where no way names any.
 #[must_use]
 pub fn best(trial: &Trial, machine: &Machine) -> Option<Chart> {
-    let named = trial.records.iter().filter_map(|r| Some((r, r.best?)));
-    let records: Vec<_> = named.collect();
-    let why = ranking(trial).unwrap_or_else(|| "The order is that of cost.".to_owned());
-    (!records.is_empty()).then(|| {
-        chart(
-            format!(
-                "{}: right among the best {} against time",
-                trial.mechanism, trial.top
-            ),
-            ("right among the best, %", &why),
-            &records,
-            machine,
-        )
-    })
+    let named = trial.records.iter();
+    let points: Vec<_> = named
+        .filter_map(|r| Some((r, r.naming?.median, r.best?)))
+        .collect();
+    let words = Words {
+        title: format!(
+            "{}: wrong among the best {} against time",
+            trial.mechanism, trial.top
+        ),
+        time: format!("{} of counting and naming the best, s", machine.time()),
+        wrong: "wrong among the best, %".to_owned(),
+        why: ranking(trial).unwrap_or_else(|| "The order is that of cost.".to_owned()),
+    };
+    (!points.is_empty()).then(|| chart(words, &points, machine))
 }
 
 /// What a ranking is judged by.
@@ -113,13 +137,14 @@ pub fn best(trial: &Trial, machine: &Machine) -> Option<Chart> {
 pub fn ranking(trial: &Trial) -> Option<String> {
     let (pool, proven) = trial.ranked?;
     let pool = grouped(&pool.to_string());
-    let sure = match proven {
-        true => "the best of all",
-        false => "and a larger pool may have better ones",
-    };
-    Some(format!(
-        "The best are judged by a ranking of the {pool} cheapest variants, {sure}."
-    ))
+    Some(match proven {
+        true => format!(
+            "The best are judged by a ranking of the {pool} cheapest variants, the best of all."
+        ),
+        false => format!(
+            "The best are not judged: beyond the {pool} cheapest variants there may be better ones."
+        ),
+    })
 }
 
 /// Which ways judge variants wrongly, or give wrong counts, in words.
@@ -127,14 +152,12 @@ pub fn ranking(trial: &Trial) -> Option<String> {
 pub fn wrong(trial: &Trial) -> String {
     let judged = trial.records.iter().filter_map(|r| {
         let Share { right, of } = r.variants;
-        let by_itself = matches!(r.way, Way::Brute | Way::Float(_));
         let [wrong, all] = [of - right, of].map(|n| grouped(&n.to_string()));
-        (by_itself && right < of).then(|| format!("{} on {wrong} of {all} variants", r.way))
+        (r.way.looks() && right < of).then(|| format!("{} on {wrong} of {all} variants", r.way))
     });
     let counted = trial.records.iter().filter_map(|r| {
         let counts = r.counts.filter(|c| c.right < c.of)?;
-        let diagram = !matches!(r.way, Way::Brute | Way::Float(_));
-        diagram.then(|| {
+        (!r.way.looks()).then(|| {
             format!(
                 "{} in {} of {} counts",
                 r.way,
@@ -159,7 +182,8 @@ pub fn files(trials: &[Trial], machine: &Machine) -> Vec<(String, String)> {
         let plain = |c: char| if c.is_alphanumeric() { c } else { '-' };
         let name: String = trial.mechanism.chars().map(plain).collect();
         let charts = [
-            ("counts", Some(counts(trial, machine)), wrong(trial)),
+            ("counts", counts(trial, machine), wrong(trial)),
+            ("variants", variants(trial, machine), String::new()),
             ("best", best(trial, machine), String::new()),
         ];
         for (what, chart, sentence) in charts {

@@ -14,14 +14,11 @@ pub struct Share {
 }
 
 impl Share {
-    /// Right ones of a hundred; a hundred of none.
+    /// Wrong ones of a hundred; none of none.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    pub fn percent(self) -> f64 {
-        match self.of {
-            0 => 100.0,
-            of => 100.0 * self.right as f64 / of as f64,
-        }
+    pub fn percent_wrong(self) -> f64 {
+        100.0 * (self.of - self.right) as f64 / self.of.max(1) as f64
     }
 }
 
@@ -30,9 +27,11 @@ impl Share {
 pub struct Record {
     /// The way.
     pub way: Way,
-    /// How long it takes.
-    pub time: Timing,
-    /// Whether that is the time of the variants looked at, in proportion to all.
+    /// How long it takes to count, or to look at all; `None` where it counts as another way does.
+    pub counting: Option<Timing>,
+    /// How long it takes to count and to name the best; `None` where it names none.
+    pub naming: Option<Timing>,
+    /// Whether the time is that of the variants looked at, in proportion to all.
     pub by_proportion: bool,
     /// Right counts of determinate and of admissible variants, by W and number of changes; `None` where it gives none, or the
     /// truth is not known.
@@ -41,14 +40,6 @@ pub struct Record {
     pub best: Option<Share>,
     /// Variants looked at one by one that it judges rightly.
     pub variants: Share,
-}
-
-impl Record {
-    /// Right answers: counts where it gives some, else variants looked at.
-    #[must_use]
-    pub fn answers(&self) -> Share {
-        self.counts.unwrap_or(self.variants)
-    }
 }
 
 /// Every way of searching one mechanism.
@@ -66,7 +57,8 @@ pub struct Trial {
     pub whole: bool,
     /// How many of the best are asked for.
     pub top: usize,
-    /// The pool that a ranking is judged by, and whether no variant outside of it can win; `None` without a ranking.
+    /// The largest pool that was ranked, and whether no variant outside of it can win: only then the best are judged. `None`
+    /// without a ranking.
     pub ranked: Option<(usize, bool)>,
     /// What each way is worth.
     pub records: Vec<Record>,

@@ -16,11 +16,15 @@ pub struct Row<'a> {
     best: Option<usize>,
     variants_right: usize,
     variants: usize,
-    median_seconds: f64,
-    least_seconds: f64,
-    most_seconds: f64,
-    repeats: usize,
+    median_seconds: Option<f64>,
+    least_seconds: Option<f64>,
+    most_seconds: Option<f64>,
+    repeats: Option<usize>,
     by_proportion: bool,
+    naming_median_seconds: Option<f64>,
+    naming_least_seconds: Option<f64>,
+    naming_most_seconds: Option<f64>,
+    naming_repeats: Option<usize>,
 }
 
 impl<'a> Row<'a> {
@@ -37,11 +41,15 @@ impl<'a> Row<'a> {
             best: of(record.best),
             variants_right: record.variants.right,
             variants: record.variants.of,
-            median_seconds: record.time.median,
-            least_seconds: record.time.least,
-            most_seconds: record.time.most,
-            repeats: record.time.repeats,
+            median_seconds: record.counting.map(|t| t.median),
+            least_seconds: record.counting.map(|t| t.least),
+            most_seconds: record.counting.map(|t| t.most),
+            repeats: record.counting.map(|t| t.repeats),
             by_proportion: record.by_proportion,
+            naming_median_seconds: record.naming.map(|t| t.median),
+            naming_least_seconds: record.naming.map(|t| t.least),
+            naming_most_seconds: record.naming.map(|t| t.most),
+            naming_repeats: record.naming.map(|t| t.repeats),
         }
     }
 }

@@ -103,7 +103,9 @@ impl Truth {
             };
             let (all, list) = listed(mechanism, &request)?;
             pool = all.ranking.as_ref().map(|r| (r.scored, r.proven));
-            best = Some(Best::Ranked(list.into_iter().map(|a| a.choices).collect()));
+            // A pool is no judge of itself: outside of it may be better ones.
+            let ranked = || Best::Ranked(list.into_iter().map(|a| a.choices).collect());
+            best = pool.is_some_and(|(_, proven)| proven).then(ranked);
         } else if cells.is_some() {
             let of = |a: &Assignment| looked::properties(&search, a.key);
             best = Some(Best::Cheapest(cheapest.iter().map(of).collect()));

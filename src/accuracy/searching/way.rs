@@ -14,6 +14,8 @@ pub enum Way {
     Nodes(usize),
     /// A ranking of so many of the cheapest variants, on the diagram.
     Pool(usize),
+    /// Depth first modulo a prime, leaving out what cannot become determinate.
+    Pruned,
     /// Brute force modulo a prime.
     Brute,
     /// Brute force in floating point, at the default tolerance.
@@ -32,7 +34,7 @@ pub(super) fn all(nodes: usize, pool: Option<usize>) -> Vec<Way> {
             .filter(|p| pool.is_some_and(|most| *p < most))
             .map(Way::Pool),
     );
-    ways.push(Way::Brute);
+    ways.extend([Way::Pruned, Way::Brute]);
     ways.extend(Elimination::ALL.map(Way::Float));
     ways
 }
@@ -45,9 +47,21 @@ impl Way {
             Way::Diagram(check) => request.check = check,
             Way::Nodes(nodes) => request.nodes = nodes,
             Way::Pool(pool) => request.pool = pool,
-            Way::Brute | Way::Float(_) => {}
+            Way::Pruned | Way::Brute | Way::Float(_) => {}
         }
         request
+    }
+
+    /// Whether it counts as another way does, and differs in how the best are found or checked alone.
+    #[must_use]
+    pub fn only_names(self) -> bool {
+        matches!(self, Way::Diagram(Check::Full) | Way::Pool(_))
+    }
+
+    /// Whether it looks at variants one by one.
+    #[must_use]
+    pub fn looks(self) -> bool {
+        matches!(self, Way::Pruned | Way::Brute | Way::Float(_))
     }
 
     /// What it is, in a sentence's part.
@@ -59,6 +73,9 @@ impl Way {
             Way::Diagram(Check::Full) => "and each of the best by singular values, --check full",
             Way::Nodes(_) => "one prime, with a budget of --nodes",
             Way::Pool(_) => "one prime, with a --pool to rank",
+            Way::Pruned => {
+                "depth first, leaving out what cannot become determinate, modulo a prime"
+            }
             Way::Brute => "every variant, modulo a prime",
             Way::Float(_) => "every variant, by floating-point ranks",
         }
@@ -73,6 +90,7 @@ impl fmt::Display for Way {
             Way::Diagram(Check::Full) => write!(f, "full check"),
             Way::Nodes(n) => write!(f, "{n} nodes"),
             Way::Pool(n) => write!(f, "pool of {n}"),
+            Way::Pruned => write!(f, "pruned"),
             Way::Brute => write!(f, "brute force"),
             Way::Float(e) => write!(f, "brute force, {}", e.name()),
         }

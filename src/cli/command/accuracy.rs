@@ -37,7 +37,7 @@ pub(in crate::cli) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
     let mut bar = Bar::new(args.quiet);
-    let clock = machine::clock;
+    let clock = machine::processor_time;
     let machine = machine::machine();
     let survey = Survey::new(Stopwatch { clock, repeat }, &mut |done, of| {
         bar.step("timing the methods", done, of);

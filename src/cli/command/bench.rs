@@ -37,7 +37,7 @@ pub(in crate::cli) struct Bench {
     /// Variants that brute force looks at, in a space of no more all of them. 20,000 by default, 1,000 with --quick.
     #[arg(long, value_name = "N")]
     looked: Option<usize>,
-    /// Times each way is timed, fewer where it takes long; the median counts. 5 by default, 1 with --quick.
+    /// Times each way is timed, fewer where it takes long; the median counts. 15 by default, 1 with --quick.
     #[arg(long, value_name = "N")]
     repeat: Option<usize>,
     /// Fewer repeats, variants and pools: seconds instead of a minute.
@@ -54,7 +54,7 @@ pub(in crate::cli) struct Bench {
 }
 
 pub(in crate::cli) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
-    let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
+    let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 15 });
     let looked = a.looked.unwrap_or(if a.quick { 1_000 } else { 20_000 });
     ensure!(repeat > 0, "--repeat must be at least 1");
     ensure!(looked > 0, "--looked must be at least 1");
@@ -83,7 +83,7 @@ pub(in crate::cli) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
         looked,
         pool: request.pool.max(if a.quick { 2_000 } else { 100_000 }),
     };
-    let clock = machine::clock;
+    let clock = machine::processor_time;
     let watch = Stopwatch { clock, repeat };
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();

@@ -10,6 +10,19 @@ pub(in crate::cli) fn clock() -> Duration {
     BEGUN.elapsed()
 }
 
+/// What the threads of this process have taken of processors so far, which does not tell how busy the machine is.
+#[cfg(unix)]
+pub(in crate::cli) fn processor_time() -> Duration {
+    let told = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Duration::try_from(told).unwrap_or_default()
+}
+
+/// The time on the clock, where no other is had.
+#[cfg(not(unix))]
+pub(in crate::cli) fn processor_time() -> Duration {
+    clock()
+}
+
 /// The value of a line such as `model name : AMD EPYC` of a file of the system.
 fn value(file: &str, key: &str) -> Option<String> {
     let text = std::fs::read_to_string(file).ok()?;
@@ -69,5 +82,6 @@ pub(in crate::cli) fn machine() -> Machine {
         memory: memory(),
         system: format!("{} {architecture}", std::env::consts::OS),
         optimised: !cfg!(debug_assertions),
+        processor_time: cfg!(unix),
     }
 }

@@ -57,10 +57,6 @@ impl Matrices {
     #[must_use]
     pub fn new(question: &Question) -> Matrices {
         let (f, variables) = (question.field().field(), &question.space.variables);
-        let spans: Vec<_> = variables
-            .iter()
-            .map(|v| v.choices.iter().map(|c| c.spans.clone()).collect())
-            .collect();
         let layout = Layout::new(question);
         let fixed = variables.iter().filter(|v| v.choices.len() == 1);
         let whole = fixed.flat_map(|v| &v.joints).map(|&j| {
@@ -75,7 +71,7 @@ impl Matrices {
         Matrices {
             field: f,
             whole: whole.collect(),
-            all: WrittenOut::new(question.field(), question, &layout, &spans),
+            all: WrittenOut::modulo_prime(question, &layout),
         }
     }
 
@@ -113,7 +109,7 @@ impl Matrices {
 }
 
 /// Plain Gaussian elimination of some vectors; the columns of the pivots.
-fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
+pub(super) fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> {
     let width = vectors.first().map_or(0, Vec::len);
     let (mut pivots, mut done) = (Vec::new(), 0);
     for c in 0..width {

@@ -3,6 +3,7 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::path_from_frame;
 use crate::geom::scalars::Scalars;
+use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
@@ -97,6 +98,16 @@ pub struct WrittenOut<N> {
     columns: Vec<Vec<Vec<Vec<N>>>>,
 }
 
+impl WrittenOut<Residue> {
+    /// The columns of a search's space over its prime.
+    #[must_use]
+    pub(in crate::search) fn modulo_prime(question: &Question, layout: &Layout<'_>) -> Self {
+        let spans = |v: &Variable| v.choices.iter().map(|c| c.spans.clone()).collect();
+        let spans: Vec<_> = question.space.variables.iter().map(spans).collect();
+        WrittenOut::new(question.field(), question, layout, &spans)
+    }
+}
+
 impl<N: Clone + Default> WrittenOut<N> {
     /// The columns of a search's space, from what each choice of each variable spans.
     #[must_use]
@@ -120,6 +131,16 @@ impl<N: Clone + Default> WrittenOut<N> {
             rows: layout.rows(),
             columns: variables.zip(spans).map(of_variable).collect(),
         }
+    }
+
+    /// The columns of a choice of a variable.
+    pub(in crate::search) fn of_choice(&self, variable: usize, choice: usize) -> &[Vec<N>] {
+        &self.columns[variable][choice]
+    }
+
+    /// How many choices a variable has.
+    pub(in crate::search) fn choices(&self, variable: usize) -> usize {
+        self.columns[variable].len()
     }
 
     /// The columns of every choice, in one.

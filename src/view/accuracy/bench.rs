@@ -3,7 +3,7 @@
 use crate::accuracy::searching::pictures::{ranking, wrong};
 use crate::accuracy::searching::record::{Record, Share, Trial};
 use crate::accuracy::searching::table::{Row, rows};
-use crate::accuracy::timing::Machine;
+use crate::accuracy::timing::{Machine, Timing};
 use crate::format::number::{duration, grouped};
 use crate::view::terminal::layout::{fit, table};
 use serde::Serialize;
@@ -26,6 +26,7 @@ struct MachineData<'a> {
     system: &'a str,
     version: &'static str,
     optimised: bool,
+    clock: &'static str,
 }
 
 #[derive(Debug, Serialize)]
@@ -68,6 +69,7 @@ impl<'a> BenchData<'a> {
                 system: &machine.system,
                 version: Machine::VERSION,
                 optimised: machine.optimised,
+                clock: machine.time(),
             },
             mechanisms: trials.iter().map(trial).collect(),
             ways: rows(trials),
@@ -85,17 +87,29 @@ pub fn text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
         let heads = [
             "way",
             "right counts",
+            "counting",
             &best,
+            "naming them",
             "right variants",
-            "time",
-            "spread",
         ];
         let rows = t.records.iter().map(row).collect();
         // Writing to a string cannot fail.
         let _ = write!(out, "\n{}\n\n", table(&heads, rows, width));
         out += &fit(&format!("{}\n\n", notes(t)), width);
     }
-    out + &fit(&format!("On {machine}.\n"), width)
+    let times = match trials
+        .iter()
+        .flat_map(|t| &t.records)
+        .any(|r| r.counting.is_some_and(|t| t.repeats > 1))
+    {
+        true => "the median and the farthest from it",
+        false => "once",
+    };
+    let clock = machine.time();
+    out + &fit(
+        &format!("Times are {clock}, {times}; on {machine}.\n"),
+        width,
+    )
 }
 
 fn head(t: &Trial) -> String {
@@ -122,30 +136,32 @@ fn share(s: Share) -> String {
 fn row(r: &Record) -> Vec<String> {
     let or_none = |s: Option<Share>| s.map_or_else(String::new, share);
     let about = if r.by_proportion { "about " } else { "" };
-    let spread = match r.time.repeats {
-        1 => "once".to_owned(),
-        n => format!(
-            "{} to {}, {n} times",
-            duration(r.time.least),
-            duration(r.time.most)
-        ),
-    };
+    let time = |t: Option<Timing>| t.map_or_else(String::new, |t| format!("{about}{}", spread(t)));
     vec![
         r.way.to_string(),
         or_none(r.counts),
+        time(r.counting),
         or_none(r.best),
+        time(r.naming),
         share(r.variants),
-        format!("{about}{}", duration(r.time.median)),
-        spread,
     ]
+}
+
+/// The median, and how far the times are from it at most.
+fn spread(t: Timing) -> String {
+    let off = (t.most - t.median).max(t.median - t.least);
+    match t.repeats {
+        1 => duration(t.median),
+        _ => format!("{} ±{}", duration(t.median), duration(off)),
+    }
 }
 
 fn notes(t: &Trial) -> String {
     let mut notes = vec![wrong(t)];
     if !t.whole {
         notes.push(format!(
-            "Brute force looked at {} variants, half drawn from all and half from the admissible ones: it gives no counts, and \
-             its time is in proportion to all.",
+            "Brute force looked at {} variants, half drawn from all and half from the admissible ones, and what prunes at branches \
+             drawn at random: they give no counts, and their time is in proportion to all.",
             grouped(&t.looked.to_string())
         ));
     }

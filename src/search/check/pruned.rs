@@ -1,0 +1,165 @@
+//! A search that prunes: depth first over the joints, leaving out what can no longer become determinate. It is what one would
+//! write who has no diagram; kept for the comparison of speed.
+//!
+//! [`brute`](super::brute) eliminates every variant's matrix from the start. Here a branch keeps what its joints so far have
+//! eliminated, and ends where even all that the joints to come offer at once cannot raise the rank far enough.
+
+use crate::linalg::modp::{Field, Residue};
+use crate::search::check::brute::{Seen, eliminate};
+use crate::search::check::full_matrices::{Layout, WrittenOut};
+use crate::search::question::Question;
+
+/// A depth-first search over the variables of a question.
+#[derive(Debug)]
+pub struct Pruned {
+    field: Field,
+    all: WrittenOut<Residue>,
+    /// The order in which variables are chosen.
+    order: Vec<usize>,
+    /// For each place in the order what every choice there and behind it offers, eliminated.
+    to_come: Vec<Echelon>,
+    /// Redundant constraints that a determinate variant may have.
+    allowed: usize,
+}
+
+/// Vectors eliminated one by one: none leads where another does.
+#[derive(Debug, Clone, Default)]
+struct Echelon {
+    /// Each with the place of its first entry that is not zero.
+    vectors: Vec<(usize, Vec<Residue>)>,
+}
+
+impl Echelon {
+    /// Adds what is new in a vector.
+    fn add(&mut self, f: Field, vector: &[Residue]) {
+        let mut v = vector.to_vec();
+        while let Some(lead) = v.iter().position(|x| *x != 0) {
+            let Some((_, by)) = self.vectors.iter().find(|(l, _)| *l == lead) else {
+                self.vectors.push((lead, v));
+                return;
+            };
+            // Cross-multiplication needs no inverse.
+            let (a, b) = (by[lead], v[lead]);
+            for (x, &y) in v[lead..].iter_mut().zip(&by[lead..]) {
+                *x = f.sub(f.mul(a, *x), f.mul(b, y));
+            }
+        }
+    }
+
+    /// The rank of the first so many rows.
+    fn rank(&self, rows: usize) -> usize {
+        self.vectors.iter().filter(|(lead, _)| *lead < rows).count()
+    }
+}
+
+impl Pruned {
+    /// Writes the columns of a search's space out, to be chosen in an order of its variables.
+    #[must_use]
+    pub fn new(question: &Question, order: &[usize]) -> Pruned {
+        let field = question.field().field();
+        let all = WrittenOut::modulo_prime(question, &Layout::new(question));
+        let free = all.rows[0];
+        let mut to_come = vec![Echelon::default()];
+        for &v in order.iter().rev() {
+            let mut here = to_come.last().cloned().unwrap_or_default();
+            for column in (0..all.choices(v)).flat_map(|c| all.of_choice(v, c)) {
+                here.add(field, &column[..free]);
+            }
+            to_come.push(here);
+        }
+        to_come.reverse();
+        Pruned {
+            field,
+            all,
+            order: order.to_vec(),
+            to_come,
+            allowed: question.conditions.max_redundant as usize,
+        }
+    }
+
+    /// The order in which variables are chosen.
+    #[must_use]
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// Visits the determinate variants that begin with the given choices, in the order of the variables.
+    ///
+    /// # Complexity
+    /// O(rows^2) for each column of each branch that is entered, as much again for each vector still to come where the rank
+    /// is not there yet.
+    pub fn visit(&self, beginning: &[usize], leaf: &mut dyn FnMut(&[usize], Seen)) {
+        let mut choices = vec![0; self.order.len()];
+        let mut so_far = Echelon::default();
+        for (place, &c) in beginning.iter().enumerate() {
+            choices[self.order[place]] = c;
+            if !self.enter(place, c, &mut so_far) {
+                return;
+            }
+        }
+        self.descend(beginning.len(), &mut choices, &mut so_far, leaf);
+    }
+
+    /// What is seen of one variant; `None` where it is left out on the way.
+    #[must_use]
+    pub fn look(&self, choices: &[usize]) -> Option<Seen> {
+        let mut found = None;
+        let beginning: Vec<usize> = self.order.iter().map(|&v| choices[v]).collect();
+        self.visit(&beginning, &mut |_, seen| found = Some(seen));
+        found
+    }
+
+    /// Takes a choice; says whether a determinate variant may still come of it.
+    fn enter(&self, place: usize, choice: usize, so_far: &mut Echelon) -> bool {
+        for column in self.all.of_choice(self.order[place], choice) {
+            so_far.add(self.field, &column[..self.all.rows[0] + self.all.rows[1]]);
+        }
+        let free = self.all.rows[0];
+        let enough = free.saturating_sub(self.allowed);
+        if so_far.rank(free) >= enough {
+            return true;
+        }
+        let mut most = Echelon::default();
+        let within = so_far.vectors.iter().map(|(_, v)| &v[..free]);
+        let later = self.to_come[place + 1].vectors.iter().map(|(_, v)| &v[..]);
+        within.chain(later).any(|v| {
+            most.add(self.field, v);
+            most.vectors.len() >= enough
+        })
+    }
+
+    fn descend(
+        &self,
+        place: usize,
+        choices: &mut [usize],
+        so_far: &mut Echelon,
+        leaf: &mut dyn FnMut(&[usize], Seen),
+    ) {
+        let Some(&v) = self.order.get(place) else {
+            leaf(choices, self.seen(choices, so_far));
+            return;
+        };
+        let known = so_far.vectors.len();
+        for c in 0..self.all.choices(v) {
+            choices[v] = c;
+            if self.enter(place, c, so_far) {
+                self.descend(place + 1, choices, so_far, leaf);
+            }
+            so_far.vectors.truncate(known);
+        }
+    }
+
+    fn seen(&self, choices: &[usize], whole: &Echelon) -> Seen {
+        let [free, kept, state] = self.all.rows;
+        let of_state = (state > 0).then(|| {
+            let columns = self.all.chosen(choices);
+            eliminate(
+                self.field,
+                columns.map(|c| c[free + kept..].to_vec()).collect(),
+            )
+            .len()
+        });
+        let ranks = [whole.rank(free), whole.vectors.len()];
+        Seen::of_ranks(self.all.rows, ranks, of_state)
+    }
+}
