@@ -8,7 +8,6 @@ mod preferred;
 
 use crate::search::answer::count_tables::{Key, Steps};
 use crate::search::answer::counts::limited;
-use crate::search::answer::counts::total;
 use crate::search::answer::freedom_patterns::{Added, Pattern, Patterns, patterns};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::least_freedoms::{self, Less};
@@ -80,10 +79,13 @@ fn firsts(
     (patterns, steps): (&Patterns, &Steps),
     top: usize,
 ) -> Vec<Assignment> {
+    if top == 0 {
+        return Vec::new();
+    }
     let order = diagram.layers.iter().map(|l| l.variable).collect_vec();
-    let all = total(question, diagram, true);
     let sorts = order.len() <= SORTED;
-    let mut at_least = top.saturating_mul(64);
+    let mut slack = 0_u64;
+    let mut best = Vec::new();
     loop {
         let mut entered: BTreeSet<(usize, usize, Key, Pattern)> = BTreeSet::new();
         let enter = |depth: usize, node: usize, rest: Key, choices: &[usize]| {
@@ -92,8 +94,8 @@ fn firsts(
         };
         let mut seen = BTreeSet::new();
         let mut found: Vec<((i64, usize), Assignment)> = Vec::new();
-        let mut ended = BigUint::from(at_least) >= all;
-        for v in distinct(question, diagram, steps, at_least, Box::new(enter)) {
+        let (list, mut ended) = distinct(question, diagram, steps, slack, Box::new(enter));
+        for v in list {
             if !seen.insert(patterns.idea(&v)) {
                 continue;
             }
@@ -105,24 +107,33 @@ fn firsts(
             let before = found.iter().rev();
             let before = before.take_while(|((c, _), _)| *c == cost).count();
             let group = (cost, before / TOGETHER);
-            if found.len() >= top && top > 0 && (!sorts || group > found[top - 1].0) {
+            if found.len() >= top && group > found[top - 1].0 {
                 ended = true;
                 break;
             }
             found.push((group, v));
-        }
-        if ended || top == 0 {
-            if sorts {
-                found.sort_by_key(|(group, v)| {
-                    let alike = patterns.of_variant(v) == patterns.of_image(v);
-                    (*group, !alike)
-                });
+            if !sorts && found.len() == top {
+                ended = true;
+                break;
             }
-            found.truncate(top);
-            return found.into_iter().map(|(_, v)| v).collect();
         }
-        at_least = at_least.saturating_mul(64);
+        // Where memory ends there may be fewer than with less slack.
+        if found.len() >= best.len() {
+            best = found;
+        }
+        if ended {
+            break;
+        }
+        slack = (2 * slack).max(1);
     }
+    if sorts {
+        best.sort_by_key(|(group, v)| {
+            let alike = patterns.of_variant(v) == patterns.of_image(v);
+            (*group, !alike)
+        });
+    }
+    best.truncate(top);
+    best.into_iter().map(|(_, v)| v).collect()
 }
 
 /// The first of each idea in a list of variants, with its place in the list.

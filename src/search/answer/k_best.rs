@@ -40,8 +40,19 @@ pub struct Cheapest<'d, C> {
     choices: Vec<usize>,
     /// How many may still be given.
     left: usize,
+    /// Whether there are none that cost more.
+    is_all: bool,
     pub(in crate::search) ways: Ways,
     enter: Enter<'d>,
+}
+
+/// How far a list goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// To so many variants.
+    Variants(usize),
+    /// To all that cost no more than so many steps above the cheapest.
+    Above(u64),
 }
 
 /// Told layer, node, what is left of the key there and the choices so far; says whether to look at what follows.
@@ -67,18 +78,18 @@ impl<C: Count> fmt::Debug for Cheapest<'_, C> {
 }
 
 impl<'d, C: Count> Cheapest<'d, C> {
-    /// The first `top` variants whose key passes `wanted`, as it does for no cost above `ceiling`; those of equal cost in the
-    /// order of `rank`. Of those that begin alike none is given where `enter` refuses the beginning.
+    /// The first variants whose key passes `wanted`, as it does for no cost above `ceiling`; those of equal cost in the order of
+    /// `rank`. Of those that begin alike none is given where `enter` refuses the beginning.
     pub fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
-        (top, ceiling): (usize, u64),
+        (reach, ceiling): (Reach, u64),
         wanted: impl Fn(Key) -> bool,
         rank: impl Fn(Key) -> R,
         bytes: usize,
         enter: Enter<'d>,
     ) -> Self {
-        let (tally, mut keys) = enough(diagram, steps, (top, ceiling), wanted, bytes);
+        let (tally, mut keys, is_all) = enough(diagram, steps, (reach, ceiling), wanted, bytes);
         keys.sort_by_key(|&k| (k.cost(), rank(k), k));
         Cheapest {
             diagram,
@@ -88,10 +99,19 @@ impl<'d, C: Count> Cheapest<'d, C> {
             key: Key::default(),
             path: Vec::new(),
             choices: vec![0; steps.keys.len()],
-            left: top,
+            left: match reach {
+                Reach::Variants(top) => top,
+                Reach::Above(_) => usize::MAX,
+            },
+            is_all,
             ways: Ways::within(bytes),
             enter,
         }
+    }
+
+    /// Whether there are none beyond those given: none that cost more, or none that there is memory for.
+    pub(in crate::search) fn is_all(&self) -> bool {
+        self.is_all
     }
 
     fn steps_from(&mut self, layer: usize, node: u32, rest: Key) -> Span {
@@ -182,17 +202,17 @@ impl<C> Cheapest<'_, C> {
     }
 }
 
-/// A tally of the cheapest variants, `top` of them at least where there are so many, with their keys; fewer where their tables
-/// would take more than some bytes.
+/// A tally of the cheapest variants as far as is asked for, with their keys, and whether there are none beyond; fewer where
+/// their tables would take more than some bytes.
 fn enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
-    (top, ceiling): (usize, u64),
+    (reach, ceiling): (Reach, u64),
     wanted: impl Fn(Key) -> bool,
     bytes: usize,
-) -> (Tally<C>, Vec<Key>) {
+) -> (Tally<C>, Vec<Key>, bool) {
     let least = least_costs(diagram, steps);
-    let mut found = (Tally { tables: Vec::new() }, Vec::new());
+    let mut found = (Tally { tables: Vec::new() }, Vec::new(), true);
     let Some(floor) = least.completion[0][0] else {
         return found;
     };
@@ -200,35 +220,24 @@ fn enough<C: Count>(
     let ends = diagram.terminals.iter();
     let end = ends.map(|&r| steps.redundancy(r).cost()).max();
     let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
-    let mut slack = 0;
+    let (top, mut slack) = match reach {
+        Reach::Variants(top) => (BigUint::from(top), 0),
+        Reach::Above(slack) => (BigUint::zero(), slack),
+    };
     loop {
         let limit = floor.saturating_add(slack).min(ceiling);
-        let bound: Vec<Vec<u64>> = least
-            .prefix
-            .iter()
-            .map(|l| {
-                l.iter()
-                    .map(|p| p.map_or(0, |p| limit.saturating_sub(p)))
-                    .collect()
-            })
-            .collect();
+        let within = |p: &Option<u64>| p.map_or(0, |p| limit.saturating_sub(p));
+        let bound = least.prefix.iter().map(|l| l.iter().map(within).collect());
+        let bound: Vec<Vec<u64>> = bound.collect();
         let Some(tally) = Tally::<C>::new(diagram, steps, Some(&bound), bytes) else {
+            found.2 = true;
             return found;
         };
-        let keys: Vec<Key> = tally
-            .totals()
-            .iter()
-            .map(|(k, _)| *k)
-            .filter(|&k| wanted(k))
-            .collect();
-        let count: BigUint = tally
-            .totals()
-            .iter()
-            .filter(|(k, _)| wanted(*k))
-            .map(|(_, c)| c.big())
-            .sum();
-        found = (tally, keys);
-        if count >= BigUint::from(top) || limit >= ceiling {
+        let whole = tally.totals().iter().filter(|(k, _)| wanted(*k));
+        let count: BigUint = whole.clone().map(|(_, c)| c.big()).sum();
+        let keys = whole.map(|(k, _)| *k).collect();
+        found = (tally, keys, limit >= ceiling);
+        if count >= top || found.2 {
             return found;
         }
         slack = if slack == 0 { 1 } else { slack * 2 };

@@ -3,7 +3,7 @@
 use crate::search::answer::count_tables::{Count, Key, Steps, Tally};
 use crate::search::answer::counts::fits;
 use crate::search::answer::counts::limited;
-use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Sample};
+use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Reach, Sample};
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
@@ -73,17 +73,18 @@ fn is_first_image(question: &Question, diagram: &Diagram, v: &Assignment) -> boo
     others.all(|image| by_layer(&image) >= own)
 }
 
-/// The admissible variants of a diagram in the order of other steps than the question's, with keys of these, but for those whose
-/// beginnings `enter` refuses.
+/// The admissible variants of a diagram that cost no more than `slack` above the cheapest by other steps than the question's, in
+/// the order and with keys of these, but for those whose beginnings `enter` refuses; and whether there are none that cost more.
 pub(in crate::search) fn distinct<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
     steps: &'a Steps,
-    top: usize,
+    slack: u64,
     enter: Enter<'a>,
-) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+) -> (Box<dyn Iterator<Item = Assignment> + 'a>, bool) {
     let wanted = |k: Key| question.wanted(k);
-    in_steps(question, diagram, steps, (top, u64::MAX), wanted, enter)
+    let range = (Reach::Above(slack), u64::MAX);
+    in_steps(question, diagram, steps, range, wanted, enter)
 }
 
 /// The variants of a diagram with costs in thousandths from one to another, but for those whose beginnings `enter`
@@ -97,29 +98,29 @@ fn between<'a>(
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
     let costs = |k: Key| (least..=most).contains(&question.steps.milli(k.cost()));
     let wanted = |k: Key| question.wanted(k) && costs(k);
-    let range = (top, question.steps.above(most));
-    in_steps(question, diagram, &question.steps, range, wanted, enter)
+    let range = (Reach::Variants(top), question.steps.above(most));
+    in_steps(question, diagram, &question.steps, range, wanted, enter).0
 }
 
-/// The variants of a diagram whose keys pass a test, in the order of some steps.
+/// The variants of a diagram whose keys pass a test, in the order of some steps, and whether there are none beyond.
 fn in_steps<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
     steps: &'a Steps,
-    range: (usize, u64),
+    range: (Reach, u64),
     wanted: impl Fn(Key) -> bool,
     enter: Enter<'a>,
-) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+) -> (Box<dyn Iterator<Item = Assignment> + 'a>, bool) {
     let rank = |k: Key| (question.mobility(k), k.changes());
     let room = question.conditions.memory / 4;
     if fits(question) {
-        Box::new(Cheapest::<u128>::new(
-            diagram, steps, range, wanted, rank, room, enter,
-        ))
+        let all = Cheapest::<u128>::new(diagram, steps, range, wanted, rank, room, enter);
+        let is_all = all.is_all();
+        (Box::new(all), is_all)
     } else {
-        Box::new(Cheapest::<BigUint>::new(
-            diagram, steps, range, wanted, rank, room, enter,
-        ))
+        let all = Cheapest::<BigUint>::new(diagram, steps, range, wanted, rank, room, enter);
+        let is_all = all.is_all();
+        (Box::new(all), is_all)
     }
 }
 
