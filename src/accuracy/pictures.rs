@@ -11,16 +11,50 @@ use crate::format::phrase::list;
 use crate::rank::method::MobilityMethod;
 use crate::rank::method::registry;
 
-/// The methods that no other one beats in both share and time, the fastest first.
+/// A method, at its default tolerance or at its best: its median time of an answer in seconds, and the share of all cases that
+/// it is right about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// Its name.
+    pub name: String,
+    /// Seconds.
+    pub seconds: f64,
+    /// From 0 to 1.
+    pub share: f64,
+}
+
+/// Every method that applies to some case, the floating-point ones at their best tolerance too, which does not change their
+/// time.
 #[must_use]
-pub fn pareto(standings: &[Standing]) -> Vec<usize> {
-    // One that never applies is right in no share.
-    let share = |s: &Standing| match s.applies {
-        0 => f64::NEG_INFINITY,
-        _ => s.share,
-    };
-    let points: Vec<_> = standings.iter().map(|s| (s.seconds, share(s))).collect();
-    front(&points)
+pub fn places(survey: &Survey) -> Vec<Place> {
+    let standings: Vec<Standing> = (0..registry::ALL.len())
+        .map(|m| survey.standing(m))
+        .collect();
+    let default = registry::ALL
+        .iter()
+        .zip(&standings)
+        .filter(|(_, s)| s.applies > 0);
+    let default = default.map(|(m, s)| Place {
+        name: m.name().to_owned(),
+        seconds: s.seconds,
+        share: s.share,
+    });
+    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
+    let tuned = survey.tuned.iter().filter_map(|t| {
+        Some(Place {
+            name: tuned_name(t)?,
+            seconds: standings[t.method].seconds,
+            share: t.right as f64 / survey.cases.len().max(1) as f64,
+        })
+    });
+    default.chain(tuned).collect()
+}
+
+/// The places that no other one beats in both share and time, the fastest first.
+#[must_use]
+pub fn pareto(places: &[Place]) -> Vec<&Place> {
+    let points: Vec<_> = places.iter().map(|p| (p.seconds, p.share)).collect();
+    front(&points).into_iter().map(|i| &places[i]).collect()
 }
 
 fn percent(share: f64) -> String {
@@ -39,15 +73,11 @@ pub fn tuned_name(tuned: &Tuned) -> Option<String> {
 /// their best where that is another. The tolerance does not change their time.
 #[must_use]
 pub fn share_time(survey: &Survey, machine: &Machine) -> Chart {
-    let standings: Vec<Standing> = (0..registry::ALL.len())
-        .map(|m| survey.standing(m))
-        .collect();
-    let front = pareto(&standings);
-    let mut steps: Vec<(f64, f64)> = front
-        .iter()
-        .map(|&m| (standings[m].seconds, 100.0 * standings[m].share))
-        .collect();
-    let slowest = standings.iter().map(|s| s.seconds).fold(0.0, f64::max);
+    let places = places(survey);
+    let front = pareto(&places);
+    let at = |p: &Place| (p.seconds, 100.0 * p.share);
+    let mut steps: Vec<(f64, f64)> = front.iter().map(|p| at(p)).collect();
+    let slowest = places.iter().map(|p| p.seconds).fold(0.0, f64::max);
     if let Some(&(_, share)) = steps.last() {
         steps.push((slowest, share));
     }
@@ -56,26 +86,17 @@ pub fn share_time(survey: &Survey, machine: &Machine) -> Chart {
         points: steps,
         style: Style::Steps,
     }];
-    series.extend(registry::ALL.iter().zip(&standings).map(|(m, s)| Series {
-        name: m.name().to_owned(),
-        points: vec![(s.seconds, 100.0 * s.share)],
+    series.extend(places.iter().map(|p| Series {
+        name: p.name.clone(),
+        points: vec![at(p)],
         style: Style::Points,
     }));
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    series.extend(survey.tuned.iter().filter_map(|t| {
-        let share = t.right as f64 / survey.cases.len().max(1) as f64;
-        Some(Series {
-            name: tuned_name(t)?,
-            points: vec![(standings[t.method].seconds, 100.0 * share)],
-            style: Style::Points,
-        })
-    }));
-    let sentence = share_sentence(survey, &standings, &front);
+    let sentence = share_sentence(survey, &front);
     Chart {
         title: "Accuracy against speed".to_owned(),
         subtitle: format!("{sentence} {}. On {machine}.", repeated(survey)),
         x: Axis {
-            label: "median time of an answer, s".to_owned(),
+            label: format!("median {} of an answer, s", machine.time()),
             scale: Scale::Log,
         },
         y: Axis {
@@ -169,8 +190,9 @@ pub fn tolerances(survey: &Survey) -> String {
     format!("Floating point is right most often with {}.", list(&all))
 }
 
-fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> String {
+fn share_sentence(survey: &Survey, front: &[&Place]) -> String {
     let cases = survey.cases.len();
+    let standings = (0..registry::ALL.len()).map(|m| survey.standing(m));
     let all: Vec<String> = registry::ALL
         .iter()
         .zip(standings)
@@ -184,10 +206,7 @@ fn share_sentence(survey: &Survey, standings: &[Standing], front: &[usize]) -> S
     };
     let front: Vec<String> = front
         .iter()
-        .map(|&m| {
-            let (name, s) = (registry::ALL[m].name(), &standings[m]);
-            format!("{name} ({}, {})", percent(s.share), duration(s.seconds))
-        })
+        .map(|p| format!("{} ({}, {})", p.name, percent(p.share), duration(p.seconds)))
         .collect();
     format!(
         "{all}. No method is both faster and more often right than {}. Cases that a method does not apply to count as \

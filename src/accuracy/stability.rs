@@ -1,6 +1,8 @@
-//! Where numbers fail: geometry, size, scale, noise, rounding and tolerance moved until answers turn wrong.
+//! Where numbers fail: geometry, closeness to special ones, shakiness, size, scale, noise, rounding and tolerance moved until
+//! answers turn wrong.
 
 pub mod change;
+pub mod close;
 mod digits;
 mod distance;
 mod noise;
@@ -8,7 +10,9 @@ mod offsets;
 mod rounded;
 pub mod said;
 mod scale;
+pub mod shaky;
 mod size;
+mod sketch;
 pub mod special;
 pub mod sweep;
 mod tolerance;
@@ -92,6 +96,8 @@ pub fn all(
         .collect();
     Ok(vec![
         distance::study(effort, progress)?,
+        close::study(effort, progress),
+        shaky::study(effort, progress),
         size::study(effort, progress),
         scale::study(&some, effort, progress),
         noise::study(&some, effort, progress),

@@ -69,7 +69,7 @@ fn chart(words: Words, points: &[Point<'_>], machine: &Machine) -> Chart {
         },
         y: Axis {
             label: words.wrong,
-            scale: Scale::LogAndZero(-decade),
+            scale: Scale::LogAndZero(1 - decade),
         },
         series,
     }

@@ -71,7 +71,7 @@ fn truth(shape: Shape, m: &Mechanism) -> Truth {
 /// Runs the study.
 pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let sizes = if effort.quick {
-        &SIZES[..5]
+        &SIZES[..8]
     } else {
         &SIZES[..]
     };
