@@ -143,7 +143,8 @@ impl<'a> Projection<'a> {
             }
         }
         let touched = self.rows.len() > taken;
-        if moved <= limit * limit && (!touched || self.relax()) {
+        let by_chance = self.square <= self.bold.powi(2) * most_by_chance(self.rows.len());
+        if moved <= limit * limit && (!touched || (by_chance && self.relax())) {
             return if touched { Taken::New } else { Taken::Implied };
         }
         self.points = points;
@@ -258,7 +259,17 @@ impl<'a> Projection<'a> {
 fn limit(rows: usize) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "rows are three at most")]
     let n = rows as f64;
-    (3.5 + 2.0 * n).sqrt()
+    (3.0 + 1.5 * n).sqrt()
+}
+
+/// What the squares of moves for so many rows add up to at most, in errors, where rounding made them: a third each on average.
+/// One relation may be far by chance, but not many.
+fn most_by_chance(rows: usize) -> f64 {
+    /// Standard deviations.
+    const FAR: f64 = 6.0;
+    #[allow(clippy::cast_precision_loss, reason = "rows are few")]
+    let n = rows as f64;
+    n / 3.0 + FAR * (2.0 * n / 9.0).sqrt()
 }
 
 fn norm(a: &[f64]) -> f64 {

@@ -6,6 +6,8 @@
 
 use super::search_numeric::{plain, request, turned};
 use ozols::accuracy::stability::change::Noise;
+use ozols::accuracy::stability::said::Said;
+use ozols::accuracy::stability::special::Kind;
 use ozols::builtin;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::auto::decide;
@@ -233,5 +235,31 @@ fn offsets_beyond_the_digits_are_kept() {
             "{decimals}: {}",
             d.line
         );
+    }
+}
+
+/// Where no axis of the file is turned every offset from a unit and a half on is there in the digits; turned, from three units on.
+#[test]
+fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
+    let seed = std::env::var("OZOLS_FUZZ_SEED").map_or(3, |s| s.parse().unwrap());
+    for kind in Kind::ALL {
+        for (i, decimals) in (3..=12).cycle().take(40).enumerate() {
+            for (units, turned) in [
+                (1.6, false),
+                (2.0, false),
+                (3.5, false),
+                (3.0, true),
+                (10.0, true),
+            ] {
+                let text = kind.text(units, decimals, turned, &mut Noise::new(seed, i));
+                let m = ozols::file::text::mechanism_from_str("off.toml", &text).unwrap();
+                let found = decide(&m, StateId::FREE, None).ok();
+                let [w, finite] = Said::of_decision(found.as_ref(), kind.figures(true));
+                assert!(
+                    w.max(finite) != Said::Wrong,
+                    "{units} units, {decimals} decimals:\n{text}"
+                );
+            }
+        }
     }
 }
