@@ -3,10 +3,10 @@
 //! [`gripping::grip`] studies a gripper over its diameters; [`clamped::clamped`] solves for the joints of a mechanism round
 //! a part.
 
+pub mod arm_curves;
 pub mod clamped;
 pub mod clamping;
 pub mod contact;
-pub mod findings;
 pub mod gripping;
 pub mod holding;
 pub mod jaw_loads;
