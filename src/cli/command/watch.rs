@@ -42,8 +42,6 @@ pub(in crate::cli) fn run(args: &Args, a: &Watch) -> anyhow::Result<Done> {
     loop {
         changes.take();
         look(args, &a.report, &page);
-        // From here on there is nothing to wait for.
-        interrupt::be_impatient();
         if interrupt::exit_code().is_some() {
             return Ok(Done::Found);
         }
@@ -61,7 +59,10 @@ fn look(args: &Args, a: &Report, page: &Path) {
     {
         output::coloured_note(&checked.warnings.render(true));
     }
-    match report::write(args, a, Some(page), true) {
+    let written = report::write(args, a, Some(page), true);
+    // From here on there is nothing to wait for: whoever is told so may end it.
+    interrupt::be_impatient();
+    match written {
         // What was cut short is told of where it is written.
         Ok(verdict) if interrupt::exit_code().is_some() => {
             output::note(&format!("{file}: {verdict}\n"));

@@ -265,7 +265,7 @@ fn drawn_mechanisms_stand_beside_the_structures() {
     let found = row.lines().nth(1).unwrap();
     assert_eq!(
         found,
-        "10,13,4,,1,11,\"1, followed\",6340592477,7150020,exact,11.5"
+        "10,13,4,,1,11,\"1, proven\",6340592477,7150020,exact,11.5"
     );
     // It takes in structures, and is taken in.
     let parts = at(&folder, "parts.db");

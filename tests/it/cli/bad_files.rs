@@ -288,7 +288,7 @@ fn error_wrong_type() {
         "bad.toml",
         &with("drive = true", "drive = 7"),
         "drive = 7",
-        &["boolean"],
+        &["true, false or the freedom that is driven"],
     );
     bad_file(
         "bad.toml",

@@ -45,7 +45,7 @@ fn error_in_json() {
         "bad.json",
         &text.replacen("\"drive\": true", "\"drive\": 7", 1),
         "\"drive\": 7",
-        &["boolean"],
+        &["true, false or the freedom that is driven"],
     );
     bad_file(
         "bad.json",

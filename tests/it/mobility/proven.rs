@@ -111,7 +111,6 @@ fn most_built_ins_of_one_group_are_proven() {
         [
             "dixon-k44",
             "double-watt-cusp",
-            "hoberman-ring",
             "hoberman-ring-6",
             "origami-vertex-flat",
             "parallelogram-flat",
