@@ -143,7 +143,11 @@ fn a_variant_that_two_methods_see_differently_is_marked() {
         assert!(x["svd"]["redundant"] != x["redundant"] || x["svd"]["mobility"] != x["mobility"]);
     }
     let text = out(&["search", path]);
-    for part in ["Singular values disagree", " *  ", "  * 1: by singular values W = "] {
+    for part in [
+        "Singular values disagree",
+        " *  ",
+        "  * 1: by singular values W = ",
+    ] {
         assert!(text.contains(part), "no {part:?} in {text}");
     }
     let csv = out(&["search", path, "--format", "csv"]);
