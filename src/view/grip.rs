@@ -3,6 +3,7 @@
 
 pub mod charts;
 pub mod clamped;
+pub mod closure;
 pub mod motion;
 pub mod text;
 

@@ -28,6 +28,7 @@ mod drive_command;
 mod exports;
 mod finite_traps;
 mod first_hour;
+mod force_closure;
 mod force_plans;
 mod fuzz;
 mod grip;

@@ -296,7 +296,7 @@ fn figures_are_charts_of_any_gripper() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("curves.toml");
     let text = "name = \"curves\"\nlength_unit = \"mm\"\n[workload.grip]\nlever_length = 100\nprism_angle = 120\n\
-        mounting_angle = 20\ndiameter = 40\ndiameters = [40, 60, 100]\npivots = \"nominal\"\nlevers_cross = true\n";
+        mounting_angle = 20\ndiameter = 60\ndiameters = [40, 60, 100]\npivots = \"nominal\"\nlevers_cross = true\n";
     std::fs::write(&file, text).unwrap();
     let charts = folder.path().join("charts");
     let [file, into] = [&file, &charts].map(|p| p.to_str().unwrap());
