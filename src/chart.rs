@@ -23,7 +23,7 @@ mod polygons;
 
 pub use outline::Outline;
 pub use page::page;
-pub use polygons::{Arrow, Panel, Polygons};
+pub use polygons::{Arrow, Pair, Panel, Polygons};
 
 #[cfg(test)]
 mod tests;

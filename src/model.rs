@@ -3,6 +3,7 @@
 //! Values here are validated: a [`Mechanism`](mechanism::Mechanism) is connected in every state, its ids are unique, its axes are nonzero.
 //! Text formats live in `import`; nothing here reads a file.
 
+pub mod claim;
 pub mod coupling;
 pub mod drive;
 pub mod grip;

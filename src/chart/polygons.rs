@@ -52,7 +52,16 @@ impl Panel {
     }
 }
 
-/// Plans in rows of two at one scale a row.
+/// Two panels side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// Left and right.
+    pub panels: [Panel; 2],
+    /// Whether both are drawn at one scale.
+    pub one_scale: bool,
+}
+
+/// Plans in rows of two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygons {
     /// What is shown.
@@ -62,7 +71,7 @@ pub struct Polygons {
     /// Unit of the vectors.
     pub unit: String,
     /// The panels, two a row.
-    pub rows: Vec<[Panel; 2]>,
+    pub rows: Vec<Pair>,
 }
 
 /// Height of a plan, of a line of its list, and length of an arrowhead. `[px]`
@@ -75,7 +84,7 @@ impl Polygons {
     #[must_use]
     pub fn svg(&self) -> String {
         let head = Head::new(&self.title, &self.subtitle, WIDTH);
-        let lines = |row: &[Panel; 2]| row[0].arrows.len().max(row[1].arrows.len()) + 1;
+        let lines = |row: &Pair| row.panels.iter().map(|p| p.arrows.len()).max().unwrap_or(0) + 1;
         #[allow(clippy::cast_precision_loss, reason = "a few lines")]
         let heights: Vec<f64> = self
             .rows
@@ -88,13 +97,16 @@ impl Polygons {
         let mut top = head.height() + 6.0;
         let half = (WIDTH - 3.0 * PAD) / 2.0;
         for (row, taken) in self.rows.iter().zip(heights) {
-            let boxes = row.each_ref().map(|p| bounds(&p.corners()));
+            let boxes = row.panels.each_ref().map(|p| bounds(&p.corners()));
             let fits = boxes.map(|b| {
                 let (wide, high) = (b.right - b.left, b.bottom - b.top);
                 ((half - 70.0) / wide.max(1e-300)).min((PLAN - 50.0) / high.max(1e-300))
             });
-            let by = fits[0].min(fits[1]);
-            for (k, panel) in row.iter().enumerate() {
+            for (k, panel) in row.panels.iter().enumerate() {
+                let by = match row.one_scale {
+                    true => fits[0].min(fits[1]),
+                    false => fits[k],
+                };
                 #[allow(clippy::cast_precision_loss, reason = "two columns")]
                 let left = PAD + k as f64 * (half + PAD);
                 let room = Rect {
@@ -152,7 +164,7 @@ impl Polygons {
     /// One vector a line.
     #[must_use]
     pub fn csv(&self) -> String {
-        let panels = self.rows.iter().flatten();
+        let panels = self.rows.iter().flat_map(|r| &r.panels);
         let rows = panels.flat_map(|p| {
             p.arrows.iter().map(|a| {
                 vec![

@@ -6,6 +6,7 @@ pub(in crate::cli) mod bench;
 pub(in crate::cli) mod catalog;
 pub(in crate::cli) mod check;
 pub(in crate::cli) mod clamped;
+pub(in crate::cli) mod closure;
 pub(in crate::cli) mod completions;
 pub(in crate::cli) mod convert;
 pub(in crate::cli) mod draw;

@@ -51,7 +51,8 @@ Examples:
   ozols grip lever-gripper                           contact forces and drive moment over its range of diameters
   ozols grip lever-gripper --acceleration 5,0,-2     with one more acceleration of the gripper
   ozols grip lever-gripper --any-acceleration 3      with one in any direction, such as `ozols drive` prints
-  ozols grip lever-gripper --svg charts              charts of the force arms and the drive moment";
+  ozols grip lever-gripper --svg charts              charts of the force arms and the drive moment
+  ozols grip gripper-10-loaded --closure             force closure and form closure of any clamped mechanism";
 
 pub(super) const DRIVE: &str = "\
 Examples:

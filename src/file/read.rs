@@ -1,5 +1,6 @@
 //! Validation: from the file's entries to a mechanism, or every problem with them.
 
+mod claims;
 mod connected;
 mod contours;
 pub(crate) mod costs;
@@ -42,6 +43,7 @@ use crate::file::read::unit::length_unit;
 use crate::file::schema::MechanismFile;
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Mechanism, SearchSpec};
+use claims::claims;
 use connected::connected;
 use contours::contours;
 use expected::expected;
@@ -104,6 +106,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
         joint_types: Vec::new(),
         points: Vec::new(),
         expected: Vec::new(),
+        claims: Vec::new(),
     };
     connected(&mechanism, &mut out);
     if !size(&mechanism, &mut out) {
@@ -126,6 +129,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
     mechanism.points = points(file, &mechanism, &mut out);
     tolerance(file, &mut mechanism, &mut out);
     mechanism.expected = expected(file, &mechanism, &mut out);
+    mechanism.claims = claims(file, &mut out);
     if out.count() == 0 {
         unused(&mut out);
     }

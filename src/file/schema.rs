@@ -85,6 +85,9 @@ pub struct MechanismFile {
     /// Known figures, which `ozols check` compares with those of the analysis.
     #[serde(default)]
     pub expected: Vec<ExpectedEntry>,
+    /// What publications say of this mechanism, so or not; repeated by the command that it is about.
+    #[serde(default)]
+    pub claim: Vec<ClaimEntry>,
 }
 
 /// A rigid body.
@@ -340,6 +343,23 @@ pub struct ExpectedEntry {
     /// Publication or derivation.
     #[serde(default)]
     pub source: String,
+}
+
+/// A claim of a publication.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ClaimEntry {
+    /// What it is about: "structure", "grip" or "drive".
+    pub topic: String,
+    /// The publication and the place in it.
+    pub source: String,
+    /// What is said there.
+    pub says: String,
+    /// What is right instead; left out where the claim holds.
+    #[serde(default)]
+    pub right: Option<String>,
+    /// What that rests on.
+    pub evidence: String,
 }
 
 impl MechanismFile {

@@ -1,7 +1,7 @@
 //! A commented mechanism file to start from, made of one that exists.
 //!
 //! The words are those of the schema, so they cannot differ from what `ozols schema` says. Nothing of the file is
-//! taken away or moved: comments are put before the first table and the first key of each kind.
+//! moved, and nothing taken away but the claims of publications, which are not of the new mechanism: comments are put before the first table and the first key of each kind.
 
 use crate::file::schema::json_schema;
 use serde_json::Value;
@@ -52,6 +52,7 @@ const ADVICE: [(&str, &str); 10] = [
 /// Where the text is no TOML.
 pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
+    document.remove("claim");
     if let Some(old) = document.get_mut("name").and_then(Item::as_value_mut) {
         let decor = old.decor().clone();
         *old = name.into();

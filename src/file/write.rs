@@ -9,13 +9,14 @@ mod tolerance;
 
 use crate::file::read::resolve::motion_name;
 use crate::file::schema::{
-    ContactEntry, ContourEntry, Coordinate, CouplingEntry, DriveWord, ExpectedEntry, ForceEntry,
-    InertiaEntry, JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry,
+    ClaimEntry, ContactEntry, ContourEntry, Coordinate, CouplingEntry, DriveWord, ExpectedEntry,
+    ForceEntry, InertiaEntry, JointEntry, LinkEntry, MechanismFile, MisalignmentEntry, MomentEntry,
     OptionEntry, OptionTable, PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry,
     StrokeEntry, ToleranceEntry, Unloading, Words, WorkloadEntry,
 };
 use crate::file::write::number::{component, coordinate, ratio};
 use crate::geom::expr::Expr;
+use crate::model::claim::Claim;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::{ExternalMoment, Face, Inertia, Stiffness};
@@ -84,6 +85,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         ranking: m.ranking.as_ref().map(|r| ranking::ranking(m, r)),
         joint_types: ranking::joint_types(m),
         expected: m.expected.iter().map(expected).collect(),
+        claim: m.claims.iter().map(claim).collect(),
     }
 }
 
@@ -410,5 +412,15 @@ fn expected(e: &Expected) -> ExpectedEntry {
         redundant: e.redundant,
         external_redundant: e.external_redundant,
         source: e.source.clone(),
+    }
+}
+
+fn claim(c: &Claim) -> ClaimEntry {
+    ClaimEntry {
+        topic: c.topic.word().to_owned(),
+        source: c.source.clone(),
+        says: c.says.clone(),
+        right: c.right.clone(),
+        evidence: c.evidence.clone(),
     }
 }

@@ -259,7 +259,7 @@ fn climbed(
 }
 
 /// The gripper for a diameter.
-fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
+pub(super) fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
     Gripper {
         lever,
         pivot: match spec.pivots {

@@ -39,6 +39,15 @@ pub enum PartMass {
 }
 
 impl PartMass {
+    /// Length of the part, where it is stated. `[m]`
+    #[must_use]
+    pub fn part_length(&self) -> Option<f64> {
+        match *self {
+            PartMass::Constant(_) => None,
+            PartMass::Cylinder { length, .. } => Some(length),
+        }
+    }
+
     /// Mass of a part of this diameter. `[kg]`
     #[must_use]
     pub fn of(&self, diameter: f64) -> f64 {

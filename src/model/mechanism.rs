@@ -1,6 +1,7 @@
 //! The validated mechanism and its parts.
 
 use crate::geom::expr::Expr;
+use crate::model::claim::Claim;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
@@ -256,6 +257,8 @@ pub struct Mechanism {
     pub points: Vec<PointOfInterest>,
     /// Known figures.
     pub expected: Vec<Expected>,
+    /// What publications say of it, so or not.
+    pub claims: Vec<Claim>,
 }
 
 impl From<&Mechanism> for Arc<Mechanism> {

@@ -9,12 +9,14 @@ pub mod suggestions;
 mod text;
 
 use crate::geom::expr::PI_DIGITS;
+use crate::model::claim::Topic;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::share::{ContourShare, CouplingShare};
 use crate::redundancy::stress::{JointWrench, Verdict};
 use crate::view::analysis::least_rows::{Part, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};
+use crate::view::claims::{Claim, about};
 use crate::view::stroke::Stroke;
 use serde::Serialize;
 
@@ -28,8 +30,9 @@ pub struct Analysis<'a> {
     /// Its states.
     pub states: Vec<State<'a>>,
     /// The figures over a stroke, where one was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub stroke: Option<Stroke<'a>>,
+    /// What is published of its structure, so or not.
+    pub claims: Vec<Claim<'a>>,
 }
 
 /// One state; see [`StateAnalysis`] for what the figures are.
@@ -46,7 +49,6 @@ pub struct State<'a> {
     pub rank: usize,
     pub mobility: usize,
     /// The most it can be, where rounded coordinates leave that undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mobility_at_most: Option<usize>,
     /// Nothing where it is undecided: then the bounds alone are known.
     pub finite_mobility: Option<usize>,
@@ -63,11 +65,9 @@ pub struct State<'a> {
     pub local_mobility: usize,
     pub redundant: usize,
     /// The most it can be, where rounded coordinates leave that undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub redundant_at_most: Option<usize>,
     pub formula_mobility: i64,
     /// Where fewer rows than all are enough, or parts of them do not see each other.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub least_rows: Vec<Part>,
     pub per_contour: Vec<Contour<'a>>,
     pub external: Option<External>,
@@ -78,16 +78,13 @@ pub struct State<'a> {
     pub certainty: String,
     pub certainty_kind: &'static str,
     /// The primes that ranks were found modulo, as text: they are beyond what a double holds.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub primes: Option<[String; 2]>,
     pub choice: Option<&'a str>,
     pub snapped: &'a [String],
     pub as_written: Option<AsWritten>,
-    /// Where there are couplings only: other mechanisms keep their keys.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// Empty where there are no couplings.
     pub per_coupling: Vec<Coupling<'a>>,
     /// What single changes would do, where that was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub suggestions: Option<Suggestions<'a>>,
 }
 
@@ -107,7 +104,6 @@ pub struct Contour<'a> {
     /// The greatest over all bases of contours that it is part of.
     pub greatest_over_bases: usize,
     /// What no basis exceeds, where that is more than is known to be reached.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub greatest_over_bases_at_most: Option<usize>,
 }
 
@@ -160,7 +156,6 @@ pub struct SelfStress<'a> {
     /// What the joints carry.
     pub joints: Vec<Wrench<'a>>,
     /// The couplings that pass it on, in mechanisms that have any.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub couplings: Option<Vec<&'a str>>,
     /// The joint where it has the fewest components, of the contacts where they have any, and which.
     #[serde(skip)]
@@ -222,6 +217,7 @@ impl<'a> Analysis<'a> {
             length_unit: mechanism.length_unit.symbol,
             states: states.collect(),
             stroke: None,
+            claims: about(&mechanism.claims, Topic::Structure),
         }
     }
 }

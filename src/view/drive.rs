@@ -10,7 +10,9 @@ use crate::drive::programme::{self, Event, Ran};
 use crate::drive::swing::{Balance, End};
 use crate::drive::torsion::{CamSpring, Remedy, Trial, decrement};
 use crate::file::read::workload::Workload;
+use crate::model::claim::Topic;
 use crate::model::drive::DriveSpec;
+use crate::view::claims::{Claim, about};
 use serde::Serialize;
 
 /// A drive of a file and what was found of it.
@@ -32,6 +34,8 @@ pub struct Drive<'a> {
     pub sizing: Sizing,
     /// The drive, where there is a bar.
     pub design: Option<Design>,
+    /// What is published of this drive, so or not.
+    pub claims: Vec<Claim<'a>>,
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a Workload<DriveSpec>,
@@ -332,6 +336,7 @@ impl<'a> Drive<'a> {
                 remedies: found.sizing.remedy.map(remedies),
             },
             design: design.map(|d| Design::new(spec, d)),
+            claims: about(&file.claims, Topic::Drive),
             file,
             found: design,
         }

@@ -3,17 +3,19 @@
 
 pub mod charts;
 pub mod clamped;
+pub mod closure;
 pub mod motion;
 pub mod text;
 
 use crate::file::read::workload::Workload;
 use crate::grip::clamping::{self, Hardest, Verdict};
-use crate::grip::findings::{FINDINGS, Finding, REFUTED};
 use crate::grip::gripping::{self, effort};
 use crate::grip::holding::Slip;
 use crate::grip::lever_arm::{Arms, Lever};
+use crate::model::claim::Topic;
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
+use crate::view::claims::{Claim, about};
 use crate::view::grip::motion::Motion;
 use serde::Serialize;
 
@@ -35,12 +37,9 @@ pub struct Grip<'a> {
     /// How the drive works on the levers at the hardest diameter, or the first.
     pub transmission: Option<Transmission<'a>>,
     /// The clamping along a motion, where one is asked about.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
-    /// What the paper found, and whether it is so.
-    pub findings: &'static [Finding],
-    /// What the paper says besides, and is not so.
-    pub refuted: [Finding; 1],
+    /// What is published of this gripper, so or not.
+    pub claims: Vec<Claim<'a>>,
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a Workload<GripSpec>,
@@ -167,8 +166,7 @@ impl<'a> Grip<'a> {
             hardest,
             diameters,
             motion: None,
-            findings: &FINDINGS,
-            refuted: [REFUTED],
+            claims: about(&file.claims, Topic::Grip),
             file,
         }
     }

@@ -33,14 +33,12 @@ pub struct Reactions<'a> {
     /// Freedoms left with the drives held.
     pub undriven: usize,
     /// What is asked of the faces on objects, in states that have any.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Contact<'a>>,
     /// By joint of the state.
     pub reactions: Vec<Joint<'a>>,
     /// Those that load nothing from outside, one set for each redundant constraint.
     pub self_stresses: Vec<Vec<Joint<'a>>>,
     /// How many there are in exact geometry, where singular values tell another number.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub exact_self_stresses: Option<usize>,
     /// Those of elastic joints, where stiffness is stated and it matters.
     pub elastic: Option<Vec<Joint<'a>>>,
@@ -78,7 +76,6 @@ pub struct Joint<'a> {
     /// What its drive does, part of force and moment.
     pub drive: Option<Effort>,
     /// Components that differ within the family of reactions, `Fx` to `Mz`; all others are the same in all of it.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub open: Vec<&'static str>,
 }
 

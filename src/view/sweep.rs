@@ -37,7 +37,6 @@ pub struct Sweep<'a> {
     /// The peak force, where there are loads.
     pub peak_force: Option<PeakForce<'a>>,
     /// What each rank method was worth, where that was asked: samples by the word.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub methods: BTreeMap<String, BTreeMap<String, usize>>,
     #[serde(skip)]
     table: &'a Table,
@@ -75,7 +74,6 @@ pub struct Figure<'a> {
     /// σ; the least it can be, where that is undecided.
     pub redundant: usize,
     /// The most it can be, where that is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub redundant_at_most: Option<usize>,
     /// How many samples.
     pub samples: usize,
@@ -89,7 +87,6 @@ pub struct Special<'a> {
     /// Where.
     pub at: &'a BTreeMap<String, f64>,
     /// The values that no decimal is.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub exact: &'a BTreeMap<String, String>,
     /// σ.
     pub redundant: usize,

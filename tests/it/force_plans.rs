@@ -124,6 +124,13 @@ fn tangential_reactions_are_the_moments_over_the_rods() {
     }
 }
 
+/// Whether a vector's name stands at its arrow, which it does where it is long enough.
+fn visible(svg: &str, name: &str) -> bool {
+    svg.contains(&format!("text-anchor=\"start\">{name}<"))
+        || svg.contains(&format!("text-anchor=\"end\">{name}<"))
+        || svg.contains(&format!("text-anchor=\"middle\">{name}<"))
+}
+
 /// Every plan closes, and those of the δ-point method add up as those of the full solve do.
 #[test]
 fn force_plans_close_beside_those_of_the_full_solve() {
@@ -159,7 +166,9 @@ fn force_plans_close_beside_those_of_the_full_solve() {
             sum.0 = [sum.0[0] + v[0], sum.0[1] + v[1]];
             sum.1 = sum.1.max(v[0].hypot(v[1]));
         }
-        assert_eq!(sums.len(), 8, "{sums:?}");
+        // Four plans by two methods, and the weights and the inertia forces on their own.
+        assert_eq!(sums.len(), 10, "{sums:?}");
+        assert!(visible(&svg, "Fи10") && visible(&svg, "G10"), "{group}");
         for (title, (sum, longest)) in sums {
             assert!(sum[0].hypot(sum[1]) <= 1e-9 * longest, "{title}: {sum:?}");
         }

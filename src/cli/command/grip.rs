@@ -1,8 +1,11 @@
 //! `ozols grip`.
 
+pub(in crate::cli) mod args;
+
 use crate::api::MAX_DESCRIPTION_BYTES;
 use crate::cli::Done;
-use crate::cli::option::args::{AnalyzeFormat, Args, File};
+use crate::cli::command::closure;
+use crate::cli::option::args::{AnalyzeFormat, Args};
 use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
@@ -16,45 +19,12 @@ use crate::view;
 use crate::view::grip::{charts::charts, motion::Motion, text};
 use crate::view::terminal::next_commands::{self, Step};
 use anyhow::{Context, bail, ensure};
-use clap::Args as ClapArgs;
-use std::path::PathBuf;
+use args::Grip;
 
-#[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Grip {
-    #[command(flatten)]
-    pub(in crate::cli) file: File,
-    /// A further acceleration of the gripper in m/s², in its axes (repeatable): 5,0,-2.
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
-    pub(in crate::cli) acceleration: Vec<[f64; 3]>,
-    /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
-    #[arg(long, value_name = "A")]
-    pub(in crate::cli) any_acceleration: Option<f64>,
-    /// A motion as CSV, one step a line: columns ax, ay, az in m/s², and if wanted gx, gy, gz (gravity in the gripper's axes),
-    /// time, diameter. The least clamping is found for every step.
-    #[arg(long, value_name = "CSV", value_hint = clap::ValueHint::FilePath)]
-    pub(in crate::cli) motion: Option<PathBuf>,
-    /// Output format.
-    #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: AnalyzeFormat,
-    /// Also write charts, each as SVG and CSV, into this folder.
-    #[arg(long, value_name = "DIR")]
-    pub(in crate::cli) svg: Option<PathBuf>,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    pub(in crate::cli) output: Option<PathBuf>,
-}
-
-fn vector(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
-        .collect::<Option<_>>()
-        .unwrap_or_default();
-    <[f64; 3]>::try_from(numbers)
-        .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
-}
-
-pub(in crate::cli) fn run(_: &Args, a: &Grip) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Args, a: &Grip) -> anyhow::Result<Done> {
+    if a.closure {
+        return closure::run(args, a);
+    }
     let (name, bytes) = load::named(&a.file.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
     let mut further: Vec<Toward> = a.acceleration.iter().map(|v| Toward::Fixed(*v)).collect();

@@ -66,9 +66,9 @@ pub(in crate::cli) enum Command {
     /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
     #[command(after_help = examples::STATICS)]
     Statics(statics::args::Statics),
-    /// What a lever gripper can hold, and the drive moment it takes.
+    /// What a lever gripper can hold, and the drive moment it takes; force closure of any clamped mechanism.
     #[command(after_help = examples::GRIP)]
-    Grip(grip::Grip),
+    Grip(grip::args::Grip),
     /// Size a torsional drive of two discs and run its programme.
     #[command(after_help = examples::DRIVE)]
     Drive(drive::Drive),

@@ -4,12 +4,14 @@ use crate::file::findings::{Finding, Findings};
 use crate::file::locate::Step;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
+use crate::file::read::claims::claims;
 use crate::file::read::drive::drive;
 use crate::file::read::grip::grip;
 use crate::file::read::parameters::{Values, knowing};
 use crate::file::read::unit::length_unit;
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read, text_of};
+use crate::model::claim::Claim;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
 use crate::model::mechanism::{LengthUnit, Mechanism};
@@ -23,6 +25,8 @@ pub struct Workload<T> {
     pub sources: Vec<String>,
     /// Unit of the file's lengths, for labels.
     pub length_unit: LengthUnit,
+    /// What publications say of it.
+    pub claims: Vec<Claim>,
     /// The mechanism, where the file has links or joints.
     pub mechanism: Option<Mechanism>,
     /// What the table says, in SI units.
@@ -100,6 +104,7 @@ fn workload<T>(
     };
     let length_unit = length_unit(file, &mut out);
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &mut out);
+    let claims = claims(file, &mut out);
     if spec.is_none() && out.count() == 0 {
         out.add(&[Step::Key("workload".to_owned())], missing);
     }
@@ -107,6 +112,7 @@ fn workload<T>(
         Some(spec) if out.count() == 0 => Ok(Workload {
             name: file.name.clone(),
             sources: file.sources.clone(),
+            claims,
             length_unit,
             mechanism,
             spec,

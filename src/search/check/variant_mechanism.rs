@@ -74,6 +74,7 @@ pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
         joint_types: old.joint_types.clone(),
         points: old.points.clone(),
         expected: Vec::new(),
+        claims: Vec::new(),
     }
 }
 

@@ -54,6 +54,12 @@ fn loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
     named.collect()
 }
 
+/// The loads of the whole group, in the order of its links.
+#[must_use]
+pub fn group_loads(g: &GroupSolutions) -> Vec<PlanForce> {
+    loads(g, &[0, 1, 2, 3])
+}
+
 fn reaction(name: &str, force: [f64; 2]) -> PlanForce {
     PlanForce {
         name: name.to_owned(),

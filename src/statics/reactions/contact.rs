@@ -185,6 +185,12 @@ impl Contact {
         }
     }
 
+    /// What z of the joint's reaction is multiplied by to be a push on the object: 1 or -1.
+    #[must_use]
+    pub fn push(&self) -> f64 {
+        self.push
+    }
+
     /// Greatest moment about the normal over the normal force: that of even pressure on a round face, 2/3 μ r.
     pub(crate) fn torsion(&self) -> Option<f64> {
         Some(2.0 / 3.0 * self.friction? * self.radius?)

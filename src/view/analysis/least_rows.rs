@@ -15,7 +15,6 @@ pub struct Part {
     /// `any`, `group`, `in plane` or `out of plane`.
     pub motions: &'static str,
     /// The group with its dimension, or the plane's normal.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
     /// Rows that are enough.
     pub rows: usize,

@@ -3,6 +3,7 @@
 use super::{Analysis, AsWritten, Contour, Coupling, External, LeftOut, SelfStress, State, Wrench};
 use crate::format::phrase::{list, plural};
 use crate::view::analysis::idle;
+use crate::view::claims;
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use std::fmt::Write;
@@ -20,7 +21,10 @@ impl Analysis<'_> {
             }
             out
         });
-        fit(&states.collect_vec().join("\n"), width)
+        fit(
+            &(states.collect_vec().join("\n") + &claims::text(&self.claims, width)),
+            width,
+        )
     }
 }
 

@@ -6,6 +6,7 @@ use crate::drive::swing::End;
 use crate::drive::torsion::stored_energy;
 use crate::format::number::significant;
 use crate::format::phrase::plural;
+use crate::view::claims;
 use crate::view::drive::{Cam, Design, Drive, Endurance, Remedies};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
@@ -22,6 +23,7 @@ pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
         Some(design) => designed(&mut out, d, design, width),
         None => refused(&mut out, d, width),
     };
+    out += &claims::text(&d.claims, width);
     fit(&out, width)
 }
 

@@ -1,6 +1,9 @@
-//! Charts of a gripper over its diameters: its arms, and its drive moments.
+//! Charts of a gripper: its arms and its drive moments over its diameters, and its arms over each figure of its levers.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
+use crate::format::number::significant;
+use crate::grip::arm_curves::{Varied, arm_curve};
+use crate::grip::lever_arm::Arms;
 use crate::view::grip::{Diameter, Grip};
 
 /// Every chart with the name of its file.
@@ -15,10 +18,6 @@ pub fn charts(g: &Grip<'_>) -> Vec<(String, Chart)> {
             .filter_map(|d| Some((d.diameter / metres, y(d)?)))
             .collect(),
         style,
-    };
-    let linear = |label: String| Axis {
-        label,
-        scale: Scale::Linear,
     };
     let held = |d: &Diameter, arm: f64| d.obstacles.is_empty().then_some(arm / metres);
     let mut out = vec![(
@@ -36,6 +35,7 @@ pub fn charts(g: &Grip<'_>) -> Vec<(String, Chart)> {
             ],
         },
     )];
+    out.extend(Varied::ALL.map(|v| arms_over(g, v)));
     if g.file.spec.load.is_some() {
         let moment = |d: &Diameter| d.load.as_ref()?.drive_moment_per_lever;
         out.push((
@@ -55,4 +55,57 @@ pub fn charts(g: &Grip<'_>) -> Vec<(String, Chart)> {
             .map(|m| ("motion".to_owned(), m.chart(g.mechanism))),
     );
     out
+}
+
+fn linear(label: String) -> Axis {
+    Axis {
+        label,
+        scale: Scale::Linear,
+    }
+}
+
+/// The arms over one figure of the levers, on the smallest, the nominal and the largest part; on the nominal one with the parts
+/// that the arms are made of.
+fn arms_over(g: &Grip<'_>, varied: Varied) -> (String, Chart) {
+    type Part = (&'static str, fn(&Arms) -> f64);
+    const WHOLE: [Part; 2] = [("l1", |a| a.l1), ("l2", |a| a.l2)];
+    const PARTS: [Part; 3] = [
+        ("l11", |a| a.l11),
+        ("l12 = l22", |a| a.l12),
+        ("l21", |a| a.l21),
+    ];
+    let (spec, unit) = (&g.file.spec, g.file.length_unit);
+    let (name, what, label, scale) = match varied {
+        Varied::LeverLength => ("length", "L", format!("L, {}", unit.symbol), unit.metres),
+        Varied::PrismAngle => ("prism-angle", "α", "α, °".to_owned(), 1f64.to_radians()),
+        Varied::MountingAngle => ("mounting-angle", "γ", "γ, °".to_owned(), 1f64.to_radians()),
+    };
+    let all = &spec.diameters;
+    let mut diameters: Vec<f64> = all.first().into_iter().chain(all.last()).copied().collect();
+    diameters.push(spec.diameter);
+    diameters.sort_by(f64::total_cmp);
+    diameters.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * *b);
+    let mut series = Vec::new();
+    for diameter in diameters {
+        let curve = arm_curve(spec, varied, diameter);
+        let own = (diameter - spec.diameter).abs() <= 1e-9 * diameter;
+        let parts = PARTS.iter().filter(|_| own).map(|p| (p, Style::Dashed));
+        for (&(arm, of), style) in WHOLE.iter().map(|w| (w, Style::Line)).chain(parts) {
+            // What cannot be held breaks the line.
+            let y = |a: &Option<Arms>| a.as_ref().map_or(f64::NAN, |a| of(a) / unit.metres);
+            series.push(Series {
+                name: format!("{arm}, D = {}", significant(diameter / unit.metres)),
+                points: curve.iter().map(|(x, a)| (x / scale, y(a))).collect(),
+                style,
+            });
+        }
+    }
+    let chart = Chart {
+        title: format!("{}: arms of the clamping forces over {what}", g.mechanism),
+        subtitle: "All else as stated; where such a gripper can hold the part.".to_owned(),
+        x: linear(label),
+        y: linear(format!("arm, {}", unit.symbol)),
+        series,
+    };
+    (format!("arms-over-{name}"), chart)
 }

@@ -3,6 +3,7 @@
 use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::model::grip::{LeverDrive, PartMass, Pivots, Toward};
+use crate::view::claims;
 use crate::view::grip::{Contact, Diameter, Grip};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
@@ -72,6 +73,11 @@ fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result
     }
     inputs(out, g)?;
     writeln!(out, "\n{}", diameters(g, width))?;
+    writeln!(
+        out,
+        "\n  The arms and their parts, l1 = l11 + l12 and l2 = l21 - l22:\n\n{}",
+        parts(g, width)
+    )?;
     let hardest = g.hardest.as_ref().and_then(|d| d.load.as_ref());
     if let Some(forces) = hardest.and_then(|l| l.contacts.as_ref()) {
         writeln!(
@@ -87,19 +93,7 @@ fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result
     if let Some(motion) = &g.motion {
         write!(out, "{}", motion.text(width))?;
     }
-    writeln!(
-        out,
-        "\n  Findings of [Pavlenko & Godunko 2010], on the curves of its figures: {} of {} confirmed, and {} drawing refuted\n",
-        g.findings.iter().filter(|f| f.holds).count(),
-        g.findings.len(),
-        g.refuted.len()
-    )?;
-    let lines = g.findings.iter().chain(&g.refuted).map(|f| {
-        let so = if f.holds { "yes" } else { "NO" };
-        [f.claim, so, f.evidence].map(str::to_owned).to_vec()
-    });
-    let header = ["finding", "so", "evidence"];
-    writeln!(out, "{}", table(&header, lines.collect(), width))
+    write!(out, "{}", claims::text(&g.claims, width))
 }
 
 /// What one drive of both levers takes: a force where it slides, a moment where it turns.
@@ -212,6 +206,19 @@ fn diameters(g: &Grip<'_>, width: Option<u16>) -> String {
     };
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
     table(&head, g.diameters.iter().map(line).collect(), width)
+}
+
+/// Each arm as the part of the lever and the part of the prism.
+fn parts(g: &Grip<'_>, width: Option<u16>) -> String {
+    let symbol = g.file.length_unit.symbol;
+    let head = ["D", "l11", "l12", "l1", "l21", "l22", "l2"].map(|n| format!("{n}, {symbol}"));
+    let line = |d: &Diameter| {
+        let a = d.arms;
+        let all = [d.diameter, a.l11, a.l12, a.l1, a.l21, a.l22, a.l2];
+        all.map(|x| length(g, x)).to_vec()
+    };
+    let rows = g.diameters.iter().map(line).collect();
+    table(&head.each_ref().map(String::as_str), rows, width)
 }
 
 /// A ratio to three decimals, rounded down where that would go beyond its limit.

@@ -58,7 +58,6 @@ pub struct SearchData<'a> {
     space: String,
     determinate: String,
     determinate_exact: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
     determinate_estimate: Option<EstimateData>,
     by_mobility: By<'a, i64>,
     by_mobility_and_changes: ByBoth<'a>,
@@ -66,7 +65,6 @@ pub struct SearchData<'a> {
     by_changes: By<'a, u32>,
     by_freedoms: By<'a, u32>,
     admissible: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
     admissible_estimate: Option<EstimateData>,
     admissible_by_mobility: By<'a, i64>,
     admissible_by_mobility_and_changes: ByBoth<'a>,
@@ -75,12 +73,10 @@ pub struct SearchData<'a> {
     admissible_by_freedoms: By<'a, u32>,
     admissible_by_cost: ByCost,
     /// Admissible variants of which no other has part of the freedoms, where these are counted.
-    #[serde(skip_serializing_if = "Option::is_none")]
     minimal: Option<String>,
     largest_layer: Option<usize>,
     nodes: Option<usize>,
     /// Rows of the closure equations for each contour, in each part that has diagrams of its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
     rows_per_contour: Option<Vec<usize>>,
     determinate_diagram: Size,
     admissible_diagram: Size,
@@ -88,18 +84,13 @@ pub struct SearchData<'a> {
     check: Option<Check>,
     measured: Option<Measured<'a>>,
     poses: Option<Poses>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     ranking: Option<RankingData<'a>>,
     exact: bool,
     /// How sure counts are that are not exact, and not cut short.
-    #[serde(skip_serializing_if = "Option::is_none")]
     certainty: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     numeric: Option<NumericData>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     second_opinion: Option<SecondOpinionData>,
     /// Counts that would take more than the memory allowed.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     left_out: Vec<&'static str>,
 }
 
@@ -256,10 +247,8 @@ impl<'a> Measured<'a> {
 #[derive(Debug, Serialize)]
 pub struct TailData<'a> {
     variants_complete: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
     variants_stop: Option<&'static str>,
     /// How many, from the first on, are proven to be the cheapest, where the search ended early.
-    #[serde(skip_serializing_if = "Option::is_none")]
     variants_proven: Option<usize>,
     variants_checked: usize,
     variants_disagreeing: usize,
@@ -351,9 +340,7 @@ pub struct EndData {
     proven: usize,
     admissible: String,
     admissible_exact: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
     certainty: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     numeric: Option<NumericData>,
 }
 

@@ -125,7 +125,6 @@ pub(in crate::view) struct NumericData {
     determinate: BracketData,
     admissible: BracketData,
     admissible_by_mobility: BTreeMap<i64, BracketData>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     sample: Option<SampleData>,
 }
 

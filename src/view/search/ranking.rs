@@ -169,7 +169,6 @@ pub struct RankingData<'a> {
     minimum_norm: usize,
     proven: bool,
     proof: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
     missing: Option<MissingData>,
 }
 

@@ -20,7 +20,6 @@ pub struct VariantData<'a> {
     external_harmful: Option<u32>,
     per_contour: Vec<ContourData>,
     changes: Vec<ChangeData<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     idea: Option<IdeaData>,
     scores: ScoresData<'a>,
     conditioning: Option<f64>,
@@ -70,7 +69,6 @@ struct IdeaData {
     /// What all of them add, in words.
     adds: String,
     /// Why it helps, where that was asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<WhyData>,
 }
 

@@ -22,11 +22,8 @@ pub struct WhyData {
     /// Driven joints and pivots in the frame that stay as they are.
     stays: Vec<String>,
     /// What presses: "file", or the default side load in words.
-    #[serde(skip_serializing_if = "Option::is_none")]
     under: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     peak_force: Option<PeakData>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     peak_moment: Option<PeakData>,
 }
 
@@ -37,7 +34,6 @@ struct LetData {
     /// "tilt both ways and float along its axis"
     lets: String,
     /// The usual part that is such a joint.
-    #[serde(skip_serializing_if = "Option::is_none")]
     hardware: Option<String>,
     /// Directions in which forces, and moments, are still held.
     holds_forces: usize,

@@ -1,8 +1,11 @@
 //! Force plans of the four-link groups, drawn where forces from outside load them most.
 
-use crate::chart::{Arrow, Panel, Polygons};
+use crate::chart::{Arrow, Pair, Panel, Polygons};
 use crate::format::number::figure;
-use crate::statics::contour_group::force_plan::{Plan, PlanForce, PlanKind, force_plans};
+use crate::statics::contour_group::force_plan::{
+    Plan, PlanForce, PlanKind, force_plans, group_loads,
+};
+use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::Source;
 use crate::view::statics::Statics;
@@ -38,13 +41,15 @@ fn plan(s: &Statics<'_>, i: usize) -> Option<(String, Polygons)> {
         title: format!("{}, {by}", p.of),
         arrows: p.forces.iter().map(|f| arrow(f, unit)).collect(),
     };
-    let rows = pairs.into_iter().map(|[delta, full]| {
-        [
+    let rows = pairs.into_iter().map(|[delta, full]| Pair {
+        panels: [
             panel(delta, "δ-point method"),
             panel(full, "equilibrium of all links"),
-        ]
+        ],
+        one_scale: true,
     });
-    let rows = rows.collect();
+    let mut rows: Vec<Pair> = rows.collect();
+    rows.push(own_loads(&heaviest.groups[i], unit));
     let name = s.groups[*index].name();
     let m = &s.found.linkage.mechanism;
     let places = [
@@ -73,6 +78,40 @@ fn plan(s: &Statics<'_>, i: usize) -> Option<(String, Polygons)> {
             rows,
         },
     ))
+}
+
+/// The weights and the inertia forces of the group, each added up on its own, since beside forces from outside they are too
+/// short to be seen.
+fn own_loads(g: &GroupSolutions, unit: f64) -> Pair {
+    let of = |source, title: &str, sum: &str| {
+        let mut forces = group_loads(g);
+        forces.retain(|f| f.kind == PlanKind::Load(source));
+        let total = |k: usize| forces.iter().map(|f| f.force[k]).sum::<f64>();
+        let back = PlanForce {
+            name: format!("-Σ{sum}"),
+            force: [-total(0), -total(1)],
+            kind: PlanKind::Reaction,
+        };
+        Panel {
+            title: title.to_owned(),
+            arrows: forces
+                .iter()
+                .chain([&back])
+                .map(|f| arrow(f, unit))
+                .collect(),
+        }
+    };
+    Pair {
+        panels: [
+            of(Source::Gravity, "weights of the group, enlarged", "G"),
+            of(
+                Source::Inertia,
+                "inertia forces of the group, enlarged",
+                "Fи",
+            ),
+        ],
+        one_scale: false,
+    }
 }
 
 fn arrow(f: &PlanForce, unit: f64) -> Arrow {

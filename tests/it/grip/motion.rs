@@ -46,7 +46,7 @@ fn every_step_has_its_own_least_force() {
     assert!(moment(2) < 0.2 * moment(0) && moment(3) < moment(0));
     // The step alone, as the one case of a file.
     let file = json(&["grip", "lever-gripper", "--format", "json"]);
-    assert!(file.get("motion").is_none());
+    assert!(file.get("motion").is_some_and(Value::is_null));
     let shown =
         String::from_utf8(ozols(&["show", "lever-gripper"]).output().unwrap().stdout).unwrap();
     let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");

@@ -2,9 +2,10 @@
 
 use super::lever;
 use crate::common::{json, near, out};
+use ozols::Mechanism;
 use ozols::grip::contact::Gripper;
-use ozols::grip::findings::{FINDINGS, REFUTED};
 use ozols::grip::lever_arm::Arms;
+use ozols::model::claim::{Claim, Topic};
 
 /// L and D in millimetres, α and γ in degrees, and the pivots' distance where it is held.
 #[derive(Clone, Copy)]
@@ -219,30 +220,129 @@ fn the_findings_of_the_paper_are_confirmed() {
         format!("from 0° to 40° l1 changes at least {outweighs:.2} times as much"),
         format!("l1/l2 from {least:.3} to {most:.3} on the curves"),
     ];
-    for (finding, numbers) in FINDINGS[1..5].iter().zip(&told) {
-        assert!(
-            finding.evidence.starts_with(numbers),
-            "{finding:?}: {numbers}"
-        );
+    let claims = claims();
+    for (claim, numbers) in claims[1..5].iter().zip(&told) {
+        assert!(claim.evidence.starts_with(numbers), "{claim:?}: {numbers}");
     }
-    assert!(FINDINGS.iter().all(|f| f.holds));
+    assert!(claims[..6].iter().all(Claim::holds));
 }
 
-/// The slope of lines 10 and 11 is told where the findings are, with the numbers of these curves.
+/// What is published of the built-in gripper of the paper.
+fn claims() -> Vec<Claim> {
+    let claims = Mechanism::builtin("lever-gripper").unwrap().claims;
+    assert!(claims.iter().all(|c| c.topic == Topic::Grip));
+    claims
+}
+
+/// What the curves refute is told with the numbers that are right.
 #[test]
-fn the_flatter_slope_is_told_to_be_refuted() {
+fn what_the_curves_refute_is_told_with_what_is_right() {
     let [length, ..] = figures();
-    let slope = |line: usize| (length[line - 1].at(160.0) - length[line - 1].at(40.0)) / 120.0;
+    let slope = |line: usize| (length[line - 1].at(160.0) - length[line - 1].at(80.0)) / 80.0;
     near(slope(10), slope(1), 1e-12);
     near(slope(11), slope(3), 1e-12);
+    let claims = claims();
+    let [held, steeper, parts] = &claims[6..] else {
+        panic!("{claims:?}")
+    };
+    let right = |c: &Claim| c.right.clone().unwrap();
     let told = format!("{:.3} and {:.3} mm per mm of L", slope(10), slope(11));
-    assert!(REFUTED.evidence.contains(&told) && !REFUTED.holds, "{told}");
+    assert!(right(held).contains(&told), "{told}");
+    // l2 over L at one γ and two α, and l1 beside it.
+    let slope = |part: &str, prism: f64| {
+        let at = |x: f64| arm(part, &lever(x, prism, 30.0).arms(40.0));
+        (at(160.0) - at(80.0)) / 80.0
+    };
+    near(slope("l2", 90.0), slope("l2", 120.0), 1e-12);
+    let told = [slope("l2", 90.0), slope("l1", 90.0), slope("l1", 120.0)];
+    assert!(told[1] < told[2]);
+    for number in told.map(|x| format!("{x:.3}")) {
+        assert!(steeper.evidence.contains(&number), "{number}: {steeper:?}");
+    }
+    near(slope("l12", 90.0), 0.0, 1e-12);
+    assert_eq!(right(parts), "they do not depend on L");
+}
+
+/// In text and JSON, under the gripper of the paper and no other.
+#[test]
+fn claims_are_told_of_the_gripper_of_the_paper_alone() {
     let text = out(&["grip", "lever-gripper"]);
     assert!(
-        text.contains("6 of 6 confirmed, and 1 drawing refuted"),
+        text.contains("9 claims, 6 confirmed, 3 refuted") && text.contains("right: l1 alone does"),
         "{text}"
     );
-    assert!(text.contains("lines 10 and 11 of fig. 2"), "{text}");
     let value = json(&["grip", "lever-gripper", "--format", "json"]);
-    assert_eq!(value["refuted"][0]["holds"], false);
+    assert_eq!(value["claims"].as_array().unwrap().len(), 9);
+    assert_eq!(value["claims"][0]["right"], serde_json::Value::Null);
+    assert_eq!(value["claims"][7]["holds"], false);
+    assert!(value["claims"][7]["right"].is_string());
+    // A gripper of one's own, started from that one.
+    let folder = tempfile::tempdir().unwrap();
+    let mine = folder.path().join("mine.toml");
+    let mine = mine.to_str().unwrap();
+    out(&["new", mine, "--from", "lever-gripper"]);
+    let value = json(&["grip", mine, "--format", "json"]);
+    assert_eq!(value["claims"], serde_json::json!([]));
+    let text = out(&["grip", mine]);
+    assert!(
+        !text.contains("Pavlenko") && !text.contains("refuted"),
+        "{text}"
+    );
+}
+
+/// Figs. 2, 4 and 5 as charts, each point by the equations as they are printed.
+#[test]
+fn figures_are_charts_of_any_gripper() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("curves.toml");
+    let text = "name = \"curves\"\nlength_unit = \"mm\"\n[workload.grip]\nlever_length = 100\nprism_angle = 120\n\
+        mounting_angle = 20\ndiameter = 60\ndiameters = [40, 60, 100]\npivots = \"nominal\"\nlevers_cross = true\n";
+    std::fs::write(&file, text).unwrap();
+    let charts = folder.path().join("charts");
+    let [file, into] = [&file, &charts].map(|p| p.to_str().unwrap());
+    out(&["grip", file, "--svg", into]);
+    for (name, at) in [("length", 0), ("prism-angle", 1), ("mounting-angle", 2)] {
+        let table = std::fs::read_to_string(charts.join(format!("arms-over-{name}.csv"))).unwrap();
+        let mut seen = std::collections::BTreeMap::new();
+        for line in table.lines().skip(1) {
+            let (series, rest) = line[1..].split_once("\",").unwrap();
+            let (arm, diameter) = series.split_once(", D = ").unwrap();
+            let diameter: f64 = diameter.parse().unwrap();
+            let (x, y) = rest.split_once(',').unwrap();
+            let [x, y]: [f64; 2] = [x, y].map(|n| n.parse().unwrap());
+            let mut own = [100.0, 120f64, 20f64];
+            own[at] = x;
+            let [length, prism, mounting] = [own[0], own[1].to_radians(), own[2].to_radians()];
+            let part = diameter / 2.0 * (std::f64::consts::FRAC_PI_2 - prism / 2.0).tan();
+            let (far, near_part) = (
+                length * (std::f64::consts::PI - prism - mounting).cos(),
+                length * mounting.cos(),
+            );
+            let value = match arm {
+                "l1" => far + part,
+                "l2" => near_part - part,
+                "l11" => far,
+                "l12 = l22" => part,
+                "l21" => near_part,
+                other => panic!("{other}"),
+            };
+            near(y, value, 1e-9 * length);
+            *seen.entry(series.to_owned()).or_insert(0) += 1;
+        }
+        assert_eq!(seen.len(), 9, "{name}: {seen:?}");
+        assert!(seen.values().all(|&n| n > 20), "{name}: {seen:?}");
+    }
+}
+
+/// Both arms stand in the text as what they are made of.
+#[test]
+fn parts_of_the_arms_are_in_the_text() {
+    let text = out(&["grip", "lever-gripper"]);
+    for head in ["l11, mm", "l12, mm", "l21, mm", "l22, mm"] {
+        assert!(text.contains(head), "{head}: {text}");
+    }
+    // l11 = l21 = 100 cos 30°, l12 = 20 tan 30° at D = 40.
+    let row = text.lines().filter(|l| l.trim_start().starts_with("40 "));
+    let found = row.map(|l| l.matches("86.6").count() == 2 && l.contains("11.55"));
+    assert!(found.into_iter().any(|x| x), "{text}");
 }

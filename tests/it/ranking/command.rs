@@ -50,7 +50,7 @@ fn the_command_changes_the_order_and_says_why() {
     );
     // Without a [ranking], the scores stay empty and the order is that of cost.
     let plain = json(&["search", "gripper-10", "--top", "1", "--format", "json"]);
-    assert!(plain.get("ranking").is_none());
+    assert!(plain.get("ranking").is_some_and(|r| r.is_null()));
     assert_eq!(plain["variants"][0]["scores"], serde_json::json!({}));
     // Asked for on the command line.
     let asked = json(&[

@@ -1,0 +1,223 @@
+//! A part between the contacts of a mechanism whose drives stand still, ready for questions of closure.
+
+use crate::geom::vector::{add, length, scale, sub};
+use crate::grip::faces::{Face, turned_about};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::motion::pose::Pose;
+use crate::statics::reactions::contact::contacts;
+use crate::statics::reactions::drives::driven;
+use crate::statics::reactions::geometry::{Column, Geometry, Six, TOLERANCE};
+use crate::statics::reactions::{Unsolved, no_couplings};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::Rng;
+use ozols_dense::{Matrix, svd};
+use thiserror::Error;
+
+/// Why there is no clamped part to ask about.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PartError {
+    /// No state has contacts with an object.
+    #[error(
+        "state {state} of {name} has no part between contacts: give a link of role = \"object\", and joints of type fixed, \
+         planar, cylinder-on-plane or sphere-on-plane to it"
+    )]
+    NoPart {
+        /// The mechanism.
+        name: String,
+        /// The state.
+        state: String,
+    },
+    /// An object that is joined otherwise.
+    #[error(
+        "{object} is held by joint {joint}, which is no face; name faces only, or take the role \"object\" off the link"
+    )]
+    Joined {
+        /// The object.
+        object: String,
+        /// The joint.
+        joint: String,
+    },
+    /// The mechanism.
+    #[error(transparent)]
+    Unsolved(#[from] Unsolved),
+}
+
+/// A motion of the mechanism with its contacts let go.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    /// Twist of the part, about the geometry's middle.
+    pub part: Six,
+    /// By face: twist of the part against the jaw.
+    pub against: Vec<Six>,
+}
+
+/// A part between faces; lengths in the geometry's size.
+#[derive(Debug, Clone)]
+pub struct ClampedPart {
+    /// The state.
+    pub state: StateId,
+    /// The object.
+    pub object: LinkId,
+    /// The pose of the file.
+    pub geometry: Geometry,
+    /// The contacts.
+    pub faces: Vec<Face>,
+    /// Independent motions of part and jaws, drives held and contacts let go.
+    pub motions: Vec<Motion>,
+    /// Mean of the contacts' points.
+    pub middle: [f64; 3],
+    /// Root mean square distance of the contacts' points from it: moments count by this.
+    pub size: f64,
+    /// Unit loads that span all, (moment; force): six, or three in a plane.
+    pub axes: Vec<Six>,
+}
+
+impl ClampedPart {
+    /// The part of a state at the pose of the file.
+    ///
+    /// # Errors
+    /// [`PartError`].
+    ///
+    /// # Complexity
+    /// O((6k)²·f) for k contours and f freedoms.
+    pub fn new(m: &Mechanism, state: StateId) -> Result<ClampedPart, PartError> {
+        no_couplings(m, state)?;
+        let pose = Pose::of_file(m, state).map_err(Unsolved::from)?;
+        let geometry = Geometry::new(m, state, &pose).map_err(Unsolved::from)?;
+        let all = contacts(m, &geometry)?;
+        let held = |l: &LinkId| all.iter().any(|c| m.joints[c.joint].links.contains(l));
+        let mut objects = m.link_ids().filter(|&l| m.links[l].role == Role::Object);
+        let object = objects.find(held).ok_or_else(|| PartError::NoPart {
+            name: m.name.clone(),
+            state: m.states[state].clone(),
+        })?;
+        let at_part = |j: JointId| m.joints[j].links.contains(&object);
+        let faces: Vec<Face> = all
+            .iter()
+            .filter(|c| at_part(c.joint))
+            .map(|c| Face::new(m, &geometry, c, object))
+            .collect();
+        let is_face = |j: JointId| faces.iter().any(|f| f.joint == j);
+        let mut others = geometry.joints.iter().filter(|&&j| at_part(j));
+        if let Some(&joint) = others.find(|&&j| !is_face(j)) {
+            return Err(PartError::Joined {
+                object: m.links[object].id.clone(),
+                joint: m.joints[joint].id.clone(),
+            });
+        }
+        let points: Vec<[f64; 3]> = faces.iter().map(|f| geometry.points[f.joint]).collect();
+        #[allow(clippy::cast_precision_loss, reason = "a count of contacts")]
+        let share = 1.0 / points.len() as f64;
+        let middle = scale(points.iter().fold([0.0; 3], |s, p| add(s, *p)), share);
+        let square: f64 = points.iter().map(|p| length(sub(*p, middle)).powi(2)).sum();
+        let spread = (square * share).sqrt();
+        let motions = motions(m, &geometry, object, &faces)?;
+        Ok(ClampedPart {
+            state,
+            object,
+            axes: geometry.basis.clone(),
+            motions,
+            middle,
+            // A part on one contact has no size of its own.
+            size: if spread > TOLERANCE { spread } else { 1.0 },
+            faces,
+            geometry,
+        })
+    }
+
+    /// The faces without friction.
+    #[must_use]
+    pub fn smooth(&self) -> Vec<Face> {
+        self.faces.iter().map(|f| f.smooth()).collect()
+    }
+
+    /// The same with each contact's point anywhere within `tolerance` of where it is, evenly, and each face tipped about a line in
+    /// it of any direction, by so much that its rim is out by no more (that of the part's size where it states none).
+    #[must_use]
+    pub fn out_of_true(&self, tolerance: f64, random: &mut ChaCha8Rng) -> ClampedPart {
+        let mut out = self.clone();
+        let mut symmetric = || {
+            #[allow(clippy::cast_precision_loss, reason = "53 bits of a double")]
+            let even = (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+            2.0 * even - 1.0
+        };
+        for face in &self.faces {
+            let shift = loop {
+                let v = [symmetric(), symmetric(), symmetric()];
+                if length(v) <= 1.0 {
+                    break scale(v, tolerance);
+                }
+            };
+            let (j, angle) = (face.joint, std::f64::consts::PI * symmetric());
+            let tip = symmetric() * tolerance / face.reach().unwrap_or(self.size);
+            out.geometry.points[j] = add(out.geometry.points[j], shift);
+            let [x, _, z] = out.geometry.axes[j];
+            let line = turned_about(z, angle, x);
+            let axes = out.geometry.axes[j].map(|a| turned_about(line, tip, a));
+            out.geometry.axes[j] = axes;
+        }
+        out
+    }
+}
+
+/// Motions with drives held and every contact let go in all directions.
+fn motions(
+    m: &Mechanism,
+    geometry: &Geometry,
+    object: LinkId,
+    faces: &[Face],
+) -> Result<Vec<Motion>, Unsolved> {
+    let drives = driven(m, geometry)?;
+    let is_face = |c: &Column| faces.iter().any(|f| f.joint == c.joint);
+    let kept = |c: &&Column| !is_face(c) && !drives.contains(&(c.joint, c.freedom));
+    let mut free = geometry.clone();
+    free.columns = geometry.columns.iter().filter(kept).copied().collect();
+    let first = free.columns.len();
+    for face in faces {
+        free.columns
+            .extend(geometry.basis.iter().map(|twist| Column {
+                joint: face.joint,
+                // No freedom of the joint: let go, it has them all.
+                freedom: Freedom::Screw,
+                twist: *twist,
+            }));
+    }
+    let rows: Vec<Vec<f64>> = free.columns.iter().map(|c| free.row(c)).collect();
+    let height = rows.first().map_or(0, Vec::len);
+    let a = Matrix::from_fn(height.max(1), rows.len(), |r, c| {
+        rows[c].get(r).copied().unwrap_or(0.0)
+    });
+    let found = svd(&a).ok_or(Unsolved::NoConvergence)?;
+    let null = found.null_space(found.rank(TOLERANCE));
+    let dim = geometry.basis.len();
+    let all = (0..null.ncols()).map(|i| {
+        let speeds = null.col(i);
+        let mut out = free.link_twists(m.links.len(), speeds)[object].to_vec();
+        for (k, face) in faces.iter().enumerate() {
+            let own = &speeds[first + k * dim..][..dim];
+            let against = geometry.basis.iter().zip(own);
+            out.extend(against.fold([0.0; 6], |t, (b, x)| add(t, scale(*b, *x * face.second))));
+        }
+        out
+    });
+    felt(&all.collect::<Vec<_>>())
+}
+
+/// Independent motions of part and jaws among those of the whole, each as the part's twist and those against the jaws: idle rods
+/// may turn without either.
+fn felt(all: &[Vec<f64>]) -> Result<Vec<Motion>, Unsolved> {
+    let width = all.first().map_or(0, Vec::len);
+    let a = Matrix::from_fn(all.len(), width, |r, c| all[r][c]);
+    let found = svd(&a).ok_or(Unsolved::NoConvergence)?;
+    let six = |x: &[f64]| -> Six { std::array::from_fn(|i| x[i]) };
+    let one = |i: usize| {
+        let twists = found.v.col(i);
+        Motion {
+            part: six(twists),
+            against: twists[6..].chunks(6).map(six).collect(),
+        }
+    };
+    Ok((0..found.rank(TOLERANCE)).map(one).collect())
+}

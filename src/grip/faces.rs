@@ -1,0 +1,136 @@
+//! Faces of jaws as the forces they can put on a part: at points of the face, each within its cone of friction.
+//!
+//! Friction, the moment about the normal and the moment along the face all come from the same pressure, so they are limited
+//! together: what a face holds by friction at its rim it cannot hold again as a turn, or while it is tipped over an edge.
+
+use crate::geom::vector::{add_scaled, cross, dot, sub};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::statics::reactions::contact::Contact;
+use crate::statics::reactions::geometry::{Geometry, Six, wrench};
+use std::f64::consts::TAU;
+
+/// Points that stand for the rim of a round face: the polygon lies within the face, 2 % at most inside its rim.
+pub const RIM: usize = 16;
+
+/// Where the pressure of a face can be, lengths in the geometry's size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// Round, of this radius; without end where none is stated.
+    Disc(Option<f64>),
+    /// A line along x of the joint's frame, of this half length; without end where none is stated.
+    Line(Option<f64>),
+    /// A point.
+    Point,
+}
+
+/// A face of a jaw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// The joint that stands for it.
+    pub joint: JointId,
+    /// 1 where the part is the second link of the joint, -1 where it is the first.
+    pub second: f64,
+    /// 1 where z of the joint's frame points to the part, else -1.
+    pub towards: f64,
+    /// Coefficient of friction; as much as it takes where `None`.
+    pub friction: Option<f64>,
+    /// Where its pressure can be.
+    pub shape: Shape,
+}
+
+/// A point that presses: unit wrenches on the part, about the geometry's middle.
+#[derive(Debug, Clone)]
+pub(super) struct Press {
+    /// Along the normal.
+    pub(super) normal: Six,
+    /// Along the face.
+    pub(super) along: [Six; 2],
+}
+
+impl Face {
+    /// The face that a contact is, with the friction and the half length of a line that a grip states for it.
+    #[must_use]
+    pub fn new(m: &Mechanism, g: &Geometry, contact: &Contact, object: LinkId) -> Face {
+        let joint = &m.joints[contact.joint];
+        let second = if joint.links[1] == object { 1.0 } else { -1.0 };
+        let grip = m.loads.grip.as_ref();
+        let of_grip = grip.filter(|g| g.contacts.is_some_and(|c| c.contains(&contact.joint)));
+        let load = of_grip.and_then(|g| g.load.as_ref());
+        let half = load
+            .and_then(|l| l.mass.part_length())
+            .map(|l| l / 2.0 / g.size);
+        let (shape, unstated) = match joint.joint_type {
+            JointType::CylinderOnPlane => (Shape::Line(contact.radius.or(half)), Some(0.0)),
+            JointType::SphereOnPlane => (Shape::Point, Some(0.0)),
+            JointType::Fixed => (Shape::Disc(contact.radius), None),
+            _ => (Shape::Disc(contact.radius), Some(0.0)),
+        };
+        Face {
+            joint: contact.joint,
+            second,
+            towards: contact.push() * second,
+            friction: contact.friction.or(load.map(|l| l.friction)).or(unstated),
+            shape,
+        }
+    }
+
+    /// The face without friction.
+    #[must_use]
+    pub fn smooth(self) -> Face {
+        Face {
+            friction: Some(0.0),
+            ..self
+        }
+    }
+
+    /// Its points, and the wrenches that have no limit where no size is stated.
+    pub(super) fn presses(&self, g: &Geometry) -> (Vec<Press>, Vec<Six>) {
+        let ([x, y, z], at) = (g.axes[self.joint], g.points[self.joint]);
+        let normal = z.map(|c| c * self.towards);
+        let force = |p, f| wrench(p, f, [0.0; 3]);
+        let press = |p: [f64; 3]| Press {
+            normal: force(p, normal),
+            along: [force(p, x), force(p, y)],
+        };
+        let turn = |axis| wrench([0.0; 3], [0.0; 3], axis);
+        let spin = (self.friction != Some(0.0)).then(|| turn(z));
+        match self.shape {
+            Shape::Point => (vec![press(at)], Vec::new()),
+            Shape::Line(Some(half)) => {
+                let ends = [half, -half].map(|h| press(add_scaled(at, h, x)));
+                (ends.to_vec(), Vec::new())
+            }
+            Shape::Line(None) => (vec![press(at)], spin.into_iter().chain([turn(y)]).collect()),
+            Shape::Disc(Some(radius)) => {
+                #[allow(clippy::cast_precision_loss, reason = "a count of points")]
+                let rim = (0..RIM).map(|k| {
+                    let (sin, cos) = (TAU * k as f64 / RIM as f64).sin_cos();
+                    press(add_scaled(add_scaled(at, radius * cos, x), radius * sin, y))
+                });
+                (rim.collect(), Vec::new())
+            }
+            Shape::Disc(None) => {
+                let free = spin.into_iter().chain([turn(x), turn(y)]);
+                (vec![press(at)], free.collect())
+            }
+        }
+    }
+
+    /// How far it reaches from its point, where that is known.
+    #[must_use]
+    pub fn reach(&self) -> Option<f64> {
+        match self.shape {
+            Shape::Disc(r) | Shape::Line(r) => r,
+            Shape::Point => None,
+        }
+    }
+}
+
+/// A vector turned about a unit axis by an angle `[rad]`.
+pub(super) fn turned_about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = angle.sin_cos();
+    let along = axis.map(|a| a * dot(axis, v));
+    let across = sub(v, along);
+    add_scaled(add_scaled(along, cos, across), sin, cross(axis, across))
+}

@@ -1,0 +1,45 @@
+//! Shares of parts out of true that contacts hold.
+
+use crate::grip::clamped_part::ClampedPart;
+use crate::grip::force_closure::is_closed;
+use crate::statics::reactions::Unsolved;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
+
+/// How many samples have closure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shares {
+    /// How many there were.
+    pub samples: usize,
+    /// By how much points and rims are out at most `[m]`.
+    pub tolerance: f64,
+    /// With force closure.
+    pub force_closed: usize,
+    /// With form closure.
+    pub form_closed: usize,
+}
+
+/// Closure of a part with its contacts out by up to `tolerance` `[m]`, `samples` times; the same seed gives the same answer.
+///
+/// # Errors
+/// Where a cone programme has no answer.
+pub fn shares(
+    part: &ClampedPart,
+    tolerance: f64,
+    samples: usize,
+    seed: u64,
+) -> Result<Shares, Unsolved> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let (mut force_closed, mut form_closed) = (0, 0);
+    for _ in 0..samples {
+        let sample = part.out_of_true(tolerance / part.geometry.size, &mut random);
+        force_closed += usize::from(is_closed(&sample, &sample.faces)?);
+        form_closed += usize::from(is_closed(&sample, &sample.smooth())?);
+    }
+    Ok(Shares {
+        samples,
+        tolerance,
+        force_closed,
+        form_closed,
+    })
+}
