@@ -102,7 +102,7 @@ fn index(n: usize) -> u32 {
 mod tests {
     use crate::file::text::mechanism_from_str;
     use crate::redundancy::analysis::exact_field;
-    use crate::search::answer::k_best::Cheapest;
+    use crate::search::answer::k_best::{Cheapest, Reach};
     use crate::search::question::Question;
     use crate::search::question::conditions::Conditions;
 
@@ -118,7 +118,7 @@ mod tests {
             let mut all = Cheapest::<u128>::new(
                 &found.admissible,
                 &search.steps,
-                (3000, u64::MAX),
+                (Reach::Variants(3000), u64::MAX),
                 |_| true,
                 |k| k,
                 usize::MAX,

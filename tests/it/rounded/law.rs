@@ -6,7 +6,7 @@
 
 use super::search_numeric::{plain, request, turned};
 use ozols::accuracy::stability::change::Noise;
-use ozols::accuracy::stability::said::Said;
+use ozols::accuracy::stability::said;
 use ozols::accuracy::stability::special::Kind;
 use ozols::builtin;
 use ozols::model::mechanism::{Mechanism, StateId};
@@ -254,9 +254,9 @@ fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
                 let text = kind.text(units, decimals, turned, &mut Noise::new(seed, i));
                 let m = ozols::file::text::mechanism_from_str("off.toml", &text).unwrap();
                 let found = decide(&m, StateId::FREE, None).ok();
-                let [w, finite] = Said::of_decision(found.as_ref(), kind.figures(true));
+                let [w, finite] = said::Said::of_decision(found.as_ref(), kind.figures(true));
                 assert!(
-                    w.max(finite) != Said::Wrong,
+                    w.max(finite) != said::Said::Wrong,
                     "{units} units, {decimals} decimals:\n{text}"
                 );
             }
