@@ -59,7 +59,7 @@ def drawn(model):
     return (m.key_qpos[0] if m.nkey else m.qpos0).copy()
 
 
-def still(model, lost=()):
+def still(model, q, lost=()):
     """Without what moves it or pulls at it by itself, and without what was told to be lost."""
     m = model.model
     m.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ACTUATION) | int(mujoco.mjtDisableBit.mjDSBL_LIMIT)
@@ -78,6 +78,16 @@ def still(model, lost=()):
     if "tendon of <equality>" in lost:
         model.data.eq_active[m.eq_type == mujoco.mjtEq.mjEQ_TENDON] = 0
         m.eq_active0[m.eq_type == mujoco.mjtEq.mjEQ_TENDON] = 0
+    if "polynomial of a coupling" in lost:
+        # Its tangent at the pose stands for it.
+        for i in np.flatnonzero(m.eq_type == mujoco.mjtEq.mjEQ_JOINT):
+            x = 0.0
+            if (other := m.eq_obj2id[i]) >= 0:
+                at = m.jnt_qposadr[other]
+                x = q[at] - m.qpos0[at]
+            powers = np.polynomial.Polynomial(m.eq_data[i, :5])
+            slope = powers.deriv()(x)
+            m.eq_data[i, :5] = [powers(x) - slope * x, slope, 0, 0, 0]
     if "armature of a joint" in lost:
         m.dof_armature[:] = 0
     if "spring of a joint" in lost:
@@ -108,8 +118,8 @@ def moved(before, after, q, there, lost):
     corners = np.vstack([np.zeros(3), np.eye(3)[:2]])
     points = {n: [p + max(reach[n], 1e-3) * c for c in corners] for n, p in before.places(q).items() if n in names}
     ours, theirs = before.marks(q, points), after.marks(there, points)
-    still(before, lost)
-    still(after, lost)
+    still(before, q, lost)
+    still(after, there, lost)
     own, other = fallen(before, q), fallen(after, there)
 
     def apart(poses, model, marks, t):
