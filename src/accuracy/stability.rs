@@ -1,6 +1,7 @@
 //! Where numbers fail: geometry, closeness to special ones, shakiness, size, scale, noise, rounding and tolerance moved until
 //! answers turn wrong.
 
+mod asked;
 pub mod change;
 pub mod close;
 mod digits;

@@ -1,18 +1,15 @@
 //! Mechanisms made from a seed in pairs of different mobility: one is special, the other the same but for one number, in the
 //! second to the sixteenth digit. Coordinates are fractions, which mean what they say.
 
+use super::asked::{self, Asked};
 use super::change::Noise;
-use super::said::{Count, Counts, Said};
+use super::said::{Count, Counts};
 use super::sketch::Sketch;
 use super::sweep::{Sweep, Tally};
 use super::{Effort, Picture, Progress, Study};
-use crate::accuracy::{Truth, Verdict};
+use crate::accuracy::Truth;
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
-use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::method::NoAnswer;
-use crate::rank::method::auto::decide;
-use crate::rank::method::registry;
 use rayon::prelude::*;
 
 /// What is made.
@@ -146,27 +143,6 @@ impl Drawn {
 /// Digits in which the pairs differ.
 const DIGITS: std::ops::RangeInclusive<u32> = 2..=16;
 
-/// Whether each method is right about both of a pair; `None` where it does not apply.
-fn told(both: &[(Mechanism, Truth)]) -> Vec<Option<bool>> {
-    let of = |method: &&dyn crate::rank::method::MobilityMethod| {
-        let answers: Vec<_> = both
-            .iter()
-            .map(|(m, t)| (method.answer(m, StateId::FREE), *t))
-            .collect();
-        let silent = |(a, _): &(Result<_, NoAnswer>, Truth)| matches!(a, Err(e) if !matches!(e, NoAnswer::Failed(_)));
-        let right = answers.iter().all(|(a, t)| Verdict::keeps_promise(a, *t));
-        (!answers.iter().any(silent)).then_some(right)
-    };
-    registry::ALL.iter().map(of).collect()
-}
-
-/// What the automatic choice says of the one that is off, the worse of W and finite mobility.
-fn said(m: &Mechanism, truth: Truth) -> Said {
-    let found = decide(m, StateId::FREE, None).ok();
-    let [w, finite] = Said::of_decision(found.as_ref(), (truth.instantaneous, truth.finite));
-    w.max(finite)
-}
-
 /// Runs the study.
 pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, step) = if effort.quick { (1, 5) } else { (4, 1) };
@@ -175,41 +151,26 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let drawn: Vec<Drawn> = (0..Pair::ALL.len() * each)
         .map(|i| Drawn::new(Pair::ALL[i / each], &mut Noise::new(effort.seed, i)))
         .collect();
-    let names = registry::ALL.iter().map(|m| m.name().to_owned());
-    let mut rows: Vec<(String, Vec<Tally>)> = names.map(|n| (n, Vec::new())).collect();
+    let mut rows = asked::rows();
     let mut auto: Vec<(String, Vec<Count>)> = Pair::ALL
         .map(|p| (p.name().to_owned(), Vec::new()))
         .to_vec();
     for (n, &digit) in digits.iter().enumerate() {
         progress("closeness", n, digits.len());
-        let found: Vec<(Vec<Option<bool>>, Said, String)> = drawn
+        let found: Vec<Asked> = drawn
             .par_iter()
             .filter_map(|d| {
                 let read = |off: Option<u32>| {
                     let m = mechanism_from_str("close.toml", &d.text(off)).ok()?;
                     Some((m, d.pair.truth(off.is_some())))
                 };
-                let both = [read(None)?, read(Some(digit))?];
-                Some((
-                    told(&both),
-                    said(&both[1].0, both[1].1),
-                    d.text(Some(digit)),
-                ))
+                Asked::new(&[read(None)?, read(Some(digit))?], d.text(Some(digit)))
             })
             .collect();
-        for (i, row) in rows.iter_mut().enumerate() {
-            let mut tally = Tally::default();
-            for (at, (right, ..)) in found.iter().enumerate() {
-                right[i].into_iter().for_each(|ok| tally.add(at, ok));
-            }
-            row.1.push(tally);
-        }
+        asked::add(&mut rows, &found);
         for (p, row) in auto.iter_mut().enumerate() {
-            let mut count = Count::default();
-            for (_, said, text) in found.iter().skip(p * each).take(each) {
-                count.add(*said, || text.replace('\n', " "));
-            }
-            row.1.push(count);
+            row.1
+                .push(asked::auto(found.iter().skip(p * each).take(each)));
         }
     }
     let values: Vec<f64> = digits

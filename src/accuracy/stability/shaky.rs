@@ -1,18 +1,15 @@
 //! Shakiness of higher and higher order: rows of toggles made from a seed, each knee pushed by the one before by the square of
 //! its motion. At the pose they have one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
 
+use super::asked::{self, Asked};
 use super::change::Noise;
-use super::said::{Count, Counts, Said};
+use super::said::{Count, Counts};
 use super::sketch::Sketch;
 use super::sweep::{Sweep, Tally};
 use super::{Effort, Picture, Progress, Study};
-use crate::accuracy::{Truth, Verdict};
+use crate::accuracy::Truth;
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
-use crate::model::mechanism::StateId;
-use crate::rank::method::NoAnswer;
-use crate::rank::method::auto::decide;
-use crate::rank::method::registry;
 use rayon::prelude::*;
 
 /// The file of a row of toggles of order 2^levels.
@@ -56,41 +53,20 @@ const TRUTH: Truth = Truth {
 /// Runs the study.
 pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, most) = if effort.quick { (1, 3) } else { (3, 6) };
-    let names = registry::ALL.iter().map(|m| m.name().to_owned());
-    let mut rows: Vec<(String, Vec<Tally>)> = names.map(|n| (n, Vec::new())).collect();
+    let mut rows = asked::rows();
     let mut auto = Vec::new();
     for levels in 1..=most {
         progress("order of shakiness", levels - 1, most);
-        let found: Vec<(Vec<Option<bool>>, Said, String)> = (0..each)
+        let found: Vec<Asked> = (0..each)
             .into_par_iter()
             .filter_map(|i| {
                 let text = toggles(levels, &mut Noise::new(effort.seed, 100 * levels + i));
                 let m = mechanism_from_str("toggles.toml", &text).ok()?;
-                let right =
-                    registry::ALL
-                        .iter()
-                        .map(|method| match method.answer(&m, StateId::FREE) {
-                            Err(e) if !matches!(e, NoAnswer::Failed(_)) => None,
-                            answer => Some(Verdict::keeps_promise(&answer, TRUTH)),
-                        });
-                let decided = decide(&m, StateId::FREE, None).ok();
-                let truth = (TRUTH.instantaneous, TRUTH.finite);
-                let [w, finite] = Said::of_decision(decided.as_ref(), truth);
-                Some((right.collect(), w.max(finite), text))
+                Asked::new(&[(m, TRUTH)], text)
             })
             .collect();
-        for (i, row) in rows.iter_mut().enumerate() {
-            let mut tally = Tally::default();
-            for (at, (right, ..)) in found.iter().enumerate() {
-                right[i].into_iter().for_each(|ok| tally.add(at, ok));
-            }
-            row.1.push(tally);
-        }
-        let mut count = Count::default();
-        for (_, said, text) in &found {
-            count.add(*said, || text.replace('\n', " "));
-        }
-        auto.push(count);
+        asked::add(&mut rows, &found);
+        auto.push(asked::auto(&found));
     }
     let values: Vec<f64> = (1..=most).map(|l| f64::from(1u32 << l)).collect();
     let x = "order of shakiness".to_owned();
