@@ -251,6 +251,10 @@ fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
                 (3.0, true),
                 (10.0, true),
             ] {
+                // Its axes are in all directions, turned or not.
+                if kind == Kind::Spherical && units < 3.0 {
+                    continue;
+                }
                 let text = kind.text(units, decimals, turned, &mut Noise::new(seed, i));
                 let m = ozols::file::text::mechanism_from_str("off.toml", &text).unwrap();
                 let found = decide(&m, StateId::FREE, None).ok();
