@@ -265,15 +265,19 @@ mod tests {
     use crate::builtin;
     use crate::file::schema::MechanismFile;
 
-    /// The lines of a file that are not of its claims.
-    fn unclaimed(text: &str) -> impl Iterator<Item = &str> {
-        let mut claim = false;
-        text.lines().filter(move |l| {
-            if l.starts_with('[') {
-                claim = *l == "[[claim]]";
+    /// The lines of a file that are not of its claims, nor comments on them.
+    fn unclaimed(text: &str) -> Vec<&str> {
+        let (mut claim, mut kept) = (false, Vec::new());
+        for line in text.lines() {
+            if line.starts_with('[') {
+                claim = line == "[[claim]]";
+                while claim && kept.pop_if(|l: &mut &str| l.starts_with('#')).is_some() {}
             }
-            !claim
-        })
+            if !claim {
+                kept.push(line);
+            }
+        }
+        kept
     }
 
     #[test]
@@ -286,7 +290,8 @@ mod tests {
                 "{name}: claims are of the mechanism that they are about"
             );
             let mut lines = new.lines();
-            for line in unclaimed(text).filter(|l| !l.starts_with("name = ") && !l.is_empty()) {
+            let kept = unclaimed(text).into_iter();
+            for line in kept.filter(|l| !l.starts_with("name = ") && !l.is_empty()) {
                 assert!(lines.any(|l| l == line), "{name}: lost {line:?}\n{new}");
             }
             assert!(new.contains("\nname = \"mine\""), "{name}");
