@@ -14,7 +14,6 @@ use ozols::view::search::csv;
 use ozols::view::search::data;
 use ozols::view::search::json;
 use ozols::view::search::text;
-use ozols::view::search::variant::VariantData;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use std::ffi::CString;
@@ -256,20 +255,19 @@ impl Variants {
         let stopped = stop.clone();
         std::thread::spawn(move || {
             let cancelled = || stopped.load(Ordering::Relaxed);
-            for v in outcome.list_unless(list, seed, &cancelled) {
+            let list = outcome.list_unless(list, seed, &cancelled);
+            // Until nobody is interested any more.
+            let _ = json::each(&outcome, list, |v, data| {
                 let told = Variant {
                     outcome: outcome.clone(),
                     assignment: v.assignment().clone(),
                     name: v.name(),
                     position: v.position(),
                     text: v.to_string(),
-                    data: serde_json::to_string(&VariantData::new(&outcome, &v)).ok(),
+                    data: serde_json::to_string(&data).ok(),
                 };
-                // Nobody is interested any more.
-                if tell.send(told).is_err() {
-                    return;
-                }
-            }
+                tell.send(told).map_err(drop)
+            });
         });
         let heard = Mutex::new(heard);
         Variants { heard, stop }

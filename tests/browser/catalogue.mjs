@@ -132,7 +132,7 @@ export function catalogueTests(test) {
         await idea.focus();
         await tab.keyboard.press("Enter");
         assert.ok((await chosen.locator("svg .changed").count()) > 0);
-        assert.match(await chosen.locator("pre").innerText(), /--variant 1/);
+        assert.match(await chosen.locator("pre").innerText(), /--idea 1/);
         const [content, room] = await chosen.evaluate((d) => [d.scrollWidth, d.clientWidth]);
         assert.ok(content <= room, `${content} pixels of content in ${room}`);
         await picture(tab, `catalogue-chosen-${viewport.width}`, false);

@@ -12,6 +12,29 @@ use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io::{self, Write};
 
+/// Tells each variant of a list with its data until that fails; ideas with why they help, for which the whole list is made first.
+///
+/// # Errors
+/// Where telling fails.
+pub fn each<'a, E>(
+    outcome: &Outcome,
+    variants: impl Iterator<Item = Variant<'a>>,
+    mut tell: impl FnMut(&Variant<'a>, VariantData<'_>) -> Result<(), E>,
+) -> Result<(), E> {
+    let mut one =
+        |v: &Variant<'a>, why: Option<WhyData>| tell(v, VariantData::new(outcome, v).because(why));
+    if !outcome.request.distinct {
+        return variants.into_iter().try_for_each(|v| one(&v, None));
+    }
+    let ideas: Vec<Variant<'a>> = variants.collect();
+    let shown: Vec<_> = ideas.iter().map(Variant::assignment).collect();
+    let whys = why::data(outcome, &shown).into_iter();
+    ideas
+        .iter()
+        .zip(whys)
+        .try_for_each(|(v, why)| one(v, Some(why)))
+}
+
 /// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a
 /// clock, asked once all else is written. No other key differs between runs.
 ///
@@ -28,22 +51,11 @@ pub fn write(
     let text = serde_json::to_string_pretty(&SearchData::new(outcome))?;
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"variants\": [")?;
-    let mut each = |v: &Variant<'_>, why: Option<WhyData>| -> io::Result<()> {
+    each(outcome, variants.by_ref(), |v, data| -> io::Result<()> {
         let comma = if v.position() == 1 { "" } else { "," };
         write!(out, "{comma}\n    ")?;
-        let data = VariantData::new(outcome, v).because(why);
         Ok(serde_json::to_writer(&mut *out, &data)?)
-    };
-    if outcome.request.distinct {
-        let ideas: Vec<Variant<'_>> = variants.by_ref().collect();
-        let shown: Vec<_> = ideas.iter().map(Variant::assignment).collect();
-        let whys = why::data(outcome, &shown).into_iter();
-        for (v, why) in ideas.iter().zip(whys) {
-            each(v, Some(why))?;
-        }
-    } else {
-        variants.by_ref().try_for_each(|v| each(&v, None))?;
-    }
+    })?;
     let m = &outcome.search.mechanism;
     let none = outcome.admissible.total.is_zero();
     let none = none.then(|| NoneData::new(m, eased, hopeless));
