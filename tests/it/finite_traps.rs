@@ -14,7 +14,7 @@ use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
 use ozols::rank::finite::{Finite, How, finite};
 
-fn judged(m: &Mechanism) -> (usize, Finite) {
+pub(crate) fn judged(m: &Mechanism) -> (usize, Finite) {
     let exact = field_of(m, StateId::FREE, 0).unwrap();
     let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
     let rank = modular::rank(&exact, &closure);

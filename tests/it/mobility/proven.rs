@@ -1,25 +1,16 @@
 //! Motions that are proven: which, by what, and that following them never says otherwise.
 
 use super::built_in;
+use crate::finite_traps::judged;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::builtin;
-use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, Mode, StateId};
+use ozols::model::mechanism::{Mode, StateId};
 use ozols::rank::exact::field::field_of;
-use ozols::rank::exact::modular;
 use ozols::rank::finite::displacement_group::{Kind, whole_group};
-use ozols::rank::finite::{Finite, How, Proof, finite, followed};
+use ozols::rank::finite::{Finite, How, Proof, followed};
 use std::fmt::Write;
-
-fn judged(m: &Mechanism) -> (usize, Finite) {
-    let exact = field_of(m, StateId::FREE, 0).unwrap();
-    let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
-    let rank = modular::rank(&exact, &closure);
-    let found = finite(&exact, m, &closure, rank).unwrap();
-    (closure.columns.len() - rank, found)
-}
 
 fn proof(name: &str) -> Option<Proof> {
     match judged(&built_in(name)).1 {
