@@ -7,7 +7,8 @@ use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::{Disc, End, Feed, Latch};
 use ozols::model::drive::Step;
 
-fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
+/// Two discs on a latch at 0.8 rad, fed over the whole way.
+fn drive(inertias: [f64; 2], viscous: f64, coulomb: f64, capture: f64, feed: f64) -> Module {
     let disc = |inertia| Disc {
         inertia,
         stiffness: 14.0,
@@ -15,16 +16,17 @@ fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
         coulomb,
     };
     Module {
-        discs: [disc(0.23), disc(0.11)],
-        latch: Latch {
-            at: 0.8,
-            capture: 0.02,
-        },
+        discs: inertias.map(disc),
+        latch: Latch { at: 0.8, capture },
         feed: Feed {
             energy: feed,
             from: 0.0,
         },
     }
+}
+
+fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
+    drive([0.23, 0.11], viscous, coulomb, 0.02, feed)
 }
 
 /// [Klyuchkovskyi 1999]: discs that take turns both step on the same way by 2φ0; one disc goes to and fro.

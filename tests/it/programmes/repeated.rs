@@ -1,10 +1,11 @@
 //! The long run of a programme repeated as it is written, against a plain integrator that runs it round after round.
 
+use super::drive;
 use crate::common::near;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::drive::programme::{Endurance, Module};
-use ozols::drive::swing::{Disc, Feed, Latch};
+use ozols::drive::swing::Feed;
 use ozols::model::drive::Step;
 
 /// Discs in absolute angles, with grooves and cams cut where they are: what is left of the drive when formulas are.
@@ -101,23 +102,6 @@ fn latched(drive: &Module, discs: &[usize], most: usize) -> (usize, bool, f64) {
         }
     }
     (most, false, margin)
-}
-
-fn drive(inertias: [f64; 2], viscous: f64, coulomb: f64, capture: f64, feed: f64) -> Module {
-    let disc = |inertia| Disc {
-        inertia,
-        stiffness: 14.0,
-        viscous,
-        coulomb,
-    };
-    Module {
-        discs: inertias.map(disc),
-        latch: Latch { at: 0.8, capture },
-        feed: Feed {
-            energy: feed,
-            from: 0.0,
-        },
-    }
 }
 
 /// Random drives and programmes: what is said to fail fails at that very swing, and what is said to last is latched for
