@@ -112,7 +112,6 @@ fn by_diagram(
     }
     let judge = |choices: &[usize]| Ok::<_, RunError>(looked::by_diagram(&outcome, choices));
     let judged = looked::judge_all(&truth.looked, judge)?;
-    let counts = || truth.counts_right(&looked::cells_of_counts(&outcome));
     let mut record = Record {
         way,
         counting: None,
@@ -131,7 +130,7 @@ fn by_diagram(
             ..request.clone()
         };
         record.counting = Some(watch.time(|| listed(&unranked, &request)).1);
-        record.counts = counts();
+        record.counts = truth.counts_right(&looked::cells_of_counts(&outcome));
     }
     Ok(Some(record))
 }

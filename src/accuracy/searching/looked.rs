@@ -7,7 +7,6 @@ use crate::search::answer::count_tables::Key;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute;
 use crate::search::check::brute::Seen;
-use crate::search::question::space::Variable;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
@@ -65,19 +64,44 @@ pub(super) fn judge_all<E: Send>(
     variants.par_iter().map(|v| judge(v)).collect()
 }
 
-/// Every variant of a space, the choices of the first variable changing fastest; `None` where there are more than `most`.
-pub(super) fn every(search: &Search, most: usize) -> Option<Vec<Vec<usize>>> {
-    let size = search.size().to_usize().filter(|n| *n <= most)?;
-    let variables = &search.space.variables;
-    let variant = |mut n: usize| {
-        let digit = |v: &Variable| {
-            let choice = n % v.choices.len();
-            n /= v.choices.len();
+/// Every choice of some variables by how many each has, those of the first changing fastest; `None` where there are more than
+/// `most`.
+fn through(radix: &[usize], most: usize) -> Option<Vec<Vec<usize>>> {
+    let all: BigUint = radix.iter().map(|&r| BigUint::from(r)).product();
+    let all = all.to_usize().filter(|n| *n <= most)?;
+    let one = |mut n: usize| {
+        let digit = |r: &usize| {
+            let choice = n % r;
+            n /= r;
             choice
         };
-        variables.iter().map(digit).collect()
+        radix.iter().map(digit).collect()
     };
-    Some((0..size).map(variant).collect())
+    Some((0..all).map(one).collect())
+}
+
+/// Choices of some variables drawn at random, each with the same chance.
+fn at_random(radix: &[usize], count: usize, seed: u64) -> Vec<Vec<usize>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut choice = |r: &usize| usize::try_from(random.next_u64() % *r as u64).unwrap_or(0);
+    let mut one = || radix.iter().map(&mut choice).collect();
+    (0..count).map(|_| one()).collect()
+}
+
+/// How many choices each variable of a space has.
+fn radix(search: &Search) -> Vec<usize> {
+    let variables = search.space.variables.iter();
+    variables.map(|v| v.choices.len()).collect()
+}
+
+/// Every variant of a space; `None` where there are more than `most`.
+pub(super) fn every(search: &Search, most: usize) -> Option<Vec<Vec<usize>>> {
+    through(&radix(search), most)
+}
+
+/// Variants drawn at random, each with the same chance.
+pub(super) fn drawn(search: &Search, count: usize, seed: u64) -> Vec<Vec<usize>> {
+    at_random(&radix(search), count, seed)
 }
 
 /// Beginnings of variants in an order of their variables, and how many there are: all, or some drawn at random, with no more
@@ -89,33 +113,15 @@ pub(super) fn beginnings(
 ) -> (Vec<Vec<usize>>, BigUint) {
     /// Of a large space so many branches are looked at.
     const SOME: usize = 64;
-    let choices = |v: &usize| search.space.variables[*v].choices.len();
-    let (mut length, mut below) = (order.len(), 1);
-    while length > 0 && below * choices(&order[length - 1]) * SOME <= most {
-        length -= 1;
-        below *= choices(&order[length]);
+    let all = radix(search);
+    let mut begun: Vec<usize> = order.iter().map(|&v| all[v]).collect();
+    let mut below = 1;
+    while let Some(last) = begun.pop_if(|last| below * *last * SOME <= most) {
+        below *= last;
     }
-    let begun = &order[..length];
-    let of: BigUint = begun.iter().map(|v| BigUint::from(choices(v))).product();
-    let every = of.to_usize().filter(|n| n * below <= most);
-    let mut random = ChaCha8Rng::seed_from_u64(1);
-    let one = |mut n: usize| -> Vec<usize> {
-        let mut digit = |v: &usize| {
-            let (choice, rest) = (n % choices(v), n / choices(v));
-            n = rest;
-            choice
-        };
-        begun.iter().map(&mut digit).collect()
-    };
-    let mut drawn = || -> Vec<usize> {
-        let mut choice =
-            |v: &usize| usize::try_from(random.next_u64() % choices(v) as u64).unwrap_or(0);
-        begun.iter().map(&mut choice).collect()
-    };
-    let some = match every {
-        Some(n) => (0..n).map(one).collect(),
-        None => (0..(most / below).max(1)).map(|_| drawn()).collect(),
-    };
+    let of = begun.iter().map(|&r| BigUint::from(r)).product();
+    let some = through(&begun, most / below)
+        .unwrap_or_else(|| at_random(&begun, (most / below).max(1), 1));
     (some, of)
 }
 

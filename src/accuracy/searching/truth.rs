@@ -12,8 +12,6 @@ use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute::Matrices;
 use crate::search::diagram::Stop;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
 
@@ -72,7 +70,7 @@ impl Truth {
             Some(all) => (all, None),
             None => {
                 let diagrams = search.build(&|| false, &mut |_| {});
-                let mut some = drawn(&search, effort.looked.div_ceil(2), request.seed);
+                let mut some = looked::drawn(&search, effort.looked.div_ceil(2), request.seed);
                 let good = search.sample(&diagrams, request.seed);
                 let good: Vec<_> = good.take(effort.looked / 2).collect();
                 some.extend(good.into_iter().map(|a| a.choices));
@@ -207,15 +205,4 @@ fn over(search: &Search, nth: usize) -> Result<Search, RunError> {
     let field = exact_field(&search.mechanism, nth)?;
     let conditions = search.conditions.clone();
     Ok(Search::new(field, search.mechanism.clone(), conditions)?)
-}
-
-/// Variants drawn at random, each with the same chance.
-fn drawn(search: &Search, count: usize, seed: u64) -> Vec<Vec<usize>> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut choice = |of: usize| usize::try_from(random.next_u64() % of as u64).unwrap_or(0);
-    let mut variant = || {
-        let variables = search.space.variables.iter();
-        variables.map(|v| choice(v.choices.len())).collect()
-    };
-    (0..count).map(|_| variant()).collect()
 }
