@@ -99,16 +99,15 @@ impl<'o> Whys<'o> {
         self.side.is_some()
     }
 
-    /// Why each of some redesigns helps.
+    /// What says why redesigns help, one after another.
     ///
     /// # Complexity
     /// That of analysing a stroke under the loads, once; then O((6k)²·f) for each redesign and pose.
-    #[must_use]
-    pub fn of(&self, redesigns: &[&Assignment]) -> Vec<Why> {
+    pub fn teller(&self) -> impl FnMut(&Assignment) -> Why + '_ {
         let search = self.side.as_ref().unwrap_or(&self.outcome.search);
         let evaluator = Evaluator::new(search, ClearanceSum::default()).ok();
         let mut scratch = Scratch::default();
-        let mut one = |v: &Assignment| {
+        move |v| {
             let scores = evaluator.as_ref().map(|e| e.scores(v, &mut scratch));
             let known = scores.and_then(Result::ok).filter(|s| !s.minimum_norm);
             let peaks = known.map(|s| [s.force, s.moment]);
@@ -116,8 +115,7 @@ impl<'o> Whys<'o> {
                 peaks,
                 ..self.unloaded(v)
             }
-        };
-        redesigns.iter().map(|v| one(v)).collect()
+        }
     }
 
     /// All but what joints bear.

@@ -3,36 +3,32 @@
 use crate::score::outcome::Outcome;
 use crate::score::variant::Variant;
 use crate::score::variants::Variants;
+use crate::score::why::Whys;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::diagram::Stop;
 use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
 use crate::view::search::variant::VariantData;
-use crate::view::search::why::{self, WhyData};
+use crate::view::search::why;
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io::{self, Write};
 
-/// Tells each variant of a list with its data until that fails; ideas with why they help, for which the whole list is made first.
+/// Tells each variant of a list with its data until that fails; ideas with why they help.
 ///
 /// # Errors
 /// Where telling fails.
 pub fn each<'a, E>(
     outcome: &Outcome,
-    variants: impl Iterator<Item = Variant<'a>>,
+    mut variants: impl Iterator<Item = Variant<'a>>,
     mut tell: impl FnMut(&Variant<'a>, VariantData<'_>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut one =
-        |v: &Variant<'a>, why: Option<WhyData>| tell(v, VariantData::new(outcome, v).because(why));
-    if !outcome.request.distinct {
-        return variants.into_iter().try_for_each(|v| one(&v, None));
-    }
-    let ideas: Vec<Variant<'a>> = variants.collect();
-    let shown: Vec<_> = ideas.iter().map(Variant::assignment).collect();
-    let whys = why::data(outcome, &shown).into_iter();
-    ideas
-        .iter()
-        .zip(whys)
-        .try_for_each(|(v, why)| one(v, Some(why)))
+    let whys = outcome.request.distinct.then(|| Whys::new(outcome));
+    let whys = whys.as_ref();
+    let mut why = whys.map(|w| why::teller(w, &outcome.search.mechanism));
+    variants.try_for_each(|v| {
+        let because = why.as_mut().map(|why| why(v.assignment()));
+        tell(&v, VariantData::new(outcome, &v).because(because))
+    })
 }
 
 /// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a

@@ -56,22 +56,27 @@ struct PeakData {
     utilisation: f64,
 }
 
-/// Why each of some ideas helps.
-pub(in crate::view) fn data(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<WhyData> {
-    let (m, whys) = (&outcome.search.mechanism, Whys::new(outcome));
+/// What says why ideas help, one after another.
+pub(in crate::view) fn teller<'w>(
+    whys: &'w Whys<'_>,
+    m: &'w Mechanism,
+) -> impl FnMut(&Assignment) -> WhyData + 'w {
     let words = PairWords::builtin();
     let under = match whys.is_side_load() {
         true => format!("{SIDE_LOAD} N on each output, along its hinge"),
         false => "the loads of the file".to_owned(),
     };
-    let one = |w: &Why| WhyData {
-        lets: w.lets.iter().map(|l| LetData::new(m, l, &words)).collect(),
-        stays: ids(m, w.drives.iter().chain(&w.pivots)),
-        under: w.peaks.map(|_| under.clone()),
-        peak_force: w.peaks.map(|[force, _]| PeakData::new(m, &force)),
-        peak_moment: w.peaks.map(|[_, moment]| PeakData::new(m, &moment)),
-    };
-    whys.of(ideas).iter().map(one).collect()
+    let mut why = whys.teller();
+    move |idea| {
+        let w: Why = why(idea);
+        WhyData {
+            lets: w.lets.iter().map(|l| LetData::new(m, l, &words)).collect(),
+            stays: ids(m, w.drives.iter().chain(&w.pivots)),
+            under: w.peaks.map(|_| under.clone()),
+            peak_force: w.peaks.map(|[force, _]| PeakData::new(m, &force)),
+            peak_moment: w.peaks.map(|[_, moment]| PeakData::new(m, &moment)),
+        }
+    }
 }
 
 fn ids<'a>(m: &Mechanism, joints: impl IntoIterator<Item = &'a JointId>) -> Vec<String> {
@@ -144,8 +149,10 @@ fn motions(l: &LetGo) -> String {
 
 /// The first ideas with what each lets go, its hardware, what was redundant there, what stays, and what joints bear.
 pub(in crate::view) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
-    let ideas = &ideas[..ideas.len().min(TOLD)];
-    let all = data(outcome, ideas).into_iter().enumerate();
+    let whys = Whys::new(outcome);
+    let why = teller(&whys, &outcome.search.mechanism);
+    let first = ideas.iter().take(TOLD).copied();
+    let all = first.map(why).enumerate();
     all.filter(|(_, w)| !w.lets.is_empty())
         .map(|(i, w)| w.lines(i + 1))
         .collect()
