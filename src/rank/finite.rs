@@ -2,6 +2,7 @@
 
 pub mod at_rest;
 pub mod bonds;
+mod contours;
 pub mod coordinates;
 pub mod displacement_group;
 pub mod higher_order;
@@ -9,8 +10,10 @@ pub mod independent_parts;
 pub mod local_dimension;
 mod mobility;
 mod multiplicity;
+mod never_stopped;
 pub(in crate::rank) mod power_series;
 mod regular;
+mod singular;
 pub(in crate::rank) mod tangent_cone;
 
 use crate::closure::matrix::Closure;
@@ -22,8 +25,8 @@ use crate::motion::pose::Pose;
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::coordinates::{Coordinates, is_less};
-use crate::rank::finite::higher_order::HigherOrder;
 use crate::rank::finite::local_dimension::Traced;
+use crate::rank::finite::never_stopped::Expanded;
 use crate::rank::finite::regular::{by_ranks, regular};
 use crate::rank::numeric::scaling::{rank_of_values, scaled};
 use ozols_dense::singular_values;
@@ -40,8 +43,6 @@ const COARSE: f64 = 2e-9;
 const COARSE_ALONE: f64 = 1e-5;
 /// Singular values of parts below this share of the largest are zero: their geometry was moved until they were.
 const SEPARATE: f64 = 1e-9;
-/// The highest order that a motion is expanded to.
-const HIGHEST: usize = 600;
 /// Orders up to which coordinates may begin to move for following to be believed.
 const SEEN: usize = 8;
 /// Closings at most.
@@ -145,12 +146,9 @@ fn exactly(
     pose: &Pose,
 ) -> Result<Finite, ExactError> {
     let instantaneous = closure.columns.len() - rank;
-    let series = HigherOrder::new(exact, mechanism, closure, pose, rank)?;
-    let isolated = |m: usize| series.as_ref().and_then(|s| s.isolated(m));
-    let bound = multiplicity::bound(exact, mechanism, closure, instantaneous)?
-        .filter(|&order| order <= HIGHEST);
-    let order = bound.unwrap_or(0).max(higher_order::ORDER);
-    let line = series.as_ref().map(|s| s.line(order));
+    let expanded = Expanded::new(exact, mechanism, closure, pose, rank)?;
+    let (series, line) = (expanded.series.as_ref(), expanded.line);
+    let isolated = |m: usize| series.and_then(|s| s.isolated(m));
     let stopped = line.and_then(|l| l.stopped);
     let proven = |order| {
         Finite::new(
@@ -164,11 +162,14 @@ fn exactly(
     if let (1, Some(order)) = (instantaneous, stopped) {
         return Ok(proven(order));
     }
-    if let (Some(line), Some(bound)) = (line, bound)
-        && line.stopped.is_none()
-        && line.order >= bound
-    {
-        let by = Proof::Multiplicity;
+    let by = if expanded.is_never_stopped() {
+        Some(Proof::Multiplicity)
+    } else if stopped.is_none() && contours::are_apart(exact, mechanism, closure, rank)? {
+        Some(Proof::Contours)
+    } else {
+        None
+    };
+    if let Some(by) = by {
         return Ok(Finite::new(
             instantaneous,
             How::Submersion {
@@ -176,6 +177,12 @@ fn exactly(
                 by,
             },
         ));
+    }
+    if let (Some(series), Some(order)) = (series, stopped)
+        && let Some(found) =
+            singular::passed(exact, mechanism, closure, rank, (pose, series, order))?
+    {
+        return Ok(found);
     }
     // Not everything that moves at first order moves, where series stop it in a random direction.
     let shaky = stopped.is_some();

@@ -1,7 +1,7 @@
 //! Finite mobility where it is hard to tell: right or undecided, never wrong and sure.
 
 #[path = "traps/all.rs"]
-mod all;
+pub(crate) mod all;
 #[path = "traps/beyond_doubles.rs"]
 mod beyond_doubles;
 

@@ -3,7 +3,7 @@
 //! A seeded part of the cases by default; all of them, with the table of the guide, by
 //! `OZOLS_ROUNDED=all cargo test --test integration rounded::table -- --nocapture`.
 
-mod cases;
+pub(crate) mod cases;
 mod digits;
 mod law;
 mod program;

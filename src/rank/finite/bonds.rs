@@ -6,6 +6,11 @@
 //! chain. Two such joints side by side let the links move in the common part of their groups, again a group. Both steps are
 //! exact, so that a mechanism that comes down to single joints has a manifold of closed poses whose dimension is counted on
 //! the way: Sarrus' linkage is two planes that have a direction in common [Hervé 1978, "mechanical bonds"].
+//!
+//! Two equal bars side by side on parallel hinges let the links they join move on a circle without turning: no group, but within
+//! that of the slides in a plane, and a leg with such slides is a group again. And where no instantaneous motion uses more of a
+//! group than a subgroup, it is held to that: legs of a robot that turns about z alone may be able to turn otherwise, and do not.
+//! What then moves is a lower bound.
 
 use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -15,13 +20,39 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{LinkId, Mechanism, Mode};
 use crate::rank::finite::displacement_group::{bracket, spatial_twists};
 
+mod narrow;
+mod parallelogram;
+
 type Twist = Vec<Residue>;
 
-/// Joints in series between two links, each free to move in the group that its twists span.
+/// What passes for a joint: a manifold of displacements.
+#[derive(Debug, Clone)]
+struct Part {
+    /// Its twists in this pose, a basis.
+    span: Vec<Twist>,
+    /// A basis of the algebra of a group that holds all its displacements.
+    within: Vec<Twist>,
+}
+
+impl Part {
+    /// All displacements of a group.
+    fn group(basis: Vec<Twist>) -> Part {
+        Part {
+            span: basis.clone(),
+            within: basis,
+        }
+    }
+
+    fn is_group(&self) -> bool {
+        self.span.len() == self.within.len()
+    }
+}
+
+/// Parts in series between two links.
 #[derive(Debug, Clone)]
 struct Chain {
     ends: [LinkId; 2],
-    groups: Vec<Vec<Twist>>,
+    parts: Vec<Part>,
 }
 
 impl Chain {
@@ -31,7 +62,7 @@ impl Chain {
 
     fn reversed(mut self) -> Chain {
         self.ends.reverse();
-        self.groups.reverse();
+        self.parts.reverse();
         self
     }
 }
@@ -62,7 +93,10 @@ pub fn mobility(
         passed.sort_by_key(|(f, _)| f.slides() == slot);
         chains.push(Chain {
             ends: mechanism.joints[j].links,
-            groups: passed.into_iter().map(|(_, t)| vec![t]).collect(),
+            parts: passed
+                .into_iter()
+                .map(|(_, t)| Part::group(vec![t]))
+                .collect(),
         });
     }
     let mut bonds = Bonds {
@@ -71,7 +105,13 @@ pub fn mobility(
         mobility: 0,
     };
     let links: Vec<LinkId> = mechanism.link_ids().collect();
-    while bonds.join(&links) || bonds.merge() || bonds.close() || bonds.side_by_side() {}
+    while bonds.join(&links)
+        || bonds.parallelogram()
+        || bonds.merge()
+        || bonds.close()
+        || bonds.side_by_side()
+        || bonds.narrow()
+    {}
     Ok(bonds.chains.is_empty().then_some(bonds.mobility))
 }
 
@@ -95,17 +135,17 @@ impl Bonds<'_> {
             match at[..] {
                 [c] => {
                     let loose = self.chains.remove(c);
-                    self.mobility += loose.groups.iter().map(Vec::len).sum::<usize>();
+                    self.mobility += loose.parts.iter().map(|p| p.span.len()).sum::<usize>();
                     return true;
                 }
                 [a, b] => {
                     let to = |c: Chain| if c.ends[1] == link { c } else { c.reversed() };
                     let second = to(self.chains.remove(b)).reversed();
                     let first = to(self.chains.remove(a));
-                    let groups = first.groups.into_iter().chain(second.groups).collect();
+                    let parts = first.parts.into_iter().chain(second.parts).collect();
                     self.chains.push(Chain {
                         ends: [first.ends[0], second.ends[1]],
-                        groups,
+                        parts,
                     });
                     return true;
                 }
@@ -119,22 +159,23 @@ impl Bonds<'_> {
     fn merge(&mut self) -> bool {
         for c in 0..self.chains.len() {
             let chain = &self.chains[c];
-            let (n, closed) = (chain.groups.len(), chain.is_closed());
+            let (n, closed) = (chain.parts.len(), chain.is_closed());
             for length in (2..=n.saturating_sub(usize::from(closed))).rev() {
                 for from in 0..if closed { n } else { n + 1 - length } {
-                    let mut turned = chain.groups.clone();
+                    let mut turned = chain.parts.clone();
                     turned.rotate_left(from);
                     let (part, rest) = turned.split_at(length);
                     let Some(group) = self.spanned(part) else {
                         continue;
                     };
-                    self.mobility += part.iter().map(Vec::len).sum::<usize>() - group.len();
-                    let mut groups = vec![group];
-                    groups.extend_from_slice(rest);
+                    let all: usize = part.iter().map(|p| p.span.len()).sum();
+                    self.mobility += all - group.len();
+                    let mut parts = vec![Part::group(group)];
+                    parts.extend_from_slice(rest);
                     if !closed {
-                        groups.rotate_right(from);
+                        parts.rotate_right(from);
                     }
-                    self.chains[c].groups = groups;
+                    self.chains[c].parts = parts;
                     return true;
                 }
             }
@@ -144,23 +185,22 @@ impl Bonds<'_> {
 
     /// A closed chain of two groups moves in what they have in common, one of a single group not at all.
     fn close(&mut self) -> bool {
-        let Some(c) = self
-            .chains
-            .iter()
-            .position(|c| c.is_closed() && c.groups.len() <= 2)
-        else {
+        let Some(c) = self.chains.iter().position(|c| {
+            c.is_closed() && c.parts.len() <= 2 && c.parts.iter().all(Part::is_group)
+        }) else {
             return false;
         };
         let chain = self.chains.remove(c);
-        if let [a, b] = &chain.groups[..] {
-            self.mobility += common(self.exact, a, b).len();
+        if let [a, b] = &chain.parts[..] {
+            self.mobility += common(self.exact, &a.span, &b.span).len();
         }
         true
     }
 
     /// Two single groups between the same links let them move in what they have in common.
     fn side_by_side(&mut self) -> bool {
-        let single = |c: &Chain| c.groups.len() <= 1 && !c.is_closed();
+        let single =
+            |c: &Chain| c.parts.len() <= 1 && !c.is_closed() && c.parts.iter().all(Part::is_group);
         for b in 0..self.chains.len() {
             for a in 0..b {
                 let (x, y) = (&self.chains[a], &self.chains[b]);
@@ -168,11 +208,11 @@ impl Bonds<'_> {
                 if !(alike && single(x) && single(y)) {
                     continue;
                 }
-                let groups = match (&x.groups[..], &y.groups[..]) {
-                    ([a], [b]) => vec![common(self.exact, a, b)],
+                let parts = match (&x.parts[..], &y.parts[..]) {
+                    ([a], [b]) => vec![Part::group(common(self.exact, &a.span, &b.span))],
                     _ => Vec::new(),
                 };
-                self.chains[a].groups = groups;
+                self.chains[a].parts = parts;
                 self.chains.remove(b);
                 return true;
             }
@@ -180,25 +220,28 @@ impl Bonds<'_> {
         false
     }
 
-    /// The algebra that some groups span together, where that is one.
-    fn spanned(&self, groups: &[Vec<Twist>]) -> Option<Vec<Twist>> {
+    /// The algebra that some parts span together, where that is one and holds all they do.
+    fn spanned(&self, parts: &[Part]) -> Option<Vec<Twist>> {
         let mut span = Echelon::new(self.exact.field());
         let mut basis: Vec<&Twist> = Vec::new();
-        for t in groups.iter().flatten() {
+        for t in parts.iter().flat_map(|p| &p.span) {
             if span.insert(t) {
                 basis.push(t);
             }
         }
-        let closed = |(i, a): (usize, &&Twist)| {
-            basis[..i]
-                .iter()
-                .all(|b| span.contains(&bracket(self.exact, a, b)))
-        };
-        basis
-            .iter()
-            .enumerate()
-            .all(closed)
-            .then(|| basis.into_iter().cloned().collect())
+        let inside = |p: &Part| p.within.iter().all(|t| span.contains(t));
+        let group = parts.iter().all(inside) && self.is_algebra(&basis);
+        group.then(|| basis.into_iter().cloned().collect())
+    }
+
+    /// Whether some independent twists span an algebra.
+    fn is_algebra(&self, basis: &[&Twist]) -> bool {
+        let mut span = Echelon::new(self.exact.field());
+        basis.iter().all(|t| span.insert(t))
+            && basis.iter().enumerate().all(|(i, a)| {
+                let mut before = basis[..i].iter();
+                before.all(|b| span.contains(&bracket(self.exact, a, b)))
+            })
     }
 }
 

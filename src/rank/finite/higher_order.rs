@@ -191,14 +191,47 @@ impl HigherOrder {
     #[must_use]
     pub fn line(&self, order: usize) -> Line {
         let speeds: Vec<Residue> = self.subspace(1).iter().map(|q| q[1]).collect();
-        let solved = Solved {
+        line::line(&self.solved(), &speeds, None, order)
+    }
+
+    /// The same with free coordinates of these weights times t, and of further ones times t².
+    #[must_use]
+    pub(super) fn bent_line(&self, weights: &[Residue], bent: &[Residue], order: usize) -> Line {
+        let [speeds, bent] = [weights, bent].map(|w| self.speeds(w));
+        line::line(&self.solved(), &speeds, Some(&bent), order)
+    }
+
+    /// What the equations in the free coordinates are to second order at these weights.
+    #[must_use]
+    pub(super) fn second(&self, weights: &[Residue]) -> Vec<Residue> {
+        line::second(&self.solved(), &self.speeds(weights))
+    }
+
+    /// The field of its numbers, and how many free coordinates there are.
+    pub(super) fn free(&self) -> (Field, usize) {
+        (self.field, self.free.len())
+    }
+
+    fn solved(&self) -> Solved<'_> {
+        Solved {
             field: self.field,
             twists: &self.twists,
             walks: &self.walks,
             solve: &self.solve,
             pivots: &self.pivots,
-        };
-        line::line(&solved, &speeds, order)
+        }
+    }
+
+    /// Coordinates to first order where the free ones have these weights.
+    fn speeds(&self, weights: &[Residue]) -> Vec<Residue> {
+        let mut q = vec![0; self.twists.len()];
+        for ((c, speeds), &x) in self.free.iter().zip(weights) {
+            q[*c] = x;
+            for (&p, &s) in self.pivots.iter().zip(speeds) {
+                q[p] = self.field.add(q[p], self.field.mul(x, s));
+            }
+        }
+        q
     }
 
     /// Coordinates to first order in `m` variables that span a random subspace of the instantaneous motions.
@@ -212,20 +245,14 @@ impl HigherOrder {
             self.field
                 .from_i64((random.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 2) as i64)
         };
-        let f = self.twists.len();
-        let mut q: Vec<Vec<Residue>> = vec![vec![0; m + 1]; f];
-        for (c, speeds) in &self.free {
-            #[allow(
-                clippy::needless_range_loop,
-                reason = "several rows are filled at once"
-            )]
-            for v in 1..=m {
-                let x = any();
-                q[*c][v] = x;
-                for (&p, &s) in self.pivots.iter().zip(speeds) {
-                    q[p][v] = self.field.add(q[p][v], self.field.mul(x, s));
-                }
-            }
+        let weights: Vec<Vec<Residue>> = (0..self.free.len())
+            .map(|_| (0..m).map(|_| any()).collect())
+            .collect();
+        let mut q: Vec<Vec<Residue>> = vec![vec![0]; self.twists.len()];
+        for v in 0..m {
+            let along: Vec<Residue> = weights.iter().map(|w| w[v]).collect();
+            let speeds = self.speeds(&along);
+            q.iter_mut().zip(speeds).for_each(|(q, x)| q.push(x));
         }
         q
     }

@@ -9,8 +9,10 @@ pub enum Proof {
     Resting,
     /// Chains and legs come down to single joints, [`crate::rank::finite::bonds`].
     Bonds,
-    /// A contour is not stopped up to the order beyond which nothing can stop it.
+    /// What moves is not stopped up to the order beyond which nothing can stop it.
     Multiplicity,
+    /// So it is for each contour alone, and together they hold as much as one after the other.
+    Contours,
 }
 
 /// Why a finite mobility is what it is.
@@ -31,6 +33,11 @@ pub enum How {
         order: usize,
         /// How many instantaneous motions are none.
         motions: usize,
+    },
+    /// Motions of this dimension pass through a singular pose, and none of more. Proven.
+    Singular {
+        /// The order that tells.
+        order: usize,
     },
     /// Followed by Newton's method; numeric.
     Traced {
@@ -104,7 +111,7 @@ impl Finite {
         !self.numeric
             && matches!(
                 self.how,
-                How::Rigid | How::Submersion { .. } | How::Stopped { .. }
+                How::Rigid | How::Submersion { .. } | How::Stopped { .. } | How::Singular { .. }
             )
     }
 
@@ -155,6 +162,10 @@ impl Finite {
                     Proof::Multiplicity => {
                         "nothing stops it up to the order beyond which nothing can".to_owned()
                     }
+                    Proof::Contours => {
+                        "each contour moves as it does at first order, and none holds what others hold"
+                            .to_owned()
+                    }
                 };
                 format!("{why}, so this pose is a regular one")
             }
@@ -163,13 +174,12 @@ impl Finite {
                     1 => "the one instantaneous motion is",
                     _ => "the instantaneous motions left out are",
                 };
-                let order = match order {
-                    2 => "second order".to_owned(),
-                    3 => "third order".to_owned(),
-                    n => format!("order {n}"),
-                };
-                format!("{what} stopped by {order} (a shaky pose)")
+                format!("{what} stopped by {} (a shaky pose)", in_words(order))
             }
+            How::Singular { order } => format!(
+                "to {} it passes through this singular pose, and nothing of more freedoms does",
+                in_words(order)
+            ),
             How::Traced { poses, regular } => format!(
                 "followed numerically through {poses} poses; {}",
                 if regular {
@@ -193,7 +203,9 @@ impl Finite {
         match self.how {
             How::Rigid if self.numeric => format!("{line}, by the numeric rank"),
             _ if self.numeric => format!("by the numeric rank: {line}"),
-            How::Submersion { .. } | How::Stopped { .. } => format!("proven: {line}"),
+            How::Submersion { .. } | How::Stopped { .. } | How::Singular { .. } => {
+                format!("proven: {line}")
+            }
             _ => line,
         }
     }
@@ -208,7 +220,9 @@ impl Finite {
                 Proof::Groups | Proof::Resting => "submersion",
                 Proof::Bonds => "bonds",
                 Proof::Multiplicity => "multiplicity",
+                Proof::Contours => "contours",
             },
+            How::Singular { .. } => "singular",
             How::Stopped { order: 2, .. } => "second-order",
             How::Stopped { .. } => "higher-order",
             How::Traced { .. } => "traced",
@@ -219,7 +233,7 @@ impl Finite {
 
     /// The finite mobility of two independent parts, or of a part and its idle freedoms.
     pub(super) fn and(self, other: Finite) -> Finite {
-        use How::{Bound, Rigid, Rounded, Stopped, Submersion, Traced, Undecided};
+        use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
         let how = match (self.how, other.how) {
             (Rounded { .. }, _) | (_, Rounded { .. }) => Rounded {
                 to: self.at_most() + other.at_most(),
@@ -252,12 +266,16 @@ impl Finite {
                 poses: poses + more,
                 regular: regular && too,
             },
-            (Traced { poses, .. }, Stopped { .. }) | (Stopped { .. }, Traced { poses, .. }) => {
-                Traced {
-                    poses,
-                    regular: false,
-                }
-            }
+            (Traced { poses, .. }, Stopped { .. } | Singular { .. })
+            | (Stopped { .. } | Singular { .. }, Traced { poses, .. }) => Traced {
+                poses,
+                regular: false,
+            },
+            (Singular { order }, Singular { order: other }) => Singular {
+                order: order.max(other),
+            },
+            (how @ Singular { .. }, Submersion { .. } | Stopped { .. })
+            | (Submersion { .. } | Stopped { .. }, how @ Singular { .. }) => how,
             (how @ Traced { .. }, Submersion { .. }) | (Submersion { .. }, how @ Traced { .. }) => {
                 how
             }
@@ -279,5 +297,13 @@ impl Finite {
             how,
             numeric: self.numeric || other.numeric,
         }
+    }
+}
+
+fn in_words(order: usize) -> String {
+    match order {
+        2 => "second order".to_owned(),
+        3 => "third order".to_owned(),
+        n => format!("order {n}"),
     }
 }

@@ -5,6 +5,16 @@
 //! order is never stopped, and every instantaneous motion is one. Coefficients are known modulo a prime near 2^61: one that is 0
 //! there is 0 but for a chance of some 10^-18. All bundles here are globally generated, so that what else solves the equations
 //! does not count [Fulton 1984, "Intersection Theory", theorem 12.3].
+//!
+//! With t = tan θ/2 of each hinge, and each slide as it is, the displacement along an arc is a dual quaternion linear in every t,
+//! and a contour, cut into two arcs, is closed where those of the arcs are proportional, A(s) μ = B(t) λ: equations of one line
+//! bundle over s, t and (λ : μ). With S and T the sums of the classes of the t of either arc, r + 1 of them meet in the class
+//! Σ S^i T^j over i + j = r; no t can be taken twice. Of every contour as many equations are taken as it adds to the rank, which
+//! leaves a curve once further freedoms are cut off; any other equation vanishes on it or has, at the pose, a zero of an order of at
+//! most what it and those taken allow. That is 4 for Bennett's linkage and 36 for six hinges.
+
+mod intersection;
+mod rods;
 
 use crate::closure::contour::Contour;
 use crate::closure::matrix::Closure;
@@ -12,11 +22,12 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{LinkId, Mechanism, Mode};
-use crate::rank::finite::displacement_group::{Kind, group_of};
+use crate::model::mechanism::Mechanism;
+use crate::rank::finite::displacement_group::group_dimension;
+use intersection::{Arcs, Class};
 
-/// Most links whose turns are counted in.
-const LINKS: usize = 14;
+/// Orders of the contours that are tried.
+const ORDERS: usize = 6;
 
 /// The order beyond which nothing stops a motion; none where that is not known.
 ///
@@ -24,151 +35,106 @@ const LINKS: usize = 14;
 /// Where a coordinate has no value in the field.
 ///
 /// # Complexity
-/// For pins in a plane O(2^n n) for n links; else nothing to speak of.
+/// Some eliminations of J, and products of classes with as many terms as sets of freedoms are open at a time.
 pub(super) fn bound(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
     instantaneous: usize,
 ) -> Result<Option<usize>, ExactError> {
-    if !closure.couplings.is_empty() {
+    let freedoms = closure.columns.len();
+    let screws = closure.columns.iter().any(|c| c.freedom == Freedom::Screw);
+    if screws || !closure.couplings.is_empty() || freedoms > intersection::MOST {
         return Ok(None);
     }
-    Ok(match one_contour(closure) {
-        None => pins_in_a_plane(exact, mechanism, closure, instantaneous)?,
-        bound => bound,
-    })
+    let arcs: Vec<Arcs> = closure.contours.iter().map(|c| arcs(closure, c)).collect();
+    if let Some(order) = rods::bound(exact, mechanism, closure, instantaneous)? {
+        return Ok(Some(order));
+    }
+    if let [alone] = &arcs[..] {
+        // All equations, also those that cut further freedoms off, are of the one bundle.
+        let inside = alone.count() == freedoms;
+        let class = inside.then(|| Class::one().times_all(alone, freedoms));
+        return Ok(class.flatten().and_then(|c| c.number(freedoms, 0)));
+    }
+    let mut dimensions = Vec::new();
+    for contour in &closure.contours {
+        dimensions.push(group_dimension(exact, mechanism, contour)?);
+    }
+    let columns = closure.dense(exact);
+    let all = arcs.len();
+    let mut least = None;
+    for first in 0..all.min(ORDERS) {
+        let order: Vec<usize> = (0..all).map(|i| (first + i) % all).collect();
+        let added = added_rank(exact, closure, &columns, &order);
+        let found = highest(
+            &arcs,
+            &dimensions,
+            &order,
+            &added,
+            freedoms,
+            instantaneous - 1,
+        );
+        least = [least, found].into_iter().flatten().min();
+    }
+    Ok(least)
 }
 
-/// A single contour of hinges and slides, cut into two arcs of a and b freedoms.
-///
-/// With t = tan θ/2 of each hinge, and each slide as it is, the displacement along an arc is a dual quaternion linear in every t,
-/// and the contour is closed where those of the arcs are proportional, A(s) μ = B(t) λ: eight equations of one line bundle over
-/// s, t and (λ : μ), whose self-intersection is a! b!. That is 4 for Bennett's linkage and 36 for six hinges.
-fn one_contour(closure: &Closure<Residue>) -> Option<usize> {
-    let [contour] = &closure.contours[..] else {
-        return None;
+/// A contour's columns, cut into two arcs.
+fn arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
+    let of = |joints: &[_]| {
+        let here = |c: &usize| {
+            let joint = closure.columns[*c].joint;
+            joints.iter().any(|&(j, _)| j == joint)
+        };
+        (0..closure.columns.len()).filter(here).collect()
     };
-    let inside = closure
-        .columns
-        .iter()
-        .all(|c| contour.direction(c.joint).is_some() && c.freedom != Freedom::Screw);
-    let n = closure.columns.len();
-    let factorial = |n: usize| (1..=n).try_fold(1usize, usize::checked_mul);
-    factorial(n / 2)?
-        .checked_mul(factorial(n.div_ceil(2))?)
-        .filter(|_| inside)
+    let (one, other) = contour.joints.split_at(contour.joints.len() / 2);
+    Arcs::new(of(one), of(other))
 }
 
-/// Contours of pins in a plane.
-///
-/// With z = e^iθ of each link, a contour closes where Σ a z = 0 and Σ ā / z = 0 over its links: two equations linear in each of
-/// its z. Of all of them some that are independent at the pose have a manifold of solutions, and each other one restricted to
-/// it vanishes there or has, at the pose, a zero of an order of at most the number of ways to give each equation a z of its own,
-/// a permanent. Further freedoms are cut off by equations of all z.
-fn pins_in_a_plane(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    instantaneous: usize,
-) -> Result<Option<usize>, ExactError> {
-    let single = closure.columns.windows(2).all(|c| c[0].joint != c[1].joint);
-    if !single || !closure.columns.iter().all(|c| c.freedom.turns()) {
-        return Ok(None);
-    }
-    let joints = closure.columns.iter().map(|c| c.joint);
-    let rows = match mechanism.mode {
-        Mode::Planar { .. } => closure.clone(),
-        Mode::Spatial => {
-            let group = group_of(exact, mechanism, joints)?;
-            if group.kind() != Kind::Planar {
-                return Ok(None);
-            }
-            group.rows_of(closure)
-        }
-    };
-    let mut links: Vec<LinkId> = rows.contours.iter().flat_map(|c| c.links.clone()).collect();
-    links.sort_unstable();
-    links.dedup();
-    // One link stands still, whichever.
-    let Some(n) = links.len().checked_sub(1).filter(|&n| n <= LINKS) else {
-        return Ok(None);
-    };
-    let of = |c: &Contour| {
-        let places = c
-            .links
-            .iter()
-            .filter_map(|l| links[..n].binary_search(l).ok());
-        places.fold(0u32, |set, p| set | 1 << p)
-    };
-    let sets: Vec<u32> = rows.contours.iter().map(of).collect();
-    let added = added_rank(exact, closure, &rows);
-    let mut system: Vec<u32> = Vec::new();
-    for (&set, &rank) in sets.iter().zip(&added) {
-        system.extend(std::iter::repeat_n(set, rank));
-    }
-    system.extend(std::iter::repeat_n((1 << n) - 1, instantaneous - 1));
-    if system.len() + 1 != n {
-        return Ok(None);
-    }
-    let left = sets.iter().zip(&added).filter(|(_, rank)| **rank < 2);
-    let bounds = left.map(|(&set, _)| permanent(&[&system[..], &[set]].concat(), n));
-    Ok(bounds.max())
-}
-
-/// What each contour in its turn adds to the rank, with its rows in the plane, once the angles of all are known to close.
+/// What each contour adds to the rank, taken in an order.
 fn added_rank(
     exact: &ExactField,
     closure: &Closure<Residue>,
-    rows: &Closure<Residue>,
+    columns: &[Vec<Residue>],
+    order: &[usize],
 ) -> Vec<usize> {
-    let row_of = |columns: &[Vec<Residue>], r: usize| -> Vec<Residue> {
-        columns.iter().map(|c| c[r]).collect()
-    };
-    // All turn about one direction, so that any component of it that is not 0 is the angle.
-    let first = closure.columns.first();
-    let turn = first.and_then(|c| c.twist.iter().position(|&x| x != 0));
     let mut span = Echelon::new(exact.field());
-    let (whole, plane) = (closure.dense(exact), rows.dense(exact));
-    for k in 0..closure.contours.len() {
-        span.insert(&row_of(&whole, closure.dim * k + turn.unwrap_or(0)));
-    }
-    let contours = 0..rows.contours.len();
-    let added = contours.map(|k| {
+    let mut added = vec![0; order.len()];
+    for &k in order {
         let before = span.rank();
-        for r in rows.dim * k..rows.dim * (k + 1) {
-            span.insert(&row_of(&plane, r));
+        for r in closure.dim * k..closure.dim * (k + 1) {
+            let row: Vec<Residue> = columns.iter().map(|c| c[r]).collect();
+            span.insert(&row);
         }
-        span.rank() - before
-    });
-    added.collect()
+        added[k] = span.rank() - before;
+    }
+    added
 }
 
-/// In how many ways each set can be given an element of its own, of as many as there are sets.
-fn permanent(sets: &[u32], n: usize) -> usize {
-    let mut ways = vec![0usize; 1 << n];
-    ways[0] = 1;
-    for taken in 0..1usize << n {
-        let Some(&set) = sets.get(taken.count_ones() as usize) else {
-            continue;
-        };
-        for p in (0..n).filter(|p| set >> p & 1 == 1 && taken >> p & 1 == 0) {
-            let with = taken | 1 << p;
-            ways[with] = ways[with].saturating_add(ways[taken]);
+/// The highest order that an equation can have which is not among those taken; `cut` freedoms are cut off by equations of all t.
+fn highest(
+    arcs: &[Arcs],
+    dimensions: &[usize],
+    order: &[usize],
+    added: &[usize],
+    freedoms: usize,
+    cut: usize,
+) -> Option<usize> {
+    let left = order.iter().filter(|&&k| added[k] < dimensions[k]);
+    let mut highest = Some(0);
+    for &more in left {
+        let mut class = Some(Class::one());
+        for (at, &k) in order.iter().enumerate() {
+            let later = order[at + 1..].iter().map(|&l| &arcs[l]);
+            let equations = added[k] + usize::from(k == more);
+            class = class
+                .and_then(|c| c.times_all(&arcs[k], equations))
+                .map(|c| c.without_lost(later, freedoms, cut));
         }
+        let number = class.and_then(|c| c.number(freedoms, cut));
+        highest = highest.zip(number).map(|(a, b)| a.max(b));
     }
-    ways[(1 << n) - 1]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::permanent;
-
-    #[test]
-    fn permanents_count_by_hand() {
-        // Three rods and a coupler: two contours of rod, coupler, rod.
-        assert_eq!(permanent(&[0b0111, 0b0111, 0b1110, 0b1110], 4), 8);
-        assert_eq!(permanent(&[0b111; 3], 3), 6);
-        assert_eq!(permanent(&[0b001, 0b001, 0b110], 3), 0);
-    }
+    highest
 }

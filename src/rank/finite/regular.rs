@@ -20,16 +20,26 @@ pub(super) fn by_ranks(
     if instantaneous == 0 {
         return Ok(Some(Finite::new(0, How::Rigid)));
     }
-    // Couplings are linear in the joints' coordinates, so those that depend on others do so all along the motion.
-    let mut dimension = displacement_group::coupling_rank(exact, closure);
-    for contour in &closure.contours {
-        dimension += displacement_group::group_dimension(exact, mechanism, contour)?;
-    }
+    let dimension = dimension(exact, mechanism, closure)?;
     let by = Proof::Groups;
     Ok((rank == dimension).then_some(Finite::new(
         instantaneous,
         How::Submersion { dimension, by },
     )))
+}
+
+/// Dimension of the groups that all contours move in, and of the couplings.
+pub(super) fn dimension(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Result<usize, ExactError> {
+    // Couplings are linear in the joints' coordinates, so those that depend on others do so all along the motion.
+    let mut dimension = displacement_group::coupling_rank(exact, closure);
+    for contour in &closure.contours {
+        dimension += displacement_group::group_dimension(exact, mechanism, contour)?;
+    }
+    Ok(dimension)
 }
 
 /// As [`by_ranks`], also with what rests at first order locked, and with chains and legs taken for single joints.

@@ -12,6 +12,9 @@ const DIFFERENCE: f64 = 1e-4;
 /// Values of a form, relative to the largest coefficient, that count as zero.
 const ZERO: f64 = 1e-6;
 
+/// Gradients of forms of size 1 that are clearly not zero.
+const CLEAR: f64 = 1e-2;
+
 /// Singular values in this range are too near to zero to be told from it.
 const UNCLEAR: std::ops::Range<f64> = 1e-9..1e-6;
 
@@ -178,6 +181,11 @@ impl Quadrics {
 
     /// Dimension that the cone can have at a zero: how many directions change no form.
     fn nullity(&self, x: &[f64]) -> usize {
+        self.nullity_above(x, 1e-3)
+    }
+
+    /// How many directions change no form, gradients below `floor` being none.
+    fn nullity_above(&self, x: &[f64], floor: f64) -> usize {
         let n = self.motions;
         if self.forms.is_empty() {
             return n;
@@ -185,7 +193,15 @@ impl Quadrics {
         let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| Self::times(q, x)).collect();
         let matrix = Matrix::from_fn(gradients.len(), n, |i, j| gradients[i][j]);
         let values = singular_values(&matrix).unwrap_or_default();
-        n - values.iter().filter(|&&s| s > 1e-3).count()
+        n - values.iter().filter(|&&s| s > floor).count()
+    }
+
+    /// Whether there are this many forms, and their gradients at one of the zeros are clearly independent. Then the exact forms
+    /// have a zero near by, where they are independent, too [Kantorovich: the gap there is below 1e-6, and 2e-3 would do], and a
+    /// motion of as many freedoms as are left begins in its direction [Avakov 1985; Izmailov & Tretyakov 1994, "2-regular"].
+    pub(in crate::rank) fn cross(&self, forms: usize, zeros: &[Vec<f64>]) -> bool {
+        let independent = |x: &Vec<f64>| self.motions - self.nullity_above(x, CLEAR) == forms;
+        self.forms.len() == forms && zeros.iter().any(independent)
     }
 
     /// The largest dimension of the cone at the zeros found.

@@ -177,13 +177,21 @@ pub struct Line {
     pub order: usize,
     /// The order by which all coordinates have begun to move that ever do up to that order.
     pub begun: usize,
+    /// What stops it: the gap in the first equation that has one, times that power of t.
+    pub value: Residue,
 }
 
-/// A motion that begins with these speeds, J x = 0, expanded until it is stopped, to an order or as far as the work allows.
+/// A motion that begins with these speeds, J x = 0, expanded until it is stopped, to an order or as far as the work allows; the free
+/// coordinates are speed times t and `bent`, likewise J x = 0, times t².
 ///
 /// # Complexity
 /// 12 D² products for each freedom that a contour passes, up to order D.
-pub(super) fn line(of: &Solved<'_>, speeds: &[Residue], order: usize) -> Line {
+pub(super) fn line(
+    of: &Solved<'_>,
+    speeds: &[Residue],
+    bent: Option<&[Residue]>,
+    order: usize,
+) -> Line {
     let f = of.field;
     let mut walks = at_rest(of);
     let passed: usize = walks.iter().map(Vec::len).sum();
@@ -193,6 +201,7 @@ pub(super) fn line(of: &Solved<'_>, speeds: &[Residue], order: usize) -> Line {
         stopped: None,
         order: 0,
         begun: 1,
+        value: 0,
     };
     for d in 1..=order {
         work += 30 * d * passed + of.solve.len() * of.solve.len();
@@ -200,7 +209,11 @@ pub(super) fn line(of: &Solved<'_>, speeds: &[Residue], order: usize) -> Line {
             return out;
         }
         out.order = d;
-        let gaps = pass(f, &mut walks, d, |c| if d == 1 { speeds[c] } else { 0 });
+        let gaps = pass(f, &mut walks, d, |c| match (d, bent) {
+            (1, _) => speeds[c],
+            (2, Some(bent)) => bent[c],
+            _ => 0,
+        });
         if d == 1 {
             continue;
         }
@@ -212,7 +225,7 @@ pub(super) fn line(of: &Solved<'_>, speeds: &[Residue], order: usize) -> Line {
             match of.pivots.get(i) {
                 Some(&p) => more[p] = f.neg(sum),
                 None if sum != 0 => {
-                    out.stopped = Some(d);
+                    (out.stopped, out.value) = (Some(d), sum);
                     return out;
                 }
                 None => {}
@@ -233,6 +246,20 @@ pub(super) fn line(of: &Solved<'_>, speeds: &[Residue], order: usize) -> Line {
         }
     }
     out
+}
+
+/// What the equations that J does not solve are to second order, for a motion that begins with these speeds.
+pub(super) fn second(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
+    let f = of.field;
+    let mut walks = at_rest(of);
+    pass(f, &mut walks, 1, |c| speeds[c]);
+    let gaps = pass(f, &mut walks, 2, |_| 0);
+    let left = of.solve[of.pivots.len()..].iter();
+    left.map(|row| {
+        let terms = row.iter().zip(&gaps);
+        terms.fold(0, |s, (&a, &g)| f.add(s, f.mul(a, g)))
+    })
+    .collect()
 }
 
 /// The contours before anything moves.
