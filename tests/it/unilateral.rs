@@ -184,6 +184,51 @@ fn a_part_that_is_twisted_needs_its_pressure() {
     }
 }
 
+/// By hand: the weight along the faces and the moment about the normal share the friction, (G/2)² + (M/2 : 2/3 r)² = (μN)².
+#[test]
+fn what_hangs_and_twists_needs_more_than_either() {
+    let content = between("[0, 0, -9.81]")
+        .replace("friction = 0.2", "friction = 0.2\nradius = 0.03")
+        + "[[workload.moment]]\nlink = \"part\"\nmoment = [0, 1.5, 0]\n";
+    let faces = solved(&content, &["--state", "clamped", "--unilateral"]);
+    for name in ["above", "below"] {
+        let c = contact(&faces, name);
+        assert_eq!(c["touch"], "pushes", "{c}");
+        let least = (9.81_f64 / 2.0).hypot(0.75 / (2.0 / 3.0 * 0.03)) / 0.2;
+        near(number(&c["normal"]), least, 1e-3);
+    }
+}
+
+/// Faces that a moment tips have less left for one about the normal: T ≤ 2/3 μ (rN - M), whatever else they bear.
+#[test]
+fn what_tips_and_twists_shares_the_face() {
+    let content = |tipping: &str| {
+        between("[0, -9.81, 0]").replace("friction = 0.2", "friction = 0.2\nradius = 0.03")
+            + &format!("[[workload.moment]]\nlink = \"part\"\nmoment = [{tipping}, 1.5, 0]\n")
+    };
+    let mut normals = Vec::new();
+    for tipping in ["0", "2", "6"] {
+        let faces = solved(&content(tipping), &["--state", "clamped", "--unilateral"]);
+        let all = faces["reactions"].as_array().unwrap();
+        let mut turned = 0.0;
+        for name in ["above", "below"] {
+            let c = contact(&faces, name);
+            assert_eq!(c["touch"], "pushes", "{c}");
+            let r = all.iter().find(|r| r["joint"] == name).unwrap();
+            let turn = number(&r["global_moment"][1]).abs();
+            let left = 0.03 * number(&c["normal"]) - number(&c["tilting"]);
+            assert!(turn <= 2.0 / 3.0 * 0.2 * left * (1.0 + 1e-5), "{turn} {c}");
+            turned += turn;
+            normals.push(number(&c["normal"]));
+        }
+        near(turned, 1.5, 1e-6);
+    }
+    assert!(
+        normals[4] > normals[0] && normals[5] > normals[1],
+        "{normals:?}"
+    );
+}
+
 /// The built-in gripper: with the forces that stand for the part left in the clamped state, its pads pulled with 54 N.
 #[test]
 fn the_gripper_no_longer_pulls_at_its_part() {

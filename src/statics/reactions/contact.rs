@@ -163,14 +163,20 @@ impl Contact {
         let (normal, along, tilting) = (w[5], w[3].hypot(w[4]), w[0].hypot(w[1]));
         let beyond =
             |value: f64, limit: Option<f64>| limit.is_some_and(|l| value > l * normal + least);
+        let turn = w[2].abs();
+        let rubbing = along.hypot(self.arm().map_or(0.0, |arm| turn / arm));
+        let twisted = self.friction.zip(self.arm()).zip(self.radius);
+        let turns = twisted.is_some_and(|((friction, arm), radius)| {
+            turn * radius > friction * arm * (radius * normal - tilting) + least
+        });
         let touch = if w.iter().all(|x| x.abs() <= least) {
             Touch::Idle
         } else if normal < -least {
             Touch::Pulls
-        } else if beyond(along, self.friction) || beyond(w[2].abs(), self.torsion()) {
-            Touch::Slips
         } else if beyond(tilting, self.radius) {
             Touch::Tilts
+        } else if beyond(rubbing, self.friction) || turns {
+            Touch::Slips
         } else {
             Touch::Pushes
         };
@@ -191,8 +197,11 @@ impl Contact {
         self.push
     }
 
-    /// Greatest moment about the normal over the normal force: that of even pressure on a round face, 2/3 μ r.
-    pub(crate) fn torsion(&self) -> Option<f64> {
-        Some(2.0 / 3.0 * self.friction? * self.radius?)
+    /// Arm at which friction resists a moment about the normal where nothing else loads the face: 2/3 r, that of even pressure on
+    /// a round one. With a force along the face the two lie on an ellipse [Howe & Cutkosky 1996]; where the pressure has its centre
+    /// aside, it is even on the round face of radius r - e about that, so that 2/3 μ (r N - M) is left for a tipping moment M.
+    pub(crate) fn arm(&self) -> Option<f64> {
+        self.friction?;
+        Some(2.0 / 3.0 * self.radius?)
     }
 }

@@ -1,8 +1,8 @@
 //! Reactions in which contacts only push: of all that are in equilibrium, those of minimum norm within the contacts' cones.
 //!
 //! The reactions are a particular solution plus any multiples of the self-stresses, so equilibrium is kept whatever the
-//! multiples. They are found by a second-order cone programme: a normal force is not negative, friction lies in its round
-//! cone, and the pressure has its centre on the face.
+//! multiples. They are found by a second-order cone programme: a normal force is not negative, friction and the moment about the
+//! normal lie in one elliptic cone, and that moment and tipping share the face (`contact`).
 
 use crate::statics::cone_programme::{ConeProgramme, Row};
 use crate::statics::reactions::contact::{Contact, Touch};
@@ -24,17 +24,32 @@ fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgr
         };
         value(&|w| w[normal], &mut out);
         out.within(NonnegativeConeT);
-        for (limit, from) in [(contact.friction, along), (contact.radius, tilt)] {
-            let Some(limit) = limit else { continue };
-            value(&|w| limit * w[normal], &mut out);
-            value(&|w| w[from], &mut out);
-            value(&|w| w[from + 1], &mut out);
+        let arm = contact.arm();
+        if let Some(friction) = contact.friction {
+            value(&|w| friction * w[normal], &mut out);
+            value(&|w| w[along], &mut out);
+            value(&|w| w[along + 1], &mut out);
+            if let Some(arm) = arm {
+                value(&|w| w[turn] / arm, &mut out);
+            }
             out.within(SecondOrderConeT);
         }
-        if let Some(limit) = contact.torsion() {
-            value(&|w| limit * w[normal] - w[turn], &mut out);
-            value(&|w| limit * w[normal] + w[turn], &mut out);
-            out.within(NonnegativeConeT);
+        if let Some(radius) = contact.radius {
+            // What turns either way takes its share of the face.
+            let share = match (contact.friction, arm) {
+                (Some(friction), Some(arm)) => radius / (friction * arm),
+                _ => 0.0,
+            };
+            for sign in if share > 0.0 {
+                &[1.0, -1.0][..]
+            } else {
+                &[1.0]
+            } {
+                value(&|w| radius * w[normal] - sign * share * w[turn], &mut out);
+                value(&|w| w[tilt], &mut out);
+                value(&|w| w[tilt + 1], &mut out);
+                out.within(SecondOrderConeT);
+            }
         }
     }
     out
