@@ -266,14 +266,14 @@ impl Variants<'_> {
             let (variant, place) = self.source.next()?;
             return Some((Certified::unasked(variant), place));
         }
+        let search = &self.outcome.search;
         let generic = self.outcome.request.generic_only;
         let size = if generic {
             self.room.clamp(16, CHECKED)
         } else {
-            CHECKED
+            singular_values::affordable(search)
         };
         let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
-        let search = &self.outcome.search;
         let certified =
             singular_values::certify(search, block, self.opinions, self.stroke, self.cancelled);
         self.ready = certified.into_iter().zip(places).collect_vec().into_iter();

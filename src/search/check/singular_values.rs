@@ -19,6 +19,21 @@ use std::collections::BTreeMap;
 
 /// Variants that get a second opinion by default.
 pub const CHECKED: usize = 1000;
+/// Products that all second opinions of a list may cost, one decomposition of m x n taken for m n min(m, n).
+const WORK: usize = 1_000_000_000;
+/// Variants that get one however large they are.
+const AT_LEAST: usize = 50;
+
+/// How many variants of a list get a second opinion: [`CHECKED`], and of large mechanisms fewer.
+#[must_use]
+pub fn affordable(question: &Question) -> usize {
+    let closure = Closure::new(&Reals, &question.mechanism, StateId::FREE);
+    let work = closure.map_or(1, |c| {
+        let (rows, columns) = (c.rows(), c.columns.len());
+        rows * columns * rows.min(columns)
+    });
+    (WORK / work.max(1)).clamp(AT_LEAST, CHECKED)
+}
 /// Variants whose conditioning is below this are nearly singular: small errors of manufacture may let them bind, or
 /// let them loose.
 pub const NEARLY_SINGULAR: f64 = 1e-4;
