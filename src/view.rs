@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod analysis;
 pub mod catalog;
 pub mod claims;
+pub mod contract;
 pub mod drive;
 pub mod grip;
 pub mod reactions;

@@ -391,8 +391,10 @@ fn strip(value: &mut serde_json::Value) {
     }
 }
 
-/// The JSON Schema of the file.
+/// The JSON Schema of the file, which its `$id` names with the number of the contract.
 #[must_use]
 pub fn json_schema() -> serde_json::Value {
-    schemars::schema_for!(MechanismFile).to_value()
+    let mut schema = schemars::schema_for!(MechanismFile);
+    schema.insert("$id".to_owned(), "urn:ozols:mechanism:1".into());
+    schema.to_value()
 }

@@ -89,7 +89,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                 write!(out, "{}", next_commands::text(&steps, width))?;
             }
             LintFormat::Json => output::json(out, &lint::json(&found, &others))?,
-            LintFormat::Sarif => output::json(out, &sarif::sarif(&found, &others))?,
+            LintFormat::Sarif => output::json_of_others(out, &sarif::sarif(&found, &others))?,
         }
         Ok(match found.iter().all(|l| l.is_clean()) {
             _ if failed => Done::Partly,

@@ -9,6 +9,7 @@ use crate::api;
 use crate::cli::terminal::spinner;
 use crate::file::problem::ImportError;
 use crate::format::plain::{coloured, plain};
+use crate::view::contract;
 use anyhow::Context;
 use standard::Standard;
 use std::io::{BufWriter, Write};
@@ -98,6 +99,14 @@ pub(in crate::cli) fn files(
 
 /// A value as JSON for people to read and programs to parse.
 pub(in crate::cli) fn json(
+    out: &mut dyn Write,
+    value: &impl serde::Serialize,
+) -> anyhow::Result<()> {
+    Ok(writeln!(out, "{}", contract::pretty(value)?)?)
+}
+
+/// The same without a number of ours: a format of others.
+pub(in crate::cli) fn json_of_others(
     out: &mut dyn Write,
     value: &impl serde::Serialize,
 ) -> anyhow::Result<()> {

@@ -6,6 +6,7 @@ use crate::score::variants::Variants;
 use crate::score::why::Whys;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::diagram::Stop;
+use crate::view::contract;
 use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
 use crate::view::search::variant::VariantData;
 use crate::view::search::why;
@@ -44,7 +45,7 @@ pub fn write(
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
-    let text = serde_json::to_string_pretty(&SearchData::new(outcome))?;
+    let text = contract::pretty(&SearchData::new(outcome))?;
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"variants\": [")?;
     each(outcome, variants.by_ref(), |v, data| -> io::Result<()> {
