@@ -90,8 +90,10 @@ class Outcome(Sequence[Variant]):
         return View(json.loads(self._native.counts()))
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON that the command prints, but for its last key, ``seconds``."""
+        """The JSON that the command prints, but for its first key, ``format``, and its last, ``seconds``."""
         data: dict[str, Any] = json.loads(self._native.data())
+        # The number of the contract of what is printed; the package has a version of its own.
+        del data["format"]
         return data
 
     def to_csv(self) -> str:
