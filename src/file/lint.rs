@@ -12,6 +12,7 @@ use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read, text_of};
 use crate::file::warning::{WarningKind, Warnings};
 use crate::format::number::significant;
+use crate::format::plain::turns;
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
 use crate::geom::vector::{length, real, sub};
@@ -79,6 +80,7 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     if m.name.trim().is_empty() {
         out.push((root("name"), WarningKind::NoName));
     }
+    ids(file, &mut out);
     lengths(file, m, &mut out);
     contours(m, &mut out);
     structure(file, m, &mut out);
@@ -87,6 +89,19 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     out.extend(doubted(file, m));
     workload(file, m, &mut out);
     out
+}
+
+/// Ids that are not read as they are written.
+fn ids(file: &MechanismFile, out: &mut Found) {
+    let links = file.link.iter().map(|l| l.id.as_str()).enumerate();
+    let joints = file.joint.iter().map(|j| j.id.as_str()).enumerate();
+    let all = links
+        .map(|(n, id)| ("link", n, id))
+        .chain(joints.map(|(n, id)| ("joint", n, id)));
+    for (list, n, id) in all.filter(|(_, _, id)| id.contains(turns)) {
+        let path = key(&index(&root(list), n), "id");
+        out.push((path, WarningKind::TurnsLetters { id: id.to_owned() }));
+    }
 }
 
 fn place(j: &Joint) -> [f64; 3] {

@@ -264,6 +264,9 @@ pub struct CouplingEntry {
     /// Rate of the second joint over that of the first, in radians and the file's length unit: "-1/2" for a pair of
     /// gears of 20 and 40 teeth, the pitch radius for a pinion and its rack.
     pub ratio: Coordinate,
+    /// Gears make it, or a rack and its pinion: it is drawn as their pitch circles. Anything else is drawn as a line.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub gear: bool,
 }
 
 /// A contour of the basis, by its joints in order.

@@ -19,6 +19,10 @@ pub enum WarningKind {
     #[error("the name is empty; give one, since every answer begins with it")]
     NoName,
     #[error(
+        "the id \"{id}\" has characters that turn the order of letters round; answers spell them out, and without them it reads as it is written"
+    )]
+    TurnsLetters { id: String },
+    #[error(
         "the joints are {across} m across, as lengths are metres where no unit stands; add length_unit = \"mm\" if they are millimetres"
     )]
     ForgottenUnit { across: String },

@@ -247,6 +247,7 @@ fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
     CouplingEntry {
         joints: [end(0), end(1)],
         ratio: ratio(&c.ratio),
+        gear: c.gear,
     }
 }
 

@@ -23,6 +23,8 @@ pub struct Coupling {
     pub ends: [CoupledFreedom; 2],
     /// The ratio; not zero.
     pub ratio: Expr,
+    /// Whether gears make it, or a rack and its pinion, so that it can be drawn as their pitch circles.
+    pub gear: bool,
 }
 
 impl Coupling {

@@ -20,6 +20,8 @@ pub(crate) struct Usable {
     pub(super) ratio: f64,
     /// The element that says so.
     pub(super) said_by: usize,
+    /// Whether it says that gears make it.
+    pub(super) gear: bool,
 }
 
 /// Sorts out the couplings that a mechanism file can say; the others are noted and left out. `written` are the joints that
@@ -62,6 +64,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
                             ends: [a, b],
                             ratio,
                             said_by: coupling.said_by,
+                            gear: coupling.gear,
                         });
                         continue;
                     }

@@ -105,6 +105,7 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let coupling = |u: &Usable| CouplingEntry {
         joints: u.ends.map(|j| joint_ids[&j].clone()),
         ratio: number(u.ratio),
+        gear: u.gear,
     };
     let what = "What a search may put in place of a joint; edit freely.";
     comments.push(Comment::new("search", 0, what));

@@ -117,6 +117,8 @@ pub(crate) struct Ratio {
     pub(super) element: String,
     /// That element.
     pub(super) said_by: usize,
+    /// Whether it says that gears make it.
+    pub(super) gear: bool,
 }
 
 impl Ratio {

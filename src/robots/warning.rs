@@ -120,7 +120,11 @@ impl Report {
     #[must_use]
     pub fn text(&self, file: &str) -> String {
         let (links, joints) = self.size;
-        let mut out = format!("{file}: {links} links, {joints} joints\n");
+        let mut out = format!(
+            "{file}: {}, {}\n",
+            plural(links, "link"),
+            plural(joints, "joint")
+        );
         let mapped = self
             .mapped
             .iter()

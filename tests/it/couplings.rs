@@ -326,7 +326,7 @@ fn certificates_hold_the_coupling() {
     let other = mechanism(&text.replacen("ratio = \"-1/2\"", "ratio = \"-1/3\"", 1));
     assert!(ozols::verify::check(&of(&other), &certificate).is_err());
     let without = mechanism(&text.replacen(
-        "[[coupling]]\njoints = [\"0-1\", \"0-4\"]\nratio = \"-1/2\"",
+        "[[coupling]]\njoints = [\"0-1\", \"0-4\"]\nratio = \"-1/2\"\ngear = true",
         "",
         1,
     ));

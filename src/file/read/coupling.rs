@@ -51,6 +51,7 @@ pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &m
         let coupling = Coupling {
             ends: [a, b],
             ratio,
+            gear: entry.gear,
         };
         if ExactField::for_expressions([&coefficient(mechanism, &coupling)], 0).is_err() {
             out.add(&at, ProblemKind::CouplingInexact { first, second });

@@ -10,13 +10,17 @@ use crate::robots::parts::{Part, Ratio};
 /// Rates below this share of the other are none.
 const NONE: f64 = 1e-9;
 
+/// Whether it is a belt on equal wheels.
+fn is_belt(m: &Meeting) -> bool {
+    matches!(&m.kind, JointType::Custom(list) if !list.contains(&Freedom::Screw))
+}
+
 /// What is held of how J moves against I, as a number of a velocity at the frame's origin and an angular velocity.
 fn held(m: &Meeting, velocity: Vector, turn: Vector) -> f64 {
     let z = m.near.rotation.map(|row| row[2]);
     match &m.kind {
         JointType::SphereOnPlane => dot(z, velocity),
-        // Of a belt on equal wheels.
-        JointType::Custom(list) if !list.contains(&Freedom::Screw) => dot(z, turn),
+        _ if is_belt(m) => dot(z, turn),
         _ => dot(z, velocity) - m.pitch * dot(z, turn),
     }
 }
@@ -65,6 +69,7 @@ pub(crate) fn coupling(
                 higher: [0.0; 3],
                 element: said.0.to_owned(),
                 said_by: said.1,
+                gear: !is_belt(m),
             });
         }
     }

@@ -196,6 +196,7 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         ratio,
         element,
         said_by: e.id,
+        gear: false,
         higher,
     });
     Ok(())

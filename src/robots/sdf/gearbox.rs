@@ -47,6 +47,7 @@ pub(crate) fn gearbox(
         ratio: -times * first * second,
         element: e.label(),
         said_by: e.id,
+        gear: true,
         higher: [0.0; 3],
     });
     robot.report.map("gearbox");

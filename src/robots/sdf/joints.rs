@@ -194,6 +194,7 @@ fn mimic(
         ratio,
         element: e.label(),
         said_by: m.id,
+        gear: false,
         higher: [0.0; 3],
     });
     Ok(Some(leader))

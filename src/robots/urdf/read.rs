@@ -193,6 +193,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             ratio,
             element: e.label(),
             said_by: m.id,
+            gear: false,
             higher: [0.0; 3],
         });
     }
