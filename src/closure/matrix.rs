@@ -2,7 +2,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::coupling::coefficient;
-use crate::closure::tree::path_from_frame;
+use crate::closure::tree::{path_from_frame, path_in, spanning_tree};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
@@ -163,7 +163,24 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         mechanism: &Mechanism,
         link: LinkId,
     ) -> Vec<Vec<N>> {
-        let path = path_from_frame(mechanism, self.state, link);
+        self.motion_along(s, &path_from_frame(mechanism, self.state, link))
+    }
+
+    /// The same of several links.
+    pub fn link_motions<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        mechanism: &Mechanism,
+        links: &[LinkId],
+    ) -> Vec<Vec<Vec<N>>> {
+        let tree = spanning_tree(mechanism, self.state);
+        let each = links.iter();
+        each.map(|&l| self.motion_along(s, &path_in(&tree, l)))
+            .collect()
+    }
+
+    /// What each column gives the link at the end of a path.
+    fn motion_along<S: Scalars<Number = N>>(&self, s: &S, path: &[(JointId, bool)]) -> Vec<Vec<N>> {
         self.columns
             .iter()
             .map(|c| match path.iter().find(|(j, _)| *j == c.joint) {

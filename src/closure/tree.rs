@@ -51,9 +51,17 @@ pub fn path_from_frame(
     state: StateId,
     link: LinkId,
 ) -> Vec<(JointId, bool)> {
+    path_in(&spanning_tree(mechanism, state), link)
+}
+
+/// The same in a spanning tree that is known.
+///
+/// # Complexity
+/// O(n) for n links.
+pub(crate) fn path_in(tree: &[Step], link: LinkId) -> Vec<(JointId, bool)> {
     let (mut path, mut at) = (Vec::new(), link);
     // Every step comes after the one that leads to where it starts.
-    for s in spanning_tree(mechanism, state).iter().rev() {
+    for s in tree.iter().rev() {
         if s.link == at {
             path.push((s.joint, s.forward));
             at = s.from;

@@ -437,10 +437,7 @@ fn span_of_links(
     kernel: &[Speeds],
     links: &[LinkId],
 ) -> usize {
-    let paths: Vec<_> = links
-        .iter()
-        .map(|&l| closure.link_motion(exact, mechanism, l))
-        .collect();
+    let paths = closure.link_motions(exact, mechanism, links);
     let mut span = Echelon::new(exact.field());
     for speeds in kernel {
         let all: Vec<Residue> = paths.iter().flat_map(|p| twist(exact, p, speeds)).collect();

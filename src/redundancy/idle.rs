@@ -43,25 +43,24 @@ pub fn idle_motions(
                 .any(|j| mechanism.joints[j].links.contains(&l))
         })
         .collect();
-    let motion: Vec<Vec<Vec<Residue>>> = links
-        .iter()
-        .map(|&l| closure.link_motion(exact, mechanism, l))
-        .collect();
-    // What every column closes, and couples.
-    let mut rows = closure.dense(exact);
-    rows.iter_mut().for_each(|r| r.push(0));
     // What the outputs do under each motion, and the motions under which all of them rest.
+    let there = links.iter().copied().filter(|l| outputs.contains(l));
+    let of_outputs = closure.link_motions(exact, mechanism, &there.collect::<Vec<LinkId>>());
     let moved = |speeds: &Speeds| {
-        let outputs = links
-            .iter()
-            .zip(&motion)
-            .filter(|(l, _)| outputs.contains(l));
-        let twists = outputs.flat_map(|(_, m)| twist(exact, m, speeds));
+        let twists = of_outputs.iter().flat_map(|m| twist(exact, m, speeds));
         twists.chain([0]).collect()
     };
     let images: Vec<Vec<Residue>> = kernel.iter().map(moved).collect();
     let all = relations(f, &images);
+    if all.is_empty() {
+        // What one link does alone would be among them.
+        return Vec::new();
+    }
     let all = all.iter().map(|factors| combination(f, kernel, factors));
+    let motion = closure.link_motions(exact, mechanism, &links);
+    // What every column closes, and couples.
+    let mut rows = closure.dense(exact);
+    rows.iter_mut().for_each(|r| r.push(0));
     let mut span = Echelon::new(f);
     let mut found = Vec::new();
     for (at, &l) in links.iter().enumerate() {

@@ -39,10 +39,7 @@ pub fn joint_motion(
 ) -> Result<Vec<Vec<Residue>>, ExactError> {
     let closure = Closure::new(exact, mechanism, state)?;
     let kernel = motions(exact, &closure);
-    let of_links: Vec<_> = links
-        .iter()
-        .map(|&l| closure.link_motion(exact, mechanism, l))
-        .collect();
+    let of_links = closure.link_motions(exact, mechanism, links);
     let mut span = Echelon::new(exact.field());
     for speeds in &kernel {
         let whole: Vec<Residue> = of_links

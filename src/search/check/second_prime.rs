@@ -5,6 +5,7 @@
 //! nodes in the order in which they are met, so agreement is equality edge by edge, and then every count, every list
 //! and every sample drawn from them is equal too.
 
+use crate::format::phrase::plural;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::counts::counts;
 use crate::search::answer::variants_in_order::cheapest;
@@ -196,9 +197,9 @@ fn differences(what: &str, a: &Counts, b: &Counts) -> Vec<String> {
     let mut out = of(what, &a.by_redundant, &b.by_redundant, number("σ"));
     out.extend(of(what, &a.by_mobility, &b.by_mobility, number("W")));
     out.extend(of(what, &a.by_freedoms, &b.by_freedoms, number("f")));
-    let changes = |k: &u32| format!("{k} changes");
+    let changes = |k: &u32| plural(*k as usize, "change");
     out.extend(of(what, &a.by_changes, &b.by_changes, changes));
-    let both = |(w, c): &(i64, u32)| format!("W = {w} and {c} changes");
+    let both = |(w, c): &(i64, u32)| format!("W = {w} and {}", plural(*c as usize, "change"));
     out.extend(of(
         what,
         &a.by_mobility_and_changes,

@@ -20,9 +20,9 @@ use std::collections::BTreeMap;
 /// Variants that get a second opinion by default.
 pub const CHECKED: usize = 1000;
 /// Products that all second opinions of a list may cost, one decomposition of m x n taken for m n min(m, n).
-const WORK: usize = 200_000_000;
+const WORK: usize = 70_000_000;
 /// Variants that get one however large they are.
-const AT_LEAST: usize = 50;
+const AT_LEAST: usize = 20;
 
 /// How many variants of a list get a second opinion: [`CHECKED`], and of large mechanisms fewer.
 #[must_use]

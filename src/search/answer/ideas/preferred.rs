@@ -1,9 +1,10 @@
 //! Of the variants that an idea stands for the one that is shown: of those as cheap as the cheapest the one with the same change
 //! at most of the joints that are each other's images, then the one with least weight of places.
 
+use crate::search::answer::count_tables::Key;
 use crate::search::answer::freedom_patterns::{Pattern, Patterns};
 use crate::search::answer::k_best::Assignment;
-use crate::search::answer::variants_in_order::key;
+use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 use std::collections::HashMap;
@@ -28,109 +29,166 @@ pub(super) fn preferred(
         question,
         diagram,
         patterns,
+        weights,
+        takes: patterns
+            .of
+            .iter()
+            .map(|v| v.iter().map(some).collect())
+            .collect(),
         least: HashMap::new(),
+        states: 0,
+        left: patterns.of_variant(&first),
         choices: vec![0; first.choices.len()],
-        found: Vec::new(),
+        sum: Key::default(),
+        best: None,
+        found: 0,
         looked: 0,
     };
-    members.collect(0, 0, &patterns.of_variant(&first), first.key.cost());
-    let rank = |v: &Assignment| {
-        let chosen = v.choices.iter().enumerate();
-        let changed = chosen.filter(|(_, c)| **c != 0);
-        let weight: u64 = changed.map(|(v, _)| weights[v]).sum();
-        let unlike = unlike(patterns, &v.choices);
-        (unlike, weight, question.mobility(v.key), v.key.changes())
-    };
+    members.collect(0, 0, first.key.cost());
+    let own = members.rank(&first.choices, first.key);
     // Where several are alike in this, the first in the order of the diagram's variables.
-    let found = members.found.into_iter();
-    let all = found.map(|choices| Assignment {
-        key: key(question, diagram, &choices),
-        choices,
-    });
-    let best = all.filter(|v| question.wanted(v.key)).min_by_key(rank);
-    match best {
-        Some(best) if rank(&best) < rank(&first) => best,
+    match members.best {
+        Some((rank, best)) if rank < own => best,
         _ => first,
     }
 }
 
-/// How many variables are not chosen as their images are.
-fn unlike(patterns: &Patterns, choices: &[usize]) -> usize {
-    let images = patterns.images.iter().flatten();
-    let each = images.zip(choices);
-    each.filter(|(to, c)| choices[**to] != **c).count()
+/// How many joints are unlike their images, the weight of places, W, and the number of changes.
+type Rank = (usize, u64, i64, u32);
+
+/// What a choice takes of a pattern, but for the zeros.
+fn some(takes: &Pattern) -> Vec<(usize, u8)> {
+    let all = takes.iter().copied().enumerate();
+    all.filter(|(_, n)| *n > 0).collect()
 }
 
-/// The variants of one pattern and cost, gathered.
+/// The variants of one pattern and cost, each compared with the best so far.
 struct Members<'a> {
     question: &'a Question,
     diagram: &'a Diagram,
     patterns: &'a Patterns,
+    weights: &'a [u64],
+    /// `[variable][choice]`: which numbers of a pattern it takes from, and how much.
+    takes: Vec<Vec<Vec<(usize, u8)>>>,
     /// From a node with some of the pattern left, the least cost of a way to the end.
-    least: HashMap<(usize, u32, Pattern), Option<u64>>,
+    least: HashMap<(usize, u32), HashMap<Pattern, Option<u64>>>,
+    /// How many of these there are.
+    states: usize,
+    /// What is left of the pattern here, what was chosen up to here, and the sum of its steps.
+    left: Pattern,
     choices: Vec<usize>,
-    found: Vec<Vec<usize>>,
+    sum: Key,
+    best: Option<(Rank, Assignment)>,
+    found: usize,
     looked: usize,
 }
 
 impl Members<'_> {
-    /// The choices that go on from a node, with where they lead, what is left of the pattern, and their cost.
-    fn ways(&self, depth: usize, node: u32, left: &Pattern) -> Vec<(usize, u32, Pattern, u64)> {
+    /// What is less of a preferred variant.
+    fn rank(&self, choices: &[usize], key: Key) -> Rank {
+        let images = self.patterns.images.iter().flatten();
+        let unlike = images.zip(choices).filter(|(to, c)| choices[**to] != **c);
+        let changed = choices.iter().zip(self.weights).filter(|(c, _)| **c != 0);
+        let weight = changed.map(|(_, weight)| weight).sum();
+        (
+            unlike.count(),
+            weight,
+            self.question.mobility(key),
+            key.changes(),
+        )
+    }
+
+    /// Where a choice leads from a node, and its cost, with its share taken from what is left of the pattern, if it has one.
+    fn enter(&mut self, depth: usize, node: u32, choice: usize) -> Option<(u32, u64)> {
         let layer = &self.diagram.layers[depth];
-        let edges = &layer.edges[node as usize * layer.choices..][..layer.choices];
-        let open = edges.iter().enumerate().filter(|(_, to)| **to != DEAD);
-        let taken = open.filter_map(|(choice, &to)| {
-            let takes = &self.patterns.of[layer.variable][choice];
-            let rest = left.iter().zip(takes).map(|(a, b)| a.checked_sub(*b));
-            let cost = self.question.steps.keys[layer.variable][choice].cost();
-            Some((choice, to, rest.collect::<Option<Pattern>>()?, cost))
-        });
-        taken.collect()
+        let to = layer.edges[node as usize * layer.choices + choice];
+        let takes = &self.takes[layer.variable][choice];
+        if to == DEAD || takes.iter().any(|&(i, n)| self.left[i] < n) {
+            return None;
+        }
+        for &(i, n) in takes {
+            self.left[i] -= n;
+        }
+        Some((to, self.question.steps.keys[layer.variable][choice].cost()))
+    }
+
+    /// Gives the share of a choice back.
+    fn leave(&mut self, depth: usize, choice: usize) {
+        for &(i, n) in &self.takes[self.diagram.layers[depth].variable][choice] {
+            self.left[i] += n;
+        }
     }
 
     /// The least cost of a way from a node to the end that adds just what is left of the pattern.
-    fn least(&mut self, depth: usize, node: u32, left: &Pattern) -> Option<u64> {
+    fn least(&mut self, depth: usize, node: u32) -> Option<u64> {
         if depth == self.diagram.layers.len() {
             let end = *self.diagram.terminals.get(node as usize)?;
             let cost = self.question.steps.redundancy(end).cost();
-            return left.iter().all(|n| *n == 0).then_some(cost);
+            return self.left.iter().all(|n| *n == 0).then_some(cost);
         }
-        let name = (depth, node, left.clone());
-        if let Some(&known) = self.least.get(&name) {
+        let known = self.least.get(&(depth, node));
+        if let Some(&known) = known.and_then(|k| k.get(&self.left)) {
             return known;
         }
-        if self.least.len() > LOOKED {
+        if self.states > LOOKED {
             return None;
         }
         let mut least: Option<u64> = None;
-        for (_, to, rest, cost) in self.ways(depth, node, left) {
-            let here = self.least(depth + 1, to, &rest).map(|l| l + cost);
+        for choice in 0..self.diagram.layers[depth].choices {
+            let Some((to, cost)) = self.enter(depth, node, choice) else {
+                continue;
+            };
+            let here = self.least(depth + 1, to).map(|l| l + cost);
             least = least.into_iter().chain(here).min();
+            self.leave(depth, choice);
         }
-        self.least.insert(name, least);
+        let of = self.least.entry((depth, node)).or_default();
+        of.insert(self.left.clone(), least);
+        self.states += 1;
         least
     }
 
-    /// Gathers the variants that end with just so much cost.
-    fn collect(&mut self, depth: usize, node: u32, left: &Pattern, cost: u64) {
+    /// Looks at the variants that end with just so much cost.
+    fn collect(&mut self, depth: usize, node: u32, cost: u64) {
         self.looked += 1;
-        let enough = self.found.len() >= COMPARED || self.looked > LOOKED;
-        let least = self.least(depth, node, left);
+        let enough = self.found >= COMPARED || self.looked > LOOKED;
+        let least = self.least(depth, node);
         if enough || least.is_none_or(|l| l > cost) {
             return;
         }
         if depth == self.diagram.layers.len() {
             if least == Some(cost) {
-                self.found.push(self.choices.clone());
+                self.compare(self.diagram.terminals[node as usize]);
             }
             return;
         }
         let variable = self.diagram.layers[depth].variable;
-        for (choice, to, rest, here) in self.ways(depth, node, left) {
+        for choice in 0..self.diagram.layers[depth].choices {
+            let Some((to, here)) = self.enter(depth, node, choice) else {
+                continue;
+            };
             if let Some(cost) = cost.checked_sub(here) {
+                let before = self.sum;
+                self.sum = Key(before.0 + self.question.steps.keys[variable][choice].0);
                 self.choices[variable] = choice;
-                self.collect(depth + 1, to, &rest, cost);
+                self.collect(depth + 1, to, cost);
+                self.sum = before;
             }
+            self.leave(depth, choice);
+        }
+    }
+
+    /// Compares the variant that is chosen now, which ends so.
+    fn compare(&mut self, end: Redundancy) {
+        self.found += 1;
+        let key = Key(self.sum.0 + self.question.steps.redundancy(end).0);
+        if !self.question.wanted(key) {
+            return;
+        }
+        let rank = self.rank(&self.choices, key);
+        if self.best.as_ref().is_none_or(|(best, _)| rank < *best) {
+            let choices = self.choices.clone();
+            self.best = Some((rank, Assignment { key, choices }));
         }
     }
 }
