@@ -5,6 +5,11 @@ pub(crate) fn plural(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
+/// The same of a number that is written already: "1 variant", "25,761,436 variants".
+pub(crate) fn plural_of(n: &str, what: &str) -> String {
+    format!("{n} {what}{}", if n == "1" { "" } else { "s" })
+}
+
 /// "a, b or c".
 pub(crate) fn disjunction<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
     let mut all: Vec<&str> = of.into_iter().collect();

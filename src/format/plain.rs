@@ -3,11 +3,22 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
+/// Whether a character turns the order of letters round: the marks, embeddings and isolates of Unicode's bidirectional text.
+#[must_use]
+pub(crate) fn turns(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text with such characters spelt out, as `\u{202e}`.
+#[must_use]
+pub(crate) fn straight(text: &str) -> Cow<'_, str> {
+    spelt(text, turns)
+}
+
 /// Whether a character does something else than stand for itself: what steers terminals, and what turns the order of letters
 /// round. Ends of lines and tabulators are let through.
 fn steers(c: char) -> bool {
-    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || c.is_control() && !matches!(c, '\n' | '\t')
+    turns(c) || c.is_control() && !matches!(c, '\n' | '\t')
 }
 
 /// A text with such characters spelt out, as `\u{1b}`.

@@ -1,6 +1,7 @@
 //! A small XML writer: it closes what it opens, escapes what it is given and writes numbers in one way.
 
 use crate::format::number::decimals;
+use crate::format::plain::straight;
 
 /// A document being written.
 #[derive(Debug, Default)]
@@ -124,9 +125,10 @@ pub(crate) fn number(value: f64) -> String {
     decimals(value, 2)
 }
 
-/// Appends `text` so that it is plain character data anywhere in XML or HTML; a character XML forbids becomes U+FFFD.
+/// Appends `text` so that it is plain character data anywhere in XML or HTML; a character XML forbids becomes U+FFFD, and one
+/// that turns letters round is spelt out.
 pub(crate) fn escape(out: &mut String, text: &str) {
-    for c in text.chars() {
+    for c in straight(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),

@@ -10,6 +10,7 @@ use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
 use crate::file::read::motion::stroke;
 use crate::file::text::text_of;
+use crate::format::phrase::plural;
 use crate::score::request::Request;
 use crate::shard::Shard;
 use crate::sweep::space::Sampling;
@@ -188,14 +189,27 @@ pub(in crate::cli) fn run(args: &Args, a: &SweepArgs) -> anyhow::Result<Done> {
     Ok(Done::Found)
 }
 
+/// "1 sample is", "2 samples are".
+fn kept(n: usize, one: &str, many: &str) -> String {
+    format!(
+        "{} {}",
+        plural(n, "sample"),
+        if n == 1 { one } else { many }
+    )
+}
+
 fn unfinished(table: &Table, path: Option<&Path>) -> String {
     let done = table.rows.len();
     match path {
         Some(path) => format!(
-            "{done} samples are in {}; the same command carries on with it\n",
+            "{} in {}; the same command carries on with it\n",
+            kept(done, "is", "are"),
             path.display()
         ),
-        None => format!("{done} samples were looked at; with -o FILE.jsonl they would be kept\n"),
+        None => format!(
+            "{} looked at; with -o FILE.jsonl they would be kept\n",
+            kept(done, "was", "were")
+        ),
     }
 }
 

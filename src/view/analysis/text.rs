@@ -1,7 +1,7 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
 use super::{Analysis, AsWritten, Contour, Coupling, External, LeftOut, SelfStress, State, Wrench};
-use crate::format::phrase::{list, plural};
+use crate::format::phrase::{list, plural, plural_of};
 use crate::view::analysis::idle;
 use crate::view::claims;
 use crate::view::terminal::layout::{fit, table};
@@ -44,14 +44,15 @@ impl State<'_> {
         };
         writeln!(
             out,
-            "  n = {} links, p = {} joints, k = {} contours, f = {f} freedoms{couplings}\n  \
+            "  n = {}, p = {}, k = {}, f = {}{couplings}\n  \
              rank of the {rows} x {f} closure matrix: {}\n  \
              W = f - rank = {} (in this pose): working {}, local {}\n  \
              {}\n  \
              σ = {rows} - rank = {}  (= W + {rows} - f)",
-            self.links,
-            self.joints,
-            self.contours,
+            plural(self.links, "link"),
+            plural(self.joints, "joint"),
+            plural(self.contours, "contour"),
+            plural(f, "freedom"),
             self.rank,
             self.mobility,
             self.working_mobility,
@@ -249,8 +250,16 @@ impl External {
     #[must_use]
     pub fn formula(&self) -> String {
         format!(
-            "{} constraints - ({} - {}) - {} lost mobilities",
-            self.constraints, self.actual_mobility, self.working_mobility, self.lost_mobility
+            "{} - ({} - {}) - {} lost {}",
+            plural_of(&self.constraints.to_string(), "constraint"),
+            self.actual_mobility,
+            self.working_mobility,
+            self.lost_mobility,
+            if self.lost_mobility == 1 {
+                "mobility"
+            } else {
+                "mobilities"
+            }
         )
     }
 }

@@ -3,6 +3,7 @@
 use crate::catalog::store::{Store, StoreError};
 use crate::format::csv;
 use crate::format::number::{grouped, significant};
+use crate::format::phrase::plural_of;
 use crate::format::plain::plain;
 use crate::view::terminal::layout::{fit, table};
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
@@ -129,15 +130,15 @@ fn of<'a>(row: &'a Map<String, Value>) -> impl Fn(&str) -> String + 'a {
 fn drawn_text(row: &Map<String, Value>) -> String {
     let s = of(row);
     format!(
-        "{}: {}, drawn ({})\n{}\n{} links, {} joints, {} contours; driver: {}\nAs built: W = {}, σ = {}; finite mobility {}\n\
+        "{}: {}, drawn ({})\n{}\n{}, {}, {}; driver: {}\nAs built: W = {}, σ = {}; finite mobility {}\n\
          Determinate variants ({}): {}, of these {} that keep the output motion and have no more mobility than that\n\n",
         s("id"),
         s("name"),
         s("mode"),
         s("description"),
-        s("links"),
-        s("joints"),
-        s("contours"),
+        plural_of(&s("links"), "link"),
+        plural_of(&s("joints"), "joint"),
+        plural_of(&s("contours"), "contour"),
         s("input"),
         s("mobility"),
         s("redundant"),
@@ -163,9 +164,9 @@ fn structure_text(d: &StructureData) -> String {
     };
     let _ = writeln!(
         out,
-        "{} links, {} joints; frame {}, driver {} ({}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}",
-        s("links"),
-        s("joints"),
+        "{}, {}; frame {}, driver {} ({}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}",
+        plural_of(&s("links"), "link"),
+        plural_of(&s("joints"), "joint"),
         s("frame"),
         s("driver"),
         s("input"),

@@ -1,6 +1,7 @@
 //! A search for people.
 
 use crate::format::number::grouped;
+use crate::format::phrase::{plural, plural_of};
 use crate::robots::is_description;
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
@@ -94,8 +95,8 @@ pub fn write(
         writeln!(out, "{}", fit(&notes.collect::<String>(), width))?;
     }
     if let Some(stop) = given.cut_short() {
-        let (why, given) = (stop.word(), summary.given);
-        writeln!(out, "\n  stopped early ({why}) after {given} variants")?;
+        let (why, given) = (stop.word(), plural(summary.given, "variant"));
+        writeln!(out, "\n  stopped early ({why}) after {given}")?;
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let undecided = summary.given == 0 && outcome.admissible_may_be_more();
@@ -132,10 +133,10 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
         conditions
             .max_changes
-            .map(|c| format!("change at most {c} joints")),
+            .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
     ];
-    let more = more.into_iter().flatten();
-    let more = more.chain(in_state(&outcome.search, false)).collect_vec();
+    let told = in_state(&outcome.search, false);
+    let more = more.into_iter().flatten().chain(told).collect_vec();
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -153,7 +154,8 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         format!("{least}{}", big(&outcome.admissible.total))
     };
     // Writing to a string cannot fail.
-    let _ = writeln!(out, "{mechanism}: {good} of {} variants {all}", big(&size));
+    let of = plural_of(&big(&size), "variant");
+    let _ = writeln!(out, "{mechanism}: {good} of {of} {all}");
     if size == BigUint::from(1u8) {
         let _ = writeln!(
             out,
@@ -387,13 +389,11 @@ fn next(
         let (condition, to) = condition(*how);
         let name = format!("--{condition}");
         let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
-        let n = grouped(&n.to_string());
+        let n = plural_of(&grouped(&n.to_string()), "variant");
         let least = match how {
-            Relaxation::OutputChange => {
-                format!("{n} variants, whose outputs move in other ways than now")
-            }
-            Relaxation::LooseObject => format!("{n} variants, none of which holds what it grips"),
-            _ => format!("{n} variants; no smaller number leaves any"),
+            Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
+            Relaxation::LooseObject => format!("{n}, none of which holds what it grips"),
+            _ => format!("{n}; no smaller number leaves any"),
         };
         // The flag replaces the one that was given.
         let kept = without(flags, &name);

@@ -158,6 +158,19 @@ pub(in crate::view) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String 
         .collect()
 }
 
+/// What is said of each of some ideas, line by line: of what, and that.
+#[must_use]
+pub fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
+    let whys = Whys::new(outcome);
+    let why = teller(&whys, &outcome.search.mechanism);
+    let all = ideas.iter().copied().map(why);
+    all.map(|w| match w.lets.is_empty() {
+        true => Vec::new(),
+        false => w.rows(),
+    })
+    .collect()
+}
+
 /// Those of some rows that have something in common, together: "what: these, those; other: that".
 fn grouped<'a>(rows: impl Iterator<Item = (&'a str, String)>, between: &str) -> String {
     let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
@@ -175,9 +188,20 @@ fn grouped<'a>(rows: impl Iterator<Item = (&'a str, String)>, between: &str) -> 
 
 impl WhyData {
     fn lines(&self, idea: usize) -> String {
+        let mut out = String::new();
+        for (what, words) in self.rows() {
+            match out.is_empty() {
+                true => out += &format!("\n  idea {idea} {what} {words}\n"),
+                false => out += &format!("    {what} {words}\n"),
+            }
+        }
+        out
+    }
+
+    /// What is said of it, line by line: of what, and that.
+    fn rows(&self) -> Vec<(String, String)> {
         let lets = self.lets.iter();
         let lets = lets.map(|l| (l.lets.as_str(), format!("{} at {}", l.part, l.joint)));
-        let mut out = format!("\n  idea {idea} lets parts {}\n", grouped(lets, ": "));
         let parts = self.lets.iter();
         let parts = parts.filter_map(|l| Some((l.hardware.as_deref()?, l.joint.clone())));
         let was = self.lets.iter().flat_map(|l| &l.was);
@@ -189,19 +213,19 @@ impl WhyData {
         };
         let peaks = [peak(&self.peak_force, "N"), peak(&self.peak_moment, "N·m")];
         let under = self.under.as_deref().unwrap_or_default();
-        for (what, list) in [
-            ("hardware:", grouped(parts, " at ")),
-            ("takes what was out of true:", was.into_iter().join("; ")),
-            ("as they are:", self.stays.join(", ")),
+        let rows = [
+            ("lets parts".to_owned(), grouped(lets, ": ")),
+            ("hardware:".to_owned(), grouped(parts, " at ")),
             (
-                &format!("hardest used under {under}:"),
+                "takes what was out of true:".to_owned(),
+                was.into_iter().join("; "),
+            ),
+            ("as they are:".to_owned(), self.stays.join(", ")),
+            (
+                format!("hardest used under {under}:"),
                 peaks.into_iter().flatten().join(", "),
             ),
-        ] {
-            if !list.is_empty() {
-                out += &format!("    {what} {list}\n");
-            }
-        }
-        out
+        ];
+        rows.into_iter().filter(|(_, w)| !w.is_empty()).collect()
     }
 }
