@@ -2,6 +2,7 @@
 
 pub mod close;
 pub mod follow;
+pub mod jaws;
 pub mod pose;
 pub mod way;
 pub mod working;

@@ -78,6 +78,14 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// Where motions of links, in the lengths of this pose, bring a point of one of them.
+    #[must_use]
+    pub fn carried(&self, links: &[Motion], link: LinkId, p: [f64; 3]) -> [f64; 3] {
+        let parts = sub(p, self.middle).map(|x| x / self.length);
+        let there = links[link].point(parts);
+        [0, 1, 2].map(|i| self.middle[i] + there[i] * self.length)
+    }
+
     /// The pose of the file.
     ///
     /// # Errors

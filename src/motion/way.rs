@@ -6,7 +6,7 @@ use crate::motion::pose::Pose;
 use std::f64::consts::{PI, TAU};
 
 /// The farthest that a slide is followed to either side, as a fraction of [`Pose::length`].
-const SLIDE: f64 = 1.0;
+pub const SLIDE: f64 = 1.0;
 /// A drive that comes as near as this to half a turn either way is taken to go round, in radians.
 const ROUND: f64 = 1e-9;
 /// Links that come back so near to where they were have closed the cycle.

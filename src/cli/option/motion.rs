@@ -5,14 +5,16 @@ use crate::file::read::motion::stroke;
 use crate::format::number::decimals;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::follow::slides;
+use crate::motion::jaws::meet;
 use crate::motion::pose::Pose;
-use crate::motion::way::{Way, way};
+use crate::motion::way::{SLIDE, Way, way as way_of};
 use crate::motion::working::working_way;
 use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::wiggle::{FAR, wiggle};
 use crate::view::analysis::idle;
 use anyhow::{Context, bail, ensure};
+use std::f64::consts::PI;
 
 /// Pictures of a motion where nobody says how many: at 30 a second, 2.4 seconds.
 const STEPS: usize = 72;
@@ -61,13 +63,19 @@ impl Moving {
                 "--stroke takes 2 to {MOST} steps for a drawing"
             );
         }
-        let way = way(
-            &pose,
-            drive,
-            &held,
-            asked.map(|s| [s.from / unit, s.to / unit]),
-            steps,
-        );
+        let range = asked.map(|s| [s.from / unit, s.to / unit]);
+        let mut way = way_of(&pose, drive, &held, range, steps);
+        // Nobody wants to see jaws go through each other.
+        let met = match asked {
+            None => meet(m, state, &pose, &way),
+            Some(_) => [None, None],
+        };
+        if met.iter().any(Option::is_some) {
+            let far = if slide { SLIDE } else { PI };
+            let [low, high] = met;
+            let range = [low.unwrap_or(-far), high.unwrap_or(far)];
+            way = way_of(&pose, drive, &held, Some(range), steps);
+        }
         let name = name_of(m, &pose, drive);
         let (Some(first), Some(last)) = (way.at.first(), way.at.last()) else {
             bail!("{name} cannot move from the pose of the file");
@@ -86,10 +94,11 @@ impl Moving {
         let words = if way.closed {
             format!("drive {name} goes once round")
         } else {
-            let ends = way
-                .ends
-                .each_ref()
-                .map(|e| e.map(|s| s.why.word().replace('-', " ")));
+            let why = |n: usize| match met[n] {
+                Some(_) => Some("jaws meet".to_owned()),
+                None => way.ends[n].map(|s| s.why.word().replace('-', " ")),
+            };
+            let ends = [why(0), why(1)];
             let ends = match ends {
                 [Some(a), Some(b)] if a == b => format!(", {a} at both ends"),
                 [a, b] => [(a, "beginning"), (b, "end")]
