@@ -4,5 +4,6 @@ pub(in crate::cli) mod args;
 pub(in crate::cli) mod load;
 pub(in crate::cli) mod motion;
 pub(in crate::cli) mod named;
+pub(in crate::cli) mod picture;
 pub(in crate::cli) mod request;
 pub(in crate::cli) mod variant;

@@ -1,10 +1,12 @@
 //! The kinematic scheme: links and the symbols of joints where the coordinates have them.
 
+mod arcs;
 mod arrow;
 mod axes;
 mod body;
 mod concentric;
 mod coupler_curves;
+mod facets;
 mod frame;
 mod gears;
 mod legend;
@@ -12,11 +14,13 @@ mod loads;
 mod marked;
 pub(super) mod moving;
 mod naming;
+mod pair;
 mod part;
 mod points;
 mod posed;
 pub(super) mod scene;
 mod sliding;
+mod swapped;
 mod symbol;
 use self::arrow::Arrow;
 use self::body::Body;
@@ -24,14 +28,16 @@ use self::marked::{Marked, marked};
 use self::symbol::Symbol;
 use super::subject::{Mark, Subject, roominess};
 use crate::draw::place::projection::places::places;
-use crate::draw::place::projection::{self, Place, Projection, bounds};
+use crate::draw::place::projection::{self, Place, Projection, Seen, Vector, bounds};
 use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use crate::draw::symbol::couplings;
+use crate::draw::symbol::drive;
 use crate::draw::symbol::ground::{Foot, Ground, grounds};
 use crate::draw::symbol::swap::{self, Swap};
 use crate::draw::symbol::symbols;
-use crate::model::mechanism::{Joint, JointId, LinkId, Role};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect, add, mean, norm, polyline, scale, sub, unit};
 
@@ -81,12 +87,13 @@ pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Ve
             (&option.joint_type, &projection::turned(&option.frame)),
             &drawn.projection.view,
             size,
+            spot.and_then(|s| s.symbol.slide),
         );
         let symbol = symbol.marked(Mark::Changed);
         let mut piece = Sheet::piece();
         symbol.draw(&mut piece, subject, joint, Mark::Changed);
         if swap.unloading {
-            swap::ring(&mut piece, symbol.reach());
+            piece.shapes(&[swap::ring(symbol.reach())], [0.0; 2]);
         }
         out.push(piece.into_text());
         if let Some(spot) = drawn.spots.iter_mut().find(|s| s.joint == joint) {
@@ -94,6 +101,18 @@ pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Ve
         }
     }
     (drawn.draw(), out)
+}
+
+/// The axes that outputs turn about in the frame.
+fn turning(m: &Mechanism, joints: &[JointId], places: &[Place]) -> Vec<Vector> {
+    let with = |j: JointId, role: Role| m.joints[j].links.iter().any(|&l| m.links[l].role == role);
+    let turns = |j: JointId| m.joints[j].joint_type.freedoms().contains(&Freedom::Rz);
+    let all = joints.iter().zip(places);
+    let outputs = all.filter(|(j, _)| with(**j, Role::Frame) && with(**j, Role::Output));
+    outputs
+        .filter(|(j, _)| turns(**j))
+        .map(|(_, p)| p.z)
+        .collect()
 }
 
 /// A joint on paper.
@@ -112,6 +131,8 @@ struct Kinematic<'a> {
     links: Vec<(LinkId, Vec<usize>)>,
     /// How far the bar of each link bows out.
     bows: Vec<f64>,
+    /// The corners of each link that is a plate of a fold.
+    facets: Vec<Option<Vec<Vector>>>,
     grounds: Vec<Ground>,
     /// Where the joints are in space.
     places: Vec<Place>,
@@ -148,7 +169,11 @@ impl<'a> Kinematic<'a> {
         let room = ROOM.map(|r| r * more);
         let mut points = marked(m, subject.state, &links);
         let more: Vec<_> = points.iter().map(|p| p.place).collect();
-        let seen = (places.as_slice(), more.as_slice());
+        let seen = Seen {
+            places: &places,
+            more: &more,
+            turning: &turning(seen, &joints, &places),
+        };
         let projection = projection::best(seen, &links, m.frame(), room, sight);
         for p in &mut points {
             p.at = projection.flat(p.place);
@@ -156,6 +181,7 @@ impl<'a> Kinematic<'a> {
         let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
         let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
         let sizes = crate::draw::kinematic::concentric::sizes(&at, &of);
+        let driven = drive::driven_slides(m, subject.state);
         let spots: Vec<Spot> = joints
             .iter()
             .zip(&at)
@@ -163,7 +189,8 @@ impl<'a> Kinematic<'a> {
             .map(|((&joint, &at), size)| {
                 let of = &m.joints[joint];
                 let of = (&of.joint_type, &projection::turned(&of.frame));
-                let symbol = Symbol::new(subject, joint, of, &projection.view, size);
+                let slide = driven.iter().find(|(j, _)| *j == joint).map(|d| d.1);
+                let symbol = Symbol::new(subject, joint, of, &projection.view, size, slide);
                 Spot {
                     joint,
                     at,
@@ -176,6 +203,7 @@ impl<'a> Kinematic<'a> {
             subject,
             spots,
             bows: vec![0.0; links.len()],
+            facets: Vec::new(),
             links,
             grounds: Vec::new(),
             places,
@@ -185,6 +213,7 @@ impl<'a> Kinematic<'a> {
             shows: None,
             projection,
         };
+        out.facets = out.facets_in_space();
         let moving = (0..out.links.len()).filter(|&l| !out.is_frame(out.links[l].0));
         let moving: Vec<usize> = moving.collect();
         let bodies: Vec<Body> = moving.iter().map(|&l| out.body(l)).collect();
@@ -216,6 +245,16 @@ impl<'a> Kinematic<'a> {
     /// The shape of a link.
     fn body(&self, link: usize) -> Body {
         let (l, of) = &self.links[link];
+        let made = self.arc(link, |p| p);
+        if let Some(mut made) = made.or_else(|| self.facet(link, |p| p)) {
+            // The joints may have been moved to their place on the sheet.
+            let by = sub(
+                self.spots[of[0]].at,
+                self.projection.flat(self.places[of[0]].point),
+            );
+            made.points.iter_mut().for_each(|p| *p = add(*p, by));
+            return made;
+        }
         let mut points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
         points.extend(self.points_of(*l).map(|p| p.at));
         points.extend(self.loose(&self.links[link]));

@@ -55,7 +55,7 @@ pub fn scheme_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<S
         let class = s.option.joint_type.class();
         draw_symbol(&mut piece, subject, s.joint, class, Mark::Changed);
         if s.unloading {
-            swap::ring(&mut piece, DRIVE);
+            piece.shapes(&[swap::ring(DRIVE)], [0.0; 2]);
         }
         piece.into_text()
     };

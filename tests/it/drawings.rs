@@ -3,8 +3,10 @@
 mod idle;
 mod interest;
 mod loads;
+mod meaning;
 mod meeting;
 mod moving;
+mod pairs;
 mod places;
 mod random;
 mod reading;

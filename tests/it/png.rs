@@ -25,6 +25,7 @@ fn a_build_without_png_says_so() {
     refused(&["draw", "bennett", "--png"], "--features png");
     // the name asks for it
     refused(&["draw", "bennett", "-o", path], "--features png");
+    refused(&["explain", "spherical", "-o", path], "--features png");
     assert_eq!(dir.path().read_dir().unwrap().count(), 0);
 }
 
@@ -105,7 +106,7 @@ mod with_png {
         let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"34\" height=\"34\" viewBox=\"-17 -17 34 34\"><style>.joint{{fill:#fff;\
              stroke:#000;stroke-width:1.4}}.line{{fill:none;stroke:#000;stroke-width:1.2}}.fine{{fill:none;stroke:#000;\
-             stroke-width:.9}}.ink{{fill:#000}}</style>{inside}</svg>"
+             stroke-width:.9}}.ink{{fill:#000}}.blank{{fill:#fff}}</style>{inside}</svg>"
         );
         let alone = Drawing {
             svg,
@@ -231,6 +232,28 @@ joint = [
             Size::Width(u32::MAX),
         ] {
             assert!(png(&d, size).is_err(), "{size:?}");
+        }
+    }
+
+    #[test]
+    fn joint_types_are_explained_in_a_picture() {
+        let dir = tempfile::tempdir().unwrap();
+        for t in JointType::NAMED {
+            let path = dir.path().join(format!("{t}.png"));
+            let done = ozols(&["explain", t.name(), "-o", path.to_str().unwrap()])
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&done.stderr);
+            assert!(done.status.success(), "{t}: {said}");
+            let picture = Pixmap::decode_png(&std::fs::read(&path).unwrap()).unwrap();
+            // what is of the one link is yellowish, of the other bluish
+            let count = |of: fn(i32) -> bool| {
+                let all = picture.pixels().iter();
+                all.filter(|p| of(i32::from(p.red()) - i32::from(p.blue())))
+                    .count()
+            };
+            let (one, other) = (count(|d| d > 50), count(|d| (-60..-20).contains(&d)));
+            assert!(one > 1500 && other > 1500, "{t}: {one}, {other}");
         }
     }
 

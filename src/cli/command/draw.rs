@@ -4,11 +4,12 @@ use crate::cli::Done;
 use crate::cli::option::args::{Args, File};
 use crate::cli::option::load;
 use crate::cli::option::motion::Moving;
+use crate::cli::option::picture;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
 use crate::cli::option::variant::Chosen;
 use crate::cli::terminal::output;
-use crate::draw::{self, Drawing, Sight, Size, Subject};
+use crate::draw::{self, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::analysis::Analysis;
@@ -122,7 +123,7 @@ fn numbers(text: &str) -> Option<[f64; 3]> {
 }
 
 pub(in crate::cli) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
-    let wanted = picture(a)?;
+    let wanted = wanted(a)?;
     ensure!(
         a.moves()
             || a.self_stress.is_some()
@@ -202,7 +203,7 @@ pub(in crate::cli) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         }
     };
     let bytes = match wanted {
-        Some(size) => png(&drawing, size)?,
+        Some(size) => picture::png(&drawing, size)?,
         None => drawing.svg.into_bytes(),
     };
     output::to(a.output.as_deref(), |out| {
@@ -212,47 +213,24 @@ pub(in crate::cli) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
 }
 
 /// What PNG is wanted, if it is; said before any work is done.
-fn picture(a: &Draw) -> anyhow::Result<Option<Size>> {
-    let named = a.output.as_ref().and_then(|p| p.extension());
-    if !a.png && !named.is_some_and(|e| e.eq_ignore_ascii_case("png")) {
+fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
+    if !a.png && !picture::named(a.output.as_deref()) {
         ensure!(
             a.scale.is_none() && a.width.is_none(),
             "--scale and --width are for PNG: add --png, or -o with a name that ends in .png; SVG is of any size"
         );
         return Ok(None);
     }
-    ensure!(
-        cfg!(feature = "png"),
-        "this ozols was built without PNG: build it with `cargo build --release --features png`, or write SVG and turn \
-         it into PNG by another program"
-    );
+    picture::there()?;
     ensure!(
         a.output.is_some() || !std::io::stdout().is_terminal(),
         "a PNG is no text for a terminal: give a file with -o"
     );
-    let scale = a.scale.unwrap_or(2.0);
+    let scale = a.scale.unwrap_or(picture::SCALE);
     ensure!(
         scale > 0.0 && scale <= 100.0,
         "--scale must be above 0 and at most 100"
     );
     ensure!(a.width != Some(0), "--width must be at least 1");
     Ok(Some(a.width.map_or(Size::Scale(scale), Size::Width)))
-}
-
-#[cfg(feature = "png")]
-fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
-    let picture = draw::png::png(drawing, size)?;
-    if !picture.missing.is_empty() {
-        let missing: String = picture.missing.iter().collect();
-        output::note(&format!(
-            "warning: no font of this machine has {missing}; they are missing in the PNG\n"
-        ));
-    }
-    Ok(picture.png)
-}
-
-#[cfg(not(feature = "png"))]
-fn png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
-    // `picture` has refused it
-    bail!("built without PNG: {size:?}")
 }

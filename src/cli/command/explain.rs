@@ -20,7 +20,7 @@ pub(in crate::cli) struct Explain {
     /// out.
     #[arg(value_name = "TERM")]
     term: Vec<String>,
-    /// Draw the joint type into this file, as SVG.
+    /// Draw the joint type into this file, as SVG, or as PNG where its name ends in .png (where built with the feature `png`).
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }

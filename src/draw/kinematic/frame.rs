@@ -154,6 +154,10 @@ impl Kinematic<'_> {
         let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
         let body = |l: usize| {
             let link = self.links[l].0;
+            let there = |p| carried.point(link, p);
+            if let Some(made) = self.arc(l, there).or_else(|| self.facet(l, there)) {
+                return (l, made);
+            }
             let points = self.points_in_space(l).into_iter();
             let points: Vec<Point> = points.map(|p| flat(carried.point(link, p))).collect();
             (l, Body::new(&points).bowed(self.bows[l]))

@@ -1,4 +1,4 @@
-//! Coupled joints as what makes them move together: gears as their pitch circles, a pinion as that of its rack.
+//! Joints that gears couple, as their pitch circles, and a pinion as that of its rack.
 
 use super::Kinematic;
 use crate::draw::place::projection::{self, Place, add, cross, dot, norm, scale, sub};
@@ -28,8 +28,11 @@ impl Kinematic<'_> {
         coupling: &Coupling,
         places: &[Place],
     ) -> Vec<(usize, Vec<Vector>)> {
-        let circles = gears(self, coupling, places)
-            .or_else(|| pinion(self, coupling, places).map(|c| vec![c]));
+        let circles = match coupling.gear {
+            true => gears(self, coupling, places)
+                .or_else(|| pinion(self, coupling, places).map(|c| vec![c])),
+            false => None,
+        };
         let line = |(end, middle, normal, radius): Circle| {
             let x = projection::across(normal);
             let y = cross(normal, x);
@@ -41,6 +44,17 @@ impl Kinematic<'_> {
             (end, (0..60).map(point).collect())
         };
         circles.unwrap_or_default().into_iter().map(line).collect()
+    }
+
+    /// The lines from joint to joint that stand for couplings without circles.
+    pub(super) fn coupling_lines(&self) -> Vec<(Point, Point)> {
+        let m = self.subject.mechanism;
+        let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
+        let all = m.couplings_in(self.subject.state);
+        let plain = all.filter(|c| self.pitch_circles(c, &self.places).is_empty());
+        plain
+            .filter_map(|c| Some((place(c.ends[0].joint)?, place(c.ends[1].joint)?)))
+            .collect()
     }
 
     fn place<'p>(&self, coupling: &Coupling, end: usize, places: &'p [Place]) -> Option<&'p Place> {

@@ -1,12 +1,13 @@
 //! What a kinematic scheme says in words: the rows of its legend, and itself for those who do not see it.
 
-use super::{Kinematic, Spot, symbol};
+use super::{Kinematic, Spot};
 use crate::draw::sheet::{Sheet, Swatch};
+use crate::draw::symbol::drive;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::symbols;
 use crate::format::number::decimals;
 use crate::model::joint_type::JointType;
-use crate::svg::plane::{Point, add};
+use crate::svg::plane::{Point, add, polyline};
 use std::fmt::Write as _;
 
 impl Kinematic<'_> {
@@ -28,8 +29,16 @@ impl Kinematic<'_> {
             })
             .collect();
         if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
-            let draw = |s: &mut Sheet, p: Point| s.shapes(&symbol::drive("", 9.5), p);
+            let draw = |s: &mut Sheet, p: Point| s.shapes(&drive::round("", 9.5), p);
             out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
+        }
+        if self.spots.iter().any(|s| s.symbol.slide.is_some()) {
+            let draw = |s: &mut Sheet, p: Point| {
+                s.line("line", add(p, [-11.0, 0.0]), add(p, [5.0, 0.0]));
+                let head = [[11.0, 0.0], [4.0, 3.0], [4.0, -3.0]].map(|c| add(p, c));
+                s.path("ink", &polyline(&head, true));
+            };
+            out.push((Swatch::Symbol(draw), "driven slide".to_owned()));
         }
         if !self.grounds.is_empty() {
             let draw = |s: &mut Sheet, p: Point| {

@@ -2,7 +2,8 @@
 
 use crate::draw::place::projection::{Vector, real};
 use crate::draw::sheet::Sheet;
-use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
+use crate::motion::jaws::faces;
 use crate::svg::plane::{Point, add, polyline};
 
 /// Half of a point's mark, which is no circle: those are joints.
@@ -24,16 +25,9 @@ pub(super) struct Marked {
 pub(super) fn marked(m: &Mechanism, state: StateId, links: &[(LinkId, Vec<usize>)]) -> Vec<Marked> {
     let there = |l: LinkId| links.iter().any(|(k, _)| *k == l);
     let own = m.points.iter().map(|p| (&p.id, p.link, real(&p.point)));
-    let role = |l: LinkId| m.links[l].role;
-    let held = m.joints.iter().filter_map(|j| {
-        let elsewhere = j.states.as_ref().is_some_and(|s| !s.contains(&state));
-        let [a, b] = j.links;
-        let jaw = match [role(a), role(b)] {
-            [Role::Output, Role::Object] => a,
-            [Role::Object, Role::Output] => b,
-            _ => return None,
-        };
-        elsewhere.then(|| (&j.id, jaw, real(&j.frame.point)))
+    let held = faces(m, state).map(|(j, jaw)| {
+        let joint = &m.joints[j];
+        (&joint.id, jaw, real(&joint.frame.point))
     });
     let points = own.chain(held).filter(|(_, link, _)| there(*link));
     let marked = points.map(|(id, link, place)| Marked {

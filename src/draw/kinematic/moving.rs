@@ -244,7 +244,14 @@ impl Kinematic<'_> {
         let spot = &self.spots[i];
         let of = &self.subject.mechanism.joints[spot.joint].joint_type;
         let (view, size) = (&self.projection.view, spot.symbol.size);
-        let symbol = Symbol::new(self.subject, spot.joint, (of, place), view, size);
+        let symbol = Symbol::new(
+            self.subject,
+            spot.joint,
+            (of, place),
+            view,
+            size,
+            spot.symbol.slide,
+        );
         symbol.marked(self.subject.joint_mark(spot.joint))
     }
 

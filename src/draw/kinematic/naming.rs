@@ -2,10 +2,10 @@
 
 use super::Kinematic;
 use crate::draw::sheet::SMALL;
-use crate::draw::sheet::labels::{self, Line, Wish};
+use crate::draw::sheet::labels::{self, CROSSED, Line, Wish};
 use crate::draw::symbol::ground::Ground;
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
-use crate::svg::text::{cut, width};
+use crate::svg::text::{names, width};
 
 impl Kinematic<'_> {
     /// Where the ids of joints and links go, with their classes and sizes.
@@ -17,7 +17,7 @@ impl Kinematic<'_> {
         let mut add_line = |a: Point, b: Point| {
             lines.push(Line {
                 ends: (a, b),
-                weight: 1.6,
+                weight: CROSSED,
             });
         };
         for (n, (l, _)) in self.links.iter().enumerate() {
@@ -26,6 +26,9 @@ impl Kinematic<'_> {
             }
         }
         for (a, b) in self.grounds.iter().filter_map(Ground::stem) {
+            add_line(a, b);
+        }
+        for (a, b) in self.coupling_lines() {
             add_line(a, b);
         }
         for c in self.circles().iter().flatten() {
@@ -42,8 +45,12 @@ impl Kinematic<'_> {
             points.windows(2).for_each(|w| add_line(w[0], w[1]));
         }
         let (mut wishes, mut texts) = (Vec::new(), Vec::new());
-        for s in &self.spots {
-            let text = cut(&m.joints[s.joint].id, SMALL, 150.0);
+        let ids: Vec<&str> = self
+            .spots
+            .iter()
+            .map(|s| m.joints[s.joint].id.as_str())
+            .collect();
+        for (s, text) in self.spots.iter().zip(names(&ids, SMALL, 150.0)) {
             let half = [s.rect.right - s.rect.left, s.rect.bottom - s.rect.top];
             wishes.push(Wish {
                 width: width(&text, SMALL),
@@ -55,8 +62,13 @@ impl Kinematic<'_> {
             let mark = self.subject.joint_mark(s.joint).class();
             texts.push((format!("small soft{mark}"), SMALL, text));
         }
-        for (n, (l, _)) in self.links.iter().enumerate() {
-            let text = cut(&m.links[*l].id, 12.0, 150.0);
+        let ids: Vec<&str> = self
+            .links
+            .iter()
+            .map(|(l, _)| m.links[*l].id.as_str())
+            .collect();
+        let shown = self.links.iter().zip(names(&ids, 12.0, 150.0));
+        for (n, ((l, _), text)) in shown.enumerate() {
             let size = [width(&text, 12.0), 13.0];
             let (anchor, first) = self.link_places(n, size);
             wishes.push(Wish {
@@ -69,8 +81,8 @@ impl Kinematic<'_> {
             let mark = self.subject.link_mark(*l).class();
             texts.push((format!("name{mark}"), 12.0, text));
         }
-        for p in &self.points {
-            let text = cut(&p.id, SMALL, 150.0);
+        let ids: Vec<&str> = self.points.iter().map(|p| p.id.as_str()).collect();
+        for (p, text) in self.points.iter().zip(names(&ids, SMALL, 150.0)) {
             wishes.push(Wish {
                 width: width(&text, SMALL),
                 height: 12.0,

@@ -16,6 +16,13 @@ pub(super) struct Part {
     seen: [f64; 2],
 }
 
+/// What goes along an axis, by the axis and by whether it is closed.
+const ALONG: [[&str; 2]; 3] = [
+    ["along x", "along x loop"],
+    ["along y", "along y loop"],
+    ["along z", "along z loop"],
+];
+
 /// To a hundredth of a pixel.
 pub(super) fn tidy(x: f64) -> f64 {
     (x * 100.0).round() / 100.0
@@ -29,6 +36,10 @@ pub(super) fn part(p: &Piece, mark: &str, size: f64) -> Part {
         Form::Face(points) => ("face", three(points), 0.0),
         Form::Line(points) => ("line", three(points), 0.0),
         Form::Ball(at, radius) => ("ball", three(&[*at]), *radius),
+        Form::Along(axis, points, closed) => {
+            let points = points.iter().map(|p| p.to_vec()).collect();
+            (ALONG[*axis][usize::from(*closed)], points, 0.0)
+        }
         Form::Paper(points, closed) => {
             let points = points.iter().map(|p| p.to_vec()).collect();
             (if *closed { "loop" } else { "line" }, points, 0.0)

@@ -1,6 +1,6 @@
 //! What a pose of the motion carries where.
 
-use crate::draw::place::projection::{Place, Vector, add as add3, scale as times, sub as sub3};
+use crate::draw::place::projection::{Place, Vector};
 use crate::geom::rigid::Motion;
 use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
@@ -13,9 +13,7 @@ pub(super) struct Carried<'p> {
 
 impl Carried<'_> {
     pub(super) fn point(&self, link: LinkId, p: Vector) -> Vector {
-        let (middle, length) = (self.pose.middle, self.pose.length);
-        let there = self.links[link].point(times(sub3(p, middle), 1.0 / length));
-        add3(middle, times(there, length))
+        self.pose.carried(self.links, link, p)
     }
 
     pub(super) fn place(&self, link: LinkId, frame: LinkId, place: &Place) -> Place {

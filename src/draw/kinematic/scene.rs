@@ -6,13 +6,14 @@ use super::Kinematic;
 use super::arrow::Arrow;
 use super::frame::Frame;
 use super::moving::{Moved, flag_row, poses};
-use super::part::{Part, below, flat, paper, part, tidy};
+use super::pair::{Pair, Tie};
+use super::part::{Part, below, paper, tidy};
 use crate::draw::kinematic::posed::Carried;
 use crate::draw::place::projection::{Vector, View, add, cross, dot, norm, scale, sub};
 use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
 use crate::draw::subject::Subject;
-use crate::draw::symbol::symbols;
+use crate::draw::symbol::swap::Swap;
 use crate::geom::vector::Z;
 use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
@@ -31,12 +32,19 @@ pub struct Scene {
     origin: Point,
     /// The part of the sheet that the scheme is in: left, top, right, bottom.
     room: [f64; 4],
+    /// The ids of its links.
+    names: Vec<String>,
+    /// The link that rests.
+    frame: usize,
     /// The pieces of each symbol.
     symbols: Vec<Vec<Part>>,
     joints: Vec<Joint>,
+    couplings: Vec<Tie>,
     wires: Vec<Wire>,
     moves: Vec<Move>,
     stresses: Vec<Stress>,
+    /// What redesigns put at its joints, in the order they were given.
+    swaps: Vec<Swapped>,
 }
 
 /// What a scene shows besides the mechanism.
@@ -46,6 +54,18 @@ pub struct Shown<'a> {
     pub moves: &'a [(String, Moved<'a>)],
     /// The self-stresses, each with a name.
     pub stresses: &'a [(String, &'a SelfStress)],
+    /// What redesigns may put at its joints.
+    pub swaps: &'a [Swap<'a>],
+}
+
+/// What stands at a joint of a scene instead of what is there.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Swapped {
+    /// The joint, by its number among those of the scene.
+    pub(super) joint: usize,
+    pub(super) axes: [Vector; 3],
+    pub(super) symbol: usize,
+    pub(super) pair: Pair,
 }
 
 /// A symbol at its place.
@@ -58,6 +78,8 @@ struct Joint {
     symbol: usize,
     /// Whether it is there in turned views only.
     turned: bool,
+    /// What it leaves free; nothing for what is no joint.
+    pair: Option<Pair>,
 }
 
 /// A shape fixed to a link.
@@ -104,6 +126,7 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     let mut rest = Kinematic::new(subject, sight);
     let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(|(_, m)| poses(m)).collect();
     let mut scene = rest.scene();
+    scene.swaps = rest.swap_in(&mut scene, shown.swaps);
     let mut frames = Vec::new();
     for (n, ((name, moved), poses)) in shown.moves.iter().zip(&of).enumerate() {
         let lines = rest.moving_lines(poses);
@@ -192,7 +215,7 @@ impl Scene {
     }
 
     /// The number of a symbol of some pieces.
-    fn symbol(&mut self, parts: Vec<Part>) -> usize {
+    pub(super) fn symbol(&mut self, parts: Vec<Part>) -> usize {
         let known = self.symbols.iter().position(|s| *s == parts);
         known.unwrap_or_else(|| {
             self.symbols.push(parts);
@@ -219,11 +242,19 @@ impl Kinematic<'_> {
             upright: fine(upright(view)),
             origin: [0.0; 2],
             room: [0.0; 4],
+            names: self
+                .links
+                .iter()
+                .map(|(l, _)| m.links[*l].id.clone())
+                .collect(),
+            frame: self.row(m.frame()),
             symbols: Vec::new(),
             joints: Vec::new(),
+            couplings: Vec::new(),
             wires: Vec::new(),
             moves: Vec::new(),
             stresses: Vec::new(),
+            swaps: Vec::new(),
         };
         for row in 0..self.links.len() {
             if self.is_frame(self.links[row].0) {
@@ -231,10 +262,11 @@ impl Kinematic<'_> {
             }
             let body = self.body(row);
             let class = self.look(row, &body);
-            match self.bowed_in_space(row) {
+            match self.arc_in_space(row).or_else(|| self.bowed_in_space(row)) {
                 Some(points) => out.wire(self, (row, &class, "line"), &points, None),
                 None => {
-                    let points = self.points_in_space(row);
+                    let facet = self.facets[row].clone();
+                    let points = facet.unwrap_or_else(|| self.points_in_space(row));
                     out.wire(self, (row, &class, "hull"), &points, None);
                 }
             }
@@ -256,22 +288,17 @@ impl Kinematic<'_> {
             out.joints
                 .push(self.standing(p.place, [row; 2], symbol, false));
         }
-        for i in self.outer_first() {
+        let order = self.outer_first();
+        for &i in &order {
             let spot = &self.spots[i];
             let mark = self.subject.joint_mark(spot.joint);
-            let (below, above) = spot.symbol.round(self.subject, spot.joint, mark);
-            let own = symbols::pieces(&m.joints[spot.joint].joint_type);
-            let own = own.iter().map(|p| part(p, mark.class(), spot.symbol.size));
-            let parts = below
-                .iter()
-                .map(flat)
-                .chain(own)
-                .chain(above.iter().map(flat));
-            let symbol = out.symbol(parts.collect());
+            let of = &m.joints[spot.joint].joint_type;
+            let symbol = out.symbol(self.parts(spot.joint, of, &spot.symbol, mark));
             let (rides, guides) = self.carriers(i);
             let place = &self.places[i];
             out.joints.push(Joint {
                 axes: [place.x, place.y, place.z].map(fine),
+                pair: Some(self.pair(i, of)),
                 ..self.standing(
                     place.point,
                     [rides, guides].map(|l| self.row(l)),
@@ -280,6 +307,12 @@ impl Kinematic<'_> {
                 )
             });
         }
+        let row = |joint| {
+            let at = order.iter().position(|&i| self.spots[i].joint == joint);
+            at.map(|n| self.points.len() + n)
+        };
+        let couplings = m.couplings_in(self.subject.state);
+        out.couplings = couplings.filter_map(|c| self.tie(c, row)).collect();
         // the ground, straight below whatever the view
         for ground in &self.grounds {
             let there = |i: &usize| {
@@ -318,6 +351,7 @@ impl Kinematic<'_> {
             links,
             symbol,
             turned,
+            pair: None,
         }
     }
 
@@ -408,7 +442,7 @@ fn upright(view: &View) -> Vector {
     }
 }
 
-fn fine(v: Vector) -> Vector {
+pub(super) fn fine(v: Vector) -> Vector {
     v.map(|x| (x * 1e6).round() / 1e6)
 }
 

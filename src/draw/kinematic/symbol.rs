@@ -3,12 +3,12 @@
 use crate::draw::place::projection::{Place, View};
 use crate::draw::sheet::{Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
-use crate::draw::symbol::pieces::Pose;
+use crate::draw::symbol::drive;
+use crate::draw::symbol::pieces::{Piece, Pose};
 use crate::draw::symbol::symbols;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::JointId;
 use crate::svg::plane::Rect;
-use std::f64::consts::PI;
 
 /// The symbol of a joint round the origin.
 pub(super) struct Symbol {
@@ -18,8 +18,10 @@ pub(super) struct Symbol {
     /// How many times the usual size it is.
     pub(super) size: f64,
     pub(super) room: Rect,
-    /// The radius of a drive's ring.
+    /// The radius of the ring of a drive that turns.
     pub(super) ring: Option<f64>,
+    /// The axis that a driven slide goes along.
+    pub(super) slide: Option<usize>,
 }
 
 impl Symbol {
@@ -29,17 +31,26 @@ impl Symbol {
         (of, place): (&JointType, &Place),
         view: &View,
         size: f64,
+        slide: Option<usize>,
     ) -> Symbol {
         let pose = Pose::new(place, view);
         let shapes = symbols::symbol(of, &pose, "", size);
         let own = symbols::extent(&shapes);
         let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
-        let drive = subject.mechanism.joints[joint].drive;
-        let ring = drive.then_some(reach.min(14.0 * size));
-        let room = match ring {
-            Some(r) => own.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4)),
-            None => own,
-        };
+        let joint = &subject.mechanism.joints[joint];
+        let ring = (joint.drive && slide.is_none()).then_some(reach.min(14.0 * size));
+        let mut room = own;
+        if let Some(r) = ring {
+            room = room.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4));
+        }
+        if let Some(axis) = slide {
+            let arrow = drive::straight(axis);
+            let arrow: Vec<Shape> = arrow
+                .iter()
+                .filter_map(|p| p.shape(&pose, "", size))
+                .collect();
+            room = room.with(&symbols::extent(&arrow));
+        }
         Symbol {
             of: of.clone(),
             pose,
@@ -47,6 +58,7 @@ impl Symbol {
             size,
             room,
             ring,
+            slide,
         }
     }
 
@@ -78,7 +90,16 @@ impl Symbol {
         let (below, above) = self.round(subject, joint, mark);
         sheet.shapes(&below, [0.0; 2]);
         sheet.shapes(&self.shapes, [0.0; 2]);
+        let arrow = self.arrow();
+        let arrow = arrow.iter();
+        let arrow = arrow.filter_map(|p| p.shape(&self.pose, mark.class(), self.size));
+        sheet.shapes(&arrow.collect::<Vec<_>>(), [0.0; 2]);
         sheet.shapes(&above, [0.0; 2]);
+    }
+
+    /// The straight arrow of a driven slide.
+    pub(super) fn arrow(&self) -> Vec<Piece> {
+        self.slide.map(drive::straight).unwrap_or_default()
     }
 
     /// What stands round the symbol, below and above it, and is turned to the reader always.
@@ -88,7 +109,7 @@ impl Symbol {
         joint: JointId,
         mark: Mark,
     ) -> (Vec<Shape>, Vec<Shape>) {
-        let drive = |r| drive(mark.class(), r);
+        let drive = |r| drive::round(mark.class(), r);
         let only_here = subject.only_here(joint).then(|| Shape::Circle {
             at: [0.0; 2],
             radius: self.ring.unwrap_or(10.0 * self.size) + 2.5,
@@ -97,28 +118,4 @@ impl Symbol {
         let below = self.ring.map(drive).unwrap_or_default();
         (below, only_here.into_iter().collect())
     }
-}
-
-/// The arrow round a driving pair, which is no circle: that is a second joint.
-pub(super) fn drive(mark: &str, radius: f64) -> Vec<Shape> {
-    const FROM: f64 = 0.25 * PI;
-    const TO: f64 = 1.85 * PI;
-    let on = |angle: f64, r: f64| [r * angle.cos(), r * angle.sin()];
-    let arc = (0..=28).map(|i| on(FROM + (TO - FROM) * f64::from(i) / 28.0, radius));
-    let back = TO - 6.0 / radius;
-    let head = vec![
-        on(TO + 1.5 / radius, radius),
-        on(back, radius + 2.6),
-        on(back, radius - 2.6),
-    ];
-    let arc = Shape::line(format!("line{mark}"), arc.collect());
-    let (class, closed) = (format!("ink{mark}"), true);
-    vec![
-        arc,
-        Shape::Path {
-            class,
-            points: head,
-            closed,
-        },
-    ]
 }

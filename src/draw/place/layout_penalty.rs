@@ -38,10 +38,8 @@ impl<'a> Crowding<'a> {
             .map(|l| self.shape(&rings[l], at) + self.strangers(l, &rings, at))
             .sum();
         let mut pairs = 0.0;
-        for l in 0..rings.len() {
-            for m in 0..l {
-                pairs += self.meet(&rings[l], &rings[m], at);
-            }
+        for (l, m) in near_pairs(&rings, at) {
+            pairs += self.meet(&rings[l], &rings[m], at);
         }
         let mut joints = 0.0;
         for i in 0..at.len() {
@@ -55,10 +53,10 @@ impl<'a> Crowding<'a> {
     /// Whether something crosses or crowds.
     pub(in crate::draw) fn violated(&self, at: &[Point]) -> bool {
         let rings = self.rings(at);
-        (0..rings.len()).any(|l| {
-            self.strangers(l, &rings, at) > 0.05
-                || (0..l).any(|m| self.meet(&rings[l], &rings[m], at) > 0.0)
-        }) || (0..at.len()).any(|i| (0..i).any(|j| near(at[i], at[j]) > 0.2))
+        let mut pairs = near_pairs(&rings, at);
+        (0..rings.len()).any(|l| self.strangers(l, &rings, at) > 0.05)
+            || pairs.any(|(l, m)| self.meet(&rings[l], &rings[m], at) > 0.0)
+            || (0..at.len()).any(|i| (0..i).any(|j| near(at[i], at[j]) > 0.2))
     }
 
     fn rings(&self, at: &[Point]) -> Vec<Vec<usize>> {
@@ -100,8 +98,9 @@ impl<'a> Crowding<'a> {
     fn strangers(&self, l: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
         let own = &self.graph.links[l];
         let polygon: Vec<Point> = rings[l].iter().map(|&j| at[j]).collect();
+        let [low, high] = span(&rings[l], at);
         (0..at.len())
-            .filter(|j| !own.contains(j))
+            .filter(|&j| !beyond(at[j], low, high) && !own.contains(&j))
             .map(|j| self.stranger(at[j], &rings[l], &polygon, at))
             .sum()
     }
@@ -109,6 +108,9 @@ impl<'a> Crowding<'a> {
     fn stranger(&self, p: Point, ring: &[usize], polygon: &[Point], at: &[Point]) -> f64 {
         let mut sum = 0.0;
         for (a, b) in sides(ring) {
+            if beyond(p, at[a], at[b]) {
+                continue;
+            }
             let d = to_segment(p, at[a], at[b]);
             if d < CLEAR {
                 sum += 6.0 * ((CLEAR - d) / CLEAR).powi(2);
@@ -129,6 +131,7 @@ impl<'a> Crowding<'a> {
                     && a != d
                     && b != c
                     && b != d
+                    && !apart([at[a], at[b]], [at[c], at[d]])
                     && segments_cross(at[a], at[b], at[c], at[d])
                 {
                     sum += 10.0;
@@ -243,7 +246,39 @@ fn sides(ring: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
     (0..count).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
 }
 
+/// The least and the greatest coordinates of a ring.
+fn span(ring: &[usize], at: &[Point]) -> [Point; 2] {
+    let all = ring.iter().map(|&j| at[j]);
+    let none = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    all.fold(none, |[low, high], p| {
+        [
+            [low[0].min(p[0]), low[1].min(p[1])],
+            [high[0].max(p[0]), high[1].max(p[1])],
+        ]
+    })
+}
+
+/// The pairs of rings that may meet, each with the one that comes before.
+fn near_pairs(rings: &[Vec<usize>], at: &[Point]) -> impl Iterator<Item = (usize, usize)> {
+    let spans: Vec<[Point; 2]> = rings.iter().map(|r| span(r, at)).collect();
+    let pairs = (0..rings.len()).flat_map(|l| (0..l).map(move |m| (l, m)));
+    pairs.filter(move |&(l, m)| !apart(spans[l], spans[m]))
+}
+
+/// Whether a place is farther from a segment than what crowds it, in one coordinate already.
+fn beyond(p: Point, a: Point, b: Point) -> bool {
+    (0..2).any(|k| p[k] < a[k].min(b[k]) - CLEAR || p[k] > a[k].max(b[k]) + CLEAR)
+}
+
+/// Whether two segments share no value of one coordinate.
+fn apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]))
+}
+
 fn near(a: Point, b: Point) -> f64 {
+    if (0..2).any(|k| (a[k] - b[k]).abs() >= JOINTS) {
+        return 0.0;
+    }
     let d = norm(sub(a, b));
     if d < JOINTS {
         12.0 * ((JOINTS - d) / JOINTS).powi(2)

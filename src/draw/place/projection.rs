@@ -122,10 +122,21 @@ impl Projection {
     }
 }
 
-/// The view that is asked for, or that with least overlap, for a picture of the given size that has room for some more points,
-/// too.
+/// What has to be seen: the joints, room for some more points, and the axes that outputs turn about in the frame, whose circles
+/// should be no lines.
+pub(in crate::draw) struct Seen<'a> {
+    pub(in crate::draw) places: &'a [Place],
+    pub(in crate::draw) more: &'a [Vector],
+    pub(in crate::draw) turning: &'a [Vector],
+}
+
+/// The view that is asked for, or that with least overlap, for a picture of the given size.
 pub(in crate::draw) fn best(
-    (places, more): (&[Place], &[Vector]),
+    Seen {
+        places,
+        more,
+        turning,
+    }: Seen<'_>,
     links: &[(LinkId, Vec<usize>)],
     frame: LinkId,
     room: Point,
@@ -166,7 +177,7 @@ pub(in crate::draw) fn best(
             1.0
         };
         let on: Vec<Point> = on.iter().map(|p| [p[0] * scale, p[1] * scale]).collect();
-        let cost = dear + crowd(places, &on, links, frame);
+        let cost = dear + crowd(places, &on, links, frame) + edge_on(&view, turning);
         if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
             let scale = scale * room_for_symbols(&on);
             let found = Projection {
@@ -185,6 +196,18 @@ pub(in crate::draw) fn best(
         },
         |(_, found)| found,
     )
+}
+
+/// How much circles about some axes look like lines.
+fn edge_on(view: &View, axes: &[Vector]) -> f64 {
+    /// The width of an ellipse, as a share of its length, that is plainly one.
+    const ROUND: f64 = 0.4;
+    const LINE: f64 = 40.0;
+    let width = |n: &Vector| dot(*n, view.toward).abs();
+    let narrow = axes
+        .iter()
+        .map(|n| (ROUND - width(n)).max(0.0) / ROUND * LINE);
+    narrow.sum()
 }
 
 /// How much larger than its room a drawing is, so that symbols of joints that are not in one place have room beside each

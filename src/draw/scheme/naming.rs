@@ -6,7 +6,7 @@ use crate::draw::sheet::labels::{Line, Place, Wish, place};
 use crate::draw::sheet::shapes::{HALF, grid, outline};
 use crate::model::mechanism::Role;
 use crate::svg::plane::{Point, Rect, add, area, inside, mean, norm, scale, sub, to_segment, unit};
-use crate::svg::text::{cut, width};
+use crate::svg::text::{names, width};
 
 impl Scheme<'_> {
     /// Where the ids of joints and links and the numbers of contours go, in this order.
@@ -49,8 +49,13 @@ impl Scheme<'_> {
         }
         let mut wishes = Vec::new();
         let mut texts = Vec::new();
-        for (l, &link) in self.parts.links.iter().enumerate() {
-            let text = cut(&m.links[link].id, 12.0, 150.0);
+        let ids: Vec<&str> = self
+            .parts
+            .links
+            .iter()
+            .map(|&l| m.links[l].id.as_str())
+            .collect();
+        for (l, text) in names(&ids, 12.0, 150.0).into_iter().enumerate() {
             wishes.push(Wish {
                 width: width(&text, 12.0),
                 height: 13.0,
@@ -79,8 +84,13 @@ impl Scheme<'_> {
         let badges = place(&wishes, &mut taken, &lines);
         let badges: Vec<(Place, String)> = badges.into_iter().zip(texts.drain(..)).collect();
         wishes.clear();
-        for (i, &joint) in self.parts.joints.iter().enumerate() {
-            let text = cut(&m.joints[joint].id, SMALL, 150.0);
+        let ids: Vec<&str> = self
+            .parts
+            .joints
+            .iter()
+            .map(|&j| m.joints[j].id.as_str())
+            .collect();
+        for (i, text) in names(&ids, SMALL, 150.0).into_iter().enumerate() {
             wishes.push(Wish {
                 width: width(&text, SMALL),
                 height: 12.0,

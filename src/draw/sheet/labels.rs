@@ -33,6 +33,12 @@ pub(in crate::draw) struct Line {
     pub(in crate::draw) weight: f64,
 }
 
+/// The weight of a line that no label may lie on while there is room anywhere.
+pub(in crate::draw) const CROSSED: f64 = 1000.0;
+/// How bad a leader across a label or a symbol is.
+const ON_LABEL: f64 = 100.0;
+/// The most that a line counts against a leader across it.
+const ACROSS: f64 = 1.6;
 /// The least space between a label and what is near.
 const GAP: f64 = 2.0;
 /// A label farther than this from what it names has a leader.
@@ -47,7 +53,10 @@ pub(in crate::draw) fn place(wishes: &[Wish], taken: &mut Vec<Rect>, lines: &[Li
         let place = best(wish, taken, &lines);
         taken.push(place.rect);
         if let Some(ends) = place.leader {
-            lines.push(Line { ends, weight: 5.0 });
+            lines.push(Line {
+                ends,
+                weight: CROSSED,
+            });
         }
         out.push(place);
     }
@@ -158,7 +167,7 @@ fn over(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[Line]) -> f6
     let lines = lines
         .iter()
         .filter(|l| segments_cross(a, b, l.ends.0, l.ends.1));
-    4.0 * boxes as f64 + lines.map(|l| 0.15 * l.weight).sum::<f64>()
+    ON_LABEL * boxes as f64 + lines.map(|l| 0.15 * l.weight.min(ACROSS)).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::draw::place::projection::{Place, Vector, View, dot};
 use crate::draw::sheet::Shape;
-use crate::svg::plane::{Point, add, cross, norm, scale, sub};
+use crate::svg::plane::{Point, add, cross, norm, scale, sub, unit};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -54,12 +54,17 @@ pub(in crate::draw) enum Form {
     Line(Vec<Vector>),
     /// A ball of a radius.
     Ball(Vector, f64),
+    /// Along one of the axes, and so far beside it on paper, whatever the view: a line, or a polygon where it is closed. Not
+    /// seen where the axis is seen from its end.
+    Along(usize, Vec<Point>, bool),
     /// What is turned to the reader always: a line, or a polygon where it is closed.
     Paper(Vec<Point>, bool),
 }
 
 /// At any turn of the axis.
 pub(in crate::draw) const ALWAYS: Range<f64> = 0.0..2.0;
+/// Where so much of an axis points at the reader, it is seen from its end.
+pub(in crate::draw) const END_ON: f64 = 0.9;
 /// Faces smaller than this, in square pixels at the usual size, are seen from the side.
 const EDGE: f64 = 0.05;
 
@@ -88,6 +93,14 @@ impl Piece {
                 (points, true)
             }
             Form::Line(points) => (flat(points), false),
+            Form::Along(axis, points, closed) => {
+                if pose.toward[*axis].abs() >= END_ON {
+                    return None;
+                }
+                let (axis, side) = (pose.axes[*axis], upper_side(pose.axes[*axis]));
+                let on = |p: &Point| scale(add(scale(axis, p[0]), scale(side, p[1])), size);
+                (points.iter().map(on).collect(), *closed)
+            }
             Form::Paper(points, closed) => {
                 (points.iter().map(|&p| scale(p, size)).collect(), *closed)
             }
@@ -105,6 +118,13 @@ impl Piece {
             closed,
         })
     }
+}
+
+/// Across a direction on paper, upwards; of one that goes up itself, to where no rail is.
+fn upper_side(along: Point) -> Point {
+    let [x, y] = unit(along);
+    let side = [y, -x];
+    if side[1] > 1e-9 { [-y, x] } else { side }
 }
 
 /// Twice the area of a polygon, below 0 where it turns to the left on paper.

@@ -1,7 +1,7 @@
 //! The symbols of joints that a redesign may put in place of the present ones, so that a page can show any redesign in
 //! one drawing of the mechanism as it is.
 
-use crate::draw::sheet::Sheet;
+use crate::draw::sheet::Shape;
 use crate::model::mechanism::{JointId, JointOption};
 
 /// A joint in place of another.
@@ -16,6 +16,10 @@ pub struct Swap<'a> {
 }
 
 /// The mark of an unloading joint round a symbol of some reach.
-pub(in crate::draw) fn ring(sheet: &mut Sheet, reach: f64) {
-    sheet.circle("line new", [0.0; 2], reach + 4.0);
+pub(in crate::draw) fn ring(reach: f64) -> Shape {
+    Shape::Circle {
+        at: [0.0; 2],
+        radius: reach + 4.0,
+        class: "line new".to_owned(),
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::draw::place::projection::Vector;
 use crate::draw::sheet::{ROW, Shape};
-use crate::draw::symbol::pieces::{ALWAYS, Form, Piece, Pose};
+use crate::draw::symbol::pieces::{ALWAYS, END_ON, Form, Piece, Pose};
 use crate::model::joint_type::JointType;
 use crate::svg::plane::{Point, Rect, scale};
 use std::f64::consts::{PI, TAU};
@@ -14,15 +14,19 @@ const BLOCK: f64 = 5.0;
 const BUSH: f64 = 5.5;
 /// The radius of a tube with a ball in it.
 const TUBE: f64 = 8.5;
-/// The radius of a cross.
+/// How far the arms of a cross reach.
 const CROSS: f64 = 9.0;
+/// And those of one that slides on a rod, which has to be seen beyond them.
+const SLIDING_CROSS: f64 = 6.5;
+/// Half the thickness of an arm.
+const ARM: f64 = 2.9;
 
 /// How far the side of what slides along the axis of a joint is from the axis; nothing for joints without such a slide.
 pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
     match joint {
         JointType::Prismatic => Some(BLOCK),
         JointType::Cylindrical | JointType::Helical => Some(BUSH),
-        JointType::CylindricalUniversal => Some(CROSS),
+        JointType::CylindricalUniversal => Some(SLIDING_CROSS),
         JointType::SphereInCylinder => Some(TUBE),
         JointType::Revolute
         | JointType::Universal
@@ -36,8 +40,6 @@ pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
     }
 }
 
-/// Where an axis is seen from its end; a rod of its own is then marked by its end, and a thread by a spiral.
-const END_ON: f64 = 0.9;
 /// A cylinder seen so far from its end is its face.
 const FACE_ON: f64 = 0.97;
 /// From here on a thread is a spiral.
@@ -82,8 +84,8 @@ pub(in crate::draw) fn pieces(joint: &JointType) -> Vec<Piece> {
             .concat()
         }
         JointType::Cylindrical => sliding(17.0, cylinder(BUSH, 9.5, z, FACE_ON)),
-        JointType::Universal => cross(),
-        JointType::CylindricalUniversal => sliding(17.0, cross()),
+        JointType::Universal => cross(CROSS),
+        JointType::CylindricalUniversal => sliding(17.0, cross(SLIDING_CROSS)),
         JointType::Slotted => vec![
             joint_piece(Form::Hull(vec![[7.0, 0.0, 0.0], [-7.0, 0.0, 0.0]], 6.0)),
             ball(3.2, "ink"),
@@ -260,23 +262,23 @@ fn plate(half: f64, z: f64) -> Piece {
     joint_piece(Form::Hull(corners.to_vec(), 0.0))
 }
 
-/// The cross of a universal joint: its two axes, z and x.
-fn cross() -> Vec<Piece> {
-    let axis = |n: usize| {
-        let tip = |side: f64| {
+/// The cross of a universal joint: its two axes, z and x, as arms that end in pins.
+fn cross(reach: f64) -> Vec<Piece> {
+    let ends = |n: usize| {
+        [-1.0, 1.0].map(|side| {
             let mut v = [0.0; 3];
-            v[n] = side * CROSS;
+            v[n] = side * reach;
             v
-        };
-        let ends = [tip(-1.0), tip(1.0)];
-        let pin = |at: Vector| piece("ink", Form::Ball(at, 1.9), ALWAYS);
-        vec![
-            line("line", ends.to_vec(), ALWAYS),
-            pin(ends[1]),
-            pin(ends[0]),
-        ]
+        })
     };
-    [vec![ball(CROSS, "joint")], axis(2), axis(0)].concat()
+    let arm = |n: usize, seen| piece("joint", Form::Hull(ends(n).to_vec(), ARM), seen);
+    // From its end the middle stays empty: a dot there is the end of a rod that it slides on.
+    let pins = [(0, ALWAYS), (2, 0.0..END_ON)]
+        .into_iter()
+        .flat_map(|(n, seen)| ends(n).map(|at| piece("ink", Form::Ball(at, 1.3), seen.clone())));
+    let middle = ball(ARM - 0.7, "blank");
+    let arms = [arm(0, ALWAYS), arm(2, 0.0..END_ON), middle];
+    arms.into_iter().chain(pins).collect()
 }
 
 #[cfg(test)]

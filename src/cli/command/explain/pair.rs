@@ -1,9 +1,11 @@
 //! The reference of joint types.
 
 use crate::cli::Done;
+use crate::cli::option::picture;
 use crate::cli::terminal::output;
-use crate::draw;
+use crate::draw::{self, Size};
 use crate::format::number::cost;
+use crate::format::phrase::plural;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::terms::PairWords;
 use crate::view::terminal::layout::table;
@@ -37,10 +39,17 @@ pub(super) fn all(width: Option<u16>) -> String {
 }
 
 /// All that is known of one; its picture goes into a file.
-pub(super) fn explain(of: &JointType, picture: Option<&Path>) -> anyhow::Result<Done> {
-    if let Some(path) = picture {
+pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Done> {
+    if let Some(path) = file {
+        let drawing = draw::joint_type(of);
+        let bytes = if picture::named(file) {
+            picture::there()?;
+            picture::png(&drawing, Size::Scale(picture::SCALE))?
+        } else {
+            drawing.svg.into_bytes()
+        };
         output::to(Some(path), |out| {
-            out.write_all(draw::joint_type(of).svg.as_bytes())?;
+            out.write_all(&bytes)?;
             Ok(Done::Found)
         })?;
     }
@@ -70,7 +79,11 @@ pub(super) fn explain(of: &JointType, picture: Option<&Path>) -> anyhow::Result<
         row("freedoms", &freedoms),
         row(
             "class",
-            &format!("{} ({} constraints)", of.class(), 6 - of.freedoms().len()),
+            &format!(
+                "{} ({})",
+                of.class(),
+                plural(6 - of.freedoms().len(), "constraint")
+            ),
         ),
         row("axis z", &w.axis),
         row("reference x", &w.reference),
@@ -102,7 +115,7 @@ pub(super) fn explain(of: &JointType, picture: Option<&Path>) -> anyhow::Result<
             let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what is meant.";
             writeln!(out, "\n{}", textwrap::fill(guess, width))?;
         }
-        if picture.is_none() {
+        if file.is_none() {
             writeln!(out, "\nozols explain {} -o {0}.svg draws it.", of.name())?;
         }
         Ok(Done::Found)

@@ -1,0 +1,65 @@
+//! Links of spherical linkages: arcs about the point where their axes meet, as such links are made and as they pass each other.
+
+use super::Kinematic;
+use super::body::Body;
+use crate::draw::place::projection::{Place, Vector, add, cross, dot, norm, scale as times, sub};
+use crate::geom::vector::unit;
+use crate::svg::plane::Point;
+
+/// The pieces of an arc.
+const PIECES: i32 = 16;
+/// Axes that pass each other by more than this share of the distance from where they meet do not meet.
+const MEET: f64 = 1e-4;
+
+impl Kinematic<'_> {
+    /// The points along a link between two axes that meet, whose joints stand apart from there.
+    pub(super) fn arc_in_space(&self, row: usize) -> Option<Vec<Vector>> {
+        let (link, of) = &self.links[row];
+        let &[i, j] = of.as_slice() else { return None };
+        let (a, b) = (&self.places[i], &self.places[j]);
+        if !(a.moved && b.moved) || self.is_frame(*link) || self.points_of(*link).next().is_some() {
+            return None;
+        }
+        let centre = meeting(a, b)?;
+        let [from, to] = [a, b].map(|p| sub(p.point, centre));
+        let angle = norm(cross(from, to)).atan2(dot(from, to));
+        let (near, far) = (norm(from), norm(to));
+        if near < 1e-9 * far || far < 1e-9 * near || !(1e-3..=3.1).contains(&angle) {
+            return None;
+        }
+        let (u, v) = (unit(from), unit(to));
+        let at = |n: i32| {
+            let t = f64::from(n) / f64::from(PIECES);
+            let parts = [(1.0 - t) * angle, t * angle].map(|x| x.sin() / angle.sin());
+            let out = add(times(u, parts[0]), times(v, parts[1]));
+            add(centre, times(out, near + t * (far - near)))
+        };
+        Some((0..=PIECES).map(at).collect())
+    }
+
+    /// The arc of a link on paper, where a pose has carried it.
+    pub(super) fn arc(&self, row: usize, carried: impl Fn(Vector) -> Vector) -> Option<Body> {
+        let points = self.arc_in_space(row)?;
+        let flat = points.into_iter().map(|p| self.projection.flat(carried(p)));
+        Some(Body {
+            points: flat.collect::<Vec<Point>>(),
+            plate: false,
+        })
+    }
+}
+
+/// Where two axes meet.
+fn meeting(a: &Place, b: &Place) -> Option<Vector> {
+    let n = cross(a.z, b.z);
+    let nn = dot(n, n);
+    if nn < 1e-12 {
+        return None;
+    }
+    let apart = sub(b.point, a.point);
+    let on = |z: Vector| dot(cross(apart, z), n) / nn;
+    let [p, q] = [
+        add(a.point, times(a.z, on(b.z))),
+        add(b.point, times(b.z, on(a.z))),
+    ];
+    (norm(sub(p, q)) <= MEET * norm(apart)).then_some(p)
+}

@@ -1,0 +1,104 @@
+//! The sign of a driving pair: an arrow round one that turns, a straight one beside one that slides.
+
+use crate::draw::sheet::Shape;
+use crate::draw::symbol::pieces::{ALWAYS, END_ON, Form, Piece};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::pose::Pose;
+use crate::rank::stroke::request::drive_or_any;
+use std::f64::consts::PI;
+
+/// How far beside its axis the arrow of a slide is: past the hatching of a rail.
+const BESIDE: f64 = 15.0;
+
+/// The axes of their frames that the driven joints of a state slide along, of those whose drive turns nothing.
+pub(in crate::draw) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
+    let driven = m.joints_in(state).filter(|&j| m.joints[j].drive);
+    driven
+        .filter_map(|j| Some((j, axis(driven_freedom(m, state, j)?)?)))
+        .collect()
+}
+
+/// The axis of a slide.
+fn axis(freedom: Freedom) -> Option<usize> {
+    match freedom {
+        Freedom::Tx => Some(0),
+        Freedom::Ty => Some(1),
+        Freedom::Tz => Some(2),
+        Freedom::Rx | Freedom::Ry | Freedom::Rz | Freedom::Screw => None,
+    }
+}
+
+/// The freedom that a drive moves; where the file leaves it open between a turn and a slide, the one that moves the mechanism.
+fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freedom> {
+    let of = &m.joints[joint];
+    let open = of.joint_type.freedoms().iter().filter(|f| of.drives(**f));
+    let open: Vec<Freedom> = open.copied().collect();
+    let slides = open.iter().filter(|f| axis(**f).is_some()).count();
+    if slides == 0 || slides == open.len() {
+        return open.first().copied();
+    }
+    let pose = Pose::of_file(m, state).ok()?;
+    let (column, _) = drive_or_any(m, &pose, state, Some(&of.id)).ok()?;
+    Some(pose.columns[column].freedom)
+}
+
+/// The straight arrow beside a joint that slides along one of its axes.
+pub(in crate::draw) fn straight(axis: usize) -> Vec<Piece> {
+    let along = |class, points: &[[f64; 2]], closed| Piece {
+        class,
+        form: Form::Along(axis, points.to_vec(), closed),
+        seen: ALWAYS,
+    };
+    let tip = |class, radius| Piece {
+        class,
+        form: Form::Paper(ring(radius), true),
+        seen: match axis {
+            2 => END_ON..2.0,
+            _ => 0.0..0.0,
+        },
+    };
+    vec![
+        along("line", &[[-12.0, BESIDE], [7.0, BESIDE]], false),
+        along(
+            "ink",
+            &[[14.0, BESIDE], [6.0, BESIDE + 3.0], [6.0, BESIDE - 3.0]],
+            true,
+        ),
+        tip("joint", 4.5),
+        tip("ink", 1.6),
+    ]
+}
+
+/// A small circle above the joint.
+fn ring(radius: f64) -> Vec<[f64; 2]> {
+    let on = |i: i32| {
+        let angle = 2.0 * PI * f64::from(i) / 16.0;
+        [radius * angle.cos(), radius * angle.sin() - BESIDE]
+    };
+    (0..16).map(on).collect()
+}
+
+/// The arrow round a driving pair that turns, which is no circle: that is a second joint.
+pub(in crate::draw) fn round(mark: &str, radius: f64) -> Vec<Shape> {
+    const FROM: f64 = 0.25 * PI;
+    const TO: f64 = 1.85 * PI;
+    let on = |angle: f64, r: f64| [r * angle.cos(), r * angle.sin()];
+    let arc = (0..=28).map(|i| on(FROM + (TO - FROM) * f64::from(i) / 28.0, radius));
+    let back = TO - 6.0 / radius;
+    let head = vec![
+        on(TO + 1.5 / radius, radius),
+        on(back, radius + 2.6),
+        on(back, radius - 2.6),
+    ];
+    let arc = Shape::line(format!("line{mark}"), arc.collect());
+    let (class, closed) = (format!("ink{mark}"), true);
+    vec![
+        arc,
+        Shape::Path {
+            class,
+            points: head,
+            closed,
+        },
+    ]
+}

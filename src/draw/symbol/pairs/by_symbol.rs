@@ -1,0 +1,102 @@
+//! A joint type without a name of its own: its symbol large, aslant and along its axis, with the freedoms at the axes of its frame.
+
+use crate::draw::place::projection::{self, View};
+use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
+use crate::draw::symbol::pieces::Pose;
+use crate::draw::symbol::symbols;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
+use itertools::Itertools;
+
+/// How many times the size in a scheme.
+const LARGE: f64 = 5.5;
+/// The length of an axis that lies in the paper.
+const AXIS: f64 = 112.0;
+/// The room of one view.
+const ROOM: Point = [300.0, 290.0];
+
+/// Draws a joint type in two views.
+pub(super) fn joint_type(of: &JointType) -> Drawing {
+    let freedoms = of.freedoms().iter().map(|f| f.name()).join(", ");
+    let freedoms = if freedoms.is_empty() {
+        "none".to_owned()
+    } else {
+        freedoms
+    };
+    let line = format!("class {}, freedoms: {freedoms}", of.class());
+    let caption = Caption {
+        title: of.name(),
+        subtitle: [&line, "left aslant, right along the axis z"],
+        description: &format!(
+            "The joint type {}, {line}, in two views with the axes of its frame.",
+            of.name()
+        ),
+        legend: Vec::new(),
+    };
+    let area = Rect {
+        left: 0.0,
+        top: 0.0,
+        right: 2.0 * ROOM[0],
+        bottom: ROOM[1],
+    };
+    let plan = plan(&caption, area, 0.0);
+    let mut sheet = Sheet::new(&caption, &plan);
+    for (n, view) in [projection::aslant(), projection::along_z()]
+        .iter()
+        .enumerate()
+    {
+        let middle = [ROOM[0] * (n as f64 + 0.5), ROOM[1] / 2.0];
+        draw(&mut sheet, of, view, add(middle, plan.shift));
+    }
+    sheet.finish(&caption, &plan)
+}
+
+fn draw(sheet: &mut Sheet, of: &JointType, view: &View, at: Point) {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let shapes = symbols::symbol(of, &Pose::of_axes(axes, view), "", LARGE);
+    for (n, axis) in axes.into_iter().enumerate() {
+        let tip = scale(view.flat(axis), AXIS);
+        if norm(tip) > 4.0 {
+            arrow(sheet, add(at, scale(tip, -0.55)), add(at, tip));
+        }
+        let name = ["x", "y", "z"][n];
+        let own = of.freedoms().iter().filter(|f| axis_of(**f) == n);
+        let own = own.map(|f| f.name()).join(" ");
+        let label = if own.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{name}: {own}")
+        };
+        let (x, y) = (tip[0], tip[1]);
+        let place = if norm(tip) > 4.0 {
+            let out = scale(tip, (AXIS + 4.0) / norm(tip) * norm(tip) / AXIS);
+            [
+                out[0] + 26.0 * x.signum() * f64::from(x.abs() > 1.0),
+                out[1] + 12.0 * y.signum() * f64::from(y.abs() > 1.0),
+            ]
+        } else {
+            [-0.62 * AXIS, 0.62 * AXIS]
+        };
+        sheet.text("small", 12.0, add(at, place), Anchor::Middle, &label);
+    }
+    sheet.shapes(&shapes, at);
+    sheet.symbol(symbols::extent(&shapes).moved(at));
+}
+
+fn arrow(sheet: &mut Sheet, from: Point, to: Point) {
+    sheet.line("fine", from, to);
+    let along = sub(to, from);
+    let back = scale(along, -8.0 / norm(along));
+    let side = [-back[1] * 0.42, back[0] * 0.42];
+    let corners = [to, add(add(to, back), side), sub(add(to, back), side)];
+    sheet.path("ink", &polyline(&corners, true));
+}
+
+/// The axis of the frame that a freedom is about or along.
+fn axis_of(f: Freedom) -> usize {
+    match f {
+        Freedom::Rx | Freedom::Tx => 0,
+        Freedom::Ry | Freedom::Ty => 1,
+        Freedom::Rz | Freedom::Tz | Freedom::Screw => 2,
+    }
+}
