@@ -12,8 +12,8 @@ const SIZE: f64 = 12.0;
 const SMALL: f64 = 11.0;
 /// The height of a row.
 const ROW: f64 = 21.0;
-/// More rows than this have the column heads again below.
-const LONG: usize = 30;
+/// After so many rows the column heads stand again, so that they are in sight wherever one reads.
+const BLOCK: usize = 25;
 
 impl Kind {
     /// The class of its colours.
@@ -54,21 +54,25 @@ impl Matrix {
         let width = (left + across + PAD.max(slant - cell / 2.0 + 16.0)).max(WIDTH / 2.0);
 
         let head = Head::new(&self.title, &self.subtitle, width);
-        let top = head.height() + slant + 22.0;
-        let bottom = top + rows as f64 * ROW;
-        let again = rows > LONG;
-        let height = bottom + PAD + if again { slant + 10.0 } else { 0.0 };
+        let heads = slant + 22.0;
+        let blocks = rows.div_ceil(BLOCK).max(1);
+        let first = head.height() + heads;
+        let top = |row: usize| first + row as f64 * ROW + (row / BLOCK) as f64 * heads;
+        let height = first + rows as f64 * ROW + (blocks - 1) as f64 * heads + PAD;
         let about = self.about();
         let mut xml = frame::begin((width, height), "oz oz-matrix", &self.title, &about, &head);
-        for (n, name) in self.columns.iter().enumerate() {
-            let middle = left + (n as f64 + 0.5) * cell;
-            column(&mut xml, name, (middle, top - 8.0), -45.0);
-            if again {
-                column(&mut xml, name, (middle - 3.0, bottom + 14.0), 45.0);
+        for block in 0..blocks {
+            let top = top(block * BLOCK);
+            for (n, name) in self.columns.iter().enumerate() {
+                let middle = left + (n as f64 + 0.5) * cell;
+                column(&mut xml, name, (middle, top - 8.0));
             }
+            let rows = BLOCK.min(rows - block * BLOCK) as f64;
+            let bottom = top + rows * ROW;
+            frame::stroke(&mut xml, "grid", (PAD, bottom), (left + across, bottom));
         }
         for row in 0..rows {
-            let y = top + row as f64 * ROW;
+            let y = top(row);
             if row % 5 == 0 {
                 frame::stroke(&mut xml, "grid", (PAD, y), (left + across, y));
             }
@@ -90,7 +94,6 @@ impl Matrix {
                 );
             }
         }
-        frame::stroke(&mut xml, "grid", (PAD, bottom), (left + across, bottom));
         xml.finish()
     }
 
@@ -123,14 +126,9 @@ fn tip(cell: &Cell, row: &str, column: &str) -> String {
     format!("{row}, {column}: {said}")
 }
 
-/// The head of a column, turned by `turn` degrees about its start.
-fn column(xml: &mut Xml, name: &str, (x, y): (f64, f64), turn: f64) {
-    let turn = format!(
-        "translate({} {}) rotate({})",
-        number(x),
-        number(y),
-        number(turn)
-    );
+/// The head of a column, aslant from its start.
+fn column(xml: &mut Xml, name: &str, (x, y): (f64, f64)) {
+    let turn = format!("translate({} {}) rotate(-45)", number(x), number(y));
     let text = xml.tag("text").set("class", "name").set("transform", &turn);
     text.text_and_tip(&text::cut(name, SIZE, 190.0), name.trim());
 }

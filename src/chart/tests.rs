@@ -366,3 +366,49 @@ proptest! {
         sound(&bands.svg());
     }
 }
+
+/// The labels of both axes.
+fn labels(svg: &str) -> [Vec<String>; 2] {
+    ["xt", "yt"].map(|class| texts(svg, class).into_iter().map(|t| t.1).collect())
+}
+
+proptest! {
+    #[test]
+    fn each_axis_has_two_labels_or_more(
+        points in prop::collection::vec((any::<f64>(), any::<f64>()), 1..6),
+        narrow in prop::collection::vec((0.0..1e-3f64, 0.0..1e-6f64), 1..4),
+        middle in -1e6..1e6f64,
+        scales in (0..3u8, 0..3u8),
+    ) {
+        let scale = |n| [Scale::Linear, Scale::Log, Scale::LogAndZero(-17)][usize::from(n)];
+        let close: Vec<_> = narrow.iter().map(|(x, y)| (middle + x, middle * (1.0 + y))).collect();
+        for points in [points, close] {
+            for style in [Style::Line, Style::Points] {
+                let svg = chart(scale(scales.0), scale(scales.1), vec![series("a", style, &points)]).svg();
+                let [x, y] = labels(&svg);
+                prop_assert!(x.len() >= 2 && y.len() >= 2, "{x:?} {y:?} of {points:?}");
+                prop_assert!(x.windows(2).all(|w| w[0] != w[1]) && y.windows(2).all(|w| w[0] != w[1]), "{x:?} {y:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_heads_of_a_long_matrix_stand_again_every_twenty_five_rows() {
+    let cell = Cell {
+        text: String::new(),
+        kind: Kind::Good,
+        tooltip: String::new(),
+    };
+    let matrix = |rows: usize| Matrix {
+        title: "m".to_owned(),
+        subtitle: String::new(),
+        columns: vec!["first".to_owned(), "second".to_owned()],
+        rows: (0..rows).map(|n| format!("row {n}")).collect(),
+        cells: vec![vec![cell.clone(); 2]; rows],
+    };
+    for (rows, heads) in [(1, 1), (25, 1), (26, 2), (128, 6)] {
+        let svg = matrix(rows).svg();
+        assert_eq!(svg.matches(">second</text>").count(), heads, "{rows} rows");
+    }
+}

@@ -14,6 +14,7 @@ mod catalogue;
 mod certificates;
 mod certify;
 mod chains;
+mod charts;
 mod claims;
 mod clamped;
 mod cli;

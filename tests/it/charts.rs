@@ -1,0 +1,102 @@
+//! Every chart that the program writes: two labels or more on each axis.
+
+use crate::common::run;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn pictures(folder: &Path, out: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        match path.is_dir() {
+            true => pictures(&path, out),
+            false if path.extension().is_some_and(|e| e == "svg") => out.push(path),
+            false => {}
+        }
+    }
+}
+
+/// How many labels a chart has on its axes across and up; nothing for a picture without axes.
+fn labels(svg: &str) -> Option<[usize; 2]> {
+    let doc = roxmltree::Document::parse(svg).unwrap();
+    let kind = doc.root_element().attribute("class")?;
+    let count = |class: &str| {
+        let all = doc.descendants().filter(|n| n.has_tag_name("text"));
+        let of = |n: &roxmltree::Node<'_, '_>| {
+            n.attribute("class")
+                .unwrap_or_default()
+                .split(' ')
+                .any(|c| c == class)
+        };
+        all.filter(of).count()
+    };
+    let (x, y) = (count("xt"), count("yt"));
+    match kind.split(' ').nth(1)? {
+        "oz-chart" | "oz-contours" => Some([x, y]),
+        // Rows have names there.
+        "oz-bands" => Some([x, 2]),
+        _ => None,
+    }
+}
+
+#[test]
+fn each_axis_of_each_chart_has_two_labels_or_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let commands: [&[&str]; 8] = [
+        &[
+            "statics",
+            "parallel-shears",
+            "--stroke",
+            "0:360deg:24",
+            "--svg",
+            &at("shears"),
+        ],
+        &[
+            "statics",
+            "four-bar",
+            "--stroke",
+            "0:360deg:24",
+            "--svg",
+            &at("bar"),
+        ],
+        &["statics", "--stability", "-o", &at("stability")],
+        &["grip", "lever-gripper", "--svg", &at("grip")],
+        &["drive", "torsion-module", "--svg", &at("drive")],
+        &[
+            "sweep",
+            "parallelogram-3-rods",
+            "--grid",
+            "3",
+            "--csv",
+            &at("sweep.csv"),
+            "--svg",
+            &at("sweep.svg"),
+            "--plot",
+            "best-cost",
+        ],
+        &["bench", "--quick", "four-bar", "-o", &at("bench")],
+        &["accuracy", "--quick", "-o", &at("accuracy")],
+    ];
+    for args in commands {
+        let done = run(args);
+        assert!(
+            done.status.code().is_some_and(|c| c < 2),
+            "{args:?}: {}",
+            String::from_utf8_lossy(&done.stderr)
+        );
+    }
+    let mut all = Vec::new();
+    pictures(folder.path(), &mut all);
+    let (mut charts, mut wrong) = (0, Vec::new());
+    for path in all {
+        let Some(found) = labels(&fs::read_to_string(&path).unwrap()) else {
+            continue;
+        };
+        charts += 1;
+        if found.iter().any(|n| *n < 2) {
+            wrong.push((path, found));
+        }
+    }
+    assert!(charts > 45, "{charts}");
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
