@@ -12,6 +12,7 @@ mod explorer;
 mod figures;
 mod number;
 mod policy;
+mod stage;
 mod states;
 mod symbols;
 mod variants;
@@ -19,6 +20,7 @@ mod verdict;
 mod workload;
 
 use crate::draw::{Drawing, Scene};
+use crate::format::plain::straight;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
 use crate::score::outcome::Outcome;
@@ -28,6 +30,8 @@ use crate::view::analysis::Analysis;
 use data::Data;
 use maud::{Markup, PreEscaped, html};
 use symbols::Drawn;
+
+pub use symbols::swaps;
 
 /// Idle freedoms, and self-stresses, of a state that are shown in space.
 pub const SHOWN: usize = 24;
@@ -82,7 +86,7 @@ const STYLE: &str = include_str!("page/page.css");
 /// What stands for the policy until all that it allows is written.
 const POLICY: &str = "default-src 'none'";
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 10] = [
+const SCRIPT: [&str; 18] = [
     include_str!("page/script/data.js"),
     include_str!("page/script/filter.js"),
     include_str!("page/script/table.js"),
@@ -91,7 +95,15 @@ const SCRIPT: [&str; 10] = [
     include_str!("page/script/chart.js"),
     include_str!("page/script/hull.js"),
     include_str!("page/script/scene.js"),
+    include_str!("page/script/solids.js"),
+    include_str!("page/script/fittings.js"),
+    include_str!("page/script/bodies.js"),
+    include_str!("page/script/shaded.js"),
+    include_str!("page/script/closure.js"),
     include_str!("page/script/player.js"),
+    include_str!("page/script/drag.js"),
+    include_str!("page/script/stage.js"),
+    include_str!("page/script/keep.js"),
     include_str!("page/script/main.js"),
 ];
 /// What a page that is written anew does besides.
@@ -159,9 +171,12 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                     }
                 }
                 main {
-                    section id="verdict" aria-label="Verdict" { (verdict::html(page, &analysis)) }
-                    (section(1, explorer::html(page)))
-                    (section(2, states::html(page, &analysis, &drawn)))
+                    div.front {
+                        section id="verdict" aria-label="Verdict" { (verdict::html(page, &analysis)) }
+                        (stage::html(page, &analysis))
+                        (section(1, explorer::html(page)))
+                    }
+                    (section(2, states::html(&analysis, &drawn)))
                     (section(3, certainty::html(page, &analysis)))
                     (section(4, page.commands.html()))
                     section id="sources" {
@@ -177,7 +192,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
         }
         "\n"
     };
-    Ok(policy::named(&markup.into_string(), POLICY))
+    Ok(policy::named(&straight(&markup.into_string()), POLICY))
 }
 
 impl Commands {

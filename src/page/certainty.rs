@@ -1,6 +1,7 @@
 //! How sure the figures of a page are: the same words as those of `analyze` and `search`.
 
 use super::{Page, Redesigns};
+use crate::format::phrase::plural;
 use crate::search::check::second_prime::{PrimeCheck, Verdict};
 use crate::view::analysis::{Analysis, LeftOut, State};
 use crate::view::search::stopped_early;
@@ -80,7 +81,10 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
             .map(|c| format!("Primes: {} and {}", c.primes[0], c.primes[1])),
     );
     if r.interrupted {
-        lines.push(format!("Interrupted after {} variants", r.variants.len()));
+        lines.push(format!(
+            "Interrupted after {}",
+            plural(r.variants.len(), "variant")
+        ));
     }
     lines
 }

@@ -4,6 +4,7 @@ use super::Page;
 use super::symbols::Swaps;
 use super::variants::Found;
 use crate::draw::Scene;
+use crate::format::plain::turns;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::view::analysis::{Analysis, State};
 use serde::Serialize;
@@ -95,6 +96,8 @@ pub(super) fn escaped(json: &str) -> String {
             '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
                 out.push_str(&format!("\\u{:04x}", u32::from(c)));
             }
+            // Spelt out, as all else of the page has it.
+            _ if turns(c) => out.push_str(&format!("\\\\u{{{:x}}}", u32::from(c))),
             _ => out.push(c),
         }
     }

@@ -1,4 +1,4 @@
-//! The frame that the script fills with the redesigns: filters, table, chart, and the variant that is chosen.
+//! The frame that the script fills with the redesigns: filters, table and chart.
 
 use super::Page;
 use maud::{Markup, html};
@@ -24,20 +24,14 @@ fn frame() -> Markup {
             }
         }
         div id="explorer" hidden {
-            p.note id="head" {}
-            label.lists id="list-field" {
-                "List "
-                select id="list" {
-                    option value="ideas" { "ideas: what is added, whichever joint in series has it" }
-                    option value="variants" { "single variants" }
-                }
-            }
             (filters())
-            p.note id="count" role="status" {}
-            div.split {
-                div.list { (table()) (chart()) }
-                (chosen())
+            p.help {
+                span id="count" role="status" {}
+                ". "
+                span id="head" {}
             }
+            (table())
+            (chart())
         }
     }
 }
@@ -45,17 +39,25 @@ fn frame() -> Markup {
 fn filters() -> Markup {
     html! {
         form id="filters" aria-label="Filter the variants" {
+            label id="list-field" {
+                "List "
+                select id="list" title="An idea stands for all variants that give the same freedoms to the same joints in series" {
+                    option value="ideas" { "ideas" }
+                    option value="variants" { "single variants" }
+                }
+            }
             label.wide-field {
                 "Find "
                 input type="search" id="find" autocomplete="off" spellcheck="false"
-                    placeholder="2-3:spherical universal" aria-describedby="find-help";
+                    placeholder="2-3:spherical universal" aria-describedby="find-help"
+                    title="Words that all must occur: a joint, a type, or joint:type. Escape clears.";
             }
-            label { "Cost at most " input type="number" id="most-cost" min="0" step="0.5" inputmode="decimal"; }
-            label { "Changes at most " input type="number" id="most-changes" min="0" step="1" inputmode="numeric"; }
-            label { "W at most " input type="number" id="most-mobility" step="1" inputmode="numeric"; }
+            label { "Cost ≤ " input type="number" id="most-cost" min="0" step="0.5" inputmode="decimal"; }
+            label { "Changes ≤ " input type="number" id="most-changes" min="0" step="1" inputmode="numeric"; }
+            label { "W ≤ " input type="number" id="most-mobility" step="1" inputmode="numeric"; }
             label.check id="idle-field" { input type="checkbox" id="no-idle"; " No idle links" }
             button type="reset" { "Show all" }
-            p.help id="find-help" { "Words that all must occur: a joint, a type, or joint:type. Escape clears." }
+            span.unseen id="find-help" { "Words that all must occur: a joint, a type, or joint:type. Escape clears." }
         }
     }
 }
@@ -63,14 +65,14 @@ fn filters() -> Markup {
 fn table() -> Markup {
     let turn = |id: &str, word: &str| html! { button type="button" id=(id) { (word) } };
     html! {
-        div.wide id="table-room" {
+        div.wide id="table-room" tabindex="0" role="group" aria-label="The list" {
             table id="variants" role="grid" aria-describedby="table-help" {
-                caption id="table-caption" {}
+                caption { span id="table-caption" {} }
                 thead {}
                 tbody {}
             }
         }
-        div.pager role="group" aria-label="Pages of the table" {
+        div.pager id="pager" role="group" aria-label="Pages of the table" {
             (turn("first", "First"))
             (turn("previous", "Previous"))
             span id="place" {}
@@ -92,30 +94,7 @@ fn chart() -> Markup {
                 label { "Up " select id="axis-y" {} }
                 span id="chart-words" {}
             }
-            div.wide id="chart-room" {}
-        }
-    }
-}
-
-fn chosen() -> Markup {
-    html! {
-        section.chosen id="chosen" aria-labelledby="chosen-head" tabindex="-1" {
-            h3 id="chosen-head" {}
-            p id="chosen-words" role="status" aria-live="polite" {}
-            div id="chosen-changes" {}
-            div.switches {
-                label id="drawn-state-field" { "State " select id="drawn-state" {} }
-                label {
-                    "Drawing "
-                    select id="drawn-kind" {
-                        option value="scheme" { "structural scheme" }
-                        option value="kinematic" { "kinematic scheme" }
-                    }
-                }
-                button type="button" id="whole" { "Full size" }
-            }
-            figure.drawing id="drawing" tabindex="0" role="group" aria-label="Drawing of the chosen variant" {}
-            div id="chosen-more" {}
+            div.wide id="chart-room" tabindex="0" role="group" aria-label="The chart" {}
         }
     }
 }

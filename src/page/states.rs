@@ -1,8 +1,7 @@
 //! A mechanism as it is, state by state: figures, drawings, contours and self-stresses.
 
 use super::symbols::Drawn;
-use super::{Page, SHOWN, verdict};
-use crate::draw::Drawing;
+use super::verdict;
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::view::analysis::{Analysis, Contour, External, SelfStress, State};
@@ -26,7 +25,7 @@ pub(super) fn facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
     .join(" · ")
 }
 
-pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
+pub(super) fn html(analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
     let several = analysis.states.len() > 1;
     html! {
         @for (i, (s, d)) in analysis.states.iter().zip(drawn).enumerate() {
@@ -38,37 +37,7 @@ pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>, drawn: &[Drawn<'_>]
                 (drawing(i, s, "scheme", "Structural scheme", &d.scheme.svg))
                 (drawing(i, s, "kinematic", "Kinematic scheme", &d.kinematic.svg))
             }
-            @if let Some(Some((drawing, _))) = page.scenes.get(i) { (scene(i, s, drawing)) }
             (contours(s))
-        }
-    }
-}
-
-/// The mechanism in space, with what turns and moves it.
-fn scene(i: usize, s: &State<'_>, drawing: &Drawing) -> Markup {
-    let name = format!("The mechanism in space, state {}", s.state);
-    html! {
-        figure.drawing.motion data-space=(i) role="group" aria-label=(name) {
-            div.turn tabindex="0" role="group" aria-roledescription="drawing to be turned" data-part="turn"
-                aria-label="Drag it or press the arrow keys to turn it; Home for the first view" {
-                (PreEscaped(&drawing.svg))
-            }
-            div.player {
-                button type="button" data-part="play" { "Play" }
-                input type="range" data-part="range" min="0" step="1" aria-label="Position";
-                label.check data-part="again" { input type="checkbox" data-part="loop" checked; " Again and again" }
-                label.shown { "Shown " select data-part="shown" {} }
-                button type="button" data-part="home" disabled { "First view" }
-                span.help role="status" data-part="say" {}
-                @for (n, what, flags) in [
-                    (s.idle.len(), "idle freedoms", "--motion --idle K"),
-                    (s.self_stresses.len(), "self-stresses", "--self-stress K"),
-                ] {
-                    @if n > SHOWN {
-                        span.help { "The first " (SHOWN) " of " (n) " " (what) " are here; " code { "ozols draw " (flags) } " draws any." }
-                    }
-                }
-            }
         }
     }
 }
@@ -90,10 +59,10 @@ fn figures(s: &State<'_>) -> Markup {
     let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
     html! {
         dl.figures {
-            (row("σ", int(s.redundant), &format!("redundant constraints = {} equations - rank {}", s.rows, s.rank)))
+            (row("σ", int(s.redundant), &format!("redundant constraints = {} - rank {}", plural(s.rows, "equation"), s.rank)))
             (row("W", int(s.mobility), &format!(
-                "mobility = {} freedoms - rank {}; working {}, idle {}",
-                s.freedoms, s.rank, s.working_mobility, s.local_mobility
+                "mobility = {} - rank {}; working {}, idle {}",
+                plural(s.freedoms, "freedom"), s.rank, s.working_mobility, s.local_mobility
             )))
             @if s.finite_mobility != Some(s.mobility) {
                 (row("", int(s.finite_mobility_at_least), &match s.finite_mobility {

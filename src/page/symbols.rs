@@ -2,7 +2,8 @@
 
 use super::Page;
 use crate::draw::{Drawing, Subject, Swap, kinematic_with, scheme_with};
-use crate::model::mechanism::{JointId, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::score::outcome::Outcome;
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -16,17 +17,13 @@ pub(super) struct Drawn<'a> {
 }
 
 /// Each joint of a state with each choice but the present one: the variable, the choice, and what it puts there.
-fn places<'a>(page: &'a Page<'_>, state: StateId) -> Vec<(usize, usize, Swap<'a>)> {
-    let Ok(r) = &page.redesigns else {
-        return Vec::new();
-    };
-    let search = &r.found.search;
-    let there: Vec<JointId> = page.mechanism.joints_in(state).collect();
+fn places<'a>(m: &'a Mechanism, found: &Outcome, state: StateId) -> Vec<(usize, usize, Swap<'a>)> {
+    let there: Vec<JointId> = m.joints_in(state).collect();
     let mut out = Vec::new();
-    for (v, variable) in search.space.variables.iter().enumerate() {
+    for (v, variable) in found.search.space.variables.iter().enumerate() {
         for (c, choice) in variable.choices.iter().enumerate().skip(1) {
             for &joint in variable.joints.iter().filter(|j| there.contains(j)) {
-                let Some(option) = page.mechanism.joints[joint].options.get(choice.option) else {
+                let Some(option) = m.joints[joint].options.get(choice.option) else {
                     continue;
                 };
                 let unloading = choice.unloading.is_some();
@@ -42,6 +39,13 @@ fn places<'a>(page: &'a Page<'_>, state: StateId) -> Vec<(usize, usize, Swap<'a>
     out
 }
 
+/// What the variants of a search put at the joints of a state, for [`kinematic_scene`](crate::draw::kinematic_scene).
+#[must_use]
+pub fn swaps<'a>(m: &'a Mechanism, found: &Outcome, state: StateId) -> Vec<Swap<'a>> {
+    let all = places(m, found, state).into_iter();
+    all.map(|(_, _, swap)| swap).collect()
+}
+
 impl<'a> Drawn<'a> {
     pub(super) fn new(page: &'a Page<'_>, state: StateId) -> Drawn<'a> {
         let subject = Subject {
@@ -50,7 +54,10 @@ impl<'a> Drawn<'a> {
             analysis: page.states.get(state.index()),
             marks: None,
         };
-        let places = places(page, state);
+        let places = match &page.redesigns {
+            Ok(r) => places(page.mechanism, r.found, state),
+            Err(_) => Vec::new(),
+        };
         let swaps: Vec<Swap<'_>> = places.iter().map(|p| p.2).collect();
         let (scheme, in_scheme) = scheme_with(&subject, &swaps);
         let (kinematic, in_kinematic) = kinematic_with(&subject, &swaps);
@@ -68,6 +75,8 @@ impl<'a> Drawn<'a> {
 pub(super) struct Swaps {
     scheme: Vec<[usize; 4]>,
     kinematic: Vec<[usize; 4]>,
+    /// In space the symbol is that of the scene's own list.
+    space: Vec<[usize; 4]>,
 }
 
 /// The symbols as groups of an SVG that is not shown, each once, and where they belong, state by state.
@@ -86,7 +95,13 @@ pub(super) fn store(drawn: &[Drawn<'_>]) -> (Markup, Vec<Swaps>) {
             });
             rows.collect()
         });
-        states.push(Swaps { scheme, kinematic });
+        let space = d.places.iter().enumerate();
+        let space = space.map(|(n, (v, c, swap))| [*v, *c, swap.joint.index(), n]);
+        states.push(Swaps {
+            scheme,
+            kinematic,
+            space: space.collect(),
+        });
     }
     let store = html! {
         @for (number, symbol) in store.iter().enumerate() {

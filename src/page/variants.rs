@@ -10,7 +10,7 @@ use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::{Variable, choice_name};
-use crate::view::search::text;
+use crate::view::search::{text, why};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -46,8 +46,13 @@ pub(super) struct Found {
     /// What each idea adds in words, and how many variants it stands for; nothing for single variants.
     adds: Vec<Option<String>>,
     stands_for: Vec<Option<String>>,
+    /// Of the first ideas, line by line, what `ozols search` says of them.
+    why: Vec<Vec<(String, String)>>,
     workload: Option<Workload>,
 }
+
+/// Ideas that a page says why of: two pages of its table. `ozols search --format json` says it of all.
+const TOLD: usize = 50;
 
 /// What can be put at a variable.
 #[derive(Serialize)]
@@ -168,9 +173,16 @@ impl Found {
                 added.map(|a| freedom_patterns::in_words(&search.mechanism, a))
             }),
             stands_for: column(r, |c| c.idea().map(|i| i.variants.to_string())),
+            why: why(r),
             workload: workload(r),
         })
     }
+}
+
+fn why(r: &Redesigns<'_>) -> Vec<Vec<(String, String)>> {
+    let ideas = r.variants.iter().filter(|v| v.idea().is_some());
+    let first: Vec<_> = ideas.take(TOLD).map(Variant::assignment).collect();
+    why::told(r.found, &first)
 }
 
 fn column<T>(r: &Redesigns<'_>, of: impl Fn(&Variant<'_>) -> T) -> Vec<T> {

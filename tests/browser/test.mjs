@@ -2,7 +2,9 @@
 
 import assert from "node:assert/strict";
 import path from "node:path";
+import { bodyTests } from "./bodies.mjs";
 import { catalogueTests } from "./catalogue.mjs";
+import { stageTests } from "./stage.mjs";
 import { browser, column, fits, open, picture, report } from "./pages.mjs";
 
 const text = (tab, selector) => tab.locator(selector).innerText();
@@ -11,6 +13,8 @@ const tests = [];
 const test = (name, body) => tests.push([name, body]);
 /** Turns to the list of single variants. */
 const variants = (tab) => tab.selectOption("#list", "variants");
+/** Turns to still drawings of a kind. */
+const drawn = (tab, kind) => tab.selectOption("#drawn-kind", kind);
 /** Nothing of a drawing is cut off. */
 const uncut = async (tab, selector) => {
   const [inner, room] = await tab.locator(selector).evaluate((f) => [f.scrollWidth, f.clientWidth]);
@@ -22,6 +26,8 @@ const many = report("gripper-10-many", "gripper-10", "--top", "10000");
 const loaded = report("gripper-10-loaded", "gripper-10-loaded");
 
 catalogueTests(test);
+stageTests(test, { gripper, loaded });
+bodyTests(test, { gripper });
 
 test("the verdict stands at the top, and every part has its words", async () => {
   await open(gripper, {}, async (tab) => {
@@ -80,6 +86,7 @@ test("filters narrow the list, and Escape widens it again", async () => {
 test("a variant is chosen by mouse: changes, figures and drawing", async () => {
   await open(gripper, {}, async (tab) => {
     await variants(tab);
+    await drawn(tab, "scheme");
     const row = rows(tab).nth(2);
     await row.click();
     assert.equal(await row.getAttribute("aria-selected"), "true");
@@ -94,7 +101,7 @@ test("a variant is chosen by mouse: changes, figures and drawing", async () => {
     assert.match(await tab.locator("#drawing desc").textContent(), /W = 1, σ = 0/);
     assert.match(await text(tab, "#chosen"), /11 → 0/);
     assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --variant 3 /);
-    await tab.selectOption("#drawn-kind", "kinematic");
+    await drawn(tab, "kinematic");
     assert.equal(await marked.count(), 6);
     await tab.selectOption("#drawn-state", { label: "clamped" });
     assert.equal(await marked.count(), 6);
@@ -188,7 +195,7 @@ test("ten thousand variants, on a small screen", async () => {
 test("the first list is of ideas, and single variants are a choice away", async () => {
   await open(gripper, {}, async (tab) => {
     assert.match(await text(tab, "#count"), /^200 ideas; they stand for [\d,]+ of 25,761,436/);
-    assert.match((await column(tab, "list"))[0], /(turn about|slide along) [xyz].* at /s);
+    assert.match((await column(tab, "list"))[0], /^1-2, .* → spherical; 8-9 → cylindrical$/);
     assert.match(await text(tab, "#chosen"), /Idea 1/);
     assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --idea 1 -o gripper-10-idea-1.svg/);
     await variants(tab);
@@ -221,17 +228,17 @@ test("nothing of the chosen drawing is cut, and a tapped row leads to it", async
   for (const width of [1300, 360]) {
     await open(gripper, { viewport: { width, height: 780 } }, async (tab) => {
       await fits(tab);
-      await uncut(tab, "#drawing");
+      for (const pane of ["#built", "#drawing"]) await uncut(tab, pane);
       for (const figure of await tab.locator("#mechanism figure.drawing").all()) {
         const [inner, room] = await figure.evaluate((f) => [f.scrollWidth, f.clientWidth]);
         assert.ok(inner <= room, `${inner} in ${room}`);
       }
       await rows(tab).nth(3).click();
       await tab.waitForFunction(() => {
-        const box = document.querySelector("#chosen").getBoundingClientRect();
-        return box.top >= -1 && box.top < innerHeight / 2;
+        const box = document.querySelector("#drawing").getBoundingClientRect();
+        return box.top >= -1 && box.bottom <= innerHeight;
       });
-      await tab.locator("#whole").click();
+      await tab.locator("#drawing button", { hasText: "Full size" }).click();
       assert.ok(await tab.locator("dialog.whole svg").isVisible());
       await tab.keyboard.press("Escape");
       assert.equal(await tab.locator("dialog.whole").count(), 0);
@@ -240,12 +247,12 @@ test("nothing of the chosen drawing is cut, and a tapped row leads to it", async
   }
 });
 
-const space = (tab, part) => tab.locator(".motion").first().locator(part ? `[data-part="${part}"]` : ":scope");
+const space = (tab, part) => tab.locator(part === "turn" ? "#built .turn" : part ? `[data-part="${part}"]` : "#built");
 /** The corners of what is drawn of a mechanism in space. */
 const corners = (tab) => space(tab).locator("[data-scene] path").evaluateAll((all) => all.map((p) => p.getAttribute("d")).join());
 
 test("the motion plays at thirty pictures a second, and rests for who wants it to", async () => {
-  const picture = (tab) => space(tab).getAttribute("data-picture");
+  const picture = (tab) => tab.locator("#stage").getAttribute("data-picture");
   await open(gripper, {}, async (tab) => {
     await space(tab, "turn").scrollIntoViewIfNeeded();
     await tab.waitForFunction(() => document.querySelector('[data-part="play"]').textContent === "Stop");
@@ -253,7 +260,7 @@ test("the motion plays at thirty pictures a second, and rests for who wants it t
       const shown = [];
       const begun = performance.now();
       const look = () => {
-        shown.push(document.querySelector(".motion").dataset.picture);
+        shown.push(document.querySelector("#stage").dataset.picture);
         if (performance.now() - begun < 1000) requestAnimationFrame(look);
         else done(new Set(shown).size);
       };
@@ -363,8 +370,15 @@ test("on paper: no controls, and what was chosen", async () => {
       assert.equal(await tab.locator(hidden).first().isVisible(), false, hidden);
     }
     for (const shown of ["#verdict", "#chosen", "#drawing", "#mechanism"]) assert.ok(await tab.locator(shown).isVisible(), shown);
-    await tab.pdf({ path: path.join(path.dirname(gripper), "gripper-10.pdf"), format: "A4" });
   });
+  for (const file of [gripper, loaded]) {
+    await open(file, {}, async (tab) => {
+      await tab.emulateMedia({ media: "print" });
+      const pdf = await tab.pdf({ path: file.replace(".html", ".pdf"), format: "A4" });
+      const pages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
+      assert.ok(pages <= 4, `${file}: ${pages} pages`);
+    });
+  }
 });
 
 test("names from files stay text", async () => {
@@ -373,10 +387,14 @@ test("names from files stay text", async () => {
     assert.equal(await text(tab, "h1"), "</script><script>alert(1)</script>");
     assert.equal(await tab.locator("script").count(), 2);
     assert.equal(await tab.locator("img").count(), 0);
+    await drawn(tab, "scheme");
     await rows(tab).first().click();
     const count = await tab.locator(".changes li").count();
     assert.ok(count > 0);
     assert.equal(await tab.locator("#drawing g[data-joint]:has(.changed)").count(), count);
+    const all = await tab.evaluate(() => document.documentElement.outerHTML);
+    assert.doesNotMatch(all, /[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]/, "nothing turns letters round");
+    assert.match(await text(tab, "#mechanism"), /<b>\\u\{202e\}tab\\u\{2066\}<\/b>/, "and readers are told");
     await picture(tab, "hostile");
   });
 });

@@ -10,7 +10,7 @@ use crate::cli::terminal::output;
 use crate::cli::terminal::progress::{Watch, note};
 use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, kinematic_scene};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
-use crate::page::{Commands, Page, Redesigns, SHOWN, html};
+use crate::page::{Commands, Page, Redesigns, SHOWN, html, swaps};
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
@@ -79,9 +79,13 @@ pub(in crate::cli) fn write(
             mechanism: &mechanism,
             states: &states,
             live,
+            scenes: scenes(
+                &mechanism,
+                &states,
+                redesigns.as_ref().ok().map(|r| r.found),
+            ),
             redesigns,
             ideas,
-            scenes: scenes(&mechanism, &states),
             commands: commands(&mechanism, a, &request),
         })?;
         output::to(path, |out| {
@@ -121,7 +125,11 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
 
 /// The mechanism in space in each state: as far as its drive goes, with its idle freedoms and its self-stresses. None of a plane
 /// mechanism where there is nothing of these.
-fn scenes(mechanism: &Mechanism, states: &[StateAnalysis]) -> Vec<Option<(Drawing, Scene)>> {
+fn scenes(
+    mechanism: &Mechanism,
+    states: &[StateAnalysis],
+    search: Option<&Outcome>,
+) -> Vec<Option<(Drawing, Scene)>> {
     let one = |(found, state): (&StateAnalysis, StateId)| {
         let m = found.meant.as_deref().unwrap_or(mechanism);
         let told = Analysis::new(m, std::slice::from_ref(found), &[]);
@@ -154,9 +162,11 @@ fn scenes(mechanism: &Mechanism, states: &[StateAnalysis]) -> Vec<Option<(Drawin
             analysis: Some(found),
             marks: None,
         };
+        let swaps = search.map(|found| swaps(mechanism, found, state));
         let shown = Shown {
             moves: &moves,
             stresses: &stresses,
+            swaps: &swaps.unwrap_or_default(),
         };
         Some(kinematic_scene(&subject, &Sight::default(), shown))
     };

@@ -10,20 +10,28 @@ function svgElement(name, attributes, text) {
   return made;
 }
 
-/** Round numbers over a range: some five even steps, or decades. */
-function ticks(low, high, log) {
+/** Round numbers over a range: some so many even steps. */
+function steps(low, high, count) {
   const out = [];
-  if (log) {
-    const parts = high - low > 2 ? [1] : [1, 2, 5];
-    for (let e = Math.floor(low); e <= Math.ceil(high); e += 1) for (const p of parts) out.push(e + Math.log10(p));
-    return out.filter((e) => e >= low - 1e-9 && e <= high + 1e-9);
-  }
-  const raw = (high - low) / 5 || 1;
+  const raw = (high - low) / count || 1;
   const size = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((s) => s * size).find((s) => s >= raw * 0.999);
   for (let x = Math.ceil(low / step - 1e-9) * step; x <= high + step * 1e-9; x += step) out.push(Number(x.toPrecision(12)));
   return out;
 }
+
+/** The fewest marks of decades, or of parts of them, that are at least three; even steps where decades have too few. */
+function decades(low, high) {
+  for (const parts of [[1], [1, 2, 5], [1, 2, 3, 4, 5, 6, 7, 8, 9]]) {
+    const out = [];
+    for (let e = Math.floor(low); e <= Math.ceil(high); e += 1) for (const p of parts) out.push(e + Math.log10(p));
+    const inside = out.filter((e) => e >= low - 1e-9 && e <= high + 1e-9);
+    if (inside.length > 2) return inside;
+  }
+  return steps(10 ** low, 10 ** high, 4).map(Math.log10);
+}
+
+const ticks = (low, high, log) => (log ? decades(low, high) : steps(low, high, 5));
 
 /** From values to pixels, with some room at the ends. */
 function scale(column, shown, from, to) {
@@ -37,8 +45,12 @@ function scale(column, shown, from, to) {
   const room = high > low ? 0.06 * (high - low) : column.log ? 0.5 : 1;
   [low, high] = [low - room, high + room];
   const place = (x) => from + ((x - low) / (high - low)) * (to - from);
-  const name = (x) => (column.log ? power(10 ** x).replace(".0e", "e") : column.show === percent ? percent(x) : String(x));
-  return { at: (v) => place(of(v)), ticks: ticks(low, high, column.log).map((x) => [place(x), name(x)]) };
+  const marks = ticks(low, high, column.log);
+  // As many digits as tell one mark from the next.
+  const digits = [0, 1, 2, 3, 4, 5].find((n) => new Set(marks.map((x) => (10 ** x).toExponential(n))).size === marks.length) ?? 6;
+  const decade = (x) => (10 ** x).toExponential(digits).replace(/\.?0*e\+?/, "e");
+  const name = (x) => (column.log ? decade(x) : column.show === percent ? percent(x) : String(x));
+  return { at: (v) => place(of(v)), ticks: marks.map((x) => [place(x), name(x)]) };
 }
 
 /** Those that no other is at least as good as in both and better in one: sorted along the first. */
@@ -140,7 +152,7 @@ function drawChart() {
     for (const i of dots.values()) {
       const [cx, cy] = point(i);
       const dot = svgElement("circle", { class: "dot", cx, cy, r: 3.5, "data-variant": i });
-      dot.append(svgElement("title", {}, `${inWords(i)}. ${line(i)}`));
+      dot.append(svgElement("title", {}, `${inWords(i)}. ${changeLine(i)}`));
       dot.addEventListener("click", () => chooseInChart(i));
       svg.append(dot);
     }

@@ -26,8 +26,25 @@ function table(caption, heads, rows) {
   const head = element("tr", {}, ...heads.map((h, n) => element("th", { scope: "col", class: n ? "n" : null }, h)));
   const body = rows.map((r) =>
     element("tr", {}, ...r.map((cell, n) => element(n ? "td" : "th", n ? { class: "n" } : { scope: "row" }, cell))));
-  return element("div", { class: "wide" },
-    element("table", {}, element("caption", {}, caption), element("thead", {}, head), element("tbody", {}, ...body)));
+  const made = element("table", {}, element("caption", {}, caption, " "), element("thead", {}, head), element("tbody", {}, ...body));
+  made.caption.append(copyButton(() => rowsOf(made)));
+  return element("div", { class: "wide", tabindex: 0, role: "group", "aria-label": caption }, made);
+}
+
+/** An idea in a few words. */
+function ideaWords(i) {
+  const n = found.stands_for[i];
+  const least = found.exact ? "" : "at least ";
+  const stands = n === "1" ? (found.exact ? "stands for itself alone" : "stands for itself at least") : `stands for ${least}${grouped(n)} variants, and leaves most as it is`;
+  return `${inWords(i).replace(/^[^:]*: /, "")}; ${stands}`;
+}
+
+/** What the terminal says of an idea, or what it adds where it says nothing. */
+function whyList(i) {
+  if (!byIdeas()) return null;
+  const rows = found.why[i] && found.why[i].length ? found.why[i] : [["adds", found.adds[i] || "nothing"]];
+  const each = rows.flatMap(([what, words]) => [element("dt", {}, what.replace(/^./, (c) => c.toUpperCase())), element("dd", {}, words)]);
+  return element("dl", { class: "why" }, ...each);
 }
 
 /** W and σ in every state, now and then. */
@@ -98,11 +115,11 @@ function showAsItIs() {
   byId("chosen-more").replaceChildren();
 }
 
-/** Brings what is told of the choice into sight, where it does not stand beside the table. */
+/** Brings the pictures into sight, where they do not stand beside the table. */
 function reveal() {
-  if (matchMedia("(min-width: 72rem)").matches) return;
+  if (matchMedia("(min-width: 64rem)").matches) return;
   const less = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  byId("chosen").scrollIntoView({ block: "start", behavior: less ? "auto" : "smooth" });
+  byId("stage").scrollIntoView({ block: "start", behavior: less ? "auto" : "smooth" });
 }
 
 /** Chooses a variant, or none for null. */
@@ -116,11 +133,9 @@ function choose(i) {
   } else {
     const changes = changesOf(i);
     byId("chosen-head").textContent = `${noun()} ${i + 1}`;
-    byId("chosen-words").textContent = byIdeas()
-      ? `Adds ${found.adds[i] || "nothing"}; stands for ${found.exact ? "" : "at least "}${grouped(found.stands_for[i])} variants. Shown is the one that leaves most as it is: ${inWords(i).replace(/^[^:]*: /, "")}.`
-      : `${inWords(i)}.`;
+    byId("chosen-words").textContent = byIdeas() ? `${ideaWords(i)}.` : `${inWords(i)}.`;
     byId("chosen-changes").replaceChildren(changeList(changes));
-    const more = [figureTable(i), ...remarks(i), loadTable(i)];
+    const more = [whyList(i), figureTable(i), ...remarks(i), loadTable(i)];
     for (const [what, command] of byIdeas() ? page.idea_commands : page.variant_commands) {
       more.push(element("p", { class: "help" }, `${what}: `, element("code", {}, command.replaceAll("{}", i + 1))));
     }

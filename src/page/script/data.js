@@ -60,7 +60,7 @@ function makeColumns() {
     add("stands", title, "variants that an idea stands for", found.stands_for.map((n) => (n === null ? null : Number(n))), { better: 1, show });
   }
   add("cost", "cost", "cost in revolute joints", found.cost);
-  add("changes", "changes", "changed joints", found.changes);
+  add("changes", "changes", "changed joints", found.changes, { table: !byIdeas() });
   add("mobility", "W", "mobility W", found.mobility);
   if (found.max_redundant > 0) add("redundant", "σ", "redundant constraints σ", found.redundant);
   if (found.external) add("external", "σ ext.", "external redundant constraints", found.external);
@@ -140,9 +140,6 @@ function haystack(i) {
   }
   return haystacks[i];
 }
-
-/** What a row says of its variant: the changes, or what the idea adds. */
-const line = (i) => (byIdeas() ? found.adds[i] || "nothing: the mechanism as it is" : changeLine(i));
 
 /** A variant in a few words. */
 function inWords(i) {

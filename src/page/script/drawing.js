@@ -1,6 +1,4 @@
-// A drawing of the mechanism as it is, with the symbols of a variant put in.
-
-const drawn = { state: 0, kind: "scheme" };
+// A still drawing of the mechanism as it is, with the symbols of a variant put in.
 
 /** Number of the symbol that a choice puts at a joint of a drawing. */
 function symbolOf(state, kind, change) {
@@ -60,48 +58,19 @@ function entitle(svg, state, i, changes) {
   childNamed(svg, "desc").textContent = `${what}: ${line}. Changed: ${list || "nothing"}.`;
 }
 
-/** Draws a variant, or the mechanism as it is for null. */
-function draw(i) {
-  const original = document.querySelector(`#mechanism [data-state="${drawn.state}"][data-kind="${drawn.kind}"] svg`);
-  const svg = original.cloneNode(true);
-  if (i !== null) {
-    const changes = changesOf(i);
-    const groups = (name) => new Map([...svg.querySelectorAll(`[${name}]`)].map((g) => [g.getAttribute(name), g]));
-    const [symbols, names] = [groups("data-joint"), groups("data-joint-name")];
-    for (const change of changes) {
-      const number = symbolOf(drawn.state, drawn.kind, change);
-      const place = symbols.get(change.id);
-      if (number === null || !place) continue;
-      place.replaceChildren(...symbol(number));
-      const label = names.get(change.id);
-      if (label) label.firstElementChild.classList.add("changed");
-    }
-    if (drawn.kind === "scheme") tint(svg, drawn.state, i);
-    entitle(svg, drawn.state, i, changes);
+/** Puts the symbols of a variant into a still drawing. */
+function dress(svg, state, kind, i) {
+  const changes = changesOf(i);
+  const groups = (name) => new Map([...svg.querySelectorAll(`[${name}]`)].map((g) => [g.getAttribute(name), g]));
+  const [symbols, names] = [groups("data-joint"), groups("data-joint-name")];
+  for (const change of changes) {
+    const number = symbolOf(state, kind, change);
+    const place = symbols.get(change.id);
+    if (number === null || !place) continue;
+    place.replaceChildren(...symbol(number));
+    const label = names.get(change.id);
+    if (label) label.firstElementChild.classList.add("changed");
   }
-  byId("drawing").replaceChildren(svg);
-}
-
-/** The drawing in its own size, over the page. */
-function showWhole() {
-  const close = element("button", {}, "Close");
-  const whole = element("dialog", { class: "whole", "aria-label": "The drawing in full size" },
-    element("form", { method: "dialog" }, close), document.querySelector("#drawing svg").cloneNode(true));
-  document.body.append(whole);
-  whole.addEventListener("close", () => whole.remove());
-  whole.showModal();
-}
-
-function listenToDrawing() {
-  byId("whole").addEventListener("click", showWhole);
-  const states = byId("drawn-state");
-  page.states.forEach((s, n) => states.append(element("option", { value: n }, s.name)));
-  byId("drawn-state-field").hidden = page.states.length < 2;
-  const redraw = () => {
-    drawn.state = Number(states.value);
-    drawn.kind = byId("drawn-kind").value;
-    draw(view.chosen);
-  };
-  states.addEventListener("change", redraw);
-  byId("drawn-kind").addEventListener("change", redraw);
+  if (kind === "scheme") tint(svg, state, i);
+  entitle(svg, state, i, changes);
 }

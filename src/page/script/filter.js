@@ -100,7 +100,7 @@ function compare() {
   const sign = down ? -1 : 1;
   if (key === "position") return (a, b) => sign * (a - b);
   if (key === "list") {
-    const lines = new Map(view.order.map((i) => [i, line(i)]));
+    const lines = new Map(view.order.map((i) => [i, changeLine(i)]));
     const less = (a, b) => (lines.get(a) < lines.get(b) ? -1 : Number(lines.get(a) > lines.get(b)));
     return (a, b) => sign * less(a, b) || a - b;
   }
@@ -124,7 +124,7 @@ function tellCount() {
   const [whole, listed, shown] = [found.admissible, total, view.order.length].map(grouped);
   const each = byIdeas() ? "ideas" : "variants";
   let words = `${listed} listed of ${whole} admissible variants`;
-  if (view.order.length < total) words = `${shown} of the ${listed} listed ${each} pass the filter`;
+  if (view.order.length < total) words = `${shown} of the ${listed} listed ${each} ${view.order.length === 1 ? "passes" : "pass"} the filter`;
   else if (byIdeas()) {
     const stand = found.stands_for.reduce((sum, n) => sum + BigInt(n || 0), 0n);
     words = `${total === 1 ? "One idea; it stands" : `${listed} ideas; they stand`} for ${found.exact ? "" : "at least "}${grouped(stand)} of ${whole} admissible variants`;

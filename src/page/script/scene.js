@@ -1,6 +1,9 @@
 // A mechanism in space as SVG elements: what stands on which link, carried by a pose and seen from a side. The program that
 // writes the page draws the first view in the same way.
 
+/** Where so much of an axis points at the reader, it is seen from its end. */
+const END_ON = 0.9;
+
 const plus = (a, b) => a.map((x, i) => x + b[i]);
 const times = (a, s) => a.map((x) => x * s);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -33,12 +36,18 @@ const turning = (points) => points.reduce((sum, p, i) => {
   return sum + p[0] * q[1] - p[1] * q[0];
 }, 0);
 
+/** Across a direction on paper, upwards; of one that goes up itself, to where no rail is. */
+function upperSide(along) {
+  const [x, y] = times(along, 1 / Math.hypot(...along));
+  return -x > 1e-9 ? [-y, x] : [y, -x];
+}
+
 /** A piece of a symbol, its corners on paper; null where it is not seen. */
 function shape(part, points, at) {
   if (part.form === "ball") return svgElement("circle", { class: part.class, cx: at[0] + points[0][0], cy: at[1] + points[0][1], r: part.radius });
   if (part.form === "face" && turning(points) > -0.05) return null;
   const round = part.form === "hull" ? hull(part.radius ? points.flatMap((p) => disc(p, part.radius)) : points) : points;
-  return svgElement("path", { class: part.class, d: path(round.map((p) => plus(p, at)), part.form !== "line") });
+  return svgElement("path", { class: part.class, d: path(round.map((p) => plus(p, at)), part.form !== "line" && !part.form.startsWith("along") || part.form.endsWith("loop")) });
 }
 
 /** The head of an arrow. */
@@ -78,9 +87,9 @@ function arrow(load, at, along, toward) {
   return group;
 }
 
-/** The directions of the coordinates, below the scheme. */
-function axesOf(scene, view) {
-  const at = [64, scene.room[3] + 60];
+/** The directions of the coordinates, below the scheme of a picture that begins at some place. */
+function axesOf(scene, view, from) {
+  const at = [from + 64, scene.room[3] + 60];
   return [0, 1, 2].flatMap((n) => {
     const tip = [30 * view[0][n], -30 * view[1][n]];
     const line = svgElement("path", { class: "line", d: path([at, plus(at, tip)], false) });
@@ -89,9 +98,8 @@ function axesOf(scene, view) {
   });
 }
 
-/** How a view is put into the room of the scheme: smaller where it would not fit, in the middle. */
-function fitted(scene, view, poses) {
-  const [left, top, right, bottom] = scene.room;
+/** How a view is put into a room, in the middle: smaller where it would not fit, and larger up to a factor. */
+function fitted(scene, view, poses, [left, top, right, bottom], most, margin) {
   const reach = [0, 1].map(() => [Infinity, -Infinity]);
   const note = (p) => [dot(view[0], p), -dot(view[1], p)].forEach((x, k) => {
     reach[k] = [Math.min(reach[k][0], x), Math.max(reach[k][1], x)];
@@ -100,9 +108,8 @@ function fitted(scene, view, poses) {
     for (const wire of scene.wires) wire.points.forEach((p) => note(carried(pose, wire.link, p)));
     for (const joint of scene.joints) note(carried(pose, joint.links[0], joint.at));
   }
-  const margin = 24;
   const room = [right - left, bottom - top].map((x) => x - 2 * margin);
-  const scale = Math.min(1, ...room.map((x, k) => x / Math.max(reach[k][1] - reach[k][0], 1)));
+  const scale = Math.min(most, ...room.map((x, k) => x / Math.max(reach[k][1] - reach[k][0], 1)));
   const middle = reach.map(([a, b]) => (a + b) / 2);
   return { scale, at: [(left + right) / 2 - scale * middle[0], (top + bottom) / 2 - scale * middle[1]] };
 }
@@ -111,8 +118,8 @@ function fitted(scene, view, poses) {
 const carried = (pose, link, p) => (pose && pose[link].length ? plus(spun(p, pose[link].slice(0, 3)), pose[link].slice(3)) : p);
 const turned = (pose, link, v) => (pose && pose[link].length ? spun(v, pose[link].slice(0, 3)) : v);
 
-/** The elements of a scene in a pose, with the lines of one of its motions and some loads. */
-function pictureOf(scene, { view, fit, away }, pose, motion, loads) {
+/** The elements of a scene in a pose, with the lines of one of its motions and some loads, and other symbols at some joints. */
+function pictureOf(scene, { view, fit, away }, pose, motion, loads, swaps, from) {
   const flat = (v) => [dot(view[0], v), -dot(view[1], v)];
   const onPaper = (p) => plus(times(flat(p), fit.scale), fit.at);
   const out = [];
@@ -122,7 +129,7 @@ function pictureOf(scene, { view, fit, away }, pose, motion, loads) {
     out.push(svgElement("path", { class: wire.class, d: path(wire.form === "hull" ? hull(points) : points, wire.form !== "line") }));
   }
   const near = (j) => (away ? Math.round(dot(view[2], carried(pose, j.links[0], j.at))) : 0);
-  const placed = scene.joints.filter((j) => away || !j.turned).map((j) => [near(j), j]);
+  const placed = scene.joints.map((j, n) => ({ ...j, ...swaps.get(n) })).filter((j) => away || !j.turned).map((j) => [near(j), j]);
   placed.sort((a, b) => a[0] - b[0]);
   for (const [, joint] of placed) {
     const at = onPaper(carried(pose, joint.links[0], joint.at));
@@ -131,12 +138,23 @@ function pictureOf(scene, { view, fit, away }, pose, motion, loads) {
     const paper = axes.map(flat);
     for (const part of scene.symbols[joint.symbol]) {
       if (ahead < part.seen[0] || ahead >= part.seen[1]) continue;
-      const corner = (p) => (p.length === 2 ? p : p.map((x, n) => times(paper[n], x)).reduce(plus));
+      const along = part.form.startsWith("along") ? "xyz".indexOf(part.form[6]) : -1;
+      if (along >= 0 && Math.abs(dot(axes[along], view[2])) >= END_ON) continue;
+      const corner = along >= 0
+        ? (p) => plus(times(paper[along], p[0]), times(upperSide(paper[along]), p[1]))
+        : (p) => (p.length === 2 ? p : p.map((x, n) => times(paper[n], x)).reduce(plus));
       const drawn = shape(part, part.points.map(corner), at);
       if (drawn) out.push(drawn);
     }
   }
   out.push(...loads.map((l) => arrow(l, onPaper(l.at), flat(l.along), view[2])));
-  if (away) out.push(...axesOf(scene, view));
+  if (away) out.push(...axesOf(scene, view, from));
   return out;
+}
+
+/** The way of a point and where it is. */
+function tracePicture({ way, now }, { view, fit }) {
+  const onPaper = (p) => plus(times([dot(view[0], p), -dot(view[1], p)], fit.scale), fit.at);
+  const [cx, cy] = onPaper(now);
+  return [svgElement("path", { class: "trace", d: path(way.map(onPaper), false) }), svgElement("circle", { class: "trace point", cx, cy, r: 3.5 })];
 }

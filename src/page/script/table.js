@@ -5,6 +5,9 @@ const ROWS = 25;
 const pages = () => Math.max(1, Math.ceil(view.order.length / ROWS));
 const pageNumber = () => Math.floor(view.active / ROWS);
 
+/** How a column looks; what only some need is left out where there is little room. */
+const classOf = (key, numeric) => `${numeric ? "n" : ""}${["position", "list", "cost"].includes(key) ? "" : " more"}`;
+
 function drawHead() {
   const row = element("tr", { "aria-rowindex": 1 });
   const head = (key, title, words, numeric) => {
@@ -12,11 +15,10 @@ function drawHead() {
     const button = element("button", { type: "button", title: `Sort by ${words}` }, title);
     button.addEventListener("click", () => sortBy(key));
     const order = sorted ? (view.sort.down ? "descending" : "ascending") : "none";
-    row.append(element("th", { scope: "col", "data-key": key, "aria-sort": order, class: numeric ? "n" : null }, button));
+    row.append(element("th", { scope: "col", "data-key": key, "aria-sort": order, class: classOf(key, numeric) }, button));
   };
   head("position", "№", "position", true);
-  const what = byIdeas() ? "what it adds" : "changed joints";
-  head("list", what, what, false);
+  head("list", "changed joints", "changed joints", false);
   for (const c of columns.filter((c) => c.table)) head(c.key, c.title, c.words, true);
   document.querySelector("#variants thead").replaceChildren(row);
 }
@@ -48,10 +50,11 @@ function drawRow(i, place) {
     title: found.notes[i],
   });
   row.append(element("th", { scope: "row", class: "n" }, `${i + 1}${doubt(i) && ` ${doubt(i)}`}`));
-  row.append(element("td", { class: "list" }, line(i).replaceAll("; ", ";\n")));
+  const words = changeLine(i);
+  row.append(element("td", { class: "list" }, element("span", { class: "two", title: words }, words)));
   for (const c of columns.filter((c) => c.table)) {
     const value = c.values[i];
-    row.append(element("td", { class: "n" }, value === null ? "" : c.show(value)));
+    row.append(element("td", { class: classOf(c.key, true) }, value === null ? "" : c.show(value)));
   }
   row.addEventListener("click", () => {
     view.active = place;
@@ -60,6 +63,14 @@ function drawRow(i, place) {
     reveal();
   });
   return row;
+}
+
+/** The whole list in its order, as the table has it. */
+function listRows() {
+  const shown = columns.filter((c) => c.table);
+  const heads = [noun().toLowerCase(), "changed joints", ...shown.map((c) => c.title)];
+  const row = (i) => [String(i + 1), changeLine(i), ...shown.map((c) => (c.values[i] === null ? "" : String(c.values[i])))];
+  return [heads, ...view.order.map(row)];
 }
 
 function drawTable() {
@@ -76,7 +87,8 @@ function drawTable() {
   byId("variants").setAttribute("aria-rowcount", view.order.length + 1);
   const range = shown.length ? `${grouped(from + 1)} to ${grouped(from + shown.length)} of ${grouped(view.order.length)}` : "none";
   byId("place").textContent = range;
-  byId("table-caption").textContent = `${noun()}s ${range}; cost in revolute joints`;
+  byId("pager").hidden = pages() === 1;
+  byId("table-caption").textContent = `${noun()}s ${range}`;
   const [first, last] = [pageNumber() === 0, pageNumber() === pages() - 1];
   for (const [id, off] of [["first", first], ["previous", first], ["next", last], ["last", last]]) byId(id).disabled = off;
 }

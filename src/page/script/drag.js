@@ -1,0 +1,94 @@
+// Links that are taken by mouse or finger, and points whose ways are traced.
+
+/** So near, in pixels of the drawing, a link is meant. */
+const GRASP = 9;
+
+/** Where a pane's picture is pointed at, in the coordinates of the drawing. */
+function pointed(turn, event) {
+  const { left, top, width, height } = turn.querySelector("canvas, svg").getBoundingClientRect();
+  const room = roomOf(player.scene);
+  const scale = Math.min(width / room[2], height / room[3]);
+  return [room[0] + room[2] / 2 + (event.clientX - left - width / 2) / scale, room[1] + room[3] / 2 + (event.clientY - top - height / 2) / scale];
+}
+
+/** How far right and up of the origin of space a place of the drawing is. */
+const inView = ([x, y]) => {
+  const { fit } = player.sight;
+  return [(x - fit.at[0]) / fit.scale, -(y - fit.at[1]) / fit.scale];
+};
+
+/** The segments that links are taken at: their outlines, and the place of one whose joints are all in one. */
+function segmentsOf(scene) {
+  const solid = scene.wires.filter((w) => w.of === null && !w.turned && /bone|plate/.test(w.class));
+  const outlines = solid.flatMap(({ link, form, points }) => {
+    const all = points.map((p, i) => [p, points[(i + 1) % points.length]]);
+    return (form !== "line" && points.length > 2 ? all : all.slice(0, -1)).map((ends) => ({ link, ends }));
+  });
+  const blocks = placesOf(scene).flatMap((own, link) => (own.length === 1 ? [{ link, ends: [own[0], own[0]] }] : []));
+  return [...outlines, ...blocks].filter((s) => s.link !== scene.frame);
+}
+
+/** The link that is seen at a place, and the point of it at rest; null where there is none. */
+function linkAt(place) {
+  const { scene, sight } = player;
+  const pose = poseNow();
+  const target = inView(place);
+  const flat = (p) => [dot(sight.view[0], p), dot(sight.view[1], p)];
+  let best = null;
+  for (const { link, ends: [p, q] } of segmentsOf(scene)) {
+    const [a, b] = [p, q].map((x) => flat(carried(pose, link, x)));
+    const d = minus(b, a);
+    const t = Math.max(0, Math.min(1, dot(minus(target, a), d) / (dot(d, d) || 1)));
+    const off = length(minus(target, plus(a, times(d, t)))) * sight.fit.scale;
+    if (!best || off < best.off) best = { off, link, point: plus(p, times(minus(q, p), t)) };
+  }
+  return best && best.off < GRASP ? best : null;
+}
+
+/** Takes a link that is pointed at: what moves it from then on; null where there is none, or nothing to be moved. */
+function grasp(turn, event) {
+  if (player.stress !== null) return null;
+  const found = linkAt(pointed(turn, event));
+  if (!found) return null;
+  stop();
+  const { start } = player.scene.moves[player.motion];
+  const way = player.now < start ? poses().slice(player.now, start + 1).reverse() : poses().slice(start, player.now + 1);
+  player.body ??= pullable(player.scene, way);
+  return (later) => {
+    player.body.pull(found.link, found.point, player.sight.view, inView(pointed(turn, later)));
+    player.pulled = player.body.pose();
+    byId("stage").dataset.gap = player.body.gap().toExponential(1);
+    drawScreens();
+  };
+}
+
+/** Back on the way of the motion. */
+function release() {
+  [player.body, player.pulled] = [null, null];
+}
+
+/** Draws the way of a point that is pointed at, too. */
+function traceAt(turn, event) {
+  const found = linkAt(pointed(turn, event));
+  if (!found) return;
+  player.traced.push(found);
+  player.tracing = false;
+  tellTraces();
+  drawScreens();
+}
+
+/** The ways of the traced points over the motion that is shown, and where they are now. */
+function tracesOf() {
+  if (player.stress !== null) return [];
+  const round = player.scene.moves[player.motion].closed;
+  return player.traced.map(({ link, point }) => {
+    const way = poses().map((pose) => carried(pose, link, point));
+    return { way: round ? [...way, way[0]] : way, now: carried(poseNow(), link, point) };
+  });
+}
+
+function tellTraces() {
+  const count = player.traced.length;
+  knob.untrace.hidden = count === 0;
+  knob.trace.setAttribute("aria-pressed", player.tracing);
+}
