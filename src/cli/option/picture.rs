@@ -1,7 +1,6 @@
 //! Drawings as PNG, where this build makes them.
 
-use crate::cli::terminal::output;
-use crate::draw::{self, Drawing, Size};
+use crate::draw::{Drawing, Size};
 use anyhow::ensure;
 use std::path::Path;
 
@@ -27,10 +26,10 @@ pub(in crate::cli) fn there() -> anyhow::Result<()> {
 /// A drawing as PNG; characters that no font has are told.
 #[cfg(feature = "png")]
 pub(in crate::cli) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
-    let picture = draw::png::png(drawing, size)?;
+    let picture = crate::draw::png::png(drawing, size)?;
     if !picture.missing.is_empty() {
         let missing: String = picture.missing.iter().collect();
-        output::note(&format!(
+        crate::cli::terminal::output::note(&format!(
             "warning: no font of this machine has {missing}; they are missing in the PNG\n"
         ));
     }

@@ -46,7 +46,9 @@ impl Kinematic<'_> {
         }
         let creases: Vec<&Place> = of.iter().map(|&i| &self.places[i]).collect();
         let apart = |a: &Place, b: &Place| norm(sub(a.point, b.point));
-        let pairs = creases.iter().flat_map(|a| creases.iter().map(move |b| (a, b)));
+        let pairs = creases
+            .iter()
+            .flat_map(|a| creases.iter().map(move |b| (a, b)));
         let size = pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max);
         let ends: Vec<Crease> = creases
             .iter()
