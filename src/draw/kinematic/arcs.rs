@@ -1,4 +1,5 @@
-//! Links of spherical linkages: arcs about the point where their axes meet, as such links are made and as they pass each other.
+//! Links that are no straight bars: those of spherical linkages as arcs about the point where their axes meet, as such links are
+//! made and as they pass each other, and bars that bow out round what stands in their way.
 
 use super::Kinematic;
 use super::body::Body;
@@ -12,6 +13,39 @@ const PIECES: i32 = 16;
 const MEET: f64 = 1e-4;
 
 impl Kinematic<'_> {
+    /// The line of a bar that bows out, in the plane of the paper.
+    pub(super) fn bowed_in_space(&self, row: usize) -> Option<Vec<Vector>> {
+        let by = self.bows[row];
+        let body = self.body(row);
+        let (Some(&from), Some(&to)) = (body.points.first(), body.points.last()) else {
+            return None;
+        };
+        if by == 0.0 || body.plate {
+            return None;
+        }
+        let points = self.points_in_space(row);
+        let at = |p: Point| {
+            let off = |q: &Vector| {
+                let q = self.projection.flat(*q);
+                (q[0] - p[0]).hypot(q[1] - p[1])
+            };
+            points
+                .iter()
+                .copied()
+                .min_by(|a, b| off(a).total_cmp(&off(b)))
+        };
+        let (a, b) = (at(from)?, at(to)?);
+        let last = (body.points.len() - 1) as f64;
+        let view = &self.projection.view;
+        let lifted = body.points.iter().enumerate().map(|(i, p)| {
+            let on = add(a, times(sub(b, a), i as f64 / last));
+            let flat = self.projection.flat(on);
+            let off = [p[0] - flat[0], p[1] - flat[1]].map(|x| x / self.projection.scale);
+            add(on, sub(times(view.right, off[0]), times(view.up, off[1])))
+        });
+        Some(lifted.collect())
+    }
+
     /// The points along a link between two axes that meet, whose joints stand apart from there.
     pub(super) fn arc_in_space(&self, row: usize) -> Option<Vec<Vector>> {
         let (link, of) = &self.links[row];

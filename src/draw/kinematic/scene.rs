@@ -355,39 +355,6 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The line of a bar that bows out, in the plane of the paper.
-    fn bowed_in_space(&self, row: usize) -> Option<Vec<Vector>> {
-        let by = self.bows[row];
-        let body = self.body(row);
-        let (Some(&from), Some(&to)) = (body.points.first(), body.points.last()) else {
-            return None;
-        };
-        if by == 0.0 || body.plate {
-            return None;
-        }
-        let points = self.points_in_space(row);
-        let at = |p: Point| {
-            let off = |q: &Vector| {
-                let q = self.projection.flat(*q);
-                (q[0] - p[0]).hypot(q[1] - p[1])
-            };
-            points
-                .iter()
-                .copied()
-                .min_by(|a, b| off(a).total_cmp(&off(b)))
-        };
-        let (a, b) = (at(from)?, at(to)?);
-        let last = (body.points.len() - 1) as f64;
-        let view = &self.projection.view;
-        let lifted = body.points.iter().enumerate().map(|(i, p)| {
-            let on = add(a, scale(sub(b, a), i as f64 / last));
-            let flat = self.projection.flat(on);
-            let off = [p[0] - flat[0], p[1] - flat[1]].map(|x| x / self.projection.scale);
-            add(on, sub(scale(view.right, off[0]), scale(view.up, off[1])))
-        });
-        Some(lifted.collect())
-    }
-
     /// By link, its rotation vector and where the origin goes, in pixels.
     fn carried_in_pixels(&self, c: &Carried<'_>) -> Vec<Vec<f64>> {
         let Pose { middle, .. } = c.pose;
