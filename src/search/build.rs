@@ -3,6 +3,7 @@
 pub(in crate::search) mod budget;
 pub(in crate::search) mod complements;
 pub mod orders;
+pub(in crate::search) mod self_stress;
 pub(in crate::search) mod staging;
 pub(in crate::search) mod two_sided;
 
@@ -13,6 +14,7 @@ use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::answer::proven_cheapest::cost_of;
 use crate::search::answer::proven_cheapest::up_to;
 use crate::search::build::orders::{Orders, orders};
+use crate::search::build::self_stress::{in_self_stress_space, nothing};
 use crate::search::build::staging::both_ends;
 use crate::search::build::staging::laid;
 use crate::search::build::two_sided::two_sided;
@@ -73,6 +75,11 @@ fn is_cut(stop: Stop) -> bool {
     matches!(stop, Stop::NodeBudget | Stop::Memory)
 }
 
+/// Whether a diagram is whole and has no variant.
+fn is_empty(of: &Diagram) -> bool {
+    of.stop == Stop::Exhausted && of.terminals.is_empty()
+}
+
 /// Builds both diagrams.
 pub fn build(
     question: &Question,
@@ -112,6 +119,8 @@ pub fn build_in(
     let determinate = whole(first, false);
     let second = laid.admissible.as_ref().map(|(s, l)| (&s[..], l));
     let admissible = match second {
+        // What is not determinate is not admissible.
+        Some(_) if is_empty(&determinate) => nothing(model, &laid.order),
         Some(second) => whole(second, true),
         None => determinate.clone(),
     };
@@ -177,6 +186,7 @@ fn build_parts(
     let [one, two] = &laid;
     let determinate = both([&one.determinate, &two.determinate], false)?;
     let admissible = match (&one.admissible, &two.admissible) {
+        (Some(_), Some(_)) if is_empty(&determinate) => nothing(&parts[0], &one.order),
         (Some(one), Some(two)) => both([one, two], true)?,
         _ => determinate.clone(),
     };
@@ -203,8 +213,9 @@ fn one_end(
     diagram::build(exact, space, stages, within, cancelled, progress)
 }
 
-/// The diagram of a question: from one end; where that takes many nodes, from both; cut down to the limits where neither
-/// fits.
+/// The diagram of a question: in the space dual to self-stresses where there is no searched state; otherwise, and where that does
+/// not fit the limits, of the motions of live links, from one end; where that takes many nodes, from both; cut down to the limits
+/// where none fits.
 fn built(
     question: &Question,
     model: &Model,
@@ -213,7 +224,17 @@ fn built(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    let has_halves = question.conditions.state.is_none() && limits.already >= limits.internal;
+    let free_alone = question.conditions.state.is_none();
+    let keep_output = admissible && question.conditions.keep_output;
+    if free_alone {
+        let order: Vec<usize> = stages.iter().map(|s| s.variable).collect();
+        let asked = (&order[..], limits, keep_output);
+        let added = in_self_stress_space(question, model, asked, cancelled, progress);
+        if let Some(whole) = added {
+            return whole;
+        }
+    }
+    let has_halves = free_alone && limits.already >= limits.internal;
     let at_once = if has_halves { AT_ONCE } else { usize::MAX };
     let few = Limits {
         nodes: limits.nodes.min(at_once),
@@ -223,7 +244,6 @@ fn built(
     if !has_halves || !is_cut(built.stop) {
         return built;
     }
-    let keep_output = admissible && question.conditions.keep_output;
     let parts = both_ends(question, model, stages, keep_output);
     let halves = two_sided(
         question,

@@ -28,7 +28,7 @@ use crate::search::diagram::stage::Stage;
 use crate::search::diagram::state_copies::Move;
 pub use crate::search::diagram::stop::Stop;
 use crate::search::diagram::transition::{Children, Worker};
-use crate::search::question::space::Space;
+use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
 /// Building progress, for whoever shows it.
@@ -113,9 +113,9 @@ pub(super) fn build(
         let bytes = allowed.saturating_sub(held + nodes.bytes());
         let merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         let merge = next(
-            (exact.field(), space),
-            stage,
-            (limits, allowed),
+            &Over::new(exact.field(), space, stage, limits),
+            choices,
+            allowed,
             &nodes,
             merge,
             |spent, size, least| {
@@ -185,6 +185,59 @@ pub(super) fn build(
     }
 }
 
+/// What carries nodes over a variable.
+pub(super) trait Carries: Sync {
+    /// Scratch space for a thread.
+    fn worker(&self) -> Worker;
+    /// About how many field operations a child takes of a node that has so many bytes.
+    fn effort(&self, bytes: usize) -> usize;
+    /// Takes all children of a node, in order of choices.
+    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children);
+}
+
+/// A stage of a space, within limits.
+pub(super) struct Over<'a> {
+    field: Field,
+    space: &'a Space,
+    stage: &'a Stage,
+    growth: Vec<Grown>,
+    limits: &'a Limits,
+}
+
+impl<'a> Over<'a> {
+    pub(super) fn new(
+        field: Field,
+        space: &'a Space,
+        stage: &'a Stage,
+        limits: &'a Limits,
+    ) -> Self {
+        Over {
+            field,
+            space,
+            stage,
+            growth: grown(field, space, stage),
+            limits,
+        }
+    }
+}
+
+impl Carries for Over<'_> {
+    fn worker(&self) -> Worker {
+        Worker::new(self.field, self.space.dim)
+    }
+
+    fn effort(&self, bytes: usize) -> usize {
+        let numbers = bytes / size_of::<Residue>();
+        let of = |m: &Move| numbers * (numbers / (m.step.width * self.space.dim).max(1)).max(1);
+        self.stage.moves.iter().map(of).sum()
+    }
+
+    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
+        let stage = (self.stage, &self.growth[..]);
+        worker.children(self.space, stage, matrix, spent, self.limits, out);
+    }
+}
+
 /// The children of a layer's nodes put together, but for those that are `out` of the question; `told` hears how many there are
 /// so far.
 #[allow(
@@ -192,25 +245,23 @@ pub(super) fn build(
     reason = "one layer of a diagram, or of half of one"
 )]
 pub(super) fn next(
-    (field, space): (Field, &Space),
-    stage: &Stage,
-    (limits, bytes): (&Limits, usize),
+    carries: &impl Carries,
+    choices: &[Choice],
+    bytes: usize,
     nodes: &Nodes,
     mut merge: Merge,
     mut out: impl FnMut(&Spent, usize, i64) -> bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Merge {
-    let choices = &space.variables[stage.variable].choices;
-    let growth = grown(field, space, stage);
     // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
     let each = nodes.bytes() / nodes.len().max(1);
     let size = (bytes / 8 / (each * choices.len()).max(1))
-        .min(BATCH / (effort(space.dim, stage, each) * choices.len()).max(1))
+        .min(BATCH / (carries.effort(each) * choices.len()).max(1))
         .clamp(CUT, MOST);
     for batch in (0..nodes.len()).step_by(size) {
         let batch = batch..(batch + size).min(nodes.len());
-        for part in expand(field, space, (stage, &growth), limits, nodes, batch) {
+        for part in expand(carries, choices.len(), nodes, batch) {
             merge.take(&part, nodes, |choice| choices[choice].cost_milli, &mut out);
         }
         if cancelled() {
@@ -229,38 +280,21 @@ const MOST: usize = 1 << 14;
 /// Field operations on them at most, so that whoever cancels need not wait: less than a tenth of a second.
 const BATCH: usize = 1 << 25;
 
-/// About how many field operations a child takes of a node that has so many bytes.
-fn effort(dim: usize, stage: &Stage, bytes: usize) -> usize {
-    let numbers = bytes / size_of::<Residue>();
-    let of = |m: &Move| numbers * (numbers / (m.step.width * dim).max(1)).max(1);
-    stage.moves.iter().map(of).sum()
-}
-
 /// Fewer children than this are not worth waking threads for.
 const PARALLEL: usize = 1024;
 
 /// The children of some nodes, in parallel, in order.
 pub(super) fn expand(
-    field: Field,
-    space: &Space,
-    (stage, growth): (&Stage, &[Grown]),
-    limits: &Limits,
+    carries: &impl Carries,
+    choices: usize,
     nodes: &Nodes,
     range: std::ops::Range<usize>,
 ) -> Vec<Children> {
-    let choices = space.variables[stage.variable].choices.len();
     let some = |range: std::ops::Range<usize>| {
-        let mut worker = Worker::new(field, space.dim);
+        let mut worker = carries.worker();
         let mut out = Children::new(choices);
         for i in range {
-            worker.children(
-                space,
-                (stage, growth),
-                nodes.matrix(i),
-                &nodes.spent[i],
-                limits,
-                &mut out,
-            );
+            carries.children(&mut worker, nodes.matrix(i), &nodes.spent[i], &mut out);
         }
         out
     };

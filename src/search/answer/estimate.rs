@@ -11,12 +11,11 @@
 
 use crate::search::answer::count_tables::Key;
 use crate::search::answer::counts::limited;
-use crate::search::diagram::choice_inclusion::grown;
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
-use crate::search::diagram::{DEAD, Stop, expand, passing, retain};
+use crate::search::diagram::{DEAD, Over, Stop, expand, passing, retain};
 use crate::search::question::Question;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -106,15 +105,8 @@ fn one_cut(
         let choices = space.variables[stage.variable].choices.len();
         let room = (usize::MAX, limits.bytes / CUTS);
         let mut merge = Merge::new(room, Stop::Exhausted, nodes.len() * choices);
-        let growth = grown(field, space, stage);
-        for part in expand(
-            field,
-            space,
-            (stage, &growth),
-            limits,
-            &nodes,
-            0..nodes.len(),
-        ) {
+        let over = Over::new(field, space, stage, limits);
+        for part in expand(&over, choices, &nodes, 0..nodes.len()) {
             let fails = |spent: &_, size, _| missing.least(done + 1, spent, size).is_none();
             merge.take(&part, &nodes, |_| 0, fails);
         }

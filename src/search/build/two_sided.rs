@@ -15,7 +15,7 @@ use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Stage;
-use crate::search::diagram::{DEAD, Diagram, Layer, Progress, Stop, next, passing, retain};
+use crate::search::diagram::{DEAD, Diagram, Layer, Over, Progress, Stop, next, passing, retain};
 use crate::search::question::Question;
 use crate::search::reduce::plane_split::Model;
 use rayon::prelude::*;
@@ -166,12 +166,12 @@ fn advance(
     told: &mut dyn FnMut(usize),
 ) -> Option<()> {
     let stage = side.ahead();
-    let choices = model.space.variables[stage.variable].choices.len();
-    let edges = side.nodes.len() * choices;
+    let choices = &model.space.variables[stage.variable].choices;
+    let edges = side.nodes.len() * choices.len();
     let merge = next(
-        (question.exact.field(), &model.space),
-        stage,
-        (limits, bytes),
+        &Over::new(question.exact.field(), &model.space, stage, limits),
+        choices,
+        bytes,
         &side.nodes,
         Merge::new((room, bytes), Stop::Exhausted, edges),
         |_, _, _| false,
@@ -189,7 +189,7 @@ fn advance(
     side.layers.push(Layer {
         variable: stage.variable,
         nodes: side.nodes.len(),
-        choices,
+        choices: choices.len(),
         edges,
     });
     side.nodes = nodes;

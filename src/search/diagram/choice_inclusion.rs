@@ -32,32 +32,40 @@ pub(in crate::search) fn grown(field: Field, space: &Space, stage: &Stage) -> Ve
     if matches!(only.lane, Lane::Friction(_)) {
         return Vec::new();
     }
-    let choices = &space.variables[stage.variable].choices;
-    let span = |c: usize| &choices[c].spans[only.member];
-    let mut order: Vec<usize> = (0..choices.len()).collect();
-    order.sort_by_key(|&c| span(c).len());
-    let mut out: Vec<Grown> = Vec::with_capacity(choices.len());
+    let choices = space.variables[stage.variable].choices.iter();
+    let spans: Vec<_> = choices.map(|c| &c.spans[only.member][..]).collect();
+    let image = |t: &Vec<Residue>| {
+        let mut row = Vec::new();
+        only.step.image(field, space.dim, t, &mut row);
+        row
+    };
+    let mut out = one_from_another(field, &spans);
+    let rows = out.iter_mut().flat_map(|g| &mut g.more);
+    rows.for_each(|t| *t = image(t));
+    out
+}
+
+/// Spans, smaller ones first, each with the largest one before it that it contains, and its own vectors that this has not.
+pub(in crate::search) fn one_from_another(field: Field, spans: &[&[Vec<Residue>]]) -> Vec<Grown> {
+    let mut order: Vec<usize> = (0..spans.len()).collect();
+    order.sort_by_key(|&c| spans[c].len());
+    let mut out: Vec<Grown> = Vec::with_capacity(spans.len());
     for (i, &choice) in order.iter().enumerate() {
         let mut whole = Echelon::new(field);
-        span(choice).iter().for_each(|t| {
+        spans[choice].iter().for_each(|t| {
             whole.insert(t);
         });
-        let contained = |c: &&usize| span(**c).iter().all(|t| whole.contains(t));
+        let contained = |c: &&usize| spans[**c].iter().all(|t| whole.contains(t));
         let from = order[..i].iter().rev().find(contained).copied();
         let mut known = Echelon::new(field);
-        from.into_iter().flat_map(span).for_each(|t| {
+        from.into_iter().flat_map(|c| spans[c]).for_each(|t| {
             known.insert(t);
         });
-        let new = span(choice).iter().filter(|t| known.insert(t));
-        let image = |t: &Vec<Residue>| {
-            let mut row = Vec::new();
-            only.step.image(field, space.dim, t, &mut row);
-            row
-        };
+        let new = spans[choice].iter().filter(|t| known.insert(t));
         out.push(Grown {
             choice,
             from,
-            more: new.map(image).collect(),
+            more: new.cloned().collect(),
         });
     }
     out

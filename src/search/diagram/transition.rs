@@ -7,7 +7,7 @@ use crate::search::diagram::choice_inclusion::Grown;
 use crate::search::diagram::frontier::Step;
 use crate::search::diagram::output_motion::Lookahead;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::stage::{Collapse, Stage};
+use crate::search::diagram::stage::{Adding, Collapse, Stage};
 use crate::search::diagram::state_copies::{Held, Lane};
 use crate::search::question::space::Space;
 
@@ -78,6 +78,44 @@ impl Rows {
         self.width = width;
         self.pivots.clear();
         self.data.clear();
+    }
+
+    /// What tells rows of a width apart: the pivots, as bits, and of each row the numbers that stand in no pivot's column.
+    fn packed(&self, out: &mut Vec<Residue>) {
+        out.clear();
+        out.resize(self.width.div_ceil(64), 0);
+        self.pivots
+            .iter()
+            .for_each(|p| out[p / 64] |= 1 << (p % 64));
+        for (row, &pivot) in self.data.chunks_exact(self.width.max(1)).zip(&self.pivots) {
+            let mut others = self.pivots.iter().copied().peekable();
+            for (i, &x) in row.iter().enumerate().skip(pivot) {
+                while others.next_if(|&p| p < i).is_some() {}
+                if others.peek() != Some(&i) {
+                    out.push(x);
+                }
+            }
+        }
+    }
+
+    /// The rows that were packed; none where nothing was.
+    fn unpack(&mut self, f: Field, width: usize, packed: &[Residue]) {
+        self.clear(width);
+        let (bits, mut numbers) = packed.split_at(width.div_ceil(64).min(packed.len()));
+        let is_pivot = |i: usize| bits.get(i / 64).is_some_and(|b| b >> (i % 64) & 1 == 1);
+        self.pivots.extend((0..width).filter(|&i| is_pivot(i)));
+        for row in 0..self.pivots.len() {
+            let start = self.data.len();
+            self.data.resize(start + width, 0);
+            let pivot = self.pivots[row];
+            self.data[start + pivot] = f.one();
+            for i in (pivot + 1..width).filter(|&i| !is_pivot(i)) {
+                let Some((&x, rest)) = numbers.split_first() else {
+                    break;
+                };
+                (self.data[start + i], numbers) = (x, rest);
+            }
+        }
     }
 
     /// Adds a vector, keeping the form; `vector` is used up.
@@ -204,12 +242,16 @@ impl Worker {
     /// Ends a step: drops the gaps of `work`; returns the redundancy.
     fn close(&mut self, step: &Step) -> u32 {
         let (d, gaps) = (self.dim, usize::from(step.closing) + step.coupled);
-        if gaps == 0 {
+        let directions = if step.closing { d } else { 0 } + step.coupled;
+        self.drop_gap(gaps * d, directions)
+    }
+
+    /// Drops the first coordinates of `work`, a gap of so many directions; returns the redundancy.
+    fn drop_gap(&mut self, gap: usize, directions: usize) -> u32 {
+        if gap == 0 {
             return 0;
         }
         // Rows that bridge a gap are motions the contour forbids; directions that no row bridges are redundant.
-        let gap = gaps * d;
-        let directions = if step.closing { d } else { 0 } + step.coupled;
         let bridged = self.work.pivots.partition_point(|&p| p < gap);
         let (width, narrow) = (self.work.width, self.work.width - gap);
         for r in bridged..self.work.pivots.len() {
@@ -291,6 +333,39 @@ impl Worker {
         }
     }
 
+    /// All children of a node of the space dual to self-stresses, in order of choices.
+    pub(in crate::search) fn children_added(
+        &mut self,
+        stage: &Adding,
+        matrix: &[Residue],
+        spent: &Spent,
+        limits: &Limits,
+        out: &mut Children,
+    ) {
+        self.base.unpack(self.arithmetic.field, stage.width, matrix);
+        self.grow(&stage.growth);
+        for choice in 0..stage.growth.len() {
+            self.work.clone_from(&self.grown[choice]);
+            // A pivot there is a motion that closes every contour and moves a kept link.
+            let goes_wrong = self
+                .work
+                .pivots
+                .last()
+                .is_some_and(|&p| p >= stage.contours);
+            let mut now = spent.clone();
+            now.add(Lane::Common, self.drop_gap(stage.gap, stage.gap));
+            if goes_wrong || !now.within(limits) {
+                out.found.push(None);
+                continue;
+            }
+            if let Some(collapse) = &stage.collapse {
+                self.collapse(collapse);
+            }
+            self.work.packed(&mut self.vector);
+            out.take(&self.vector, now, 1);
+        }
+    }
+
     /// Whether each link of a list moves with one of those that may hold it in all motions of `work`.
     fn holds(&self, held: &Held) -> bool {
         let d = self.dim;
@@ -313,6 +388,7 @@ impl Worker {
             present,
             fixed,
             open,
+            silent,
         } = collapse;
         // What is wrong about each row.
         let size = places.len();
@@ -349,7 +425,7 @@ impl Worker {
         for row in self.kept.data.chunks_exact(self.kept.width).take(wrong) {
             self.vector.clear();
             self.vector.extend_from_slice(&row[open.len()..]);
-            places.iter().for_each(|&p| self.vector[p] = 0);
+            silent.iter().for_each(|&p| self.vector[p] = 0);
             self.rest.insert(&mut self.arithmetic, &mut self.vector);
         }
         // Each goes wrong in a way of its own; so do motions of the finished links alone.

@@ -1,0 +1,287 @@
+//! What choices add to the present joints, in the space dual to the present self-stresses.
+//!
+//! Every choice lets its joint do all that the present one does, so what the present joints close is closed in every variant.
+//! What is left of the closure equations without it has a dimension for each self-stress of the mechanism as it is: 11 for the
+//! ten-link gripper, whose equations have 24 rows. A variant has no redundant constraint if the motions that it adds span that
+//! space. The motions of kept links are further coordinates, of which the present motions are taken out as well: a variant keeps
+//! them if it adds nothing that closes every contour and moves a kept link.
+//!
+//! The coordinates are ordered by the last variable that reaches them: what only the variables up to one reach comes before what
+//! later ones reach too, so that all that is forgotten after a variable stands in front.
+
+use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::tree::path_from_frame;
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::search::question::space::Space;
+
+/// A vector of the added motions of a choice.
+type Added = Vec<Residue>;
+
+/// What the choices of some variables add, in coordinates fit for their order.
+#[derive(Debug)]
+pub(in crate::search) struct SelfStressSpace {
+    /// For each variable in order and each of its choices, independent vectors of what it adds: first the coordinates of the
+    /// contours that are still reached there, then all those of kept links.
+    pub(in crate::search) added: Vec<Vec<Vec<Added>>>,
+    /// Coordinates of the contours before each variable; one more at the end, 0.
+    pub(in crate::search) contours: Vec<usize>,
+    /// Coordinates of kept links that no variable after it reaches, for each variable: they are the first ones.
+    pub(in crate::search) finished: Vec<usize>,
+    /// Coordinates of kept links.
+    pub(in crate::search) kept: usize,
+    /// Self-stresses that every variant has.
+    pub(in crate::search) lasting: u32,
+}
+
+/// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
+struct Rows<'m> {
+    mechanism: &'m Mechanism,
+    dim: usize,
+    contours: Vec<Contour>,
+    /// Couplings of the free state, by their numbers.
+    couplings: Vec<usize>,
+    paths: Vec<Vec<(JointId, bool)>>,
+}
+
+impl<'m> Rows<'m> {
+    fn new(mechanism: &'m Mechanism, dim: usize, kept: &[LinkId]) -> Self {
+        let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+        let couplings = (0..mechanism.couplings.len()).filter(|&q| {
+            let mut ends = mechanism.couplings[q].ends.iter();
+            ends.all(|e| free.binary_search(&e.joint).is_ok())
+        });
+        let path = |&l: &LinkId| path_from_frame(mechanism, StateId::FREE, l);
+        Rows {
+            mechanism,
+            dim,
+            contours: contour_basis(mechanism, StateId::FREE),
+            couplings: couplings.collect(),
+            paths: kept.iter().map(path).collect(),
+        }
+    }
+
+    /// Rows of contours and couplings.
+    fn closing(&self) -> usize {
+        self.contours.len() * self.dim + self.couplings.len()
+    }
+
+    /// The column of a joint's twist, with its entries for couplings behind it.
+    fn column(&self, f: Field, joint: JointId, twist: &[Residue]) -> Vec<Residue> {
+        let (d, closing) = (self.dim, self.closing());
+        let mut out = vec![0; closing + self.paths.len() * d];
+        let mut put = |at: usize, forward: bool| {
+            f.accumulate(&mut out[at..at + d], &twist[..d], forward);
+        };
+        for (i, contour) in self.contours.iter().enumerate() {
+            if let Some(forward) = contour.direction(joint) {
+                put(i * d, forward);
+            }
+        }
+        for (i, path) in self.paths.iter().enumerate() {
+            if let Some((_, forward)) = path.iter().find(|(j, _)| *j == joint) {
+                put(closing + i * d, *forward);
+            }
+        }
+        for (i, (q, _)) in self.mechanism.couplings_of(joint).enumerate() {
+            if let Some(at) = self.couplings.iter().position(|&x| x == q) {
+                let at = self.contours.len() * d + at;
+                out[at] = f.add(out[at], twist[d + i]);
+            }
+        }
+        out
+    }
+}
+
+/// Vectors as combinations of given ones.
+struct Basis {
+    size: usize,
+    rows: Echelon,
+}
+
+impl Basis {
+    /// Of independent vectors.
+    fn new(field: Field, vectors: &[Vec<Residue>]) -> Basis {
+        let mut rows = Echelon::new(field);
+        for (i, v) in vectors.iter().enumerate() {
+            let mut row = v.clone();
+            row.resize(v.len() + vectors.len(), 0);
+            row[v.len() + i] = field.neg(field.one());
+            rows.insert(&row);
+        }
+        Basis {
+            size: vectors.len(),
+            rows,
+        }
+    }
+
+    /// The factors of a vector of their span.
+    fn factors(&self, v: &[Residue]) -> Vec<Residue> {
+        let mut row = v.to_vec();
+        row.resize(v.len() + self.size, 0);
+        self.rows.reduce(&mut row);
+        debug_assert!(row[..v.len()].iter().all(|&x| x == 0), "in the span");
+        row.split_off(v.len())
+    }
+}
+
+/// Independent vectors, and for each the last variable that reaches it.
+#[derive(Default)]
+struct Reached {
+    vectors: Vec<Vec<Residue>>,
+    by: Vec<usize>,
+}
+
+impl Reached {
+    fn push(&mut self, vector: Vec<Residue>, by: usize) {
+        self.vectors.push(vector);
+        self.by.push(by);
+    }
+
+    /// The first variable's own come first.
+    fn turned(mut self) -> Self {
+        self.vectors.reverse();
+        self.by.reverse();
+        self
+    }
+
+    /// How many no variable after this one reaches.
+    fn up_to(&self, variable: usize) -> usize {
+        self.by.partition_point(|&t| t <= variable)
+    }
+}
+
+impl SelfStressSpace {
+    /// Of the variables of a space in an order, where the motions of `kept` links matter; none where a choice lacks a motion that
+    /// the present joint has.
+    ///
+    /// # Complexity
+    /// O(n·m²) field operations for n vectors of all choices with m rows.
+    pub(in crate::search) fn new(
+        field: Field,
+        mechanism: &Mechanism,
+        space: &Space,
+        order: &[usize],
+        kept: &[LinkId],
+    ) -> Option<SelfStressSpace> {
+        let rows = Rows::new(mechanism, space.dim, kept);
+        let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
+            let variable = &space.variables[v];
+            let joints = variable.joints.iter().zip(&variable.choices[c].spans);
+            joints
+                .flat_map(|(&j, span)| span.iter().map(move |t| (j, t)))
+                .map(|(j, t)| rows.column(field, j, t))
+                .collect()
+        };
+        if !order.iter().all(|&v| is_contained(field, space, v)) {
+            return None;
+        }
+        let mut present = Echelon::new(field);
+        for &v in order {
+            of_choice(v, 0).iter().for_each(|c| {
+                present.insert(c);
+            });
+        }
+        let width = rows.closing() + kept.len() * space.dim;
+        let pivots = present.pivots();
+        let open: Vec<usize> = (0..width).filter(|i| !pivots.contains(i)).collect();
+        let left = |mut column: Vec<Residue>| -> Vec<Residue> {
+            present.reduce(&mut column);
+            open.iter().map(|&i| column[i]).collect()
+        };
+        // Motions of the kept links, and what the choices add.
+        let mut links = Echelon::new(field);
+        for i in rows.closing()..width {
+            let mut unit = vec![0; width];
+            unit[i] = field.one();
+            links.insert(&left(unit));
+        }
+        let of_variable = |&v: &usize| -> Vec<Vec<Added>> {
+            let choices = 0..space.variables[v].choices.len();
+            choices
+                .map(|c| of_choice(v, c).into_iter().map(&left).collect())
+                .collect()
+        };
+        let added: Vec<Vec<Vec<Added>>> = order.iter().map(of_variable).collect();
+        let self_stresses = open.len() - links.rank();
+        // From the last variable on, what each is the last to reach.
+        let mut known = links.clone();
+        let mut contours = Reached::default();
+        for (t, choices) in added.iter().enumerate().rev() {
+            for v in choices.iter().flatten() {
+                if known.insert(v) {
+                    contours.push(v.clone(), t);
+                }
+            }
+        }
+        let contours = contours.turned();
+        let count = contours.vectors.len();
+        let both: Vec<_> = contours
+            .vectors
+            .iter()
+            .cloned()
+            .chain(links.reduced())
+            .collect();
+        let basis = Basis::new(field, &both);
+        let in_basis = |choices: &Vec<Vec<Added>>| -> Vec<Vec<Added>> {
+            choices
+                .iter()
+                .map(|c| c.iter().map(|v| basis.factors(v)).collect())
+                .collect()
+        };
+        let added: Vec<Vec<Vec<Added>>> = added.iter().map(in_basis).collect();
+        let mut known = Echelon::new(field);
+        let mut kept = Reached::default();
+        for (t, choices) in added.iter().enumerate().rev() {
+            for v in choices.iter().flatten() {
+                if known.insert(&v[count..]) {
+                    kept.push(v[count..].to_vec(), t);
+                }
+            }
+        }
+        let kept = kept.turned();
+        let of_links = Basis::new(field, &kept.vectors);
+        let stage = |(t, choices): (usize, &Vec<Vec<Added>>)| -> Vec<Vec<Added>> {
+            let first = contours.by.partition_point(|&by| by < t);
+            let vector = |v: &Added| -> Added {
+                let contours = v[first..count].iter().copied();
+                contours.chain(of_links.factors(&v[count..])).collect()
+            };
+            let choice = |c: &Vec<Added>| {
+                let mut span = Echelon::new(field);
+                c.iter().for_each(|v| {
+                    span.insert(&vector(v));
+                });
+                span.reduced()
+            };
+            choices.iter().map(choice).collect()
+        };
+        let added: Vec<_> = added.iter().enumerate().map(stage).collect();
+        let before = |t: usize| count - contours.by.partition_point(|&by| by < t);
+        Some(SelfStressSpace {
+            contours: (0..=order.len()).map(before).collect(),
+            finished: (0..order.len()).map(|t| kept.up_to(t)).collect(),
+            kept: kept.vectors.len(),
+            lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
+            added,
+        })
+    }
+}
+
+/// Whether every choice of a variable has the motions of the present joints.
+fn is_contained(field: Field, space: &Space, variable: usize) -> bool {
+    let [present, others @ ..] = &space.variables[variable].choices[..] else {
+        return true;
+    };
+    others.iter().all(|choice| {
+        let mut joints = choice.spans.iter().zip(&present.spans);
+        joints.all(|(span, present)| {
+            let mut whole = Echelon::new(field);
+            span.iter().for_each(|t| {
+                whole.insert(t);
+            });
+            present.iter().all(|t| whole.contains(t))
+        })
+    })
+}
