@@ -3,20 +3,21 @@
 //! What a choice does in one part does not depend on the other, so a node of the whole is a node of each, and what is redundant
 //! adds up.
 
+use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy};
-use crate::search::diagram::stop::Stop;
 use crate::search::diagram::{DEAD, Diagram, Layer};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// The product of two whole diagrams over the same variables in the same order; none where it takes more nodes than allowed.
+/// The product of two whole diagrams over the same variables in the same order, the smallest there is; none where it takes more
+/// nodes than allowed before it is made that.
 ///
 /// # Complexity
 /// O(edges of the product).
 pub(in crate::search) fn product(parts: [&Diagram; 2], limits: &Limits) -> Option<Diagram> {
     let [a, b] = parts;
     let mut nodes: Vec<[u32; 2]> = vec![[0, 0]];
-    let (mut total, mut largest) = (1, 1);
+    let mut total = 1;
     let mut layers = Vec::with_capacity(a.layers.len());
     for (one, two) in a.layers.iter().zip(&b.layers) {
         debug_assert_eq!((one.variable, one.choices), (two.variable, two.choices));
@@ -46,7 +47,6 @@ pub(in crate::search) fn product(parts: [&Diagram; 2], limits: &Limits) -> Optio
             }
         }
         total += next.len();
-        largest = largest.max(next.len());
         if total > limits.nodes || size_of::<u32>() * total * choices > limits.bytes {
             return None;
         }
@@ -75,11 +75,5 @@ pub(in crate::search) fn product(parts: [&Diagram; 2], limits: &Limits) -> Optio
             .filter(|e| !within(**e))
             .for_each(|e| *e = DEAD);
     }
-    Some(Diagram {
-        layers,
-        terminals,
-        stop: Stop::Exhausted,
-        nodes: total,
-        largest_layer: largest,
-    })
+    Some(minimal(layers, terminals))
 }
