@@ -2,6 +2,7 @@
 //! contract.
 
 pub mod charts;
+pub mod samples;
 pub mod text;
 
 use crate::drive::cam;
@@ -34,6 +35,8 @@ pub struct Drive<'a> {
     pub sizing: Sizing,
     /// The drive, where there is a bar.
     pub design: Option<Design>,
+    /// Of drives out of true, where they were asked for.
+    pub samples: Option<samples::Samples>,
     /// What is published of this drive, so or not.
     pub claims: Vec<Claim<'a>>,
     /// The file, for its units and inputs.
@@ -336,6 +339,7 @@ impl<'a> Drive<'a> {
                 remedies: found.sizing.remedy.map(remedies),
             },
             design: design.map(|d| Design::new(spec, d)),
+            samples: None,
             claims: about(&file.claims, Topic::Drive),
             file,
             found: design,

@@ -1,5 +1,6 @@
 //! Programmes of swings, and their long run.
 
+mod out_of_true;
 mod repeated;
 
 use crate::common::near;

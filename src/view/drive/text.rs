@@ -164,6 +164,9 @@ fn designed(
     )?;
     losses(out, d, design)?;
     motions(out, d, design)?;
+    if let Some(samples) = &d.samples {
+        samples.write(out)?;
+    }
     writeln!(out, "\n  Sizing, (10) and (11):\n\n{}", trials(d, width))?;
     writeln!(out, "\n  Programme:\n\n{}", programme(d, width))
 }

@@ -91,7 +91,7 @@ impl Bench<'_> {
 
 /// Swings that are latched of a programme repeated so many times, all of them or up to the first that misses, and by how little
 /// that or the nearest miss was decided.
-fn latched(drive: &Module, discs: &[usize], most: usize) -> (usize, bool, f64) {
+pub(super) fn latched(drive: &Module, discs: &[usize], most: usize) -> (usize, bool, f64) {
     let mut bench = Bench::new(drive);
     let mut margin = f64::INFINITY;
     for n in 0..most {
