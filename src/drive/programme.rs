@@ -4,7 +4,7 @@ use crate::drive::swing::{Disc, End, Feed, Latch, Swing, SwingError};
 use crate::model::drive::Step;
 
 /// Two discs on one bar.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Module {
     /// The discs; both have the bar's stiffness.
     pub discs: [Disc; 2],
@@ -164,12 +164,9 @@ impl Module {
             at: self.latch.at - neutral,
             ..self.latch
         };
-        let feed = Feed {
-            from: self.feed.from - neutral,
-            ..self.feed
-        };
+        let feed = self.feed.moved(-neutral);
         let start = self.latch.at - own + neutral;
-        let swing = self.discs[disc].swing(start, latch, feed)?;
+        let swing = self.discs[disc].swing(start, latch, &feed)?;
         now.places[disc] += 2 * onward;
         now.offsets[disc] = way * (swing.place - latch.at);
         Ok(swing)

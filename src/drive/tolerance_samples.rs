@@ -46,9 +46,15 @@ impl Module {
                 at: out(self.latch.at),
                 capture: out(self.latch.capture),
             },
-            feed: Feed {
-                energy: out(self.feed.energy),
-                from: out(self.feed.from),
+            feed: {
+                let energy = out(self.feed.energy);
+                // One cam is cut in one setting: its pieces keep to each other.
+                let angles = out(1.0);
+                let pieces = self.feed.pieces.iter();
+                Feed {
+                    energy,
+                    pieces: pieces.map(|&(from, m)| (from * angles, m)).collect(),
+                }
             },
         }
     }

@@ -23,7 +23,7 @@ fn nominal(feed: f64) -> Module {
 fn samples_fail_where_a_plain_integrator_has_them_fail() {
     let (most, tolerance) = (60, 0.1);
     let none = nominal(0.0);
-    let needs = none.discs.map(|d| d.needed_feed(none.latch, 0.0));
+    let needs = none.discs.map(|d| d.needed_feed(none.latch, &none.feed));
     let need = needs
         .map(|n| n.unwrap().unwrap())
         .into_iter()
@@ -108,10 +108,7 @@ fn without_tolerance_samples_do_as_the_drive_does() {
 fn quantities_are_drawn_evenly_and_each_by_itself() {
     let (samples, tolerance) = (4000, 0.07);
     let module = Module {
-        feed: Feed {
-            energy: 0.5,
-            from: 0.3,
-        },
+        feed: Feed::even(0.5, 0.3),
         ..nominal(0.5)
     };
     let quantities = |m: &Module| {
@@ -119,7 +116,7 @@ fn quantities_are_drawn_evenly_and_each_by_itself() {
         assert_eq!(a.stiffness.to_bits(), b.stiffness.to_bits());
         let [latch, feed] = [
             [m.latch.at, m.latch.capture],
-            [m.feed.energy, m.feed.from],
+            [m.feed.energy, m.feed.begins()],
         ];
         let of = |d: ozols::drive::swing::Disc| [d.inertia, d.viscous, d.coulomb];
         [vec![a.stiffness], of(a).into(), of(b).into()]
