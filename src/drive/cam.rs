@@ -2,20 +2,21 @@
 //!
 //! The follower's roller goes in and out on a line through the disc's axis. While the disc swings from one groove to the next
 //! the electromagnet first holds the follower lifted; let go where the push begins, it is pressed on the flank by its spring
-//! and falls by the stroke S up to the groove. The flank is such that the spring gives the disc an even moment, as the
-//! simulation has it: what the spring has given at the turn φ is the same part of its energy as φ is of the flank.
+//! and falls by the stroke S up to the groove. The flank is such that the spring gives the disc the moments that the simulation
+//! has: what the spring has given at the turn φ is the same part of its energy as theirs up to φ of all their work.
 
 use crate::drive::programme::{Event, Run};
+use crate::drive::swing::Feed;
 use crate::drive::torsion::CamSpring;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A cam on a disc. SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Cam {
     /// φ0. `[rad]`
     pub half_swing: f64,
-    /// Where the flank begins, from the middle of the swing. `[rad]`
-    pub from: f64,
+    /// What the spring gives along the flank, from the middle of the swing.
+    pub feed: Feed,
     /// S. `[m]`
     pub stroke: f64,
     /// ψ0.
@@ -59,29 +60,50 @@ pub struct Profile {
 }
 
 impl Cam {
-    /// Part of the flank at a turn from the middle of the swing.
+    /// Pieces of the flank: where each begins and ends, and what part of the spring's energy it takes by the turn.
+    fn pieces(&self) -> Vec<([f64; 2], f64)> {
+        let shape = Feed {
+            energy: 1.0,
+            pieces: self.feed.pieces.clone(),
+        };
+        shape.moments(self.half_swing)
+    }
+
+    /// Part of the spring's energy given at a turn from the middle of the swing.
     fn part(&self, turn: f64) -> f64 {
-        ((turn - self.from) / (self.half_swing - self.from)).clamp(0.0, 1.0)
+        let given = |([from, to], rate): ([f64; 2], f64)| rate * (turn.clamp(from, to) - from);
+        let part: f64 = self.pieces().into_iter().map(given).sum();
+        part.clamp(0.0, 1.0)
     }
 
     /// How far the follower has fallen at a turn from the middle of a swing. `[m]`
     ///
-    /// Energy: (1 + ψ0)² - (1 + ψ0 - x/S)² = q (1 + 2ψ0), at the part q of the flank.
+    /// Energy: (1 + ψ0)² - (1 + ψ0 - x/S)² = q (1 + 2ψ0), where the part q of it is given.
     #[must_use]
     pub fn fall(&self, turn: f64) -> f64 {
         let (whole, psi) = (1.0 + 2.0 * self.mounting, 1.0 + self.mounting);
         self.stroke * (psi - (psi * psi - self.part(turn) * whole).max(0.0).sqrt())
     }
 
-    /// How fast it falls, by the turn `[m/rad]`; without bound at the end of a spring that ends without force.
+    /// How fast it falls, by the turn `[m/rad]`; without bound at the end of a spring that ends without force. Where pieces of the
+    /// flank meet, that of the one which begins.
     #[must_use]
     pub fn slope(&self, turn: f64) -> f64 {
-        if turn < self.from {
+        let begun = self
+            .pieces()
+            .into_iter()
+            .rfind(|([from, _], _)| *from <= turn);
+        begun.map_or(0.0, |(_, rate)| self.slope_at(turn, rate))
+    }
+
+    /// How fast it falls at a turn where the spring's energy is taken at such a rate.
+    fn slope_at(&self, turn: f64, rate: f64) -> f64 {
+        if rate == 0.0 {
             return 0.0;
         }
         let (whole, psi) = (1.0 + 2.0 * self.mounting, 1.0 + self.mounting);
         let left = (psi * psi - self.part(turn) * whole).max(0.0).sqrt();
-        self.stroke * whole / (2.0 * left * (self.half_swing - self.from))
+        self.stroke * whole * rate / (2.0 * left)
     }
 
     /// The profile, `per_swing` points from groove to groove.
@@ -105,7 +127,7 @@ impl Cam {
         }
         .max(1.0) as u32;
         // A flank that begins before the middle leaves no room for one the other way.
-        let both_ways = self.from >= 0.0;
+        let both_ways = self.feed.begins() >= 0.0;
         let (mut points, mut touched, mut pressure_angle) = (Vec::new(), Vec::new(), 0.0f64);
         let mut least_curvature = self.radius;
         for swing in 0..count {
@@ -130,7 +152,10 @@ impl Cam {
                 }
                 // One way only, the lifted part begins beside the roller in the groove: a wall, which the roller is lifted over.
                 let beside = (self.roller / (self.radius - self.stroke)).min(1.0).asin();
-                if !both_ways && turn < self.from && self.half_swing + turn <= 1.05 * beside {
+                if !both_ways
+                    && turn < self.feed.begins()
+                    && self.half_swing + turn <= 1.05 * beside
+                {
                     continue;
                 }
                 let long = r.hypot(dr);
@@ -148,8 +173,12 @@ impl Cam {
         let mut outline: Vec<[f64; 2]> = touched.into_iter().filter(clear).collect();
         let angle = |q: &[f64; 2]| q[1].atan2(q[0]);
         outline.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-        let last = self.half_swing;
-        let end = (self.slope(last) / (self.radius - self.stroke)).atan();
+        // Pieces fall fastest where they end.
+        let ends = self.pieces().into_iter().map(|([_, to], rate)| {
+            let last = self.slope_at(to, rate);
+            (last / (self.radius - self.fall(to))).atan()
+        });
+        let end = ends.fold(0.0, f64::max);
         Profile {
             points,
             outline,
@@ -179,7 +208,9 @@ impl Cam {
     /// Radius of curvature of the roller's path where it bulges outwards; without bound elsewhere.
     fn curvature(&self, flank: f64, r: f64, dr: f64) -> f64 {
         let step = 1e-5 * self.half_swing;
-        let bend = if flank <= self.from + step || flank >= self.half_swing - step {
+        let corner = |x: &f64| (flank - x).abs() <= step;
+        let ends = self.pieces().into_iter().flat_map(|(ends, _)| ends);
+        let bend = if flank <= self.feed.begins() + step || { ends }.any(|x| corner(&x)) {
             0.0
         } else {
             -(self.slope(flank + step) - self.slope(flank - step)) / (2.0 * step)

@@ -183,29 +183,26 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
             .fold(0.0, f64::max)
     });
     let by_formula = friction_energy(stiffness, spec.twist, missing);
+    let feed = Feed {
+        energy: spec.push.energy(spec.twist).unwrap_or(by_formula),
+        pieces: spec.push.pieces(),
+    };
     let needs = discs
         .iter()
-        .map(|d| d.needed_feed(latch, spec.feed_from))
+        .map(|d| d.needed_feed(latch, &feed))
         .collect::<Result<Vec<_>, _>>()?;
     let needed_feed = needs
         .into_iter()
         .try_fold(0.0f64, |most, n| n.map(|n| most.max(n)));
-    let feed = spec.feed.unwrap_or(by_formula);
-    let module = Module {
-        discs,
-        latch,
-        feed: Feed {
-            energy: feed,
-            from: spec.feed_from,
-        },
-    };
+    let energy = feed.energy;
+    let module = Module { discs, latch, feed };
     let run = module.run(&spec.programme)?;
     let cam = spec.cam.map(|c| {
         let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
         let profile = c.profile.map(|(radius, roller)| {
             let cam = Cam {
                 half_swing: spec.twist,
-                from: spec.feed_from,
+                feed: module.feed.clone(),
                 stroke: c.stroke,
                 mounting: c.mounting,
                 radius,
@@ -216,8 +213,8 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
         CamDesign {
             spring: spring(by_formula),
             needed: needed_feed.map(spring),
-            fitted: spring(feed),
-            magnet: magnet(&run, &spring(feed)),
+            fitted: spring(energy),
+            magnet: magnet(&run, &spring(energy)),
             profile,
         }
     });
@@ -231,7 +228,7 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
         missing,
         friction_energy: by_formula,
         needed_feed,
-        feed,
+        feed: energy,
         cam,
         motions: spec
             .inertias

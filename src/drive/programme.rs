@@ -4,7 +4,7 @@ use crate::drive::swing::{Disc, End, Feed, Latch, Swing, SwingError};
 use crate::model::drive::Step;
 
 /// Two discs on one bar.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Module {
     /// The discs; both have the bar's stiffness.
     pub discs: [Disc; 2],
@@ -112,6 +112,16 @@ impl Run {
     }
 }
 
+/// The discs that a programme lets go, in order.
+#[must_use]
+pub fn swings(programme: &[Step]) -> Vec<usize> {
+    let disc = |s: &Step| match s {
+        Step::Swing(disc) => Some(*disc),
+        Step::Dwell(_) => None,
+    };
+    programme.iter().filter_map(disc).collect()
+}
+
 /// Where the discs stand. A disc's grooves are 2φ0 apart on it, and those of the two discs φ0 from each other's: a disc at
 /// rest is in the groove at φ0 times its place, or short of it by as much as the latch lets pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -154,12 +164,9 @@ impl Module {
             at: self.latch.at - neutral,
             ..self.latch
         };
-        let feed = Feed {
-            from: self.feed.from - neutral,
-            ..self.feed
-        };
+        let feed = self.feed.moved(-neutral);
         let start = self.latch.at - own + neutral;
-        let swing = self.discs[disc].swing(start, latch, feed)?;
+        let swing = self.discs[disc].swing(start, latch, &feed)?;
         now.places[disc] += 2 * onward;
         now.offsets[disc] = way * (swing.place - latch.at);
         Ok(swing)
@@ -173,10 +180,7 @@ impl Module {
     /// # Errors
     /// Discs that do not swing.
     pub fn run(&self, programme: &[Step]) -> Result<Run, SwingError> {
-        let wanted = programme
-            .iter()
-            .filter(|s| matches!(s, Step::Swing(_)))
-            .count();
+        let wanted = swings(programme).len();
         let mut now = Self::START;
         let mut run = Run {
             steps: Vec::new(),
@@ -225,26 +229,20 @@ impl Module {
     /// # Complexity
     /// At most [`PATIENCE`] swings, and those of one round more.
     pub fn endurance(&self, programme: &[Step]) -> Result<Endurance, SwingError> {
-        let discs: Vec<usize> = programme
-            .iter()
-            .filter_map(|s| match s {
-                Step::Swing(disc) => Some(*disc),
-                Step::Dwell(_) => None,
-            })
-            .collect();
+        let discs = swings(programme);
         if discs.is_empty() {
             return Ok(Endurance::Lasts { missing: 0.0 });
         }
         let mut now = Self::START;
         let mut marked = (now.seen_ahead(), 0.0f64);
-        let (mut swings, mut until, mut since) = (0, 1, 0);
-        while swings < PATIENCE {
+        let (mut latched, mut until, mut since) = (0, 1, 0);
+        while latched < PATIENCE {
             for &disc in &discs {
                 let swing = self.swing(&mut now, disc)?;
                 if matches!(swing.end, End::Missed { .. } | End::Stuck) {
-                    return Ok(Endurance::Fails { after: swings });
+                    return Ok(Endurance::Fails { after: latched });
                 }
-                swings += 1;
+                latched += 1;
                 marked.1 = marked.1.max(now.offsets[disc].abs());
             }
             let after = now.seen_ahead();

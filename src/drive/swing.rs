@@ -20,13 +20,55 @@ pub struct Disc {
     pub coulomb: f64,
 }
 
-/// The cam's push: a constant moment from one place to the latch.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The cam's push: a moment constant by piece, the last up to the latch.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Feed {
-    /// Work over the whole window. `[J]`
+    /// Work of all pieces. `[J]`
     pub energy: f64,
+    /// In order: the place where each begins `[rad]`, and its moment as a multiple of what all are told by.
+    pub pieces: Vec<(f64, f64)>,
+}
+
+impl Feed {
+    /// One moment from a place to the latch.
+    #[must_use]
+    pub fn even(energy: f64, from: f64) -> Feed {
+        Feed {
+            energy,
+            pieces: vec![(from, 1.0)],
+        }
+    }
+
     /// Where it begins. `[rad]`
-    pub from: f64,
+    #[must_use]
+    pub fn begins(&self) -> f64 {
+        self.pieces.first().map_or(0.0, |p| p.0)
+    }
+
+    /// The places where pieces begin and end `[rad]` and their moments `[N·m]`, up to a latch; none where nothing is fed.
+    #[must_use]
+    pub fn moments(&self, latch: f64) -> Vec<([f64; 2], f64)> {
+        let ends = self.pieces.iter().skip(1).map(|p| p.0).chain([latch]);
+        let within = self.pieces.iter().zip(ends);
+        let within = within.map(|(&(from, moment), to)| ([from, to.min(latch)], moment));
+        let pieces: Vec<_> = within.filter(|([from, to], _)| from < to).collect();
+        let work: f64 = pieces.iter().map(|([from, to], m)| m * (to - from)).sum();
+        if !(self.energy > 0.0 && work > 0.0) {
+            return Vec::new();
+        }
+        let scaled = |(place, m)| (place, self.energy * m / work);
+        pieces.into_iter().map(scaled).collect()
+    }
+
+    /// The same push from the place of another: all places are so much farther. `[rad]`
+    #[must_use]
+    pub fn moved(&self, by: f64) -> Feed {
+        let pieces = self.pieces.iter().map(|&(from, m)| (from + by, m));
+        Feed {
+            energy: self.energy,
+            pieces: pieces.collect(),
+        }
+    }
 }
 
 /// The latch at the far end.
@@ -169,7 +211,7 @@ impl Disc {
     ///
     /// # Errors
     /// A disc that does not swing.
-    pub fn swing(&self, start: f64, latch: Latch, feed: Feed) -> Result<Swing, SwingError> {
+    pub fn swing(&self, start: f64, latch: Latch, feed: &Feed) -> Result<Swing, SwingError> {
         let positive = self.inertia > 0.0
             && self.stiffness > 0.0
             && self.inertia.is_finite()
@@ -180,12 +222,6 @@ impl Disc {
         if self.damping_ratio() >= 1.0 {
             return Err(SwingError::Overdamped(self.damping_ratio()));
         }
-        let window = latch.at - feed.from;
-        let push = if window > 0.0 {
-            feed.energy / window
-        } else {
-            0.0
-        };
         let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
         let mut pieces = Vec::new();
         let mut balance = Balance {
@@ -193,12 +229,10 @@ impl Disc {
             ..Balance::default()
         };
         let (mut arrived, mut push_begins) = (false, None);
-        let bounds = if push > 0.0 {
-            vec![(feed.from, 0.0), (latch.at, push)]
-        } else {
-            vec![(latch.at, 0.0)]
-        };
-        for (bound, moment) in bounds {
+        let pushed = feed.moments(latch.at);
+        let before = pushed.first().map_or(latch.at, |([from, _], _)| *from);
+        let pushed = pushed.into_iter().map(|([_, to], moment)| (to, moment));
+        for (bound, moment) in [(before, 0.0)].into_iter().chain(pushed) {
             if u >= bound {
                 continue;
             }
@@ -208,7 +242,7 @@ impl Disc {
                 break;
             }
             if moment > 0.0 {
-                push_begins = Some(t);
+                push_begins.get_or_insert(t);
             }
             let piece = self.piece(t, u, v, middle, bound);
             let (end, speed) = self.state(&piece, piece.length);
@@ -315,14 +349,19 @@ impl Disc {
             + cosine * sine * with_sine
     }
 
-    /// The cam's work with which a swing from `-latch.at` arrives at the latch at rest, pushing from `from` on; `None` where no work
-    /// does, since the disc is stuck or stops before the push begins. `[J]`
+    /// The least work of the cam with which a swing from `-latch.at` arrives at the latch, its pieces standing to each other as
+    /// those of `feed`: at rest where no piece pushes more than the one before. `None` where no work does, since the disc is
+    /// stuck or stops before the push begins. `[J]`
     ///
     /// # Errors
     /// As [`Disc::swing`].
-    pub fn needed_feed(&self, latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
+    pub fn needed_feed(&self, latch: Latch, feed: &Feed) -> Result<Option<f64>, SwingError> {
         let arrives = |energy: f64| -> Result<bool, SwingError> {
-            let swing = self.swing(latch.at, latch, Feed { energy, from })?;
+            let feed = Feed {
+                energy,
+                pieces: feed.pieces.clone(),
+            };
+            let swing = self.swing(latch.at, latch, &feed)?;
             Ok(matches!(swing.end, End::Latched { .. }))
         };
         if arrives(0.0)? {

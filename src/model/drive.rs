@@ -31,6 +31,44 @@ pub struct Cam {
     pub profile: Option<(f64, f64)>,
 }
 
+/// The cam's push on a swinging disc, from where it begins to the latch.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Push {
+    /// One moment all along.
+    Even {
+        /// Work in a swing, in place of that of equation (12). `[J]`
+        energy: Option<f64>,
+        /// Where it begins, from the middle of the swing. `[rad]`
+        from: f64,
+    },
+    /// In order: where each piece begins, from the middle of the swing `[rad]`, and its moment `[N·m]`.
+    Pieces(Vec<(f64, f64)>),
+}
+
+impl Push {
+    /// Where pieces begin, and their moments as multiples of one that is the same for all.
+    #[must_use]
+    pub fn pieces(&self) -> Vec<(f64, f64)> {
+        match self {
+            Push::Even { from, .. } => vec![(*from, 1.0)],
+            Push::Pieces(pieces) => pieces.clone(),
+        }
+    }
+
+    /// Work up to a latch, where it is stated. `[J]`
+    #[must_use]
+    pub fn energy(&self, latch: f64) -> Option<f64> {
+        match self {
+            Push::Even { energy, .. } => *energy,
+            Push::Pieces(pieces) => {
+                let ends = pieces.iter().skip(1).map(|p| p.0).chain([latch]);
+                let work = |(p, end): (&(f64, f64), f64)| p.1 * (end - p.0);
+                Some(pieces.iter().zip(ends).map(work).sum())
+            }
+        }
+    }
+}
+
 /// A payload carried on a disc, by which accelerations are told.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Payload {
@@ -67,10 +105,8 @@ pub struct DriveSpec {
     pub damping: Option<Damping>,
     /// The cam, where stated.
     pub cam: Option<Cam>,
-    /// Work of the cam in a swing, in place of that of equation (12). `[J]`
-    pub feed: Option<f64>,
-    /// Where the cam begins to push. `[rad]`
-    pub feed_from: f64,
+    /// The cam's push.
+    pub push: Push,
     /// How far short of its groove a latch still catches a disc. `[rad]`
     pub capture: f64,
     /// What the discs do.

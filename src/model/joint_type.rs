@@ -191,6 +191,16 @@ impl JointType {
         self.known().1
     }
 
+    /// The freedoms in the order they are passed in from the first link to the second, as in `motion::pose`: slides first, but
+    /// a slot (a slide along x and none along y) after its pin.
+    #[must_use]
+    pub fn passed(&self) -> Vec<Freedom> {
+        let mut passed = self.freedoms().to_vec();
+        let slot = passed.contains(&Freedom::Tx) && !passed.contains(&Freedom::Ty);
+        passed.sort_by_key(|f| f.slides() == slot);
+        passed
+    }
+
     /// The class of the joint, its number of constraints (6 - freedoms), in Roman numerals as the field writes it.
     #[must_use]
     pub fn class(&self) -> &'static str {

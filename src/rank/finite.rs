@@ -6,6 +6,7 @@ mod contours;
 pub mod coordinates;
 pub mod displacement_group;
 pub mod higher_order;
+mod idle_ways;
 pub mod independent_parts;
 pub mod local_dimension;
 mod mobility;

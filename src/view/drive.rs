@@ -1,18 +1,20 @@
 //! A torsional drive: one value from which text, JSON and charts are made. SI units, angles in radians; the keys are a stable
 //! contract.
 
+pub mod cam;
 pub mod charts;
+pub mod samples;
 pub mod text;
 
-use crate::drive::cam;
 use crate::drive::driving::{self, DampingFrom, Driving};
 use crate::drive::programme::{self, Event, Ran};
 use crate::drive::swing::{Balance, End};
-use crate::drive::torsion::{CamSpring, Remedy, Trial, decrement};
+use crate::drive::torsion::{Remedy, Trial, decrement};
 use crate::file::read::workload::Workload;
 use crate::model::claim::Topic;
 use crate::model::drive::DriveSpec;
 use crate::view::claims::{Claim, about};
+use crate::view::drive::cam::{Cam, FeedMoment, feed_moments};
 use serde::Serialize;
 
 /// A drive of a file and what was found of it.
@@ -34,6 +36,8 @@ pub struct Drive<'a> {
     pub sizing: Sizing,
     /// The drive, where there is a bar.
     pub design: Option<Design>,
+    /// Of drives out of true, where they were asked for.
+    pub samples: Option<samples::Samples>,
     /// What is published of this drive, so or not.
     pub claims: Vec<Claim<'a>>,
     /// The file, for its units and inputs.
@@ -106,6 +110,8 @@ pub struct Design {
     pub needed_feed: Option<f64>,
     /// The cam's work in this run `[J]`.
     pub feed: f64,
+    /// By piece of the cam's push.
+    pub feed_moments: Vec<FeedMoment>,
     /// The cam's spring, where a cam is stated.
     pub cam: Option<Cam>,
     /// Of each disc.
@@ -129,113 +135,6 @@ pub struct Damping {
     pub coulomb: f64,
     /// Where it comes from.
     pub from: DampingFrom,
-}
-
-/// The cam: its spring by equation (14), and by the simulation where any is enough; its electromagnets and its profile.
-#[derive(Debug, Serialize)]
-pub struct Cam {
-    /// By the equation.
-    pub spring: Spring,
-    /// By the simulation.
-    pub needed: Option<Spring>,
-    /// For what is fed in this run.
-    pub fitted: Spring,
-    /// What the electromagnets do against that one.
-    pub electromagnet: Electromagnet,
-    /// The profile, where the cam's and the roller's radius are stated.
-    pub profile: Option<Profile>,
-}
-
-/// What the electromagnets do.
-#[derive(Debug, Serialize)]
-pub struct Electromagnet {
-    /// When each is on.
-    pub pulses: Vec<Pulse>,
-    /// Against the spring as the roller leaves its groove `[N]`.
-    pub first_force: f64,
-    /// When lifted `[N]`.
-    pub last_force: f64,
-    /// A swing `[J]`.
-    pub energy_per_swing: f64,
-    /// A whole oscillation, two swings `[J]`.
-    pub energy_per_cycle: f64,
-    /// Over the programme `[W]`.
-    pub mean_power: f64,
-}
-
-/// A time in which an electromagnet is on.
-#[derive(Debug, Serialize)]
-pub struct Pulse {
-    /// 1 or 2.
-    pub disc: usize,
-    /// `[s]`
-    pub on: f64,
-    /// `[s]`
-    pub off: f64,
-}
-
-/// The profile of the cam.
-#[derive(Debug, Serialize)]
-pub struct Profile {
-    /// Angles of the grooves on the disc `[rad]`.
-    pub grooves: Vec<f64>,
-    /// Whether a whole number of swings makes a turn.
-    pub closes: bool,
-    /// Whether swings either way are fed.
-    pub both_ways: bool,
-    /// Greatest pressure angle `[rad]`.
-    pub pressure_angle: f64,
-    /// Least radius of curvature where it bulges `[m]`.
-    pub least_curvature: f64,
-    /// The roller's centre from groove to groove, round the disc `[m]`.
-    pub pitch: Vec<[f64; 2]>,
-    /// What the roller rolls on, by the angle round the axis `[m]`.
-    pub profile: Vec<[f64; 2]>,
-}
-
-impl Electromagnet {
-    fn new(m: &cam::Magnet) -> Self {
-        let pulse = |p: &cam::Pulse| Pulse {
-            disc: p.disc + 1,
-            on: p.on,
-            off: p.off,
-        };
-        Electromagnet {
-            pulses: m.pulses.iter().map(pulse).collect(),
-            first_force: m.first_force,
-            last_force: m.last_force,
-            energy_per_swing: m.energy_per_swing,
-            energy_per_cycle: 2.0 * m.energy_per_swing,
-            mean_power: m.mean_power,
-        }
-    }
-}
-
-impl Profile {
-    fn new(p: &cam::Profile) -> Self {
-        Profile {
-            grooves: p.grooves.clone(),
-            closes: p.closes,
-            both_ways: p.both_ways,
-            pressure_angle: p.pressure_angle,
-            least_curvature: p.least_curvature,
-            pitch: p.points.iter().map(|x| x.pitch).collect(),
-            profile: p.outline.clone(),
-        }
-    }
-}
-
-/// A spring behind the cam.
-#[derive(Debug, Serialize)]
-pub struct Spring {
-    /// c `[N/m]`.
-    pub rate: f64,
-    /// S `[m]`.
-    pub stroke: f64,
-    /// ψ0.
-    pub mounting_coefficient: f64,
-    /// What it gives over its stroke `[J]`.
-    pub energy: f64,
 }
 
 /// Greatest motion of a disc.
@@ -336,6 +235,7 @@ impl<'a> Drive<'a> {
                 remedies: found.sizing.remedy.map(remedies),
             },
             design: design.map(|d| Design::new(spec, d)),
+            samples: None,
             claims: about(&file.claims, Topic::Drive),
             file,
             found: design,
@@ -360,13 +260,8 @@ impl Design {
             friction_energy: d.friction_energy,
             needed_feed: d.needed_feed,
             feed: d.feed,
-            cam: d.cam.as_ref().map(|c| Cam {
-                spring: Spring::new(&c.spring),
-                needed: c.needed.as_ref().map(Spring::new),
-                fitted: Spring::new(&c.fitted),
-                electromagnet: Electromagnet::new(&c.magnet),
-                profile: c.profile.as_ref().map(Profile::new),
-            }),
+            feed_moments: feed_moments(&d.module),
+            cam: d.cam.as_ref().map(Cam::new),
             motions: d.motions.map(|m| Motion {
                 angular_acceleration: m.angular_acceleration,
                 angular_speed: m.angular_speed,
@@ -389,17 +284,6 @@ impl Design {
             latched: d.run.latched,
             wanted: d.run.wanted,
             programme: d.run.steps.iter().map(Step::new).collect(),
-        }
-    }
-}
-
-impl Spring {
-    fn new(s: &CamSpring) -> Self {
-        Spring {
-            rate: s.rate,
-            stroke: s.stroke,
-            mounting_coefficient: s.mounting,
-            energy: s.energy(),
         }
     }
 }

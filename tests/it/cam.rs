@@ -2,6 +2,7 @@
 
 use crate::common::{changed, json, near, out, run_on};
 use ozols::drive::cam::Cam;
+use ozols::drive::swing::Feed;
 use proptest::prelude::*;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
@@ -16,24 +17,43 @@ proptest! {
     #[test]
     fn flanks_give_an_even_moment(psi in 0.05..2.0f64, from in -0.5..0.7f64, stroke in 0.001..0.05f64) {
         let half = 0.8;
-        let cam = Cam { half_swing: half, from: from * half, stroke, mounting: psi, radius: 0.1, roller: 0.005 };
+        let from = from * half;
+        let cam = Cam { half_swing: half, feed: Feed::even(1.0, from), stroke, mounting: psi, radius: 0.1, roller: 0.005 };
         let force = |fall: f64| (1.0 + psi) * stroke - fall;
         let energy = 0.5 * ((1.0 + psi).powi(2) - psi * psi) * stroke * stroke;
-        let even = energy / (half - cam.from);
+        let even = energy / (half - from);
         let h = 1e-6;
         for i in 1..20 {
-            let turn = cam.from + (half - cam.from) * f64::from(i) / 20.0;
+            let turn = from + (half - from) * f64::from(i) / 20.0;
             let slope = (cam.fall(turn + h) - cam.fall(turn - h)) / (2.0 * h);
             prop_assert!((slope - cam.slope(turn)).abs() <= 1e-5 * stroke);
             prop_assert!((force(cam.fall(turn)) * slope / even - 1.0).abs() < 1e-5);
         }
-        prop_assert!(cam.fall(cam.from).abs() < 1e-15 && (cam.fall(half) - stroke).abs() < 1e-12);
+        prop_assert!(cam.fall(from).abs() < 1e-15 && (cam.fall(half) - stroke).abs() < 1e-12);
+    }
+
+    /// By virtual work: flanks of several pieces give each its moment, the whole of (13), and nothing where a moment is 0.
+    #[test]
+    fn flanks_give_the_moments_of_their_pieces(psi in 0.05..2.0f64, second in 0.0..2.0f64, third in 0.0..2.0f64) {
+        let (half, stroke) = (0.8, 0.01);
+        let pieces = vec![(-0.1, 1.0), (0.3, second), (0.5, third)];
+        let cam = Cam { half_swing: half, feed: Feed { energy: 7.0, pieces }, stroke, mounting: psi, radius: 0.1, roller: 0.005 };
+        let force = |fall: f64| (1.0 + psi) * stroke - fall;
+        let energy = 0.5 * ((1.0 + psi).powi(2) - psi * psi) * stroke * stroke;
+        let one = energy / (0.4 + 0.2 * second + 0.3 * third);
+        let h = 1e-6;
+        for (turn, moment) in [(-0.3, 0.0), (0.1, 1.0), (0.28, 1.0), (0.32, second), (0.48, second), (0.6, third), (0.77, third)] {
+            let slope = (cam.fall(turn + h) - cam.fall(turn - h)) / (2.0 * h);
+            prop_assert!((slope - cam.slope(turn)).abs() <= 1e-5 * stroke);
+            prop_assert!((force(cam.fall(turn)) * slope - moment * one).abs() < 1e-5 * one);
+        }
+        prop_assert!(cam.fall(-0.1).abs() < 1e-15 && (cam.fall(half) - stroke).abs() < 1e-12);
     }
 
     /// The roller touches the profile and cuts nothing: no point of the profile is nearer to its centre than its radius.
     #[test]
     fn rollers_roll_on_the_profile(psi in 0.2..1.0f64, roller in 0.002..0.01f64) {
-        let cam = Cam { half_swing: FRAC_PI_4, from: 0.0, stroke: 0.01, mounting: psi, radius: 0.08, roller };
+        let cam = Cam { half_swing: FRAC_PI_4, feed: Feed::even(1.0, 0.0), stroke: 0.01, mounting: psi, radius: 0.08, roller };
         let profile = cam.profile(180);
         prop_assert!(profile.closes && profile.grooves.len() == 4 && profile.both_ways);
         prop_assert!(roller < profile.least_curvature);
@@ -72,7 +92,7 @@ proptest! {
     fn curvature_and_pressure_angle_are_those_of_the_path(
         psi in 0.1..1.5f64, stroke in 0.004..0.02f64, radius in 0.05..0.12f64, half in 0.4..1.2f64,
     ) {
-        let cam = Cam { half_swing: half, from: 0.0, stroke, mounting: psi, radius, roller: 0.003 };
+        let cam = Cam { half_swing: half, feed: Feed::even(1.0, 0.0), stroke, mounting: psi, radius, roller: 0.003 };
         let (profile, step) = (cam.profile(360), 1e-4 * half);
         // Where the profile is looked at, but for the crest and the grooves, at which the path has corners.
         let turns = profile.points.iter().map(|p| p.turn).filter(|t| t.abs() > 2.0 * step && t.abs() < half - 2.0 * step);

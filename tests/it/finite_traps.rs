@@ -15,8 +15,12 @@ use ozols::rank::exact::modular;
 use ozols::rank::finite::{Finite, How, finite};
 
 pub(crate) fn judged(m: &Mechanism) -> (usize, Finite) {
-    let exact = field_of(m, StateId::FREE, 0).unwrap();
-    let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
+    judged_in(m, StateId::FREE)
+}
+
+pub(crate) fn judged_in(m: &Mechanism, state: StateId) -> (usize, Finite) {
+    let exact = field_of(m, state, 0).unwrap();
+    let closure = Closure::new(&exact, m, state).unwrap();
     let rank = modular::rank(&exact, &closure);
     let found = finite(&exact, m, &closure, rank).unwrap();
     (closure.columns.len() - rank, found)

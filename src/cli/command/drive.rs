@@ -6,17 +6,29 @@ use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
 use crate::drive::driving::drive;
+use crate::drive::tolerance_samples::shares;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
-use crate::view::drive::{charts::cam, charts::charts, charts::motion, text};
+use crate::view::drive::{charts::cam, charts::charts, charts::motion, samples::Samples, text};
 use crate::view::terminal::next_commands::{self, Step};
+use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
+
+/// Each may take [`PATIENCE`](crate::drive::programme::PATIENCE) swings.
+const MOST_SAMPLES: usize = 1_000_000;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Drive {
     #[command(flatten)]
     pub(in crate::cli) file: File,
+    /// Also the share of swings that end in their latch where stiffness, inertia, losses, cam and latches are out by up to so much
+    /// of themselves: 0.05 is 5 %.
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub(in crate::cli) tolerance: Option<f64>,
+    /// How many samples.
+    #[arg(long, value_name = "N", requires = "tolerance", default_value = "200")]
+    pub(in crate::cli) samples: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(in crate::cli) format: AnalyzeFormat,
@@ -29,11 +41,27 @@ pub(in crate::cli) struct Drive {
     pub(in crate::cli) output: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(_: &Args, a: &Drive) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Args, a: &Drive) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file.file)?;
     let file = drive_from_bytes(&name, &bytes)?;
     let found = drive(&file.spec)?;
-    let shown = view::drive::Drive::new(&file, &found);
+    let mut shown = view::drive::Drive::new(&file, &found);
+    if let Some(t) = a.tolerance {
+        ensure!(
+            (0.0..1.0).contains(&t),
+            "--tolerance must be a share from 0 to below 1, such as 0.05 for 5 %"
+        );
+        ensure!(
+            (1..=MOST_SAMPLES).contains(&a.samples),
+            "--samples must be from 1 to {MOST_SAMPLES}"
+        );
+        if let Some(design) = &found.design {
+            let (module, programme) = (&design.module, &file.spec.programme);
+            let shares = shares(module, programme, t, a.samples, args.seed)
+                .context("a sample does not swing; lower --tolerance")?;
+            shown.samples = Some(Samples::new(&shares));
+        }
+    }
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
         let cam = cam(&shown).map(|cam| charts::Drawing {
             name: "cam".to_owned(),

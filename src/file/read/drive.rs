@@ -2,6 +2,7 @@
 
 mod inertias;
 mod programme;
+mod push;
 
 use crate::file::findings::Findings;
 use crate::file::locate::Step as Place;
@@ -13,6 +14,7 @@ use crate::model::mechanism::Mechanism;
 use inertias::inertias;
 pub use programme::regular;
 use programme::{MOST, programme};
+use push::push;
 
 fn damping(t: &mut Table<'_>, e: &DriveEntry) -> Option<Damping> {
     let viscous = t.not_negative("viscous_damping", &e.viscous_damping, 1.0);
@@ -124,19 +126,7 @@ pub(crate) fn drive(
     }
     let damping = damping(t, e);
     let cam = cam(t, e, unit);
-    let feed_from = e
-        .feed_from
-        .as_ref()
-        .map_or(0.0, |c| t.angle("feed_from", c));
-    if !(-twist..twist).contains(&feed_from) {
-        let path = key(&t.at, "feed_from");
-        t.bad(
-            &path,
-            "feed_from",
-            format!("{} degrees", feed_from.to_degrees()),
-            "an angle within the swing, 0 being its middle",
-        );
-    }
+    let push = push(t, e, twist);
     let capture = e
         .latch_capture
         .as_ref()
@@ -168,8 +158,7 @@ pub(crate) fn drive(
         missing,
         damping,
         cam,
-        feed: t.not_negative("feed_energy", &e.feed_energy, 1.0),
-        feed_from,
+        push,
         capture: capture.unwrap_or(1f64.to_radians()),
         programme: programme(t, e),
     })

@@ -122,12 +122,17 @@ impl Table<'_> {
     /// An angle in radians: a number of degrees, or "120deg", "2.1rad", "pi/3", "2*pi/3".
     pub(crate) fn angle(&mut self, k: &'static str, c: &Coordinate) -> f64 {
         let path = key(&self.at, k);
+        self.angle_at(&path, k, c)
+    }
+
+    /// An angle at a path of its own.
+    pub(crate) fn angle_at(&mut self, path: &[Step], k: &'static str, c: &Coordinate) -> f64 {
         let (inner, unit) = match c {
             Coordinate::Expression(text) => match angle_text(text) {
                 Some(found) => found,
                 None => {
                     self.bad(
-                        &path,
+                        path,
                         k,
                         format!("{text:?}"),
                         "degrees, or an angle such as \"120deg\", \"2.1rad\" or \"2*pi/3\"",
@@ -137,7 +142,7 @@ impl Table<'_> {
             },
             other => (other.clone(), 1f64.to_radians()),
         };
-        self.number_at(&path, k, &inner, unit, Bound::Any)
+        self.number_at(path, k, &inner, unit, Bound::Any)
     }
 
     /// An angle in radians that must lie in a range of degrees.

@@ -79,6 +79,10 @@ pub struct DriveEntry {
     /// Where the cam begins to push, from the middle of the swing; the middle where left out. It pushes up to the latch.
     #[serde(default)]
     pub feed_from: Option<Coordinate>,
+    /// In place of `feed_energy` and `feed_from`, a push of several moments: where each piece begins, from the middle of the
+    /// swing, and its moment in N·m, as in [[0, 0.5], [20, 0.3]]. The last lasts up to the latch.
+    #[serde(default)]
+    pub feed_moments: Option<Vec<[Coordinate; 2]>>,
     /// How far short of its groove a latch still catches a disc; 1 degree where left out.
     #[serde(default)]
     pub latch_capture: Option<Coordinate>,

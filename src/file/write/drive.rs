@@ -3,13 +3,20 @@
 use crate::file::read::drive::regular;
 use crate::file::schema::{Coordinate, DriveEntry};
 use crate::file::write::quantity::{angle, number};
-use crate::model::drive::{DriveSpec, Step};
+use crate::model::drive::{DriveSpec, Push, Step};
 
 /// The entry of a torsional drive, lengths in a unit of so many metres.
 pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
     let length = |x: f64| number(x, metres);
     let plain = |x: f64| -> Coordinate { number(x, 1.0) };
     let [first, second] = spec.inertias;
+    let (feed_energy, feed_from, feed_moments) = match &spec.push {
+        Push::Even { energy, from } => (energy.map(plain), Some(angle(*from)), None),
+        Push::Pieces(pieces) => {
+            let piece = |p: &(f64, f64)| [angle(p.0), plain(p.1)];
+            (None, None, Some(pieces.iter().map(piece).collect()))
+        }
+    };
     let mut entry = DriveEntry {
         swing_angle: angle(2.0 * spec.twist),
         period: Some(plain(spec.period)),
@@ -35,8 +42,9 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
         cam_efficiency: spec.cam.map(|c| plain(c.efficiency)),
         cam_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.0)),
         roller_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.1)),
-        feed_energy: spec.feed.map(plain),
-        feed_from: Some(angle(spec.feed_from)),
+        feed_energy,
+        feed_from,
+        feed_moments,
         latch_capture: Some(angle(spec.capture)),
         motion: None,
         swings: None,

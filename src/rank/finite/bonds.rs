@@ -85,12 +85,12 @@ pub fn mobility(
     }
     let mut chains = Vec::new();
     for j in mechanism.joints_in(closure.state) {
-        // In the order they are passed in, as in `motion::pose`: slides first, but a slot after its pin.
-        let freedoms = mechanism.joints[j].joint_type.freedoms();
-        let slot = freedoms.contains(&Freedom::Tx) && !freedoms.contains(&Freedom::Ty);
+        let joint_type = &mechanism.joints[j].joint_type;
+        let order = joint_type.passed();
         let twists = spatial_twists(exact, mechanism, j)?;
-        let mut passed: Vec<(Freedom, Twist)> = freedoms.iter().copied().zip(twists).collect();
-        passed.sort_by_key(|(f, _)| f.slides() == slot);
+        let listed = joint_type.freedoms().iter().copied();
+        let mut passed: Vec<(Freedom, Twist)> = listed.zip(twists).collect();
+        passed.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
         chains.push(Chain {
             ends: mechanism.joints[j].links,
             parts: passed

@@ -27,6 +27,17 @@ pub(in crate::rank) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue])
     vec![w[0], w[1], w[2], v[0], v[1], v[2]]
 }
 
+/// Whether the displacements of some independent twists, one after the other, are all those of a group.
+pub(in crate::rank) fn is_group(exact: &ExactField, twists: &[Vec<Residue>]) -> bool {
+    let mut span = Echelon::new(exact.field());
+    twists.iter().all(|t| span.insert(t))
+        && twists.iter().enumerate().all(|(i, a)| {
+            twists[..i]
+                .iter()
+                .all(|b| span.contains(&bracket(exact, a, b)))
+        })
+}
+
 /// Six-component twists of a joint's freedoms, those that planar mode keeps.
 pub(in crate::rank) fn spatial_twists(
     exact: &ExactField,

@@ -16,7 +16,8 @@ use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
 use crate::rank::finite::bonds::common;
-use crate::rank::finite::displacement_group::{bracket, spatial_twists};
+use crate::rank::finite::displacement_group::{is_group, spatial_twists};
+use crate::rank::finite::idle_ways::lock_ways;
 
 /// The joints of each part, in file order; joints in no contour and no coupling are in none.
 ///
@@ -61,7 +62,7 @@ pub fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
     out
 }
 
-/// Locks the idle freedoms of links whose joints all leave them free in one group; how many there were.
+/// Locks the idle freedoms of links whose joints all leave them free in one group, or one way; how many there were.
 ///
 /// # Errors
 /// Where a coordinate has no value in the field.
@@ -122,16 +123,5 @@ pub fn lock_idle(
         whole[at[0]] = None;
         locked += shared.len();
     }
-    Ok(locked)
-}
-
-/// Whether the displacements of some independent twists, one after the other, are all those of a group.
-fn is_group(exact: &ExactField, twists: &[Vec<Residue>]) -> bool {
-    let mut span = Echelon::new(exact.field());
-    twists.iter().all(|t| span.insert(t))
-        && twists.iter().enumerate().all(|(i, a)| {
-            twists[..i]
-                .iter()
-                .all(|b| span.contains(&bracket(exact, a, b)))
-        })
+    Ok(locked + lock_ways(exact, mechanism, state)?)
 }

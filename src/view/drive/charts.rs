@@ -32,8 +32,13 @@ pub fn cam(d: &Drive<'_>) -> Option<Outline> {
     }
     Some(Outline {
         title: format!("{}: profile of the cam", d.mechanism),
-        subtitle: "An even moment on the flanks; grooves as the roller is round, to be cut as deep as the latch wants them."
-            .to_owned(),
+        subtitle: format!(
+            "{} on the flanks; grooves as the roller is round, to be cut as deep as the latch wants them.",
+            match d.design.as_ref()?.feed_moments.len() {
+                0 | 1 => "An even moment",
+                _ => "The moments that the file states",
+            }
+        ),
         unit: unit.symbol.to_owned(),
         curves,
     })

@@ -7,12 +7,15 @@ use crate::drive::torsion::stored_energy;
 use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::view::claims;
-use crate::view::drive::{Cam, Design, Drive, Endurance, Remedies};
+use crate::view::drive::cam::{Cam, FeedMoment};
+use crate::view::drive::{Design, Drive, Endurance, Remedies};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
 /// Rows of the programme shown before the rest is left out.
 const SHOWN: usize = 24;
+/// Pieces of the cam's push shown before the rest is left out.
+const PIECES: usize = 6;
 
 /// The report, fitted to a terminal of `width` columns where one is given.
 #[must_use]
@@ -164,6 +167,9 @@ fn designed(
     )?;
     losses(out, d, design)?;
     motions(out, d, design)?;
+    if let Some(samples) = &d.samples {
+        samples.write(out)?;
+    }
     writeln!(out, "\n  Sizing, (10) and (11):\n\n{}", trials(d, width))?;
     writeln!(out, "\n  Programme:\n\n{}", programme(d, width))
 }
@@ -189,23 +195,44 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
             significant(design.friction_energy)
         )?;
     }
+    let arrive = match design.feed_moments.len() {
+        0 | 1 => "to arrive at rest",
+        _ => "to arrive",
+    };
     match design.needed_feed {
         Some(needed) if design.friction_energy > 0.0 => writeln!(
             out,
-            "  to arrive at rest the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
+            "  {arrive} the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
             significant(needed),
             (needed / design.friction_energy - 1.0) * 100.0,
             significant(design.feed)
         )?,
         Some(needed) => writeln!(
             out,
-            "  to arrive at rest the cam must give {} J",
+            "  {arrive} the cam must give {} J",
             significant(needed)
         )?,
         None => writeln!(
             out,
             "  no work of the cam brings the disc to its latch: it stops before the push begins"
         )?,
+    }
+    if design.feed_moments.len() > 1 {
+        let piece = |p: &FeedMoment| {
+            let (from, moment) = (degrees(p.from), significant(p.moment));
+            format!("{moment} N·m from {from}")
+        };
+        let all = &design.feed_moments;
+        let pieces: Vec<String> = all.iter().take(PIECES).map(piece).collect();
+        write!(out, "  the cam pushes with {}", pieces.join(", "))?;
+        match all.len().saturating_sub(PIECES) {
+            0 => writeln!(out, ", up to the latch")?,
+            more => writeln!(
+                out,
+                " and {} more, up to the latch; --format json has them all",
+                plural(more, "piece")
+            )?,
+        }
     }
     if d.complete {
         match design.endurance {

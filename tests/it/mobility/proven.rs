@@ -1,7 +1,7 @@
 //! Motions that are proven: which, by what, and that following them never says otherwise.
 
 use super::built_in;
-use crate::finite_traps::{all::all as traps, judged};
+use crate::finite_traps::{all::all as traps, judged, judged_in};
 use crate::rounded::cases::cases;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -11,6 +11,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mode, StateId};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::displacement_group::{Kind, whole_group};
+use ozols::rank::finite::independent_parts::lock_idle;
 use ozols::rank::finite::{Finite, How, Proof, followed};
 use std::fmt::Write;
 
@@ -152,24 +153,90 @@ fn plates_are_proven_by_their_multiplicity() {
     }
 }
 
-/// Planar and spherical built-ins whose pose is a regular one and whose contours J tells apart.
+/// Planar and spherical built-ins, in every state.
 #[test]
 fn most_built_ins_of_one_group_are_proven() {
     let (mut all, mut open) = (0, Vec::new());
     for name in builtin::names() {
         let m = built_in(name);
-        let exact = field_of(&m, StateId::FREE, 0).unwrap();
-        let kind = whole_group(&exact, &m, StateId::FREE).unwrap().kind();
-        let planar = matches!(m.mode, Mode::Planar { .. }) || kind == Kind::Planar;
-        if planar || kind == Kind::Spherical {
-            all += 1;
-            if !judged(&m).1.is_proven() {
-                open.push(name);
+        for state in m.state_ids() {
+            let exact = field_of(&m, state, 0).unwrap();
+            let kind = whole_group(&exact, &m, state).unwrap().kind();
+            let planar = matches!(m.mode, Mode::Planar { .. }) || kind == Kind::Planar;
+            if planar || kind == Kind::Spherical {
+                all += 1;
+                if !judged_in(&m, state).1.is_proven() {
+                    open.push(format!("{name}, {}", m.states[state]));
+                }
             }
         }
     }
-    assert!(all > 30, "{all}");
+    assert!(all > 35, "{all}");
     assert_eq!(open, [""; 0]);
+}
+
+/// A part that touches two jaws hinged together, each by a round edge on a flat face: on which side the faces are, where the edges
+/// lie and which way.
+fn between(part_has_faces: bool, edges: [(i32, [i32; 3]); 2]) -> String {
+    let mut text = String::from(
+        r#"name = "between"
+[[link]]
+id = "f"
+role = "frame"
+[[link]]
+id = "g"
+[[link]]
+id = "p"
+role = "output"
+[[joint]]
+id = "hinge"
+links = ["f", "g"]
+type = "revolute"
+point = [0, -30, 0]
+axis = [1, 0, 0]
+"#,
+    );
+    for ((y, along), (jaw, z)) in edges.into_iter().zip([("f", 10), ("g", -10)]) {
+        let [first, second] = if part_has_faces {
+            ["p", jaw]
+        } else {
+            [jaw, "p"]
+        };
+        writeln!(
+            text,
+            "[[joint]]\nid = \"{jaw}-p\"\nlinks = [\"{first}\", \"{second}\"]\ntype = \"cylinder-on-plane\"\n\
+             point = [0, {y}, {z}]\naxis = [0, 0, 1]\nreference = {along:?}"
+        )
+        .unwrap();
+    }
+    text
+}
+
+/// By hand: a part with two edges along x slides along them whatever the jaws do; one with crossed edges does not, for rolling
+/// about one tips the other. A plate between two edges moves in all ways of its plane.
+#[test]
+fn ways_of_a_part_are_split_off_where_its_faces_let_it_go() {
+    let (x, y) = ([1, 0, 0], [0, 1, 0]);
+    for (faces, second, idle) in [(false, x, 1), (false, y, 0), (true, x, 3), (true, y, 3)] {
+        let text = between(faces, [(0, x), (7, second)]);
+        let m = mechanism_from_str("x.toml", &text).unwrap();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let mut locked = m.clone();
+        let found = lock_idle(&exact, &mut locked, StateId::FREE).unwrap();
+        assert_eq!(found, idle, "{text}");
+        assert_eq!(judged(&locked).0 + idle, judged(&m).0, "{text}");
+    }
+}
+
+/// The round part of the gripper slides along itself, and what is left with the slide split off is stopped: "the turn about z is
+/// stopped by fifth order; the slide is there", as its file says.
+#[test]
+fn a_clamped_part_that_slides_is_proven_to_do_no_more() {
+    let m = built_in("lever-gripper");
+    let state = m.state("clamped").unwrap();
+    let (instantaneous, found) = judged_in(&m, state);
+    assert_eq!((instantaneous, found.mobility), (2, 1), "{found:?}");
+    assert!(found.is_proven(), "{found:?}");
 }
 
 /// Of all built-ins four are followed alone: a parallelogram of screws, which no polynomial describes; two bananas, of which one
