@@ -332,7 +332,8 @@ fn moves(pose: &Pose, column: usize) -> bool {
 
 /// Which joints could be drives in this pose; balls last.
 fn could(m: &Mechanism, pose: &Pose, names: &[(usize, String)]) -> String {
-    let kinds = [false, true].map(|ball| names.iter().filter(move |(c, _)| of_ball(pose, *c) == ball));
+    let kinds =
+        [false, true].map(|ball| names.iter().filter(move |(c, _)| of_ball(pose, *c) == ball));
     let moving = kinds.into_iter().flatten().filter(|(c, _)| moves(pose, *c));
     let list = moving.map(|(_, n)| n).take(30).join(", ");
     if list.is_empty() {

@@ -170,9 +170,9 @@ impl Margin {
                 )
             }
             (Some(true), ..) => format!("{name}: yes, against loads of any size"),
-            (None, ..) => format!(
-                "{name}: undecided, the margin is within the accuracy of the programmes"
-            ),
+            (None, ..) => {
+                format!("{name}: undecided, the margin is within the accuracy of the programmes")
+            }
             (Some(false), ..) => {
                 let all = self.along.iter();
                 let open: Vec<String> = all
