@@ -151,7 +151,7 @@ impl<'a> Forces<'a> {
         let found = programme
             .solve_with(&[], &aim, effort)
             .map_err(Unsolved::Programme)?;
-        let (least, left) = self.from_below(&found.x, &load);
+        let (least, left) = self.below(&found.x, &load);
         let mut y = vec![0.0; load.len()];
         for (i, z) in worked.iter().zip(&found.z) {
             y[*i] = *z;
@@ -160,7 +160,7 @@ impl<'a> Forces<'a> {
         let y = across(&y, &self.unlimited);
         // Of a load that is resisted without limit rounding alone is left.
         let most = match inner(&y, &load) {
-            work if work.abs() > TOLERANCE * size => self.from_above(&y, work).min(cap),
+            work if work.abs() > TOLERANCE * size => self.above(&y, work).min(cap),
             _ => cap,
         };
         // The multipliers of the motions: the part's motion that the load works on most for what the contacts can give.
@@ -182,7 +182,7 @@ impl<'a> Forces<'a> {
     }
 
     /// The load of the forces found, put within their cones, and what is left of balance.
-    fn from_below(&self, x: &[f64], load: &[f64]) -> (f64, f64) {
+    fn below(&self, x: &[f64], load: &[f64]) -> (f64, f64) {
         if x.iter().any(|x| !x.is_finite()) {
             return (0.0, f64::INFINITY);
         }
@@ -210,7 +210,7 @@ impl<'a> Forces<'a> {
     }
 
     /// The load from above by a motion that the load works `power` on.
-    fn from_above(&self, y: &[f64], power: f64) -> f64 {
+    fn above(&self, y: &[f64], power: f64) -> f64 {
         let y: Vec<f64> = y.iter().map(|y| y * power.signum()).collect();
         let work = |k: usize| inner(&self.columns[k], &y);
         let most = self.points.iter().map(|p| {
