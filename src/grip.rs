@@ -16,4 +16,5 @@ pub mod holding;
 pub mod jaw_loads;
 pub mod lever_arm;
 pub mod motion;
+mod resisted_load;
 pub mod tolerance_samples;

@@ -6,29 +6,36 @@
 //! the loads resisted are a convex set. The part is held against every small load, *force closure*, where the origin is inside;
 //! the *margin* is the radius of the greatest ball about the origin in the set. *Form closure* is the same without friction.
 
-use crate::geom::vector::{add, cross, length, scale};
+use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
-use crate::grip::faces::{Face, Press};
-use crate::statics::cone_programme::ConeProgramme;
+use crate::grip::faces::Face;
+use crate::grip::resisted_load::{Forces, Resisted};
+use crate::statics::cone_programme::Effort;
 use crate::statics::reactions::Unsolved;
-use crate::statics::reactions::geometry::{Six, power, wrench};
-use clarabel::solver::SolverStatus;
-use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT};
+use crate::statics::reactions::geometry::Six;
 
 /// Loads above this, by the normal forces, count as resisted without limit.
 const LIMIT: f64 = 1e3;
+/// Enough to know that a load is resisted at all: the numbers of a programme stay of one size.
+const ENOUGH: f64 = 1.0;
 /// Loads below this count as not resisted.
 pub const NOTHING: f64 = 1e-6;
-/// Work below this is rounding.
-const ROUNDING: f64 = 1e-12;
 /// Loads closer than this part of them are equal.
 const TIE: f64 = 1e-6;
+/// A load is known well where its bounds are closer than this part of it.
+const WELL_KNOWN: f64 = 1e-5;
+/// It is known at all where they are closer than this.
+const KNOWN: f64 = 1e-4;
+/// What is left of balance must be below this part of the margin.
+const LEFT: f64 = 1e-2;
 /// Most steps from a direction to one that is resisted less; a few are enough.
 const STEPS: usize = 20;
 
 /// What the contacts hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closure {
+    /// Whether every small load is resisted; nothing where that is within the accuracy of the programmes.
+    pub closed: Option<bool>,
     /// The margin is at least this: the radius of the ball in the hull of the loads resisted along the axes. 0 without closure.
     pub at_least: f64,
     /// The margin is at most this: the smallest load found that is just resisted; [`f64::INFINITY`] where each has no limit.
@@ -40,105 +47,64 @@ pub struct Closure {
 }
 
 impl Closure {
-    /// Whether every small load is resisted.
+    /// Whether every small load is known to be resisted.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        self.at_least > NOTHING
+        self.closed == Some(true)
     }
 }
 
-/// The greatest load in a direction, with the motion of the part that limits it.
-struct Resisted {
-    load: f64,
-    normal: Six,
-}
-
-/// A load about the part's middle, moments over its size, as a wrench of the geometry.
-fn about_middle(part: &ClampedPart, d: &Six) -> Six {
-    let moment = scale([d[0], d[1], d[2]], part.size);
-    wrench(part.middle, [d[3], d[4], d[5]], moment)
-}
-
-/// The programme: how much of a load the faces resist. Variables are the load, then normal force and friction of each point,
-/// then what has no limit.
-fn resisted(part: &ClampedPart, faces: &[Face], d: &Six) -> Result<Resisted, Unsolved> {
-    let each = faces.iter().map(|f| f.presses(&part.geometry));
-    let each: Vec<(Vec<Press>, Vec<Six>)> = each.collect();
-    let mut columns: Vec<(usize, Six)> = Vec::new();
-    let (mut normals, mut cones) = (Vec::new(), Vec::new());
-    for (i, (face, (presses, free))) in faces.iter().zip(&each).enumerate() {
-        for p in presses {
-            normals.push(columns.len() + 1);
-            columns.push((i, p.normal));
-            if face.friction == Some(0.0) {
-                continue;
-            }
-            cones.extend(face.friction.map(|f| (columns.len(), f)));
-            columns.extend(p.along.map(|a| (i, a)));
+/// The load up to `cap` in a direction that the faces resist. Of the ways to go about the programme the first that is good
+/// enough, else the one whose bounds are closest.
+fn tried(
+    forces: &Forces,
+    d: &Six,
+    cap: f64,
+    enough: impl Fn(&Resisted) -> bool,
+) -> Result<Resisted, Unsolved> {
+    let mut best: Option<Resisted> = None;
+    for effort in Effort::ALL {
+        let found = forces.resist(d, cap, effort)?;
+        if found.most <= NOTHING || enough(&found) {
+            return Ok(found);
         }
-        columns.extend(free.iter().map(|w| (i, *w)));
-    }
-    let load = about_middle(part, d);
-    let mut programme = ConeProgramme::default();
-    // A motion that neither load nor contacts work on says nothing, and rounding must not speak for it.
-    let mut worked = Vec::new();
-    for motion in &part.motions {
-        let first = (0, power(&load, &motion.part));
-        let others = columns.iter().enumerate();
-        let others = others.map(|(k, (i, w))| (k + 1, power(w, &motion.against[*i])));
-        let all = std::iter::once(first).chain(others);
-        let row: Vec<(usize, f64)> = all.filter(|(_, x)| x.abs() > ROUNDING).collect();
-        if !row.is_empty() {
-            programme.row(row, 0.0);
-            worked.push(motion);
+        let gap = |r: &Resisted| r.most - r.least + r.left;
+        if best.as_ref().is_none_or(|b| gap(&found) < gap(b)) {
+            best = Some(found);
         }
     }
-    programme.within(ZeroConeT);
-    programme.row([(0, 1.0)], LIMIT);
-    programme.row(normals.iter().map(|&n| (n, 1.0)), 1.0);
-    for &n in &normals {
-        programme.row([(n, -1.0)], 0.0);
+    best.ok_or_else(|| Unsolved::Programme("no answer".to_owned()))
+}
+
+/// The load in a direction, with its normal.
+fn resisted(forces: &Forces, d: &Six) -> Result<(f64, Six), Unsolved> {
+    for cap in [ENOUGH, LIMIT] {
+        let found = tried(forces, d, cap, |r| r.agrees(WELL_KNOWN))?;
+        if found.most <= NOTHING {
+            return Ok((0.0, found.normal));
+        }
+        if cap == LIMIT && found.least > 0.99 * LIMIT {
+            return Ok((f64::INFINITY, found.normal));
+        }
+        if found.most < 0.99 * cap || cap == LIMIT {
+            return match found.agrees(KNOWN) || found.most - found.least < NOTHING {
+                true => Ok((found.least, found.normal)),
+                false => Err(Unsolved::Programme(format!(
+                    "a load between {:.3e} and {:.3e}",
+                    found.least, found.most
+                ))),
+            };
+        }
     }
-    programme.within(NonnegativeConeT);
-    for (normal, friction) in cones {
-        programme.row([(normal, -friction)], 0.0);
-        programme.row([(normal + 1, -1.0)], 0.0);
-        programme.row([(normal + 2, -1.0)], 0.0);
-        programme.within(SecondOrderConeT);
-    }
-    let mut aim = vec![0.0; columns.len() + 1];
-    aim[0] = -1.0;
-    let found = programme.solve(&[], &aim).map_err(Unsolved::Programme)?;
-    match found.status {
-        SolverStatus::Solved | SolverStatus::AlmostSolved => {}
-        other => return Err(Unsolved::Programme(format!("{other:?}"))),
-    }
-    // The multipliers of the motions: the part's motion that the load works on most for what the contacts can give.
-    let mut twist = [0.0; 6];
-    for (y, motion) in found.z.iter().zip(worked) {
-        twist = add(twist, scale(motion.part, *y));
-    }
-    let load = match found.x[0] {
-        x if x > LIMIT * 0.99 => f64::INFINITY,
-        x => x.max(0.0),
-    };
-    let turn = [twist[0], twist[1], twist[2]];
-    let shift = add([twist[3], twist[4], twist[5]], cross(turn, part.middle));
-    let turn = scale(turn, part.size);
-    let normal = [turn[0], turn[1], turn[2], shift[0], shift[1], shift[2]];
-    let sign = power(&normal, d).signum();
-    Ok(Resisted {
-        load,
-        normal: scale(normal, sign),
-    })
+    Ok((f64::INFINITY, *d))
 }
 
 /// What faces hold, each with its friction.
 ///
 /// # Guarantee
-/// `at_least` and `at_most` bracket the margin, to 1e-6: the set is convex, so that it has the hull of the loads resisted along
-/// the axes; from each of these the search goes on to where the set is nearest by its tangent planes, which never leads away.
-/// Round faces are polygons within them, so that margins are at most 2 % too small.
+/// `at_least` and `at_most` bracket the margin, to 1e-4 of it: the set is convex, so that it has the hull of the loads resisted
+/// along the axes; from each of these the search goes on to where the set is nearest by its tangent planes, which never leads
+/// away. Round faces are polygons within them, so that margins are at most 2 % too small. `closed` is that of [`is_closed`].
 ///
 /// # Sources
 /// The margin is that of C. Ferrari, J. Canny, Planning optimal grasps, IEEE Int. Conf. Robotics and Automation, 1992, with normal
@@ -150,6 +116,7 @@ fn resisted(part: &ClampedPart, faces: &[Face], d: &Six) -> Result<Resisted, Uns
 /// # Complexity
 /// Some hundred cone programmes, each of 3 unknowns a point.
 pub fn closure(part: &ClampedPart, faces: &[Face]) -> Result<Closure, Unsolved> {
+    let forces = Forces::new(part, faces);
     let mut along = Vec::new();
     let mut weakest = (part.axes[0], f64::INFINITY);
     let mut inverse = 0.0;
@@ -157,31 +124,35 @@ pub fn closure(part: &ClampedPart, faces: &[Face]) -> Result<Closure, Unsolved> 
         let mut least = f64::INFINITY;
         for sign in [1.0, -1.0] {
             let mut d = scale(*axis, sign);
-            let mut found = resisted(part, faces, &d)?;
-            along.push((d, found.load));
-            least = f64::min(least, found.load);
+            let (mut load, mut normal) = resisted(&forces, &d)?;
+            along.push((d, load));
+            least = f64::min(least, load);
             for _ in 0..STEPS {
                 // Mirror images are as weak: rounding must not put one before the other.
-                if found.load < weakest.1 * (1.0 - TIE) {
-                    weakest = (d, found.load);
+                if load < weakest.1 * (1.0 - TIE) {
+                    weakest = (d, load);
                 }
-                let size = length(found.normal);
-                if !(size > 0.0 && found.load > NOTHING && found.load.is_finite()) {
+                let size = length(normal);
+                if !(size > 0.0 && load > NOTHING && load.is_finite()) {
                     break;
                 }
-                d = scale(found.normal, 1.0 / size);
-                let next = resisted(part, faces, &d)?;
-                if next.load >= found.load * (1.0 - TIE) {
+                d = scale(normal, 1.0 / size);
+                let next = resisted(&forces, &d)?;
+                if next.0 >= load * (1.0 - TIE) {
                     break;
                 }
-                found = next;
+                (load, normal) = next;
             }
         }
         inverse += 1.0 / (least * least);
     }
-    let closed = along.iter().all(|(_, load)| *load > NOTHING);
-    let at_least = if closed { 1.0 / inverse.sqrt() } else { 0.0 };
+    let closed = is_closed(part, faces)?;
+    let at_least = match closed {
+        Some(true) => 1.0 / inverse.sqrt(),
+        _ => 0.0,
+    };
     Ok(Closure {
+        closed,
         at_least: at_least.min(weakest.1),
         at_most: weakest.1,
         weakest: weakest.0,
@@ -189,17 +160,30 @@ pub fn closure(part: &ClampedPart, faces: &[Face]) -> Result<Closure, Unsolved> 
     })
 }
 
-/// Whether every small load is resisted, and no more: a programme an axis and way at most.
+/// Whether every small load is resisted, and no more: a programme an axis and way, and more where one stalls.
+///
+/// # Guarantee
+/// Not closed is proven by a motion, which the contacts work on in one sense only, or hardly. Closed is said where the forces
+/// found, within their cones, balance loads along all axes to a hundredth of the margin these give. Nothing is said otherwise.
 ///
 /// # Errors
-/// Where a cone programme has no answer.
-pub fn is_closed(part: &ClampedPart, faces: &[Face]) -> Result<bool, Unsolved> {
+/// Where the solver refuses a programme.
+pub fn is_closed(part: &ClampedPart, faces: &[Face]) -> Result<Option<bool>, Unsolved> {
+    let forces = Forces::new(part, faces);
+    let (mut inverse, mut left) = (0.0, 0.0);
     for axis in &part.axes {
+        let mut least = f64::INFINITY;
         for sign in [1.0, -1.0] {
-            if resisted(part, faces, &scale(*axis, sign))?.load <= NOTHING {
-                return Ok(false);
+            let balanced = |r: &Resisted| r.least > NOTHING && r.left <= LEFT / 10.0 * r.least;
+            let found = tried(&forces, &scale(*axis, sign), ENOUGH, balanced)?;
+            if found.most <= NOTHING {
+                return Ok(Some(false));
             }
+            least = f64::min(least, found.least);
+            left = f64::max(left, found.left);
         }
+        inverse += 1.0 / (least * least);
     }
-    Ok(true)
+    let margin = 1.0 / f64::sqrt(inverse);
+    Ok((margin > NOTHING && left <= LEFT * margin).then_some(true))
 }

@@ -17,12 +17,16 @@ pub struct Shares {
     pub force_closed: usize,
     /// With form closure.
     pub form_closed: usize,
+    /// Of which force closure is within the accuracy of the programmes.
+    pub force_undecided: usize,
+    /// Of which form closure is.
+    pub form_undecided: usize,
 }
 
 /// Closure of a part with its contacts out by up to `tolerance` `[m]`, `samples` times; the same seed gives the same answer.
 ///
 /// # Errors
-/// Where a cone programme has no answer.
+/// Where the solver refuses a programme; one that it stalls at leaves a sample undecided.
 pub fn shares(
     part: &ClampedPart,
     tolerance: f64,
@@ -30,16 +34,22 @@ pub fn shares(
     seed: u64,
 ) -> Result<Shares, Unsolved> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let (mut force_closed, mut form_closed) = (0, 0);
-    for _ in 0..samples {
-        let sample = part.out_of_true(tolerance / part.geometry.size, &mut random);
-        force_closed += usize::from(is_closed(&sample, &sample.faces)?);
-        form_closed += usize::from(is_closed(&sample, &sample.smooth())?);
-    }
-    Ok(Shares {
+    let mut out = Shares {
         samples,
         tolerance,
-        force_closed,
-        form_closed,
-    })
+        force_closed: 0,
+        form_closed: 0,
+        force_undecided: 0,
+        form_undecided: 0,
+    };
+    for _ in 0..samples {
+        let sample = part.out_of_true(tolerance / part.geometry.size, &mut random);
+        let force = is_closed(&sample, &sample.faces)?;
+        let form = is_closed(&sample, &sample.smooth())?;
+        out.force_closed += usize::from(force == Some(true));
+        out.form_closed += usize::from(form == Some(true));
+        out.force_undecided += usize::from(force.is_none());
+        out.form_undecided += usize::from(form.is_none());
+    }
+    Ok(out)
 }

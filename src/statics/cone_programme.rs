@@ -6,6 +6,44 @@ use clarabel::solver::{DefaultSettings, DefaultSolution, DefaultSolver, IPSolver
 /// A row of a sparse matrix: (column, entry).
 pub(crate) type Row = Vec<(usize, f64)>;
 
+/// How a programme is gone about: what one way stalls at, another may solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// As the solver is delivered.
+    Usual,
+    /// Without scaling rows and columns first.
+    Unscaled,
+    /// In shorter steps, each refined for longer.
+    Careful,
+}
+
+impl Effort {
+    /// All, the quickest first.
+    pub(crate) const ALL: [Effort; 3] = [Effort::Usual, Effort::Unscaled, Effort::Careful];
+
+    fn settings(self) -> DefaultSettings<f64> {
+        let usual = DefaultSettings {
+            verbose: false,
+            ..DefaultSettings::default()
+        };
+        match self {
+            Effort::Usual => usual,
+            Effort::Unscaled => DefaultSettings {
+                equilibrate_enable: false,
+                ..usual
+            },
+            Effort::Careful => DefaultSettings {
+                equilibrate_enable: false,
+                max_step_fraction: 0.9,
+                static_regularization_constant: 1e-10,
+                dynamic_regularization_delta: 1e-9,
+                iterative_refinement_max_iter: 50,
+                ..usual
+            },
+        }
+    }
+}
+
 /// Minimise ½ xᵀP x + qᵀx subject to `row · x + s = right`, with the slacks s of each group of rows in a cone.
 #[derive(Debug, Default)]
 pub(crate) struct ConeProgramme {
@@ -38,18 +76,27 @@ impl ConeProgramme {
         quadratic: &[Row],
         linear: &[f64],
     ) -> Result<DefaultSolution<f64>, String> {
+        self.solve_with(quadratic, linear, Effort::Usual)
+    }
+
+    /// The same in a way of its own.
+    ///
+    /// # Errors
+    /// Where the solver refuses the programme, in its words.
+    pub(crate) fn solve_with(
+        &self,
+        quadratic: &[Row],
+        linear: &[f64],
+        effort: Effort,
+    ) -> Result<DefaultSolution<f64>, String> {
         let columns = linear.len();
-        let settings = DefaultSettings {
-            verbose: false,
-            ..DefaultSettings::default()
-        };
         let mut solver = DefaultSolver::new(
             &matrix(quadratic, columns, columns),
             linear,
             &matrix(&self.rows, self.rows.len(), columns),
             &self.right,
             &self.cones,
-            settings,
+            effort.settings(),
         )
         .map_err(|e| e.to_string())?;
         solver.solve();

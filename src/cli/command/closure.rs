@@ -58,8 +58,9 @@ pub(in crate::cli) fn run(args: &Args, a: &Grip) -> anyhow::Result<Done> {
             }
         }
         Ok(match shown.force_closure.closed {
-            true => Done::Found,
-            false => Done::Nothing,
+            Some(true) => Done::Found,
+            Some(false) => Done::Nothing,
+            None => Done::Partly,
         })
     })
 }

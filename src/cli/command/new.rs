@@ -25,8 +25,9 @@ pub(in crate::cli) struct New {
 
 pub(in crate::cli) fn run(args: &Args, a: &New) -> anyhow::Result<Done> {
     let shown = a.file.display();
-    let stem = a.file.file_stem().and_then(|s| s.to_str());
     let toml = a.file.extension().is_some_and(|e| e == "toml");
+    // The name of a file may be any bytes; that of a mechanism is text.
+    let stem = a.file.file_stem().map(|s| s.to_string_lossy());
     let Some(name) = stem.filter(|_| toml) else {
         let like = a.file.with_extension("toml");
         bail!(
@@ -41,7 +42,7 @@ pub(in crate::cli) fn run(args: &Args, a: &New) -> anyhow::Result<Done> {
     if !a.force && a.file.symlink_metadata().is_ok() {
         bail!("{shown} is there already; choose another name, or replace it with --force");
     }
-    let text = template::commented(text, &a.from, name)
+    let text = template::commented(text, &a.from, &name)
         .with_context(|| format!("built-in mechanism {}", a.from))?;
     output::to(Some(&a.file), |out| {
         write!(out, "{text}")?;

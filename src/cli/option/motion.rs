@@ -40,7 +40,7 @@ impl Moving {
         let pose = Pose::of_file(m, state)?;
         let (drive, held) = match drive_or_any(m, &pose, state, named) {
             // Balls have no axes of their own to be driven about.
-            Err(AskedError::Still(_)) if range.is_none() => {
+            Err(AskedError::Still { .. }) if range.is_none() => {
                 return Self::working(m, state, pose);
             }
             found => found?,

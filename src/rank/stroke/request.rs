@@ -77,9 +77,14 @@ pub enum AskedError {
         /// What could be driven.
         could: String,
     },
-    /// No joint can be a drive.
-    #[error("nothing can move in {0}")]
-    Still(String),
+    /// No joint but balls can be a drive.
+    #[error("{name} has no joint that moves about or along an axis of its own; {could}")]
+    Still {
+        /// Name of the mechanism.
+        name: String,
+        /// What could be driven.
+        could: String,
+    },
     /// A coordinate has no value.
     #[error(transparent)]
     Exact(#[from] ExactError),
@@ -98,13 +103,18 @@ pub struct Asked<'a> {
     held: Vec<usize>,
 }
 
-/// The columns that can be a drive, with their names: those of balls cannot, which have no axes of their own.
+/// Whether a column is of a ball, whose axes are those of the file's frame and nobody's choice.
+fn of_ball(pose: &Pose, column: usize) -> bool {
+    let of = pose.columns[column].joint;
+    let own = pose.columns.iter().filter(|c| c.joint == of);
+    own.filter(|c| c.freedom.turns()).count() == 3
+}
+
+/// The columns, with the names they are driven by.
 fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
-    let turn = |f: Freedom| matches!(f, Freedom::Rx | Freedom::Ry | Freedom::Rz);
     let of = |j: JointId| pose.columns.iter().filter(move |c| c.joint == j);
     let columns = pose.columns.iter().enumerate();
     columns
-        .filter(|(_, c)| of(c.joint).filter(|c| turn(c.freedom)).count() < 3)
         .map(|(i, c)| {
             let id = &m.joints[c.joint].id;
             let name = if of(c.joint).count() == 1 {
@@ -270,10 +280,10 @@ fn drive(
     Ok((chosen, held))
 }
 
-/// The column named, or the drive, or, where there is none, the first that can move; and those that are held.
+/// The column named, or the drive, or, where there is none, the first that can move and is not of a ball; and those that are held.
 ///
 /// # Errors
-/// Where there is no such column, or nothing can move.
+/// Where there is no such column, or nothing but balls can move.
 pub fn drive_or_any(
     m: &Mechanism,
     pose: &Pose,
@@ -284,9 +294,13 @@ pub fn drive_or_any(
     if asked.is_some() || driven {
         return drive(m, pose, state, asked);
     }
-    let first = names(m, pose).into_iter().find(|(c, _)| moves(pose, *c));
-    let first = first.ok_or_else(|| AskedError::Still(m.name.clone()))?;
-    Ok((first.0, Vec::new()))
+    let mut columns = (0..pose.columns.len()).filter(|&c| !of_ball(pose, c));
+    let first = columns.find(|&c| moves(pose, c));
+    let first = first.ok_or_else(|| AskedError::Still {
+        name: m.name.clone(),
+        could: could(m, pose, &names(m, pose)),
+    })?;
+    Ok((first, Vec::new()))
 }
 
 /// Whether a range, as it was written, is in lengths where the drive slides.
@@ -302,7 +316,7 @@ pub fn lengths_where_it_slides(m: &Mechanism, slides: bool, text: &str) -> Resul
     if wrong { Err(angles()) } else { Ok(()) }
 }
 
-/// The name of a column that can be a drive.
+/// The name of a column as a drive.
 #[must_use]
 pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
     let mut names = names(m, pose).into_iter();
@@ -316,9 +330,11 @@ fn moves(pose: &Pose, column: usize) -> bool {
     Follower::new(pose.clone(), column, &[]).share() > 1e-6
 }
 
-/// Which joints could be drives in this pose.
+/// Which joints could be drives in this pose; balls last.
 fn could(m: &Mechanism, pose: &Pose, names: &[(usize, String)]) -> String {
-    let moving = names.iter().filter(|(c, _)| moves(pose, *c));
+    let kinds =
+        [false, true].map(|ball| names.iter().filter(move |(c, _)| of_ball(pose, *c) == ball));
+    let moving = kinds.into_iter().flatten().filter(|(c, _)| moves(pose, *c));
     let list = moving.map(|(_, n)| n).take(30).join(", ");
     if list.is_empty() {
         format!("none can move in {}", m.name)

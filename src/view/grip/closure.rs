@@ -56,8 +56,8 @@ pub struct Contact<'a> {
 /// Closure, and how far from its loss.
 #[derive(Debug, Serialize)]
 pub struct Margin {
-    /// Whether every small load is resisted.
-    pub closed: bool,
+    /// Whether every small load is resisted; nothing where that is within the accuracy of the programmes.
+    pub closed: Option<bool>,
     /// Radius of the greatest ball of loads resisted, at least.
     pub at_least: f64,
     /// At most; nothing where no load has a limit.
@@ -94,6 +94,10 @@ pub struct Samples {
     pub form_closed: usize,
     /// Their share.
     pub form_closed_share: f64,
+    /// Of how many force closure is within the accuracy of the programmes.
+    pub force_undecided: usize,
+    /// Of how many form closure is.
+    pub form_undecided: usize,
 }
 
 impl Load {
@@ -140,7 +144,7 @@ impl Margin {
     fn new(c: &force_closure::Closure) -> Margin {
         let finite = c.at_most.is_finite();
         Margin {
-            closed: c.is_closed(),
+            closed: c.closed,
             at_least: if c.at_least.is_finite() {
                 c.at_least
             } else {
@@ -155,7 +159,7 @@ impl Margin {
     /// The verdict in a line.
     fn verdict(&self, name: &str) -> String {
         match (self.closed, self.at_most, &self.weakest) {
-            (true, Some(most), Some(weakest)) => {
+            (Some(true), Some(most), Some(weakest)) => {
                 let margin = match [self.at_least, most].map(significant) {
                     [least, most] if least == most => most,
                     [least, most] => format!("{least} to {most}"),
@@ -165,8 +169,11 @@ impl Margin {
                     weakest.words()
                 )
             }
-            (true, ..) => format!("{name}: yes, against loads of any size"),
-            (false, ..) => {
+            (Some(true), ..) => format!("{name}: yes, against loads of any size"),
+            (None, ..) => {
+                format!("{name}: undecided, the margin is within the accuracy of the programmes")
+            }
+            (Some(false), ..) => {
                 let all = self.along.iter();
                 let open: Vec<String> = all
                     .filter(|l| l.resisted.is_some_and(|x| x <= NOTHING))
@@ -217,6 +224,8 @@ impl<'a> Closure<'a> {
                 force_closed_share: share(s.force_closed, s.samples),
                 form_closed: s.form_closed,
                 form_closed_share: share(s.form_closed, s.samples),
+                force_undecided: s.force_undecided,
+                form_undecided: s.form_undecided,
             }),
             unit: (m.length_unit.metres, m.length_unit.symbol),
         }
@@ -287,6 +296,13 @@ impl<'a> Closure<'a> {
                 s.form_closed,
                 100.0 * s.form_closed_share
             )?;
+            if s.force_undecided + s.form_undecided > 0 {
+                writeln!(
+                    out,
+                    "  undecided, the margin within the accuracy of the programmes: force closure of {}, form closure of {}",
+                    s.force_undecided, s.form_undecided
+                )?;
+            }
         }
         Ok(())
     }

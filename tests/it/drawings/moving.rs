@@ -189,6 +189,15 @@ fn what_cannot_be_drawn_is_said() {
             vec!["gripper-10", "--motion", "--state", "clamped"],
             "none can move",
         ),
+        // Once: "none can move", of a platform with eight motions.
+        (
+            vec!["wren-platform", "--motion", "--drive", "0-l0"],
+            "--drive 0-l0:rx or --drive 0-l0:ry or --drive 0-l0:rz",
+        ),
+        (
+            vec!["wren-platform", "--motion", "--drive", "0-l0:tx"],
+            "these can move: 0-l0:rx, 0-l0:ry, 0-l0:rz",
+        ),
         (vec!["gripper-10", "--view", "z"], "--kind kinematic"),
         (
             vec!["gripper-10", "--kind", "kinematic", "--view", "w"],
@@ -208,4 +217,12 @@ fn what_cannot_be_drawn_is_said() {
         assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
         assert!(said.contains(what), "{args:?}: {said}");
     }
+}
+
+// Once refused: a platform on balls alone could be shown by its working motion only.
+#[test]
+fn a_freedom_of_a_ball_can_be_driven() {
+    let f = frames(&["wren-platform", "--drive", "0-l0:rz"]);
+    assert!(f.svg.contains("drive 0-l0:rz goes"));
+    assert!(f.joints.len() > 2);
 }

@@ -20,7 +20,11 @@ impl PassedOver {
     #[must_use]
     pub fn new(file: &str, why: &str, rigid: bool) -> PassedOver {
         let line = why.lines().next().unwrap_or_default();
-        let named = line.strip_prefix(file).map(|l| l.trim_start_matches(": "));
+        // The file stands in front of the line already: `FILE:3:7: why`, `FILE: why` or `FILE is no such thing`.
+        let named = line.strip_prefix(file).and_then(|rest| {
+            let of_place = rest.strip_prefix(':').map(str::trim_start);
+            of_place.or_else(|| rest.strip_prefix(" is "))
+        });
         PassedOver {
             file: file.to_owned(),
             why: named.unwrap_or(line).to_owned(),
