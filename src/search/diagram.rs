@@ -3,6 +3,7 @@
 //! Nodes are kept as reduced row echelon forms over a prime field, which are canonical, so equal spaces meet in one
 //! hash table.
 
+pub(in crate::search) mod adding;
 pub(in crate::search) mod choice_inclusion;
 pub(in crate::search) mod completion;
 pub mod frontier;
@@ -10,6 +11,7 @@ pub(in crate::search) mod layer;
 pub(in crate::search) mod minimize;
 pub mod output_motion;
 pub(in crate::search) mod product;
+mod reduced_rows;
 pub mod redundancy_so_far;
 pub mod stage;
 pub mod state_copies;

@@ -5,10 +5,10 @@
 //! come allows anyway are one in it. It holds for the free state, whose joints all have their present motion in every variant.
 
 use crate::linalg::modp::{Field, Residue};
+use crate::search::diagram::adding::{Adding, adding};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::stage::{Adding, adding};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next};
 use crate::search::question::Question;

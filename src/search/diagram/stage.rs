@@ -1,12 +1,10 @@
 //! What happens in each layer of a diagram: a variable with the moves of its joints, and what is tested after them.
 
-use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::choice_inclusion::{Grown, one_from_another};
+use crate::linalg::modp::Residue;
 use crate::search::diagram::frontier::{Plan, Step};
 use crate::search::diagram::output_motion::Lookahead;
 use crate::search::diagram::state_copies::{Held, Move};
 use crate::search::question::space::Space;
-use crate::search::reduce::self_stress_space::SelfStressSpace;
 use std::ops::Range;
 
 /// Folds away how exactly a finished kept link goes wrong.
@@ -88,46 +86,6 @@ impl Stage {
             ending: None,
         }
     }
-}
-
-/// A variable of the diagram in the space dual to self-stresses.
-#[derive(Debug)]
-pub(in crate::search) struct Adding {
-    /// Index of the variable in the space.
-    pub(in crate::search) variable: usize,
-    /// Its choices, one grown from another.
-    pub(in crate::search) growth: Vec<Grown>,
-    /// Coordinates before the stage.
-    pub(in crate::search) width: usize,
-    /// How many of them are of contours; those of kept links come after these.
-    pub(in crate::search) contours: usize,
-    /// The first of them, which no variable after this one reaches.
-    pub(in crate::search) gap: usize,
-    /// Simplification of motions of kept links that no variable after this one reaches.
-    pub(in crate::search) collapse: Option<Collapse>,
-}
-
-/// The stages of a space for the variables in its order.
-pub(in crate::search) fn adding(
-    field: Field,
-    order: &[usize],
-    space: &SelfStressSpace,
-) -> Vec<Adding> {
-    let stage = |(t, &variable): (usize, &usize)| {
-        let spans: Vec<_> = space.added[t].iter().map(|c| &c[..]).collect();
-        let (contours, after) = (space.contours[t], space.contours[t + 1]);
-        let finished = after..after + space.finished[t];
-        let all = after..after + space.kept;
-        Adding {
-            variable,
-            growth: one_from_another(field, &spans),
-            width: contours + space.kept,
-            contours,
-            gap: contours - after,
-            collapse: (!finished.is_empty()).then(|| Collapse::at_rest(finished, all)),
-        }
-    };
-    order.iter().enumerate().map(stage).collect()
 }
 
 /// Makes one stage per variable from a plan over the joints.

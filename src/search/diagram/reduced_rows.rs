@@ -1,0 +1,122 @@
+//! Rows of a matrix in reduced row echelon form, grown one vector at a time in memory that a thread keeps, and packed.
+
+use crate::linalg::modp::{Field, Residue};
+
+/// Rows of a matrix in reduced row echelon form: each pivot is one and alone in its column.
+#[derive(Default)]
+pub(super) struct Rows {
+    pub(super) width: usize,
+    pub(super) pivots: Vec<usize>,
+    pub(super) data: Vec<Residue>,
+}
+
+impl Clone for Rows {
+    fn clone(&self) -> Self {
+        let mut out = Rows::default();
+        out.clone_from(self);
+        out
+    }
+
+    /// Within the memory that is there already, which the derived one would give away.
+    fn clone_from(&mut self, other: &Self) {
+        self.width = other.width;
+        self.pivots.clone_from(&other.pivots);
+        self.data.clone_from(&other.data);
+    }
+}
+
+impl Rows {
+    pub(super) fn clear(&mut self, width: usize) {
+        self.width = width;
+        self.pivots.clear();
+        self.data.clear();
+    }
+
+    /// What tells rows of a width apart: the pivots, as bits, and of each row the numbers that stand in no pivot's column.
+    pub(super) fn packed(&self, out: &mut Vec<Residue>) {
+        out.clear();
+        out.resize(self.width.div_ceil(64), 0);
+        self.pivots
+            .iter()
+            .for_each(|p| out[p / 64] |= 1 << (p % 64));
+        for (row, &pivot) in self.data.chunks_exact(self.width.max(1)).zip(&self.pivots) {
+            let mut others = self.pivots.iter().copied().peekable();
+            for (i, &x) in row.iter().enumerate().skip(pivot) {
+                while others.next_if(|&p| p < i).is_some() {}
+                if others.peek() != Some(&i) {
+                    out.push(x);
+                }
+            }
+        }
+    }
+
+    /// The rows that were packed; none where nothing was.
+    pub(super) fn unpack(&mut self, f: Field, width: usize, packed: &[Residue]) {
+        self.clear(width);
+        let (bits, mut numbers) = packed.split_at(width.div_ceil(64).min(packed.len()));
+        let is_pivot = |i: usize| bits.get(i / 64).is_some_and(|b| b >> (i % 64) & 1 == 1);
+        self.pivots.extend((0..width).filter(|&i| is_pivot(i)));
+        for row in 0..self.pivots.len() {
+            let start = self.data.len();
+            self.data.resize(start + width, 0);
+            let pivot = self.pivots[row];
+            self.data[start + pivot] = f.one();
+            for i in (pivot + 1..width).filter(|&i| !is_pivot(i)) {
+                let Some((&x, rest)) = numbers.split_first() else {
+                    break;
+                };
+                (self.data[start + i], numbers) = (x, rest);
+            }
+        }
+    }
+
+    /// Adds a vector, keeping the form; `vector` is used up.
+    pub(super) fn insert(&mut self, arithmetic: &mut Arithmetic, vector: &mut [Residue]) {
+        let (f, width) = (arithmetic.field, self.width);
+        for (row, &p) in self.data.chunks_exact(width.max(1)).zip(&self.pivots) {
+            f.subtract_multiple(&mut vector[p..], &row[p..]);
+        }
+        let Some(pivot) = vector.iter().position(|&x| x != 0) else {
+            return;
+        };
+        if vector[pivot] != f.one() {
+            let scale = arithmetic.inverse(vector[pivot]);
+            vector[pivot..]
+                .iter_mut()
+                .filter(|x| **x != 0)
+                .for_each(|x| *x = f.mul(*x, scale));
+        }
+        for row in self.data.chunks_exact_mut(width) {
+            f.subtract_multiple(&mut row[pivot..], &vector[pivot..]);
+        }
+        let at = self.pivots.partition_point(|&p| p < pivot);
+        self.pivots.insert(at, pivot);
+        let (start, end) = (at * width, self.data.len());
+        self.data.resize(end + width, 0);
+        self.data.copy_within(start..end, start + width);
+        self.data[start..start + width].copy_from_slice(vector);
+    }
+}
+
+/// The field with a memory of inverses: one takes as long as a hundred products, and the same few come again and again.
+pub(super) struct Arithmetic {
+    pub(super) field: Field,
+    inverses: Vec<(Residue, Residue)>,
+}
+
+impl Arithmetic {
+    pub(super) fn new(field: Field) -> Self {
+        Arithmetic {
+            field,
+            inverses: vec![(0, 0); 1024],
+        }
+    }
+
+    fn inverse(&mut self, a: Residue) -> Residue {
+        let slot = (a.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 54) as usize;
+        if self.inverses[slot].0 != a {
+            self.inverses[slot] = (a, self.field.inv(a));
+        }
+        self.inverses[slot].1
+    }
+}
