@@ -154,6 +154,11 @@ pub(crate) fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     norm(sub(p, add(a, scale(along, t))))
 }
 
+/// Whether two segments share no value of one coordinate.
+pub(crate) fn apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]))
+}
+
 /// Whether two segments cross, ends not counted.
 pub(crate) fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     let side = |p, q, r| cross(sub(q, p), sub(r, p));

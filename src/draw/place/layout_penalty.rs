@@ -4,7 +4,7 @@ use crate::draw::place::graph::{Graph, radius, ring};
 use crate::draw::place::mirror::Mirror;
 use crate::draw::place::random::Dice;
 use crate::svg::plane::{
-    Point, add, area, cross, inside, mean, norm, segments_cross, sub, to_segment,
+    Point, add, apart, area, cross, inside, mean, norm, segments_cross, sub, to_segment,
 };
 
 /// Joints nearer than this are too near.
@@ -268,11 +268,6 @@ fn near_pairs(rings: &[Vec<usize>], at: &[Point]) -> impl Iterator<Item = (usize
 /// Whether a place is farther from a segment than what crowds it, in one coordinate already.
 fn beyond(p: Point, a: Point, b: Point) -> bool {
     (0..2).any(|k| p[k] < a[k].min(b[k]) - CLEAR || p[k] > a[k].max(b[k]) + CLEAR)
-}
-
-/// Whether two segments share no value of one coordinate.
-fn apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]))
 }
 
 fn near(a: Point, b: Point) -> f64 {

@@ -13,7 +13,9 @@ pub(in crate::draw) use crate::geom::vector::{
 };
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
-use crate::svg::plane::{Point, Rect, norm as norm2, segments_cross, sub as sub2, to_segment};
+use crate::svg::plane::{
+    Point, Rect, apart, norm as norm2, segments_cross, sub as sub2, to_segment,
+};
 
 /// Joints nearer than this on paper, in pixels, are in one place.
 pub(in crate::draw) const ONE_PLACE: f64 = 1.5;
@@ -294,19 +296,22 @@ fn crowd(places: &[Place], on: &[Point], links: &[(LinkId, Vec<usize>)], frame: 
             }
         }
     }
-    let moving = || links.iter().filter(|(l, _)| *l != frame);
-    for (n, (_, of)) in moving().enumerate() {
-        for (a, b) in pairs(of) {
+    let moving = links.iter().filter(|(l, _)| *l != frame);
+    let moving: Vec<_> = moving.map(|(_, of)| (of, pairs(of))).collect();
+    for (n, (of, sides)) in moving.iter().enumerate() {
+        for &(a, b) in sides {
             for (j, &p) in on.iter().enumerate() {
                 if !of.contains(&j) {
                     let d = to_segment(p, on[a], on[b]);
                     cost += 0.8 * ((CLEAR - d) / CLEAR).max(0.0);
                 }
             }
-            for (_, other) in moving().take(n) {
-                let crossing =
-                    |&(c, d): &(usize, usize)| segments_cross(on[a], on[b], on[c], on[d]);
-                cost += 0.12 * pairs(other).iter().filter(|p| crossing(p)).count() as f64;
+            let side = [on[a], on[b]];
+            for (_, others) in &moving[..n] {
+                let crossing = |&&(c, d): &&(usize, usize)| {
+                    !apart(side, [on[c], on[d]]) && segments_cross(side[0], side[1], on[c], on[d])
+                };
+                cost += 0.12 * others.iter().filter(crossing).count() as f64;
             }
         }
     }
