@@ -10,6 +10,7 @@ use crate::view::analysis::{Analysis, State};
 use crate::view::search::conditions::in_state;
 use crate::view::search::numeric;
 use crate::view::search::second_opinion;
+use crate::view::search::stopped_early::number;
 use itertools::Itertools;
 use maud::{Markup, html};
 use num_traits::{One, Zero};
@@ -166,7 +167,11 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
     }
     let words = match found.numeric {
         Some(_) => numeric::admissible(found),
-        None => format!("{least}{}", big(good)),
+        None => {
+            let [_, estimate] = found.estimates();
+            let estimate = estimate.filter(|_| found.is_confirmed());
+            number(good, found.is_counted(), estimate)
+        }
     };
     let out = format!("{words} of {all} variants {goal}{conditions}");
     let out = capitalised(&out) + &by_values;

@@ -151,8 +151,9 @@ impl Outcome {
 
     /// About how many determinate and admissible variants there are, where the search ended early.
     #[must_use]
-    pub fn estimates(&self) -> [Option<Estimate>; 2] {
-        self.diagrams.as_ref().map_or([None; 2], |d| d.estimates)
+    pub fn estimates(&self) -> [Option<&Estimate>; 2] {
+        let found = self.diagrams.as_ref();
+        [0, 1].map(|i| found.and_then(|d| d.estimates[i].as_ref()))
     }
 
     /// How many of the admissible variants are minimal: no other of them has part of their freedoms. `None` where that is not

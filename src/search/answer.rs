@@ -10,6 +10,8 @@ pub mod k_best;
 pub mod least_freedoms;
 pub mod orbit_counts;
 pub mod proven_cheapest;
+pub(in crate::search) mod random_cuts;
+pub(in crate::search) mod samples;
 pub mod single_changes;
 pub mod variants_in_order;
 pub mod why_none;

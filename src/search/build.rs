@@ -1,5 +1,6 @@
 //! The diagrams that answer a question: of the determinate variants, and of the admissible ones.
 
+pub(in crate::search) mod at_most;
 pub(in crate::search) mod budget;
 pub(in crate::search) mod complements;
 pub mod orders;
@@ -9,14 +10,14 @@ pub(in crate::search) mod two_sided;
 
 use crate::search::answer::counts::total;
 use crate::search::answer::estimate::Estimate;
-use crate::search::answer::estimate::estimate;
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::answer::proven_cheapest::cost_of;
 use crate::search::answer::proven_cheapest::up_to;
+use crate::search::answer::{random_cuts, samples};
+use crate::search::build::at_most::at_most;
 use crate::search::build::orders::{Orders, orders};
 use crate::search::build::self_stress::{in_self_stress_space, nothing};
-use crate::search::build::staging::both_ends;
-use crate::search::build::staging::laid;
+use crate::search::build::staging::{Laid, Staged, both_ends, laid};
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::{Ceiling, Missing};
 use crate::search::diagram::product::product;
@@ -62,22 +63,21 @@ impl Diagrams {
     }
 }
 
-/// Stages of a diagram, and its limits.
-type Staged<'a> = (&'a [Stage], &'a Limits);
 /// Builds a diagram under a ceiling.
-type Build<'a> = &'a mut dyn FnMut(Staged<'_>, &mut Ceiling<'_>) -> Diagram;
-
-/// Nodes from one end before a diagram is tried from both.
-const AT_ONCE: usize = 200_000;
+type Build<'a> = &'a mut dyn FnMut(&mut Ceiling<'_>) -> Diagram;
 
 /// Whether a diagram is cut down to its limits.
 fn is_cut(stop: Stop) -> bool {
     matches!(stop, Stop::NodeBudget | Stop::Memory)
 }
 
+fn is_whole(of: &Diagram) -> bool {
+    of.stop == Stop::Exhausted
+}
+
 /// Whether a diagram is whole and has no variant.
 fn is_empty(of: &Diagram) -> bool {
-    of.stop == Stop::Exhausted && of.terminals.is_empty()
+    is_whole(of) && of.terminals.is_empty()
 }
 
 /// Builds both diagrams.
@@ -100,27 +100,30 @@ pub fn build_in(
         return out;
     }
     let model = &question.least.whole;
-    let laid = laid(question, orders, model);
-    let first = (&laid.determinate.0[..], &laid.determinate.1);
-    let mut whole = |staged: Staged<'_>, admissible: bool| {
+    let Laid {
+        determinate: first,
+        admissible: second,
+        order,
+    } = laid(question, orders, model);
+    let mut whole = |staged: &Staged<'_>, admissible: bool| {
         if !question.conditions.counted {
             return uncounted(question, staged, cancelled, progress);
         }
-        let built = built(question, model, staged, admissible, cancelled, progress);
-        if !is_cut(built.stop) {
-            return built;
+        let whole = built(question, model, staged, admissible, cancelled, progress);
+        if !is_cut(whole.stop) {
+            return whole;
         }
-        let (stages, limits) = staged;
         let build = &mut |limits: &Limits| {
-            one_end(question, model, (stages, limits), None, cancelled, progress)
+            let within = (staged, limits);
+            within_limits(question, model, within, admissible, cancelled, progress)
         };
-        budget::best(limits, built, build, &|d| total(question, d, admissible))
+        let worth = |d: &Diagram| total(question, d, admissible);
+        budget::best(&staged.limits, whole, build, &worth)
     };
-    let determinate = whole(first, false);
-    let second = laid.admissible.as_ref().map(|(s, l)| (&s[..], l));
-    let admissible = match second {
+    let determinate = whole(&first, false);
+    let admissible = match &second {
         // What is not determinate is not admissible.
-        Some(_) if is_empty(&determinate) => nothing(model, &laid.order),
+        Some(_) if is_empty(&determinate) => nothing(model, &order),
         Some(second) => whole(second, true),
         None => determinate.clone(),
     };
@@ -128,36 +131,68 @@ pub fn build_in(
         determinate,
         admissible,
         cheapest: None,
-        estimates: [None; 2],
-        order: laid.order,
+        estimates: [None, None],
+        order,
         rows_per_contour: vec![model.space.dim],
     };
-    let second = second.unwrap_or(first);
+    let second = second.as_ref().unwrap_or(&first);
     let kept = if question.conditions.keep_output {
         question.least.whole.kept.len()
     } else {
         0
     };
-    let build = &mut |staged: Staged<'_>, ceiling: &mut Ceiling<'_>| {
+    let build = &mut |ceiling: &mut Ceiling<'_>| {
+        let staged = (second.stages(), &second.limits);
         one_end(question, model, staged, Some(ceiling), cancelled, progress)
     };
     prove(question, &mut out, second, kept, build);
-    let estimate = |(stages, limits): Staged<'_>, end, stop, filter| {
-        let seed = question.conditions.estimate.filter(|_| is_cut(stop))?;
-        let missing = Missing::new(&question.least.whole.space, stages, limits, end);
-        estimate(
-            question,
-            (stages, limits),
-            &missing,
-            (seed, filter),
-            cancelled,
-        )
+    let estimate = |staged, end, diagram: &Diagram, admissible, possible: Option<&BigUint>| {
+        let seed = question
+            .conditions
+            .estimate
+            .filter(|_| is_cut(diagram.stop))?;
+        let found = estimated(question, staged, end, (seed, admissible), cancelled)?;
+        Some(found.bounded(&total(question, diagram, admissible), possible))
     };
-    out.estimates = [
-        estimate(first, 0, out.determinate.stop, false),
-        estimate(second, kept, out.admissible.stop, true),
-    ];
+    let determinate = estimate(&first, 0, &out.determinate, false, None);
+    let possible = match &determinate {
+        Some(e) => e.at_most.clone(),
+        None => is_whole(&out.determinate).then(|| total(question, &out.determinate, false)),
+    };
+    let admissible = estimate(second, kept, &out.admissible, true, possible.as_ref());
+    out.estimates = [determinate, admissible];
     out
+}
+
+/// About how many variants there are, determinate or admissible ones: by samples of a larger set where there is no searched state and
+/// no redundant constraint is allowed, else by random cuts; `end` is the least dimension of the last nodes.
+fn estimated(
+    question: &Question,
+    staged: &Staged<'_>,
+    end: usize,
+    (seed, admissible): (u64, bool),
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Estimate> {
+    let (model, limits) = (&question.least.whole, &staged.limits);
+    if question.conditions.state.is_none() {
+        let keep_output = admissible && question.conditions.keep_output;
+        let asked = (&staged.order[..], limits, keep_output);
+        let of = at_most(question, model, asked, cancelled);
+        let found =
+            of.and_then(|of| samples::estimate(question, &of, (seed, admissible), cancelled));
+        if found.is_some() {
+            return found;
+        }
+    }
+    let stages = staged.stages();
+    let missing = Missing::new(&model.space, stages, limits, end);
+    random_cuts::estimate(
+        question,
+        (stages, limits),
+        &missing,
+        (seed, admissible),
+        cancelled,
+    )
 }
 
 /// Builds both diagrams from those of the two parts that the closure equations fall apart into; none where they do not, or
@@ -174,14 +209,13 @@ fn build_parts(
         .as_ref()
         .filter(|_| question.conditions.counted)?;
     let laid = parts.each_ref().map(|part| laid(question, orders, part));
-    let mut both = |staged: [&(Vec<Stage>, Limits); 2], admissible: bool| {
+    let mut both = |staged: [&Staged<'_>; 2], admissible: bool| {
         let mut built = |part: usize| {
-            let (stages, limits) = staged[part];
-            let own = (&stages[..], limits);
-            let d = built(question, &parts[part], own, admissible, cancelled, progress);
-            (d.stop == Stop::Exhausted).then_some(d)
+            let (part, staged) = (&parts[part], staged[part]);
+            let d = built(question, part, staged, admissible, cancelled, progress);
+            is_whole(&d).then_some(d)
         };
-        product([&built(0)?, &built(1)?], &staged[0].1)
+        product([&built(0)?, &built(1)?], &staged[0].limits)
     };
     let [one, two] = &laid;
     let determinate = both([&one.determinate, &two.determinate], false)?;
@@ -194,87 +228,109 @@ fn build_parts(
         determinate,
         admissible,
         cheapest: None,
-        estimates: [None; 2],
+        estimates: [None, None],
         order: one.order.clone(),
         rows_per_contour: parts.iter().map(|p| p.space.dim).collect(),
     })
 }
 
-/// The diagram of a question from one end, cut down to its limits where it does not fit them; under a ceiling or not.
+/// The diagram of a question, of the motions of live links, cut down to its limits where it does not fit them; under a ceiling or not.
 fn one_end(
     question: &Question,
     model: &Model,
-    (stages, limits): Staged<'_>,
+    (stages, limits): (&[Stage], &Limits),
     ceiling: Option<&mut Ceiling<'_>>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    let (exact, space, within) = (&question.exact, &model.space, (limits, ceiling));
-    diagram::build(exact, space, stages, within, cancelled, progress)
+    let (field, space) = (question.exact.field(), &model.space);
+    diagram::of_live_links(field, space, (stages, limits), ceiling, cancelled, progress)
 }
 
-/// The diagram of a question: in the space dual to self-stresses where there is no searched state; otherwise, and where that does
-/// not fit the limits, of the motions of live links, from one end; where that takes many nodes, from both; cut down to the limits
-/// where none fits.
+/// Nodes of a diagram before it is asked whether there is any variant at all.
+const AT_ONCE: usize = 20_000;
+
+/// The diagram of a question: where it does not fit the limits and no state is searched, from both ends; where that does not fit either,
+/// cut down.
 fn built(
     question: &Question,
     model: &Model,
-    (stages, limits): Staged<'_>,
+    staged: &Staged<'_>,
     admissible: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
+    let limits = &staged.limits;
+    let few = Limits {
+        nodes: limits.nodes.min(AT_ONCE),
+        ..limits.clone()
+    };
+    let mut within = |limits| {
+        let within = (staged, limits);
+        within_limits(question, model, within, admissible, cancelled, progress)
+    };
+    let built = within(&few);
+    if !is_cut(built.stop) {
+        return built;
+    }
     let free_alone = question.conditions.state.is_none();
     let keep_output = admissible && question.conditions.keep_output;
     if free_alone {
-        let order: Vec<usize> = stages.iter().map(|s| s.variable).collect();
-        let asked = (&order[..], limits, keep_output);
-        let added = in_self_stress_space(question, model, asked, cancelled, progress);
-        if let Some(whole) = added {
-            return whole;
+        let asked = (&staged.order[..], &few, keep_output);
+        let most = at_most(question, model, asked, cancelled);
+        if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
+            return nothing(model, &staged.order);
         }
     }
-    let has_halves = free_alone && limits.already >= limits.internal;
-    let at_once = if has_halves { AT_ONCE } else { usize::MAX };
-    let few = Limits {
-        nodes: limits.nodes.min(at_once),
-        ..limits.clone()
+    let built = if few.nodes < limits.nodes {
+        within(limits)
+    } else {
+        built
     };
-    let built = one_end(question, model, (stages, &few), None, cancelled, progress);
-    if !has_halves || !is_cut(built.stop) {
+    if !free_alone || limits.already < limits.internal || !is_cut(built.stop) {
         return built;
     }
-    let parts = both_ends(question, model, stages, keep_output);
-    let halves = two_sided(
-        question,
-        model,
-        &parts,
-        (limits, keep_output),
-        cancelled,
-        progress,
-    );
-    match halves {
-        Some(whole) => whole,
-        None if few.nodes < limits.nodes => {
-            one_end(question, model, (stages, limits), None, cancelled, progress)
+    let parts = both_ends(question, model, staged.stages(), keep_output);
+    let within = (limits, keep_output);
+    two_sided(question, model, &parts, within, cancelled, progress).unwrap_or(built)
+}
+
+/// The diagram of a question, cut down where it does not fit the limits: in the space dual to self-stresses where there is no searched
+/// state and every choice has the motions of its present joint, otherwise of the motions of live links.
+fn within_limits(
+    question: &Question,
+    model: &Model,
+    (staged, limits): (&Staged<'_>, &Limits),
+    admissible: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagram {
+    if question.conditions.state.is_none() {
+        let keep_output = admissible && question.conditions.keep_output;
+        let asked = (&staged.order[..], limits, keep_output);
+        let added = in_self_stress_space(question, model, asked, cancelled, progress);
+        if let Some(added) = added {
+            return added;
         }
-        None => built,
     }
+    let staged = (staged.stages(), limits);
+    one_end(question, model, staged, None, cancelled, progress)
 }
 
 /// The diagram of a question that is not to be counted.
 fn uncounted(
     question: &Question,
-    (stages, limits): Staged<'_>,
+    staged: &Staged<'_>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let few = &Limits {
         nodes: 1,
-        ..limits.clone()
+        ..staged.limits.clone()
     };
     let model = &question.least.whole;
-    let mut few = one_end(question, model, (stages, few), None, cancelled, progress);
+    let staged = (staged.stages(), few);
+    let mut few = one_end(question, model, staged, None, cancelled, progress);
     if few.stop != Stop::Interrupted {
         few.stop = Stop::NotCounted;
     }
@@ -286,7 +342,7 @@ fn uncounted(
 fn prove(
     question: &Question,
     out: &mut Diagrams,
-    staged: Staged<'_>,
+    staged: &Staged<'_>,
     end: usize,
     build: Build<'_>,
 ) {
@@ -295,14 +351,14 @@ fn prove(
     if known || most.is_zero() {
         return;
     }
-    let missing = Missing::new(&question.least.whole.space, staged.0, staged.1, end);
+    let space = &question.least.whole.space;
+    let missing = Missing::new(space, staged.stages(), &staged.limits, end);
     if missing.root().is_none() {
         // There is none, by dimensions alone.
         out.admissible.stop = Stop::Exhausted;
         return;
     }
     let known = cost_of(question, &out.admissible, &most).flatten();
-    let build = &mut |ceiling: &mut Ceiling<'_>| build(staged, ceiling);
     let proof = up_to(question, &missing, (&most, known), build);
     match proof.up_to {
         // Nothing had to be left out: what has no completion by dimensions made the diagram too large.

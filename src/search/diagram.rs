@@ -4,6 +4,7 @@
 //! hash table.
 
 pub(in crate::search) mod adding;
+pub(in crate::search) mod between;
 pub(in crate::search) mod choice_inclusion;
 pub(in crate::search) mod completion;
 pub mod frontier;
@@ -11,14 +12,13 @@ pub(in crate::search) mod layer;
 pub(in crate::search) mod minimize;
 pub mod output_motion;
 pub(in crate::search) mod product;
-mod reduced_rows;
+pub(in crate::search) mod reduced_rows;
 pub mod redundancy_so_far;
 pub mod stage;
 pub mod state_copies;
 pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
 
-use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::choice_inclusion::{Grown, grown};
 use crate::search::diagram::completion::Ceiling;
@@ -98,24 +98,24 @@ impl Diagram {
 /// O(nodes · choices · d²w) field operations for matrices of d rows and w columns; memory is the edges of all layers
 /// and the matrices of two, both bounded by `limits.nodes` and `limits.bytes`.
 pub(super) fn build(
-    exact: &ExactField,
     space: &Space,
-    stages: &[Stage],
-    (limits, mut ceiling): (&Limits, Option<&mut Ceiling<'_>>),
+    stages: &[impl Carries],
+    (limits, already, mut ceiling): (&Limits, u32, Option<&mut Ceiling<'_>>),
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    let mut nodes = Nodes::root(limits.already);
+    let mut nodes = Nodes::root(already);
+    let mut ways = vec![1.0];
     let mut layers = Vec::with_capacity(stages.len());
     let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
     let mut allowed = limits.bytes;
     for (done, stage) in stages.iter().enumerate() {
-        let choices = &space.variables[stage.variable].choices;
+        let choices = &space.variables[stage.variable()].choices;
         let room = limits.nodes.saturating_sub(total).max(CUT);
         let bytes = allowed.saturating_sub(held + nodes.bytes());
         let merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         let merge = next(
-            &Over::new(exact.field(), space, stage, limits),
+            stage,
             choices,
             allowed,
             &nodes,
@@ -147,8 +147,7 @@ pub(super) fn build(
             let now = held + nodes.bytes() + next.bytes() + size_of::<u32>() * edges.len();
             allowed = allowed.min(now / 2);
         }
-        if let Some(test) = &stage.lookahead {
-            let passed = passing(exact.field(), space.dim, test, &next);
+        if let Some(passed) = stage.passing(&next) {
             retain(&mut next, &passed, &mut edges);
         }
         let keep = match stop {
@@ -164,14 +163,18 @@ pub(super) fn build(
             }
             Stop::Interrupted => CUT,
         };
+        let mut carried = carried(&ways, &edges, choices.len(), next.len());
         if next.len() > keep {
-            cut(&mut next, keep, &mut edges);
+            let kept = worth_keeping(&next, &carried, keep);
+            retain(&mut next, &kept, &mut edges);
+            carried = kept.iter().map(|&i| carried[i]).collect();
         }
+        ways = carried;
         total += next.len();
         largest = largest.max(next.len());
         held += size_of::<u32>() * edges.len();
         layers.push(Layer {
-            variable: stage.variable,
+            variable: stage.variable(),
             nodes: nodes.len(),
             choices: choices.len(),
             edges,
@@ -187,8 +190,40 @@ pub(super) fn build(
     }
 }
 
+/// The same of the motions of live links.
+pub(super) fn of_live_links(
+    field: Field,
+    space: &Space,
+    (stages, limits): (&[Stage], &Limits),
+    ceiling: Option<&mut Ceiling<'_>>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagram {
+    let over = |stage| Over::new(field, space, stage, limits);
+    let stages: Vec<Over<'_>> = stages.iter().map(over).collect();
+    let within = (limits, limits.already, ceiling);
+    build(space, &stages, within, cancelled, progress)
+}
+
+/// How many ways lead to each of the next nodes, from how many lead to these.
+fn carried(ways: &[f64], edges: &[u32], choices: usize, next: usize) -> Vec<f64> {
+    let mut out = vec![0.0; next];
+    for (edges, n) in edges.chunks(choices.max(1)).zip(ways) {
+        for &to in edges.iter().filter(|to| **to != DEAD) {
+            out[to as usize] += n;
+        }
+    }
+    out
+}
+
 /// What carries nodes over a variable.
 pub(super) trait Carries: Sync {
+    /// Index of the variable in the space.
+    fn variable(&self) -> usize;
+    /// The nodes behind it that pass its test, ascending; none where it has no test.
+    fn passing(&self, _: &Nodes) -> Option<Vec<usize>> {
+        None
+    }
     /// Scratch space for a thread.
     fn worker(&self) -> Worker;
     /// About how many field operations a child takes of a node that has so many bytes.
@@ -224,6 +259,15 @@ impl<'a> Over<'a> {
 }
 
 impl Carries for Over<'_> {
+    fn variable(&self) -> usize {
+        self.stage.variable
+    }
+
+    fn passing(&self, nodes: &Nodes) -> Option<Vec<usize>> {
+        let test = self.stage.lookahead.as_ref()?;
+        Some(passing(self.field, self.space.dim, test, nodes))
+    }
+
     fn worker(&self) -> Worker {
         Worker::new(self.field, self.space.dim)
     }
@@ -338,13 +382,17 @@ pub(super) fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes)
         .concat()
 }
 
-/// Keeps the cheapest nodes of a layer, first come first kept among equals.
-fn cut(nodes: &mut Nodes, keep: usize, edges: &mut [u32]) {
-    let mut by_cost: Vec<usize> = (0..nodes.len()).collect();
-    by_cost.sort_by_key(|&i| (nodes.least[i], i));
-    by_cost.truncate(keep);
-    by_cost.sort_unstable();
-    retain(nodes, &by_cost, edges);
+/// The nodes of a layer that are kept where not all can be, ascending: half of them those that most ways lead to, for what is counted,
+/// the others the cheapest, for what is listed; first come first kept among equals.
+fn worth_keeping(nodes: &Nodes, ways: &[f64], keep: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..nodes.len()).collect();
+    order.sort_by(|&a, &b| ways[b].total_cmp(&ways[a]).then(a.cmp(&b)));
+    let (kept, others) = order.split_at_mut(keep / 2);
+    others.sort_by_key(|&i| (nodes.least[i], i));
+    let cheapest = others.iter().take(keep - kept.len());
+    let mut out: Vec<usize> = kept.iter().chain(cheapest).copied().collect();
+    out.sort_unstable();
+    out
 }
 
 /// Keeps the nodes listed, ascending, and renames the edges that lead to them.

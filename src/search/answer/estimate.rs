@@ -1,201 +1,57 @@
-//! About how many variants there are, where the diagram is too large to count on.
-//!
-//! Layers are cut down to a few nodes drawn at random, the more likely the more variants may pass through them, and what is
-//! kept of a node's ways counts as much more as it was unlikely to be kept. So the sum of the ways to the ends is right on
-//! average, whatever was drawn; how far sums of several such cuts lie apart says how good their mean is.
-//!
-//! # Sources
-//! Knuth, "Estimating the efficiency of backtrack programs", Math. Comp. 29 (1975); Chen, "Heuristic sampling", SIAM J.
-//! Comput. 21 (1992). Draws of a fixed number with given chances: Madow, "On the theory of systematic sampling, II", Annals
-//! of Mathematical Statistics 20 (1949).
+//! About how many variants there are, and no more than how many, where they are not counted.
 
-use crate::search::answer::count_tables::Key;
-use crate::search::answer::counts::limited;
-use crate::search::diagram::completion::Missing;
-use crate::search::diagram::layer::{Merge, Nodes};
-use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::stage::Stage;
-use crate::search::diagram::{DEAD, Over, Stop, expand, passing, retain};
-use crate::search::question::Question;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use rayon::prelude::*;
-use std::collections::BTreeMap;
-
-/// Cuts made.
-const CUTS: usize = 16;
-/// Nodes kept of a layer at least.
-const FEWEST: usize = 64;
+use num_bigint::BigUint;
+use num_traits::ToPrimitive;
 
 /// An estimate of a number of variants.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// The mean over all cuts, whose expected value is the number.
+    /// The mean of what was drawn, whose expected value is the number.
     pub mean: f64,
     /// The standard error of the mean.
     pub standard_error: f64,
-    /// How many cuts were made.
-    pub cuts: usize,
+    /// The least and the largest number that what was drawn does not contradict, with a confidence of 95 %.
+    pub between: [f64; 2],
+    /// An upper bound that is certain, where there is one.
+    pub at_most: Option<BigUint>,
+    /// What was drawn.
+    pub drawn: Drawn,
     /// The seed of what was drawn.
     pub seed: u64,
 }
 
-/// Estimates how many variants the diagram of some stages has; `filter` applies the conditions on mobility and changes
-/// too. `None` where it was cancelled, where memory does not suffice, and where no cut has any variant, or too many for a
-/// floating-point number.
-///
-/// # Complexity
-/// That of a diagram of half as many nodes as the limits allow.
-pub(in crate::search) fn estimate(
-    question: &Question,
-    (stages, limits): (&[Stage], &Limits),
-    missing: &Missing,
-    (seed, filter): (u64, bool),
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Option<Estimate> {
-    let keep = (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST);
-    let cuts = (0..CUTS).into_par_iter().map(|cut| {
-        let random = ChaCha8Rng::seed_from_u64(seed.rotate_left(16) ^ cut as u64);
-        let cut = one_cut(
-            question,
-            (stages, limits),
-            missing,
-            (keep, random),
-            filter,
-            cancelled,
-        )?;
-        cut.is_finite().then_some(cut)
-    });
-    let sums: Vec<f64> = cuts.collect::<Option<_>>()?;
-    #[allow(clippy::cast_precision_loss, reason = "cuts are few")]
-    let n = CUTS as f64;
-    let mean = sums.iter().sum::<f64>() / n;
-    let spread: f64 = sums.iter().map(|x| (x / mean - 1.0).powi(2)).sum();
-    (mean > 0.0).then_some(Estimate {
-        mean,
-        standard_error: mean * (spread / (n * (n - 1.0))).sqrt(),
-        cuts: CUTS,
-        seed,
-    })
+impl Estimate {
+    /// The same, where at least so many are counted, and no more than some are possible.
+    #[must_use]
+    pub(in crate::search) fn bounded(
+        mut self,
+        counted: &BigUint,
+        possible: Option<&BigUint>,
+    ) -> Self {
+        self.at_most = self.at_most.iter().chain(possible).min().cloned();
+        let value = |n: &BigUint| n.to_f64().unwrap_or(f64::INFINITY);
+        let least = value(counted);
+        let most = self
+            .at_most
+            .as_ref()
+            .map_or(f64::INFINITY, value)
+            .max(least);
+        self.mean = self.mean.clamp(least, most);
+        self.between = self.between.map(|x| x.clamp(least, most));
+        self
+    }
 }
 
-/// The weighted number of variants of one random cut.
-fn one_cut(
-    question: &Question,
-    (stages, limits): (&[Stage], &Limits),
-    missing: &Missing,
-    (keep, mut random): (usize, ChaCha8Rng),
-    filter: bool,
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Option<f64> {
-    let (field, space) = (question.exact.field(), &question.least.whole.space);
-    let kinds = if filter {
-        limited(question)
-    } else {
-        <_>::default()
-    };
-    let steps = question.steps.only(kinds);
-    let mut nodes = Nodes::root(limits.already);
-    // By node and what is told apart of the ways to it, their number.
-    let mut ways = vec![BTreeMap::from([(Key::default(), 1.0)])];
-    for (done, stage) in stages.iter().enumerate() {
-        if cancelled() {
-            return None;
-        }
-        let choices = space.variables[stage.variable].choices.len();
-        let room = (usize::MAX, limits.bytes / CUTS);
-        let mut merge = Merge::new(room, Stop::Exhausted, nodes.len() * choices);
-        let over = Over::new(field, space, stage, limits);
-        for part in expand(&over, choices, &nodes, 0..nodes.len()) {
-            let fails = |spent: &_, size, _| missing.least(done + 1, spent, size).is_none();
-            merge.take(&part, &nodes, |_| 0, fails);
-        }
-        if merge.stop != Stop::Exhausted {
-            return None;
-        }
-        let (mut next, mut edges) = (merge.next, merge.edges);
-        if let Some(test) = &stage.lookahead {
-            let passed = passing(field, space.dim, test, &next);
-            retain(&mut next, &passed, &mut edges);
-        }
-        let mut carried = vec![BTreeMap::new(); next.len()];
-        for (e, &to) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
-            let step = steps.keys[stage.variable][e % choices];
-            for (key, n) in &ways[e / choices] {
-                *carried[to as usize]
-                    .entry(Key(key.0 + step.0))
-                    .or_insert(0.0) += n;
-            }
-        }
-        let size = |(i, ways): (usize, &BTreeMap<Key, f64>)| {
-            let share = missing.share(done + 1, &next.spent[i], next.matrix(i).len());
-            share * ways.values().sum::<f64>()
-        };
-        let sizes: Vec<f64> = carried.iter().enumerate().map(size).collect();
-        let drawn = draw(&sizes, keep, &mut random);
-        let kept: Vec<usize> = drawn.iter().map(|(i, _)| *i).collect();
-        retain(&mut next, &kept, &mut edges);
-        ways = drawn
-            .into_iter()
-            .map(|(i, chance)| {
-                let mut ways = std::mem::take(&mut carried[i]);
-                ways.values_mut().for_each(|n| *n /= chance);
-                ways
-            })
-            .collect();
-        nodes = next;
-    }
-    let ends = nodes.spent.iter().zip(&ways).flat_map(|(spent, ways)| {
-        let end = question.steps.redundancy(spent.redundancy()).0;
-        ways.iter().map(move |(key, n)| (Key(key.0 + end), n))
-    });
-    let wanted = ends.filter(|(key, _)| !filter || question.wanted(*key));
-    Some(wanted.map(|(_, n)| n).sum())
-}
-
-/// Some of a number of things, ascending, each with its chance of being drawn: in proportion to its size, or 1 where that
-/// would be more; `keep` of them, or all where there are no more.
-///
-/// # Complexity
-/// O(n log n).
-fn draw(sizes: &[f64], keep: usize, random: &mut ChaCha8Rng) -> Vec<(usize, f64)> {
-    if sizes.len() <= keep {
-        return (0..sizes.len()).map(|i| (i, 1.0)).collect();
-    }
-    let mut falling = sizes.to_vec();
-    falling.sort_by(|a, b| b.total_cmp(a));
-    // The largest are certain; the others share what is left.
-    let (mut rest, mut left): (f64, f64) = (falling.iter().sum(), 0.0);
-    #[allow(clippy::cast_precision_loss, reason = "layers are far smaller")]
-    for (certain, largest) in falling.iter().enumerate().take(keep) {
-        left = (keep - certain) as f64;
-        if largest * left < rest {
-            break;
-        }
-        rest -= largest;
-    }
-    let chance = |size: f64| {
-        if rest > 0.0 {
-            (size * left / rest).min(1.0)
-        } else {
-            1.0
-        }
-    };
-    // One number decides all: a thing is drawn where the sum of chances passes it plus a whole number.
-    #[allow(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    let start = (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-    let (mut sum, mut out) = (0.0f64, Vec::with_capacity(keep + 1));
-    for (i, &size) in sizes.iter().enumerate() {
-        let chance = chance(size);
-        if chance >= 1.0 {
-            out.push((i, 1.0));
-            continue;
-        }
-        let before = (sum - start).ceil();
-        sum += chance;
-        if (sum - start).ceil() > before {
-            out.push((i, chance));
-        }
-    }
-    out
+/// What an estimate is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Drawn {
+    /// Random cuts of the diagram.
+    Cuts(usize),
+    /// Samples of a larger set that is counted, and how many of them are variants that are wanted.
+    Samples {
+        /// How many were drawn.
+        of: usize,
+        /// How many are wanted.
+        found: usize,
+    },
 }

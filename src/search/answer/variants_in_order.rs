@@ -1,6 +1,6 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::answer::count_tables::{Count, Key, Steps, Tally};
+use crate::search::answer::count_tables::{Count, Key, Kinds, Steps, Tally};
 use crate::search::answer::counts::fits;
 use crate::search::answer::counts::limited;
 use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Reach, Sample};
@@ -139,10 +139,24 @@ pub fn sample<'a>(
     diagrams: &'a Diagrams,
     seed: u64,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    let diagram = &diagrams.admissible;
+    // Each orbit has one variant that comes first, and so the same chance.
+    let all = sample_of(question, diagram, seed, true);
+    Box::new(all.filter(move |v| is_first_image(question, diagram, v)))
+}
+
+/// Draws variants of a diagram without end, each with the same chance; `filter` applies the conditions on mobility and changes, too.
+/// None where what it takes to draw is more than the memory there is.
+pub(in crate::search) fn sample_of<'a>(
+    question: &'a Question,
+    diagram: &'a Diagram,
+    seed: u64,
+    filter: bool,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
     if fits(question) {
-        sample_with::<u128>(question, &diagrams.admissible, seed)
+        sample_with::<u128>(question, diagram, seed, filter)
     } else {
-        sample_with::<BigUint>(question, &diagrams.admissible, seed)
+        sample_with::<BigUint>(question, diagram, seed, filter)
     }
 }
 
@@ -150,12 +164,16 @@ fn sample_with<'a, C: Count + 'a>(
     question: &'a Question,
     diagram: &'a Diagram,
     seed: u64,
+    filter: bool,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let keys = question.steps.only(limited(question));
+    let kinds = if filter {
+        limited(question)
+    } else {
+        Kinds::default()
+    };
+    let keys = question.steps.only(kinds);
     let tally = Tally::<C>::new(diagram, &keys, None, question.conditions.memory / 4);
-    let wanted = |k: Key| question.wanted(k);
+    let wanted = |k: Key| !filter || question.wanted(k);
     let drawn = tally.map(|t| Sample::new(diagram, &question.steps, (keys, t), seed, wanted));
-    // Each orbit has one variant that comes first, and so the same chance.
-    let all = drawn.into_iter().flatten();
-    Box::new(all.filter(move |v| is_first_image(question, diagram, v)))
+    Box::new(drawn.into_iter().flatten())
 }

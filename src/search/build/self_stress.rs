@@ -6,11 +6,10 @@
 
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::adding::{Adding, adding};
-use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::transition::{Children, Worker};
-use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next};
+use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress};
 use crate::search::question::Question;
 use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
@@ -23,6 +22,10 @@ struct Added<'a> {
 }
 
 impl Carries for Added<'_> {
+    fn variable(&self) -> usize {
+        self.stage.variable
+    }
+
     fn worker(&self) -> Worker {
         Worker::new(self.field, 0)
     }
@@ -36,8 +39,8 @@ impl Carries for Added<'_> {
     }
 }
 
-/// The whole diagram of a question without a searched state, the smallest there is, for the variables in an order; none where it
-/// does not fit the limits, where a choice lacks a motion of its present joint, or where it is cancelled.
+/// The diagram of a question without a searched state, for the variables in an order: the smallest there is, or what fits the limits;
+/// none where a choice lacks a motion of its present joint.
 ///
 /// # Complexity
 /// O(nodes · choices · s²) field operations for s present self-stresses.
@@ -54,53 +57,22 @@ pub(in crate::search) fn in_self_stress_space(
         false => &[],
     };
     let added = SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)?;
-    let mut nodes = Nodes::root(limits.already.saturating_add(added.lasting));
-    if !nodes.spent[0].within(limits) {
+    let already = limits.already.saturating_add(added.lasting);
+    if already > limits.internal {
         return Some(nothing(model, order));
     }
-    let mut layers: Vec<Layer> = Vec::with_capacity(order.len());
-    let (mut total, mut held) = (1, 0);
-    for (done, stage) in adding(field, order, &added).iter().enumerate() {
-        let choices = &model.space.variables[stage.variable].choices;
-        let edges = nodes.len() * choices.len();
-        let room = limits.nodes.checked_sub(total)?;
-        let bytes = limits.bytes.checked_sub(held + nodes.bytes())?;
-        let merge = next(
-            &Added {
-                field,
-                stage,
-                limits,
-            },
-            choices,
-            bytes,
-            &nodes,
-            Merge::new((room, bytes), Stop::Exhausted, edges),
-            |_, _, _| false,
-            cancelled,
-            &mut |layer| {
-                progress(Progress {
-                    done,
-                    of: order.len(),
-                    nodes: total + layer,
-                    layer,
-                });
-            },
-        );
-        if merge.stop != Stop::Exhausted {
-            return None;
-        }
-        total += merge.next.len();
-        held += size_of::<u32>() * merge.edges.len();
-        layers.push(Layer {
-            variable: stage.variable,
-            nodes: nodes.len(),
-            choices: choices.len(),
-            edges: merge.edges,
-        });
-        nodes = merge.next;
-    }
-    let terminals = nodes.spent.iter().map(Spent::redundancy).collect();
-    Some(minimal(layers, terminals))
+    let stages = adding(field, order, &added);
+    let over = |stage| Added {
+        field,
+        stage,
+        limits,
+    };
+    let stages: Vec<Added<'_>> = stages.iter().map(over).collect();
+    let within = (limits, already, None);
+    let built = diagram::build(&model.space, &stages, within, cancelled, progress);
+    let stop = built.stop;
+    let smallest = minimal(built.layers, built.terminals);
+    Some(Diagram { stop, ..smallest })
 }
 
 /// The diagram of no variant, for variables in an order.
@@ -126,6 +98,7 @@ mod tests {
     use crate::search::build::one_end;
     use crate::search::build::orders::orders;
     use crate::search::build::staging::laid;
+    use crate::search::diagram::Stop;
     use crate::search::question::conditions::Conditions;
 
     /// Compares both diagrams of a question with the smallest of those made of motions of live links; how many were compared.
@@ -138,7 +111,8 @@ mod tests {
             laid.admissible.as_ref().map(|s| (s, keep_output)),
         ];
         let mut count = 0;
-        for ((stages, limits), keep_output) in both.into_iter().flatten() {
+        for (staged, keep_output) in both.into_iter().flatten() {
+            let (stages, limits) = (staged.stages(), &staged.limits);
             let one = one_end(
                 question,
                 model,
@@ -150,10 +124,12 @@ mod tests {
             if one.stop != Stop::Exhausted {
                 continue;
             }
-            let order: Vec<usize> = stages.iter().map(|s| s.variable).collect();
-            let asked = (&order[..], limits, keep_output);
+            let asked = (&staged.order[..], limits, keep_output);
             let other = in_self_stress_space(question, model, asked, &|| false, &mut |_| {});
-            let [one, other] = [minimal(one.layers, one.terminals), other.expect("it fits")];
+            let [one, other] = [
+                minimal(one.layers, one.terminals),
+                other.expect("it is contained"),
+            ];
             let edges = |d: &Diagram| {
                 d.layers
                     .iter()

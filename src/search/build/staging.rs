@@ -13,14 +13,31 @@ use crate::search::diagram::state_copies::{Lane, Move, ways};
 use crate::search::question::Question;
 use crate::search::reduce::biconnected::Block;
 use crate::search::reduce::plane_split::Model;
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
-/// The stages and limits of both diagrams; of one where both are the same.
-pub(in crate::search) struct Laid {
-    pub(in crate::search) determinate: (Vec<Stage>, Limits),
-    pub(in crate::search) admissible: Option<(Vec<Stage>, Limits)>,
+/// Both diagrams; one where both are the same.
+pub(in crate::search) struct Laid<'a> {
+    pub(in crate::search) determinate: Staged<'a>,
+    pub(in crate::search) admissible: Option<Staged<'a>>,
     /// The variables in the order of the admissible diagram.
     pub(in crate::search) order: Vec<usize>,
+}
+
+/// A diagram before it is built.
+pub(in crate::search) struct Staged<'a> {
+    /// The variables of the free state in its order.
+    pub(in crate::search) order: Vec<usize>,
+    pub(in crate::search) limits: Limits,
+    /// Laid out where motions of links are followed: the space dual to self-stresses needs none of it.
+    stages: LazyCell<Vec<Stage>, Box<dyn FnOnce() -> Vec<Stage> + 'a>>,
+}
+
+impl Staged<'_> {
+    /// What happens in each of its layers.
+    pub(in crate::search) fn stages(&self) -> &[Stage] {
+        &self.stages
+    }
 }
 
 /// Whether a joint comes after the common ones.
@@ -28,11 +45,14 @@ fn is_way(joined: &Move) -> bool {
     joined.lane != Lane::Common
 }
 
-/// Lays out the stages of both diagrams of some rows.
-pub(in crate::search) fn laid(question: &Question, orders: &Orders, model: &Model) -> Laid {
-    let state = question.conditions.state.as_ref();
+/// Lays out both diagrams of some rows.
+pub(in crate::search) fn laid<'a>(
+    question: &'a Question,
+    orders: &Orders,
+    model: &'a Model,
+) -> Laid<'a> {
     let order = orders.determinate.clone();
-    let [blocks, common_blocks] = &question.blocks;
+    let [blocks, _] = &question.blocks;
     let whole = plan(
         &question.mechanism,
         &joined(question, &order, blocks),
@@ -51,10 +71,20 @@ pub(in crate::search) fn laid(question: &Question, orders: &Orders, model: &Mode
     let all = 0..question.space.variables.len();
     let (free, added): (Vec<usize>, Vec<usize>) =
         all.partition(|&v| !question.space.variables[v].external);
-    let idle = added.iter().map(|&v| Stage::plain(v, Vec::new()));
-    let mut stages = stage::stages(&model.space, &order, &whole);
-    stages.extend(idle);
-    let determinate = (stages, limits.clone());
+    let stages = {
+        let (order, added) = (order.clone(), added.clone());
+        move || {
+            let idle = added.into_iter().map(|v| Stage::plain(v, Vec::new()));
+            let mut stages = stage::stages(&model.space, &order, &whole);
+            stages.extend(idle);
+            stages
+        }
+    };
+    let determinate = Staged {
+        order: order.clone(),
+        limits: limits.clone(),
+        stages: LazyCell::new(Box::new(stages)),
+    };
     if one_diagram(question) {
         return Laid {
             determinate,
@@ -62,30 +92,52 @@ pub(in crate::search) fn laid(question: &Question, orders: &Orders, model: &Mode
             order,
         };
     }
+    let mut limits = limits;
+    if let Some(state) = &question.conditions.state {
+        (limits.external, limits.harmful) = (state.max_external, state.max_harmful);
+    }
     let is_alone = |v: &usize| question.space.variables[*v].alone;
     let alone: Vec<usize> = free.iter().copied().filter(is_alone).collect();
-    let frame = question.mechanism.frame();
-    let mut order = orders.common.clone();
-    let joined = joined(question, &order, common_blocks);
+    let common = orders.common.clone();
+    let order = [&common[..], &alone, &added].concat();
+    let stages = {
+        let common = common.clone();
+        move || admissible(question, model, &common, free.len(), (&alone, &added))
+    };
+    Laid {
+        determinate,
+        admissible: Some(Staged {
+            order: common,
+            limits,
+            stages: LazyCell::new(Box::new(stages)),
+        }),
+        order,
+    }
+}
+
+/// The stages of the admissible diagram: common variables in an order, then what the searched state leaves out and what it adds.
+fn admissible(
+    question: &Question,
+    model: &Model,
+    order: &[usize],
+    free: usize,
+    (alone, added): (&[usize], &[usize]),
+) -> Vec<Stage> {
+    let [_, blocks] = &question.blocks;
+    let joined = joined(question, order, blocks);
     let first = plan(&question.mechanism, &joined, &question.pinned, &[]);
-    let mut stages = stage::stages(&model.space, &order, &first);
-    let mut limits = limits;
-    if let Some(state) = state {
-        (limits.external, limits.harmful) = (state.max_external, state.max_harmful);
+    let mut stages = stage::stages(&model.space, order, &first);
+    let keep_output = question.conditions.keep_output;
+    if question.conditions.state.is_some() {
         let live = first.steps.last().map_or(&[][..], |s| &s.live);
-        let joints = (&alone[..], &added[..]);
-        let mut kept = vec![frame];
-        kept.extend(
-            question
-                .kept
-                .0
-                .iter()
-                .filter(|_| question.conditions.keep_output),
-        );
+        let kept = question.kept.0.iter().filter(|_| keep_output);
+        let kept: Vec<LinkId> = std::iter::once(question.mechanism.frame())
+            .chain(kept.copied())
+            .collect();
         let ways = ways(
             &question.mechanism,
             &model.space,
-            joints,
+            (alone, added),
             live,
             &kept,
             &question.grasps,
@@ -101,24 +153,14 @@ pub(in crate::search) fn laid(question: &Question, orders: &Orders, model: &Mode
             last.ending = Some(ways.held);
         }
     }
-    if question.conditions.keep_output {
+    if keep_output {
         // What comes first has no say in how the kept links move.
-        let silent = common_blocks.iter().filter(|b| b.lane > 0);
+        let silent = blocks.iter().filter(|b| b.lane > 0);
         let silent: usize = silent.map(|b| b.variables.len()).sum();
-        look_ahead(
-            question,
-            model,
-            &mut stages[silent..free.len()],
-            alone.is_empty(),
-        );
+        let seen = &mut stages[silent..free];
+        look_ahead(question, model, seen, alone.is_empty());
     }
-    order.extend(alone);
-    order.extend(added);
-    Laid {
-        determinate,
-        admissible: Some((stages, limits)),
-        order,
-    }
+    stages
 }
 
 /// The joints of some variables, each in the copy of the links that its block has.

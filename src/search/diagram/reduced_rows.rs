@@ -4,7 +4,7 @@ use crate::linalg::modp::{Field, Residue};
 
 /// Rows of a matrix in reduced row echelon form: each pivot is one and alone in its column.
 #[derive(Default)]
-pub(super) struct Rows {
+pub(in crate::search) struct Rows {
     pub(super) width: usize,
     pub(super) pivots: Vec<usize>,
     pub(super) data: Vec<Residue>,
@@ -70,6 +70,62 @@ impl Rows {
         }
     }
 
+    /// Dimension of the span.
+    pub(super) fn rank(&self) -> usize {
+        self.pivots.len()
+    }
+
+    /// Dimension of what the span is in the first coordinates.
+    pub(super) fn rank_before(&self, coordinates: usize) -> usize {
+        self.pivots.partition_point(|&p| p < coordinates)
+    }
+
+    /// The rows, one after another.
+    pub(super) fn rows(&self) -> impl Iterator<Item = &[Residue]> {
+        self.data.chunks_exact(self.width.max(1))
+    }
+
+    /// Drops the first coordinates, and the rows that reach them.
+    pub(super) fn drop_first(&mut self, coordinates: usize) {
+        let dropped = self.rank_before(coordinates);
+        let (width, narrow) = (self.width, self.width - coordinates);
+        for r in dropped..self.pivots.len() {
+            let row = r * width + coordinates..(r + 1) * width;
+            self.data.copy_within(row, (r - dropped) * narrow);
+        }
+        self.data.truncate((self.pivots.len() - dropped) * narrow);
+        self.pivots.drain(..dropped);
+        self.pivots.iter_mut().for_each(|p| *p -= coordinates);
+        self.width = narrow;
+    }
+
+    /// What two spans have in common.
+    ///
+    /// # Sources
+    /// Zassenhaus' algorithm: each vector of the one beside itself, each of the other beside nothing; rows that start with nothing
+    /// have a common vector behind it.
+    pub(super) fn meet(&self, arithmetic: &mut Arithmetic, other: &Rows) -> Rows {
+        if self.pivots == other.pivots && self.data == other.data {
+            return self.clone();
+        }
+        let mut both = Rows::default();
+        both.clear(2 * self.width);
+        let mut row = Vec::new();
+        for (rows, beside) in [(self, true), (other, false)] {
+            for v in rows.rows() {
+                row.clear();
+                row.extend_from_slice(v);
+                row.resize(2 * self.width, 0);
+                if beside {
+                    row.copy_within(..self.width, self.width);
+                }
+                both.insert(arithmetic, &mut row);
+            }
+        }
+        both.drop_first(self.width);
+        both
+    }
+
     /// Adds a vector, keeping the form; `vector` is used up.
     pub(super) fn insert(&mut self, arithmetic: &mut Arithmetic, vector: &mut [Residue]) {
         let (f, width) = (arithmetic.field, self.width);
@@ -99,13 +155,13 @@ impl Rows {
 }
 
 /// The field with a memory of inverses: one takes as long as a hundred products, and the same few come again and again.
-pub(super) struct Arithmetic {
+pub(in crate::search) struct Arithmetic {
     pub(super) field: Field,
     inverses: Vec<(Residue, Residue)>,
 }
 
 impl Arithmetic {
-    pub(super) fn new(field: Field) -> Self {
+    pub(in crate::search) fn new(field: Field) -> Self {
         Arithmetic {
             field,
             inverses: vec![(0, 0); 1024],

@@ -5,7 +5,7 @@
 pub enum Stop {
     /// Everything was looked at: counts are exact.
     Exhausted,
-    /// The node budget cut layers down to their cheapest nodes: counts are lower bounds.
+    /// The node budget cut layers down to a part of their nodes: counts are lower bounds.
     NodeBudget,
     /// No more was asked for than the cheapest variants: counts are lower bounds.
     NotCounted,

@@ -139,19 +139,8 @@ impl Worker {
             return 0;
         }
         // Rows that bridge a gap are motions the contour forbids; directions that no row bridges are redundant.
-        let bridged = self.work.pivots.partition_point(|&p| p < gap);
-        let (width, narrow) = (self.work.width, self.work.width - gap);
-        for r in bridged..self.work.pivots.len() {
-            self.work
-                .data
-                .copy_within(r * width + gap..(r + 1) * width, (r - bridged) * narrow);
-        }
-        self.work
-            .data
-            .truncate((self.work.pivots.len() - bridged) * narrow);
-        self.work.pivots.drain(..bridged);
-        self.work.pivots.iter_mut().for_each(|p| *p -= gap);
-        self.work.width = narrow;
+        let bridged = self.work.rank_before(gap);
+        self.work.drop_first(gap);
         u32::try_from(directions - bridged).expect("few directions")
     }
 

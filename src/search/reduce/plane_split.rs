@@ -131,11 +131,11 @@ impl Model {
             bytes: usize::MAX,
         };
         // One choice a joint: one node a layer.
-        let path = diagram::build(
-            exact,
+        let path = diagram::of_live_links(
+            exact.field(),
             space,
-            &stages,
-            (&limits, None),
+            (&stages, &limits),
+            None,
             &|| false,
             &mut |_| {},
         );

@@ -1,9 +1,11 @@
 //! A search that ended before everything was looked at: what is known all the same.
 
+use crate::format::number::grouped;
 use crate::score::outcome::Outcome;
-use crate::search::answer::estimate::Estimate;
+use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::singular_values::Summary;
 use crate::search::diagram::Stop;
+use num_bigint::BigUint;
 use serde::Serialize;
 
 /// Why a search ended early and what its counts and its list are; nothing of one that did not.
@@ -22,22 +24,50 @@ pub fn stopped(outcome: &Outcome) -> Option<String> {
     Some(format!("{why}: counts are lower bounds{list}"))
 }
 
-/// About how many variants there are, where that is estimated.
+fn big(n: &BigUint) -> String {
+    grouped(&n.to_string())
+}
+
+/// A number of variants as it is told: itself where it is exact, else at least that many, and at most how many and about how many where
+/// that is known.
+#[must_use]
+pub fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
+    let own = big(counted);
+    match estimate {
+        _ if exact => own,
+        None => format!("at least {own}"),
+        Some(e) => match &e.at_most {
+            None => format!("at least {own}, about {:.3e},", e.mean),
+            Some(most) if most == counted => own,
+            Some(most) => format!("{own} to {}, about {:.3e},", big(most), e.mean),
+        },
+    }
+}
+
+/// How numbers of variants are known that are not counted.
 #[must_use]
 pub fn estimated(outcome: &Outcome) -> Option<String> {
     let [determinate, admissible] = outcome.estimates();
-    let said = |e: Estimate, what| {
-        let error = 100.0 * e.standard_error / e.mean;
-        format!("about {:.2e} {what} (standard error {error:.2} %)", e.mean)
+    let said = |e: &Estimate, what| {
+        let [low, high] = e.between;
+        match e.drawn {
+            Drawn::Samples { of, found } => format!(
+                "{low:.3e} to {high:.3e} {what} ({} of {} samples of those not ruled out)",
+                big(&found.into()),
+                big(&of.into())
+            ),
+            Drawn::Cuts(n) => {
+                format!("{low:.3e} to {high:.3e} {what} ({n} random cuts of the diagram)")
+            }
+        }
     };
     let first = admissible.map(|e| said(e, "admissible"));
     let second = determinate.map(|e| said(e, "determinate"));
     let how = admissible.or(determinate)?;
     let parts: Vec<String> = first.into_iter().chain(second).collect();
     Some(format!(
-        "Estimated, not counted: {}, by {} random cuts of the diagram (--seed {})",
+        "Estimated, not counted, with 95 % confidence: {} (--seed {})",
         parts.join(", "),
-        how.cuts,
         how.seed
     ))
 }
@@ -59,16 +89,33 @@ pub fn proven(summary: &Summary) -> Option<String> {
 pub(in crate::view) struct EstimateData {
     mean: f64,
     standard_error: f64,
-    cuts: usize,
+    /// The interval with a confidence of 95 %.
+    between: [f64; 2],
+    at_most: Option<String>,
+    cuts: Option<usize>,
+    samples: Option<Samples>,
     seed: u64,
 }
 
-impl From<Estimate> for EstimateData {
-    fn from(e: Estimate) -> Self {
+#[derive(Debug, Serialize)]
+struct Samples {
+    of: usize,
+    found: usize,
+}
+
+impl From<&Estimate> for EstimateData {
+    fn from(e: &Estimate) -> Self {
+        let (cuts, samples) = match e.drawn {
+            Drawn::Cuts(n) => (Some(n), None),
+            Drawn::Samples { of, found } => (None, Some(Samples { of, found })),
+        };
         EstimateData {
             mean: e.mean,
             standard_error: e.standard_error,
-            cuts: e.cuts,
+            between: e.between,
+            at_most: e.at_most.as_ref().map(ToString::to_string),
+            cuts,
+            samples,
             seed: e.seed,
         }
     }

@@ -117,8 +117,11 @@ pub fn write(
 fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     let mut out = String::new();
     let big = |n: &BigUint| grouped(&n.to_string());
-    let at_least = |exact: bool| if exact { "" } else { "at least " };
-    let least = at_least(outcome.is_counted());
+    let least = if outcome.is_counted() {
+        ""
+    } else {
+        "at least "
+    };
     let conditions = &outcome.search.conditions;
     let condition = if conditions.max_redundant == 0 {
         "σ = 0".to_owned()
@@ -151,7 +154,8 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     } else if !outcome.is_confirmed() {
         format!("not exact: {least}{}", big(&outcome.admissible.total))
     } else {
-        format!("{least}{}", big(&outcome.admissible.total))
+        let [_, estimate] = outcome.estimates();
+        stopped_early::number(&outcome.admissible.total, outcome.is_counted(), estimate)
     };
     // Writing to a string cannot fail.
     let of = plural_of(&big(&size), "variant");
@@ -167,8 +171,10 @@ fn counts(outcome: &Outcome, width: Option<u16>) -> String {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
             None => {
-                at_least(outcome.is_determinate_counted()).to_owned()
-                    + &big(&outcome.determinate.total)
+                let [estimate, _] = outcome.estimates();
+                let estimate = estimate.filter(|_| outcome.is_confirmed());
+                let exact = outcome.is_determinate_counted();
+                stopped_early::number(&outcome.determinate.total, exact, estimate)
             }
         };
         let _ = writeln!(

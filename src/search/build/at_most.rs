@@ -1,0 +1,251 @@
+//! A diagram that has every variant, and some that are none, in as few nodes as are wanted: its count is an upper bound.
+//!
+//! Layers with too many nodes keep those that most ways lead to; the others are put together, those that reach as many dimensions
+//! in the contours to come first ([`Between`]).
+
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Field;
+use crate::search::diagram::adding::{Adding, adding};
+use crate::search::diagram::between::{Between, LEVELS, Passed};
+use crate::search::diagram::reduced_rows::Arithmetic;
+use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
+use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
+use crate::search::question::Question;
+use crate::search::reduce::plane_split::Model;
+use crate::search::reduce::self_stress_space::SelfStressSpace;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, HashMap};
+
+/// A diagram with every variant, and how to tell which of its variants are none.
+pub(in crate::search) struct AtMost {
+    pub(in crate::search) diagram: Diagram,
+    field: Field,
+    order: Vec<usize>,
+    space: SelfStressSpace,
+}
+
+/// Nodes of a layer: their number, bounded by memory, too.
+fn width(limits: &Limits, space: &SelfStressSpace, choices: usize) -> usize {
+    let numbers = space.contours[0] + space.kept;
+    let each = size_of::<u64>() * 2 * (numbers * numbers / 2 + numbers);
+    let bytes = limits.bytes / 4 / (each * choices).max(1);
+    (limits.nodes / 100).clamp(64, 4096).min(bytes).max(1)
+}
+
+/// The diagram of a question without a searched state, for the variables in an order; none where redundant constraints are allowed,
+/// where a choice lacks a motion of its present joint, or where it is cancelled.
+///
+/// # Complexity
+/// O(layers · width · choices · s³) field operations for s present self-stresses.
+pub(in crate::search) fn at_most(
+    question: &Question,
+    model: &Model,
+    (order, limits, keep_output): (&[usize], &Limits, bool),
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<AtMost> {
+    let field = question.exact.field();
+    let kept = match keep_output {
+        true => &question.kept.0[..],
+        false => &[],
+    };
+    let space = SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)?;
+    let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
+    if spent.internal() != limits.internal {
+        return None;
+    }
+    let choices = |s: &Adding| model.space.variables[s.variable].choices.len();
+    let stages = adding(field, order, &space);
+    let width = width(
+        limits,
+        &space,
+        stages.iter().map(choices).max().unwrap_or(1),
+    );
+    let bounds = bounds(&stages);
+    let mut nodes = vec![(Between::default(), 1.0)];
+    let mut layers = Vec::with_capacity(order.len());
+    for (stage, bounds) in stages.iter().zip(&bounds) {
+        if cancelled() {
+            return None;
+        }
+        let choices = choices(stage);
+        let over = Over {
+            field,
+            limits,
+            spent: &spent,
+            passed: Passed { stage, bounds },
+        };
+        let before = nodes.len();
+        let (next, mut edges) = over.merged(&nodes, choices);
+        let to = narrowed(field, next, width);
+        nodes = to.0;
+        let alive = edges.iter_mut().filter(|e| **e != DEAD);
+        alive.for_each(|e| *e = to.1[*e as usize]);
+        layers.push(Layer {
+            variable: stage.variable,
+            nodes: before,
+            choices,
+            edges,
+        });
+    }
+    let ends: Vec<Redundancy> = nodes.iter().map(|_| spent.redundancy()).collect();
+    let sizes = || layers.iter().map(|l| l.nodes).chain([nodes.len()]);
+    Some(AtMost {
+        diagram: Diagram {
+            nodes: sizes().sum(),
+            largest_layer: sizes().max().unwrap_or(0),
+            stop: Stop::Exhausted,
+            terminals: ends,
+            layers,
+        },
+        field,
+        order: order.to_vec(),
+        space,
+    })
+}
+
+impl AtMost {
+    /// Whether a variant of the diagram is one indeed.
+    pub(in crate::search) fn has(&self, choices: &[usize]) -> bool {
+        let space = &self.space;
+        let (contours, width) = (space.contours[0], space.contours[0] + space.kept);
+        let mut whole = Echelon::new(self.field);
+        for (t, &variable) in self.order.iter().enumerate() {
+            for vector in &space.added[t][choices[variable]] {
+                let mut row = vec![0; width - vector.len()];
+                row.extend_from_slice(vector);
+                whole.insert(&row);
+            }
+        }
+        let pivots = whole.pivots();
+        pivots.len() == contours && pivots.iter().all(|&p| p < contours)
+    }
+}
+
+/// For each stage the coordinates before each place where contours end, from this stage on.
+fn bounds(stages: &[Adding]) -> Vec<Vec<usize>> {
+    let from = |t: usize| {
+        let gaps = stages[t..].iter().map(|s| s.gap).filter(|&g| g > 0);
+        gaps.scan(0, |sum, g| {
+            *sum += g;
+            Some(*sum)
+        })
+        .collect()
+    };
+    (0..stages.len()).map(from).collect()
+}
+
+/// Nodes, and how many ways lead to each.
+type Weighed = Vec<(Between, f64)>;
+
+/// What nodes are carried over.
+struct Over<'a> {
+    field: Field,
+    limits: &'a Limits,
+    spent: &'a Spent,
+    passed: Passed<'a>,
+}
+
+impl Over<'_> {
+    /// The children of some nodes, equal ones together, and the edges to them.
+    fn merged(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
+        let all: Vec<Vec<Option<(Vec<u64>, Between)>>> = nodes
+            .par_iter()
+            .with_min_len(64)
+            .map_init(
+                || (Worker::new(self.field, 0), Arithmetic::new(self.field)),
+                |(worker, arithmetic), (node, _)| {
+                    let children = match node.packed() {
+                        Some(packed) => self.exact(worker, &packed, choices),
+                        None => node.children(arithmetic, &self.passed),
+                    };
+                    let named = |child: Option<Between>| child.map(|c| (c.words(), c));
+                    children.into_iter().map(named).collect()
+                },
+            )
+            .collect();
+        let mut known: HashMap<Vec<u64>, u32> = HashMap::new();
+        let (mut next, mut edges) = (Weighed::new(), Vec::with_capacity(nodes.len() * choices));
+        for (children, (_, ways)) in all.into_iter().zip(nodes) {
+            for child in children {
+                let Some((words, child)) = child else {
+                    edges.push(DEAD);
+                    continue;
+                };
+                let number = u32::try_from(next.len()).expect("layers are narrow");
+                let to = *known.entry(words).or_insert_with(|| {
+                    next.push((child, 0.0));
+                    number
+                });
+                next[to as usize].1 += ways;
+                edges.push(to);
+            }
+        }
+        (next, edges)
+    }
+
+    /// The children of one space, as the diagram itself has them.
+    fn exact(&self, worker: &mut Worker, packed: &[u64], choices: usize) -> Vec<Option<Between>> {
+        let (stage, mut out) = (self.passed.stage, Children::new(choices));
+        worker.children_added(stage, packed, self.spent, self.limits, &mut out);
+        let own = usize::from(stage.gap > 0);
+        let bounds: Vec<usize> = self.passed.bounds[own..]
+            .iter()
+            .map(|b| b - stage.gap)
+            .collect();
+        let child = |c: Option<(u64, Spent, usize, usize)>| {
+            let (_, _, start, end) = c?;
+            Some(Between::one(
+                self.field,
+                stage.width - stage.gap,
+                &out.data[start..end],
+                &bounds,
+            ))
+        };
+        std::mem::take(&mut out.found)
+            .into_iter()
+            .map(child)
+            .collect()
+    }
+}
+
+/// No more than so many nodes, and which of them each became.
+fn narrowed(field: Field, nodes: Weighed, width: usize) -> (Weighed, Vec<u32>) {
+    if nodes.len() <= width {
+        let same = (0..nodes.len()).map(|i| u32::try_from(i).expect("layers are narrow"));
+        let same = same.collect();
+        return (nodes, same);
+    }
+    let mut by_weight: Vec<usize> = (0..nodes.len()).collect();
+    by_weight.sort_by(|&a, &b| nodes[b].1.total_cmp(&nodes[a].1).then(a.cmp(&b)));
+    let (kept, others) = by_weight.split_at(width / 2);
+    let groups = (0..LEVELS).rev().map(|level| {
+        let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
+        for &i in others {
+            groups.entry(nodes[i].0.kind(level)).or_default().push(i);
+        }
+        groups
+    });
+    let few = |g: &BTreeMap<_, _>| g.len() <= width - width / 2;
+    let mut groups = groups.skip_while(|g| !few(g));
+    let groups: Vec<Vec<usize>> = match groups.next() {
+        Some(groups) => groups.into_values().collect(),
+        None => vec![others.to_vec()],
+    };
+    let groups: Vec<Vec<usize>> = kept.iter().map(|&i| vec![i]).chain(groups).collect();
+    let mut to = vec![0; nodes.len()];
+    for (number, group) in groups.iter().enumerate() {
+        let number = u32::try_from(number).expect("layers are narrow");
+        group.iter().for_each(|&i| to[i] = number);
+    }
+    let together = |group: Vec<usize>| {
+        let mut arithmetic = Arithmetic::new(field);
+        let (mut whole, mut ways) = nodes[group[0]].clone();
+        for &i in &group[1..] {
+            whole.join(&mut arithmetic, &nodes[i].0);
+            ways += nodes[i].1;
+        }
+        (whole, ways)
+    };
+    (groups.into_par_iter().map(together).collect(), to)
+}

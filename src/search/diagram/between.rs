@@ -1,0 +1,189 @@
+//! Nodes that stand for many: what all of them add, what none of them exceeds, and how much of that there is at most.
+//!
+//! A diagram in the space dual to self-stresses has too many nodes where each part can be chosen in many ways that differ a
+//! little. Put together, some of them are a node that every one of them lies between: it has the futures of each, and maybe more.
+//! So a diagram of such nodes has every variant there is, and its count is an upper bound.
+//!
+//! # Sources
+//! Bergman, Cire, van Hoeve & Hooker, "Discrete optimization with decision diagrams", INFORMS J. Comput. 28 (2016): diagrams
+//! relaxed by merging nodes.
+
+use crate::linalg::modp::{Field, Residue};
+use crate::search::diagram::adding::Adding;
+use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
+
+/// Spaces that contain one, lie within another, and reach no more than so many dimensions; one space where both are the same.
+#[derive(Clone, Default)]
+pub(in crate::search) struct Between {
+    /// What all of them have.
+    all: Rows,
+    /// What any of them may have; the same as all where there is one space.
+    any: Option<Rows>,
+    /// How many dimensions one has at most in the coordinates before each boundary to come.
+    most: Vec<usize>,
+    /// How many dimensions each has.
+    least: usize,
+}
+
+/// A stage for nodes that stand for many.
+pub(in crate::search) struct Passed<'a> {
+    pub(in crate::search) stage: &'a Adding,
+    /// Coordinates of contours before each place where some end, from this stage on.
+    pub(in crate::search) bounds: &'a [usize],
+}
+
+impl Between {
+    /// One space, with the boundaries to come.
+    pub(in crate::search) fn one(
+        field: Field,
+        width: usize,
+        packed: &[Residue],
+        bounds: &[usize],
+    ) -> Between {
+        let mut all = Rows::default();
+        all.unpack(field, width, packed);
+        Between {
+            most: bounds.iter().map(|&b| all.rank_before(b)).collect(),
+            least: all.rank(),
+            any: None,
+            all,
+        }
+    }
+
+    fn any(&self) -> &Rows {
+        self.any.as_ref().unwrap_or(&self.all)
+    }
+
+    /// The one space, packed; none of many.
+    pub(in crate::search) fn packed(&self) -> Option<Vec<Residue>> {
+        let mut out = Vec::new();
+        self.all.packed(&mut out);
+        self.any.is_none().then_some(out)
+    }
+
+    /// Numbers that tell it from others.
+    pub(in crate::search) fn words(&self) -> Vec<u64> {
+        let mut out = Vec::new();
+        self.all.packed(&mut out);
+        if let Some(any) = &self.any {
+            let mut more = Vec::new();
+            any.packed(&mut more);
+            out.push(u64::MAX);
+            out.extend(more);
+            out.extend(self.most.iter().chain([&self.least]).map(|&x| x as u64));
+        }
+        out
+    }
+
+    /// What nodes must agree in to be put together, the finer the higher the level, of [`LEVELS`].
+    pub(in crate::search) fn kind(&self, level: usize) -> Vec<usize> {
+        let mut out = match level {
+            0 => self.most.first().copied().into_iter().collect(),
+            _ => self.most.clone(),
+        };
+        if level > 1 {
+            out.push(self.least);
+        }
+        if level > 2 {
+            out.extend(&self.any().pivots);
+            out.push(usize::MAX);
+            out.extend(&self.all.pivots);
+        }
+        out
+    }
+
+    /// Takes another in.
+    pub(in crate::search) fn join(&mut self, arithmetic: &mut Arithmetic, other: &Between) {
+        let mut any = self.any.take().unwrap_or_else(|| self.all.clone());
+        let mut row = Vec::new();
+        for v in other.any().rows() {
+            row.clear();
+            row.extend_from_slice(v);
+            any.insert(arithmetic, &mut row);
+        }
+        self.all = self.all.meet(arithmetic, &other.all);
+        self.any = Some(any);
+        let most = self.most.iter_mut().zip(&other.most);
+        most.for_each(|(x, &y)| *x = (*x).max(y));
+        self.least = self.least.min(other.least);
+    }
+
+    /// What it becomes over a stage, for each of its choices; none where no space that it stands for has a future.
+    pub(in crate::search) fn children(
+        &self,
+        arithmetic: &mut Arithmetic,
+        over: &Passed<'_>,
+    ) -> Vec<Option<Between>> {
+        let growth = &over.stage.growth;
+        let mut grown: Vec<Option<Between>> = vec![None; growth.len()];
+        for g in growth {
+            let mut next = match g.from {
+                Some(from) => grown[from].clone().unwrap_or_default(),
+                None => Between {
+                    any: Some(self.any().clone()),
+                    ..self.clone()
+                },
+            };
+            next.add(arithmetic, &g.more, over.bounds);
+            grown[g.choice] = Some(next);
+        }
+        let ended = |b: Option<Between>| b?.ended(over);
+        grown.into_iter().map(ended).collect()
+    }
+
+    /// Adds vectors.
+    fn add(&mut self, arithmetic: &mut Arithmetic, vectors: &[Vec<Residue>], bounds: &[usize]) {
+        let mut any = self.any.take().unwrap_or_default();
+        let before: Vec<usize> = bounds.iter().map(|&b| self.all.rank_before(b)).collect();
+        let possible = any.rank();
+        let mut row = Vec::new();
+        for v in vectors {
+            for rows in [&mut self.all, &mut any] {
+                row.clone_from(v);
+                rows.insert(arithmetic, &mut row);
+            }
+        }
+        // No space gains more than the smallest, and none less than the largest.
+        for ((most, &bound), before) in self.most.iter_mut().zip(bounds).zip(before) {
+            *most = (*most + self.all.rank_before(bound) - before).min(any.rank_before(bound));
+        }
+        self.least = (self.least + any.rank() - possible).max(self.all.rank());
+        self.any = Some(any);
+        // Fewer coordinates reach no more, and a block no more than it has.
+        for i in (1..self.most.len()).rev() {
+            self.most[i - 1] = self.most[i - 1].min(self.most[i]);
+        }
+        for i in 1..self.most.len() {
+            self.most[i] = self.most[i].min(self.most[i - 1] + bounds[i] - bounds[i - 1]);
+        }
+    }
+
+    /// Drops the coordinates that no later stage reaches; none where a contour stays redundant, or a kept link goes wrong.
+    fn ended(mut self, over: &Passed<'_>) -> Option<Between> {
+        let (contours, gap) = (over.stage.contours, over.stage.gap);
+        let in_contours = self.most.last().copied().unwrap_or(0);
+        let goes_wrong = self.all.pivots.last().is_some_and(|&p| p >= contours);
+        if goes_wrong || self.least > in_contours {
+            return None;
+        }
+        if gap > 0 {
+            if self.most[0] < gap {
+                return None;
+            }
+            self.all.drop_first(gap);
+            self.any.as_mut()?.drop_first(gap);
+            self.most.remove(0);
+            for (most, &bound) in self.most.iter_mut().zip(&over.bounds[1..]) {
+                *most = most.checked_sub(gap)?;
+                if *most < self.all.rank_before(bound - gap) {
+                    return None;
+                }
+            }
+            self.least = self.least.saturating_sub(gap).max(self.all.rank());
+        }
+        Some(self)
+    }
+}
+
+/// Levels of [`Between::kind`].
+pub(in crate::search) const LEVELS: usize = 4;
