@@ -302,9 +302,10 @@ fn log(lo: f64, hi: f64, fit: Fit, room: Room, zero: Option<i32>) -> Ruler {
         ruler.ticks = decades
             .map(|e| Tick {
                 at: ruler.fraction(f64::from(e)).clamp(0.0, 1.0),
-                label: Some(match Some(e) == zero {
-                    true => Label::plain("0".to_owned()),
-                    false => decade(e, plain),
+                label: Some(if Some(e) == zero {
+                    Label::plain("0".to_owned())
+                } else {
+                    decade(e, plain)
                 }),
             })
             .collect();

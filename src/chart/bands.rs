@@ -121,9 +121,10 @@ fn bar(xml: &mut Xml, kind: Kind, (from, to): (f64, f64), y: f64, tip: &str) {
         Kind::Bad => 5.0,
         Kind::None => 2.0,
     };
-    let (from, to) = match to - from < 2.0 {
-        true => (from - 1.0, to + 1.0),
-        false => (from, to),
+    let (from, to) = if to - from < 2.0 {
+        (from - 1.0, to + 1.0)
+    } else {
+        (from, to)
     };
     let rect = xml
         .tag("rect")

@@ -111,9 +111,10 @@ fn path(runs: &[Run], steps: bool) -> String {
             if n == 0 {
                 out += &format!("M{x} {y}");
             } else if (&x, &y) != (&last.0, &last.1) {
-                out += &match steps {
-                    true => format!("H{x}V{y}"),
-                    false => format!("L{x} {y}"),
+                out += &if steps {
+                    format!("H{x}V{y}")
+                } else {
+                    format!("L{x} {y}")
                 };
             }
             last = (x, y);

@@ -143,9 +143,10 @@ impl Chart {
             .map(|s| s.name.as_str())
             .collect::<Vec<_>>()
             .join(", ");
-        let sentence = match self.subtitle.is_empty() {
-            true => String::new(),
-            false => format!("{} ", self.subtitle),
+        let sentence = if self.subtitle.is_empty() {
+            String::new()
+        } else {
+            format!("{} ", self.subtitle)
         };
         let (x, y) = (&self.x.label, &self.y.label);
         let missing = match all - shown {

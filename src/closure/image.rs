@@ -142,9 +142,10 @@ impl Map {
         // A turn about u is one about -u in a mirror; the body point at the origin is the image of that at the shift.
         let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
             let turned = self.direction(f, [w0, w1, w2]);
-            let w = match self.reflects {
-                true => turned.map(|x| f.neg(x)),
-                false => turned,
+            let w = if self.reflects {
+                turned.map(|x| f.neg(x))
+            } else {
+                turned
             };
             let arm = exact.cross(self.shift, w);
             let v = self.direction(f, [v0, v1, v2]);

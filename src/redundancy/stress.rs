@@ -236,9 +236,10 @@ fn first_those_without(
     let (mut with, mut without) = (Vec::new(), Vec::new());
     for s in stresses {
         let image = part(&s);
-        match image.iter().all(|&x| x == 0) {
-            true => without.push(s),
-            false => with.push((s, image)),
+        if image.iter().all(|&x| x == 0) {
+            without.push(s)
+        } else {
+            with.push((s, image))
         }
     }
     let (with, images): (Vec<_>, Vec<_>) = with.into_iter().unzip();

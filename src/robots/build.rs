@@ -86,11 +86,10 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
         robot.report.map("floating base");
     }
     if apart && !options.floating {
-        let what = match parts == 0 {
-            true => {
-                "nothing holds the model to the world: it floats with 6 freedoms (--frame LINK holds a link)"
-            }
-            false => "parts that no joint holds float in the world, each by itself",
+        let what = if parts == 0 {
+            "nothing holds the model to the world: it floats with 6 freedoms (--frame LINK holds a link)"
+        } else {
+            "parts that no joint holds float in the world, each by itself"
         };
         robot.report.moved(what.to_owned());
     }
@@ -287,9 +286,10 @@ pub(crate) fn entries(
 
 /// What is rigidly joined as one body, and the joints between these; those within a body are told and left out.
 fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), RobotProblem> {
-    let kept = match robot.assembly {
-        true => in_loops(robot, tree),
-        false => BTreeSet::new(),
+    let kept = if robot.assembly {
+        in_loops(robot, tree)
+    } else {
+        BTreeSet::new()
     };
     let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
     let rigid = tree.steps.iter().filter(|s| fixed(s.joint));
@@ -309,11 +309,12 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
         let what = "both ends are on one rigid body; left out, with all its rows redundant";
         robot.report.approximate(&format!("joint \"{id}\""), what);
     }
-    match joints.is_empty() {
-        true => Err(RobotProblem::Rigid {
+    if joints.is_empty() {
+        Err(RobotProblem::Rigid {
             links: robot.links.len(),
-        }),
-        false => Ok((bodies, joints)),
+        })
+    } else {
+        Ok((bodies, joints))
     }
 }
 

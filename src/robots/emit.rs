@@ -161,9 +161,10 @@ fn links(
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
         let id = names.fit(&c.robot.links[b]);
-        let role = match b == c.frame {
-            true => Some("frame"),
-            false => c.outputs.contains(&b).then_some("output"),
+        let role = if b == c.frame {
+            Some("frame")
+        } else {
+            c.outputs.contains(&b).then_some("output")
         };
         if let Some(with) = merged.get(&b) {
             let text = format!("with {}, fixed to it", with.join(", "));

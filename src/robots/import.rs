@@ -65,9 +65,10 @@ fn root(
 ) -> Result<usize, ImportError> {
     let Some(archive) = archive else {
         let text = xml::utf8(name, bytes)?;
-        return match asmt::read::is_one(text.as_bytes()) {
-            true => asmt::read::document(document, name, text),
-            false => document.read(name, text),
+        return if asmt::read::is_one(text.as_bytes()) {
+            asmt::read::document(document, name, text)
+        } else {
+            document.read(name, text)
         };
     };
     let name = format!("{name}/{DOCUMENT}");

@@ -79,9 +79,10 @@ impl Origin {
             let (Some((low, high)), [value]) = (part.limits, &part.values[..]) else {
                 return true;
             };
-            let unit = match c.freedom.slides() {
-                true => pose.length * metres / self.robot.unit.metres(),
-                false => 1.0,
+            let unit = if c.freedom.slides() {
+                pose.length * metres / self.robot.unit.metres()
+            } else {
+                1.0
             };
             // Limits are often where the joint stands.
             let slack = 1e-6 * (high - low).max(1e-3);

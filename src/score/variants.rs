@@ -37,9 +37,10 @@ impl Request {
 
     /// How many of the cheapest are looked at to give `top` of them: lucky ones make room for others.
     fn listed(&self, top: usize) -> usize {
-        match self.generic_only && top > 0 {
-            true => top.saturating_mul(100).max(CHECKED),
-            false => top,
+        if self.generic_only && top > 0 {
+            top.saturating_mul(100).max(CHECKED)
+        } else {
+            top
         }
     }
 }

@@ -140,9 +140,10 @@ impl Sweep {
     fn filled(&self, m: &Mechanism, empty: &Row) -> Result<Row, AnalysisError> {
         let states: Vec<StateId> = m.state_ids().collect();
         let asked = &self.spec.asked;
-        let method = match asked.as_written {
-            true => Method::Modular,
-            false => Method::Auto { tolerance: None },
+        let method = if asked.as_written {
+            Method::Modular
+        } else {
+            Method::Auto { tolerance: None }
         };
         let found = analyse(m, &states, method)?;
         let methods = match found.first() {

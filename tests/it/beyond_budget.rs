@@ -44,9 +44,10 @@ pub(crate) fn ladder(contours: usize, seed: u64, spatial: bool) -> String {
             number(997),
             if spatial { number(997) } else { 0 },
         );
-        let axis = match spatial {
-            true => [number(19) + 1, number(19), number(19)],
-            false => [0, 0, 1],
+        let axis = if spatial {
+            [number(19) + 1, number(19), number(19)]
+        } else {
+            [0, 0, 1]
         };
         write!(
             out,

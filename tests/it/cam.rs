@@ -79,9 +79,10 @@ fn centre(cam: &Cam, turn: f64) -> [f64; 2] {
 fn circle([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let side = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
     let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    match twice > 0.0 {
-        true => side(a, b) * side(b, c) * side(c, a) / (2.0 * twice),
-        false => f64::INFINITY,
+    if twice > 0.0 {
+        side(a, b) * side(b, c) * side(c, a) / (2.0 * twice)
+    } else {
+        f64::INFINITY
     }
 }
 

@@ -78,9 +78,10 @@ fn run(document: &str) -> (usize, Vec<String>) {
             wrong.push(format!("{place}\n{complaints}"));
             continue;
         }
-        let said = match output.stdout.is_empty() {
-            true => output.stderr,
-            false => output.stdout,
+        let said = if output.stdout.is_empty() {
+            output.stderr
+        } else {
+            output.stdout
         };
         let compared = Assert::new().action(Action::Verify).try_eq(
             Some(&place),

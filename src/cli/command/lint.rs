@@ -70,9 +70,10 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                             (passed.text(), good)
                         }
                         Ok(lint) => {
-                            let verdict = match lint.is_clean() {
-                                true => ("nothing is redundant".to_owned(), Tone::Good),
-                                false => (lint.sigma(), Tone::Bad),
+                            let verdict = if lint.is_clean() {
+                                ("nothing is redundant".to_owned(), Tone::Good)
+                            } else {
+                                (lint.sigma(), Tone::Bad)
                             };
                             (lint.text(), Some(verdict))
                         }

@@ -149,9 +149,10 @@ pub(in crate::cli) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
             SearchFormat::Jsonl => json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => {
                 if let Some(short) = csv::write(out, &outcome, variants)? {
-                    match a.comment {
-                        true => writeln!(out, "# {short}")?,
-                        false => output::say(&format!("{short}\n")),
+                    if a.comment {
+                        writeln!(out, "# {short}")?
+                    } else {
+                        output::say(&format!("{short}\n"))
                     }
                 }
             }

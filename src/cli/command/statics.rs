@@ -188,19 +188,20 @@ fn spatial(
                 StaticsFormat::Text => {
                     write!(out, "{}", reactions(&shown, "pose of the file", width))?;
                     let file = a.file.as_deref().unwrap_or(&m.name);
-                    let step = match shown.unique {
-                        false => Step::new(
-                            "search",
-                            file,
-                            "",
-                            "redesigns without redundant constraints, whose reactions are the only ones",
-                        ),
-                        true => Step::new(
+                    let step = if shown.unique {
+                        Step::new(
                             "statics",
                             file,
                             "--spatial --format csv -o reactions.csv",
                             "the components of every joint's reaction",
-                        ),
+                        )
+                    } else {
+                        Step::new(
+                            "search",
+                            file,
+                            "",
+                            "redesigns without redundant constraints, whose reactions are the only ones",
+                        )
                     };
                     write!(out, "{}", next_commands::text(&[step], width))?;
                 }

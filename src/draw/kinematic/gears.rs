@@ -28,10 +28,11 @@ impl Kinematic<'_> {
         coupling: &Coupling,
         places: &[Place],
     ) -> Vec<(usize, Vec<Vector>)> {
-        let circles = match coupling.gear {
-            true => gears(self, coupling, places)
-                .or_else(|| pinion(self, coupling, places).map(|c| vec![c])),
-            false => None,
+        let circles = if coupling.gear {
+            gears(self, coupling, places)
+                .or_else(|| pinion(self, coupling, places).map(|c| vec![c]))
+        } else {
+            None
         };
         let line = |(end, middle, normal, radius): Circle| {
             let x = projection::across(normal);

@@ -98,9 +98,10 @@ fn workload<T>(
     missing: ProblemKind,
 ) -> Result<Workload<T>, Vec<Finding>> {
     let mut out = knowing(file, &Values::new());
-    let mechanism = match file.link.is_empty() && file.joint.is_empty() {
-        true => None,
-        false => Some(build(file)?),
+    let mechanism = if file.link.is_empty() && file.joint.is_empty() {
+        None
+    } else {
+        Some(build(file)?)
     };
     let length_unit = length_unit(file, &mut out);
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &mut out);

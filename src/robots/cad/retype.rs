@@ -94,9 +94,10 @@ impl Origin {
     /// Whether a joint can be given a freedom where it stands: whether it slides, and along or about which direction.
     #[must_use]
     pub fn can_be_freed(&self, joint: JointId, freedom: (bool, Vector)) -> bool {
-        match self.is_assembly() {
-            true => becomes(self, joint, &[freedom]).is_some(),
-            false => self.takes_joints(joint),
+        if self.is_assembly() {
+            becomes(self, joint, &[freedom]).is_some()
+        } else {
+            self.takes_joints(joint)
         }
     }
 }

@@ -227,9 +227,10 @@ fn axes(closure: Closure, all: &[Vector]) -> Vec<[Vector; 2]> {
                 .iter()
                 .flat_map(|a| all.iter().filter(move |b| *b != a).map(|b| [*a, *b]));
             let pairs: Vec<[Vector; 2]> = pairs.collect();
-            match pairs.is_empty() {
-                true => vec![[first, perpendicular(first)]],
-                false => pairs,
+            if pairs.is_empty() {
+                vec![[first, perpendicular(first)]]
+            } else {
+                pairs
             }
         }
         c if c.is_directed() => all.iter().map(|d| [*d, perpendicular(*d)]).collect(),

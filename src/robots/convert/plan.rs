@@ -112,9 +112,10 @@ pub(crate) fn singles(part: &Part, backward: bool) -> Vec<Single> {
         freedom: i,
     };
     let all = part.joint_type.freedoms().iter().enumerate().map(one);
-    match backward {
-        false => all.collect(),
-        true => all.rev().map(Single::back).collect(),
+    if backward {
+        all.rev().map(Single::back).collect()
+    } else {
+        all.collect()
     }
 }
 

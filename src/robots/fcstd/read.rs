@@ -227,9 +227,10 @@ impl<'a> Assembling<'a, '_> {
         let mut labels = BTreeSet::new();
         for (joint, word, ends) in &ended {
             let label = joint.label();
-            let id = match labels.insert(label) {
-                true => label.to_owned(),
-                false => format!("{label} ({})", joint.name),
+            let id = if labels.insert(label) {
+                label.to_owned()
+            } else {
+                format!("{label} ({})", joint.name)
             };
             let Some(found) = held(word, joint, ends, &slides, self.shapes)? else {
                 robot.report.constraint_rows += UNKNOWN_ROWS;

@@ -198,9 +198,12 @@ impl<'a> File<'a> {
         let (robot, one) = (&self.origin.robot, part.links[0]);
         let name = &robot.links[one];
         let is_world = robot.world == Some(one);
-        let named = |b: &Element<'a>| match is_world {
-            true => b.name() == "worldbody",
-            false => b.name() == "body" && b.attribute("name") == Some(name),
+        let named = |b: &Element<'a>| {
+            if is_world {
+                b.name() == "worldbody"
+            } else {
+                b.name() == "body" && b.attribute("name") == Some(name)
+            }
         };
         let all = (0..self.origin.document.nodes.len()).map(|id| self.origin.element(id));
         let Some(body) = all.into_iter().find(named) else {

@@ -96,9 +96,12 @@ fn runs(places: &[usize]) -> String {
             _ => runs.push((p, p)),
         }
     }
-    let one = |&(a, b): &(usize, usize)| match a == b {
-        true => a.to_string(),
-        false => format!("{a}-{b}"),
+    let one = |&(a, b): &(usize, usize)| {
+        if a == b {
+            a.to_string()
+        } else {
+            format!("{a}-{b}")
+        }
     };
     runs.iter().map(one).join(", ")
 }

@@ -100,14 +100,15 @@ pub fn write(
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let undecided = summary.given == 0 && outcome.admissible_may_be_more();
-    let steps = match outcome.request.generic_only || undecided {
-        true => Vec::new(),
-        false => next(
+    let steps = if outcome.request.generic_only || undecided {
+        Vec::new()
+    } else {
+        next(
             outcome,
             (if sample { 0 } else { summary.given }, changed),
             (eased, helps),
             file,
-        ),
+        )
     };
     write!(out, "{}", next_commands::text(&steps, width))
 }

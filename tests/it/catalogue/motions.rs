@@ -53,9 +53,10 @@ fn transmission_angles_are_those_of_the_rods_ends() {
             };
             let v = speeds(&s, &l, &[(link, *a), (link, *b)]);
             let size = |v: [f64; 2]| v[0].hypot(v[1]);
-            let (fast, slow) = match size(v[0]) > size(v[1]) {
-                true => (v[0], v[1]),
-                false => (v[1], v[0]),
+            let (fast, slow) = if size(v[0]) > size(v[1]) {
+                (v[0], v[1])
+            } else {
+                (v[1], v[0])
             };
             if size(slow) < 1e-4 * size(fast) {
                 continue;

@@ -56,10 +56,7 @@ pub(crate) fn random() -> impl Strategy<Value = String> {
                     _ => "",
                 };
                 // Not of the tree, so that every link stays connected: a rest that is left as the part is clamped.
-                let state = match clamped && alone == 0 && i + 1 == edges.len() && i + 1 >= links {
-                    true => "state = \"free\"",
-                    false => "",
-                };
+                let state = if clamped && alone == 0 && i + 1 == edges.len() && i + 1 >= links { "state = \"free\"" } else { "" };
                 out += &format!(
                     "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{}\"\npoint = {point:?}\naxis = {:?}\n{options}\n{state}\n",
                     TYPES[*kind], AXES[*axis]

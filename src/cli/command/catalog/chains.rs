@@ -93,9 +93,10 @@ pub(super) fn count(args: &Args, a: &Count) -> anyhow::Result<Done> {
     let mut all = Vec::new();
     for (i, n) in a.links.clone().enumerate() {
         bar.step(&format!("{n} links"), i, a.links.clone().count());
-        let found = match a.chains {
-            true => count_chains(n, w).map(|chains| CensusData::of_chains(n, w, chains)),
-            false => census(n, w, n <= MOST_OF_GRIPPERS).map(|c| CensusData::new(n, w, &c)),
+        let found = if a.chains {
+            count_chains(n, w).map(|chains| CensusData::of_chains(n, w, chains))
+        } else {
+            census(n, w, n <= MOST_OF_GRIPPERS).map(|c| CensusData::new(n, w, &c))
         };
         match found {
             Ok(found) => all.push(found),

@@ -172,9 +172,10 @@ impl Writer<'_> {
             w.place = Motion::shift(w.place.translation);
         }
         let tensor = w.tensor.map(|x| number(x).to_string());
-        let inertia = match straight {
-            true => format!("diaginertia=\"{}\"", tensor[..3].join(" ")),
-            false => format!("fullinertia=\"{}\"", tensor.join(" ")),
+        let inertia = if straight {
+            format!("diaginertia=\"{}\"", tensor[..3].join(" "))
+        } else {
+            format!("fullinertia=\"{}\"", tensor.join(" "))
         };
         let at = pos_axes(&Motion {
             translation: [0.0; 3],

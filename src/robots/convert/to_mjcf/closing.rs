@@ -13,9 +13,10 @@ impl Writer<'_> {
         let mut sites = Vec::new();
         for (side, letter) in [(0, "a"), (1, "b")] {
             let site = self.sites.fit(&format!("{}~{letter}", part.id));
-            match end.on[side].is_empty() {
-                true => self.site(part.links[side], &site, &part.sides[side]),
-                false => self.small(j, part.links[side], &part.sides[side], &end.on[side], &site),
+            if end.on[side].is_empty() {
+                self.site(part.links[side], &site, &part.sides[side])
+            } else {
+                self.small(j, part.links[side], &part.sides[side], &end.on[side], &site)
             }
             sites.push(escape(&site));
         }

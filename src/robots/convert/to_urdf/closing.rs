@@ -43,13 +43,12 @@ impl Writer<'_> {
             let link = part.links[side];
             let at = self.frames[&link].inverse().then(&part.sides[side]);
             let name = self.names[&link].clone();
-            ends.push(match end.on[side].is_empty() {
-                true => (name, at),
-                false => {
-                    let small = self.between(&format!("{id}~{}", ["a", "b"][side]));
-                    self.series(j, &end.on[side], at, [name, small.clone()]);
-                    (small, Motion::IDENTITY)
-                }
+            ends.push(if end.on[side].is_empty() {
+                (name, at)
+            } else {
+                let small = self.between(&format!("{id}~{}", ["a", "b"][side]));
+                self.series(j, &end.on[side], at, [name, small.clone()]);
+                (small, Motion::IDENTITY)
             });
         }
         match self.loops {

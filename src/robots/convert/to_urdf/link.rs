@@ -32,13 +32,10 @@ impl Writer<'_> {
         for s in self.scene.shapes(l) {
             self.shape(l, s, &back, &mut inside);
         }
-        match inside.is_empty() {
-            true => {
-                let _ = writeln!(self.head, "  <link name=\"{name}\"/>");
-            }
-            false => {
-                let _ = write!(self.head, "  <link name=\"{name}\">\n{inside}  </link>\n");
-            }
+        if inside.is_empty() {
+            let _ = writeln!(self.head, "  <link name=\"{name}\"/>");
+        } else {
+            let _ = write!(self.head, "  <link name=\"{name}\">\n{inside}  </link>\n");
         }
     }
 

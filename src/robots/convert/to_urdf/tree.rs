@@ -69,9 +69,10 @@ impl Writer<'_> {
             };
             let last = i + 1 == all.len();
             let screws = matches!(s.moves, Moves::Screw(_));
-            let held = match last && !screws {
-                true => to.clone(),
-                false => self.between(&name),
+            let held = if last && !screws {
+                to.clone()
+            } else {
+                self.between(&name)
             };
             let kind = if s.moves == Moves::Slide {
                 "prismatic"
