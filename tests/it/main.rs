@@ -35,6 +35,7 @@ mod fuzz;
 mod grip;
 mod held;
 mod holding;
+mod house;
 mod ideas;
 mod layering;
 mod least_model;
