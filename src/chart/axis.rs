@@ -1,6 +1,6 @@
 //! Ranges, ticks and their labels.
 
-use super::Scale;
+use super::data::Scale;
 use super::look::{self, TICK};
 use crate::format::number::minus;
 use crate::svg::text;

@@ -1,9 +1,9 @@
 //! Regions of an axis, row by row.
 
 use super::axis::{Fit, Room, Ruler};
+use super::data::{Bands, Kind, Scale};
 use super::frame::{self, Head};
 use super::look::{PAD, TICK, WIDTH};
-use super::{Bands, Kind, Scale};
 use crate::format::number::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;

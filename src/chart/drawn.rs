@@ -1,9 +1,9 @@
 //! The series of a chart on paper: lines, marks, names.
 
+use super::data::{Series, Style};
 use super::frame;
 use super::labels;
 use super::look::{COLOURS, PAD, TICK, WIDTH};
-use super::{Series, Style};
 use crate::format::number::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;

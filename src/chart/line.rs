@@ -1,10 +1,10 @@
 //! Series over two axes, as SVG and as CSV.
 
 use super::axis::{Fit, Room, Ruler};
+use super::data::{Chart, Series, Style};
 use super::drawn::{self, Drawn, LEAD, SAMPLE, STEP};
 use super::frame::{self, Head};
 use super::look::{COLOURS, PAD, TICK, WIDTH};
-use super::{Chart, Series, Style};
 use crate::format::csv;
 use crate::svg::plane::Rect;
 use crate::svg::text;

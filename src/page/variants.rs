@@ -1,8 +1,9 @@
 //! The variants as columns for the script.
 
+use super::contents::{Page, Redesigns};
+use super::figures;
 use super::number::Number;
 use super::workload::{Workload, workload};
-use super::{Page, Redesigns, figures};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::AnalysisError;
 use crate::score::variant::Variant;

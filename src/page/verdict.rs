@@ -1,6 +1,6 @@
 //! The verdict in words.
 
-use super::{Page, Redesigns};
+use super::contents::{Page, Redesigns};
 use crate::format::number::{cost, grouped};
 use crate::format::phrase::{list, plural};
 use crate::model::mechanism::{Mechanism, Role};

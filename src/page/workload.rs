@@ -1,6 +1,6 @@
 //! What the joints of each variant bear, and its scores, where the file states loads.
 
-use super::Redesigns;
+use super::contents::Redesigns;
 use super::number::Number;
 use crate::model::ranking::Term;
 use crate::score::bearing::{Bearing, Bearings};

@@ -1,9 +1,11 @@
 //! `ozols analyze`.
 
-use crate::cli::Done;
 use crate::cli::command::verify;
-use crate::cli::option::args::{AnalyzeFormat, Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::format::TextOrJson;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::output;
 use crate::file::read::motion::stroke;
@@ -52,7 +54,7 @@ pub(in crate::cli) struct Analyze {
     pub(in crate::cli) planar: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: AnalyzeFormat,
+    pub(in crate::cli) format: TextOrJson,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(in crate::cli) output: Option<PathBuf>,
@@ -72,7 +74,7 @@ pub(in crate::cli) struct Analyze {
     pub(in crate::cli) svg: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
     if a.planar {
         load::put_in_plane(&mut mechanism);
@@ -138,8 +140,8 @@ pub(in crate::cli) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &analysis)?,
-            AnalyzeFormat::Text => {
+            TextOrJson::Json => output::json(out, &analysis)?,
+            TextOrJson::Text => {
                 let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
                 let text = toned(analysis.text(width), a.output.as_deref(), verdicts);
                 write!(out, "{text}")?;
@@ -187,8 +189,8 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
     let found = ByMethod::new(mechanism, method, &answers);
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &found)?,
-            AnalyzeFormat::Text => write!(out, "{}", found.text())?,
+            TextOrJson::Json => output::json(out, &found)?,
+            TextOrJson::Text => write!(out, "{}", found.text())?,
         }
         Ok(Done::Found)
     })

@@ -1,8 +1,8 @@
 //! `ozols lint`.
 
-use crate::cli::Done;
 use crate::cli::command::import::{Reading, description};
 use crate::cli::command::types;
+use crate::cli::done::Done;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::terminal::colour::{Tone, toned};

@@ -2,9 +2,9 @@
 
 pub(in crate::cli) mod args;
 
-use crate::cli::Done;
 use crate::cli::command::clamped;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
@@ -30,7 +30,7 @@ use anyhow::{Context, bail};
 use args::{Statics, StaticsFormat, StaticsMethod};
 use std::path::Path;
 
-pub(in crate::cli) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.clone().unwrap_or_else(|| "parallel-shears".into()))?;
     if a.planar {
         load::put_in_plane(&mut m);

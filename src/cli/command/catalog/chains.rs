@@ -4,8 +4,8 @@ use super::format::CatalogFormat;
 use crate::catalog::spec::range;
 use crate::chains::census::census;
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
 use crate::format::csv::records;
@@ -86,7 +86,7 @@ fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
     Ok(all)
 }
 
-pub(super) fn count(args: &Args, a: &Count) -> anyhow::Result<Done> {
+pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
     let w = a.common.mobility;
     ensure!((1..=6).contains(&w), "--mobility must be 1 to 6");
     let mut bar = Bar::new(args.quiet);
