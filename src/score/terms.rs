@@ -76,13 +76,24 @@ impl Scores {
         }
     }
 
+    /// The joint that bears most, where the term is such a peak.
+    #[must_use]
+    pub fn peak(&self, term: Term) -> Option<&Peak> {
+        match term {
+            Term::PeakForce => Some(&self.force),
+            Term::PeakMoment => Some(&self.moment),
+            _ => None,
+        }
+    }
+
     /// The figure as it stands in a list: what is measured to four decimals, lengths in millimetres.
     #[must_use]
     pub fn cell(&self, term: Term) -> String {
-        match term {
-            Term::OutputError => format!("{:.4}", 1e3 * self.output_error),
-            Term::Changes | Term::Idle | Term::Harmful => self.value(term).to_string(),
-            _ => format!("{:.4}", self.value(term)),
+        let (about, value) = (term.about(), self.value(term));
+        if about.is_count {
+            value.to_string()
+        } else {
+            format!("{:.4}", about.scale * value)
         }
     }
 
@@ -92,11 +103,12 @@ impl Scores {
     #[must_use]
     pub fn loss(&self, term: Term) -> f64 {
         let coarse = |x: f64| f64::from_bits((x.to_bits() + 0x8000) & !0xffff);
+        let about = term.about();
         match term {
             Term::Conditioning => coarse(-self.conditioning.max(1e-300).log10()),
-            Term::OutputError => coarse(1e3 * self.output_error),
-            Term::PeakForce | Term::PeakMoment => coarse(self.value(term)),
-            Term::Changes | Term::Cost | Term::Idle | Term::Harmful => self.value(term),
+            Term::Cost => self.value(term),
+            _ if about.is_count => self.value(term),
+            _ => coarse(about.scale * self.value(term)),
         }
     }
 

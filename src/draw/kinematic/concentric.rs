@@ -37,10 +37,10 @@ pub(super) fn one_place(a: Point, b: Point) -> bool {
 fn outward(of: &JointType) -> u8 {
     match of {
         JointType::Revolute | JointType::Spherical => 0,
-        JointType::Universal | JointType::Helical | JointType::Custom(_) => 1,
         JointType::Cylindrical | JointType::CylindricalUniversal => 2,
         JointType::Fixed | JointType::Slotted | JointType::Prismatic => 3,
         JointType::SphereInCylinder => 4,
         JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane => 5,
+        _ => 1,
     }
 }
