@@ -52,10 +52,10 @@ fn state(s: &State<'_>) -> Vec<String> {
     }
     out.push(
         if s.redundant == 0 {
-            "Parts a little out of true assemble without strain, and the loads alone say what each joint bears."
+            "Parts that are slightly inaccurate still assemble without strain, and the loads alone say what each joint bears."
         } else {
-            "Parts a little out of true bind: they must be bent or pressed together, and joints bear loads that nothing \
-             outside puts on them."
+            "Parts that are slightly inaccurate bind: they must be bent or pressed together, and joints bear loads even when \
+             nothing acts from outside."
         }
         .to_owned(),
     );

@@ -1,7 +1,7 @@
 //! What each joint bears of a self-stress, and how much of it.
 //!
-//! The self-stresses are exact, modulo a prime, and residues have no size. But each is told, up to a factor, by where it is
-//! zero (and, of friction at the contacts, by what it does not do to the faces): the bases are in reduced form, so that no
+//! The self-stresses are exact, modulo a prime, and residues have no size. But each is determined, up to a factor, by its zero
+//! entries (and, of friction at the contacts, by what it does not do to the faces): the bases are in reduced form, so that no
 //! other self-stress has its zeros. Its real numbers are the one solution of the closure equations of those rows.
 
 use crate::closure::matrix::Closure;

@@ -74,7 +74,7 @@ fn root(
     let name = format!("{name}/{DOCUMENT}");
     let Some(found) = archive.member(DOCUMENT)? else {
         let message =
-            format!("there is no {DOCUMENT} in the archive; it is no document of FreeCAD");
+            format!("there is no {DOCUMENT} in the archive; it is not a FreeCAD document");
         return Err(RobotProblem::Whole { message }.at(&name, "", None));
     };
     document.read(&name, xml::utf8(&name, &found)?)

@@ -97,7 +97,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
     {
         bail!(
-            "--tolerance is nothing to --method {}, which rounds nothing; leave it out, or use auto or svd",
+            "--tolerance has no effect with --method {}, which does not round; leave it out, or use auto or svd",
             a.method.name()
         );
     }
@@ -177,7 +177,7 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
     }
     if a.certificate.is_some() {
         bail!(
-            "--method {} counts and finds no rank, so that there is no certificate of one; use auto, or leave --certificate out",
+            "--method {} counts without a rank, so it has no certificate; use auto, or leave --certificate out",
             method.name()
         );
     }

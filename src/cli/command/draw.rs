@@ -183,7 +183,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
         };
         ensure!(
             stress.joints.iter().any(|w| w.borne.is_some()),
-            "self-stress {} is of so many numbers that they were left uncomputed",
+            "self-stress {} is too large: its numbers were not computed",
             k + 1
         );
         draw::kinematic_stressed(&subject, &sight, (stress, &words.name(k)))

@@ -210,7 +210,7 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
     let before = api::analyze(m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() && request.max_mobility.is_none() {
         note(format!(
-            "nothing is redundant: {} {k} of the search would only let more move; --max-mobility makes it all the same",
+            "nothing is redundant, so {} {k} of the search would only add mobility; --max-mobility makes the change all the same",
             request.one()
         ));
         let plan = Plan {

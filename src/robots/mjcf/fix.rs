@@ -166,7 +166,7 @@ impl<'a> File<'a> {
             joint && !p.closes && self.body(id).id == body.id
         });
         let (Some((link, last)), Some(part)) = (last, self.part(e.id)) else {
-            return Err(e.unsupported("it is no joint of a body", "choose another (--at)"));
+            return Err(e.unsupported("it is not a joint of a body", "choose another (--at)"));
         };
         let last = self.origin.element(last);
         if self.parents[last.id] != Some(body.id) {

@@ -29,7 +29,7 @@ pub(crate) fn free(
         let model = origin.element(model);
         let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
         let Some(link) = model.named("link").find(named) else {
-            return Err(e.unsupported("its child is no link of its own model", remedy));
+            return Err(e.unsupported("its child is not a link of its own model", remedy));
         };
         let frame = axes_frame(origin, model, (part, e))?;
         let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();

@@ -80,7 +80,7 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
     }) = d.sizing.remedies
     {
         let lines = [
-            "  Any one of these is enough, bars of any diameter being had:".to_owned(),
+            "  Any one of these is enough (with a bar of any diameter):".to_owned(),
             format!("    a bar longer than {}", length(d, length_above)),
             format!(
                 "    a material of [τ_s] above {} MPa",

@@ -64,7 +64,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
     )];
     if found.digits.undecided {
         out.push(
-            "It is not decided what the mechanism is meant to be: small values may be zero or not"
+            "What the mechanism is meant to be is undecided: small values may be zero or not"
                 .to_owned(),
         );
     }

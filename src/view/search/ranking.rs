@@ -103,7 +103,7 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let left_out = [
         (
             p.unheld,
-            "left out: no equilibrium, an idle freedom gives way under the loads",
+            "left out: no equilibrium, since the loads move an idle freedom",
         ),
         (p.limited, "left out: beyond a limit"),
         (

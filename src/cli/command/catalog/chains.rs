@@ -76,8 +76,8 @@ const MOST_OF_GRIPPERS: usize = 12;
 const MOST_LISTED: usize = 14;
 
 fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let all =
-        range(text).map_err(|part| format!("{part:?} is no number of links: write 8 or 4..10"))?;
+    let all = range(text)
+        .map_err(|part| format!("{part:?} is not a number of links: write 8 or 4..10"))?;
     if all.is_empty() || *all.start() < 4 || *all.end() > 18 {
         return Err(
             "chains of 4 to 18 links are counted, from the lesser number to the greater".to_owned(),
