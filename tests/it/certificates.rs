@@ -1,16 +1,16 @@
 //! Certificates of rank: every built-in mechanism has one, random matrices do, and none that is false is accepted.
 
+use crate::common::built_in;
 mod command_line;
 mod corruption;
 
 use corruption::corruptions;
 use num_rational::BigRational;
 use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::geom::number_field::NumberField;
 use ozols::linalg::number_ring::{Element, NumberRing};
-use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::model::mechanism::StateId;
 use ozols::rank::exact::certificate::{
     Budget, Certificate, NoCertificate, certify, certify_matrix, matrix, number_field,
 };
@@ -20,10 +20,6 @@ use ozols::verify::certificate::{CertificateFile, FORMAT};
 use ozols::verify::matrix::MatrixOverRing;
 use ozols::verify::{self, Flaw};
 use proptest::prelude::*;
-
-fn built_in(name: &str) -> Mechanism {
-    mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap()
-}
 
 fn certified(name: &str) -> (MatrixOverRing, Certificate) {
     let m = built_in(name);

@@ -1,6 +1,6 @@
 //! The checks of the search: a second prime, and singular values.
 
-use crate::common::{json, out, ozols};
+use crate::common::{built_in, json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
@@ -98,7 +98,7 @@ fn the_check_is_reported() {
 #[test]
 fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
     for name in ozols::builtin::names() {
-        let m = mechanism_from_str("it.toml", ozols::builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let clamped = m.states.len() > 1;
         for (keep_output, max_redundant) in [(true, 0), (false, 100)] {
             let request = Conditions {

@@ -1,9 +1,8 @@
 //! Kinematic chains and the grippers made of them, against the counts of independent programs (two generators, two filters,
 //! two canonical forms; OEIS A233288) and against a slow twin that tries every graph.
 
-use crate::common::{json, ozols, text};
+use crate::common::{built_in, json, ozols, text};
 use itertools::Itertools;
-use ozols::Mechanism;
 use ozols::chains::census::{Census, Grippers, census};
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::{chains, count_chains};
@@ -200,7 +199,7 @@ fn names_stay() {
 /// [Pogrebnyak 2018]: the gripper is one of the structures that move in mirror places, of ten links and all of them needed.
 #[test]
 fn the_ten_link_gripper_is_among_the_structures() {
-    let m = Mechanism::builtin("gripper-10").unwrap();
+    let m = built_in("gripper-10");
     let joints = m
         .joints_in(StateId::FREE)
         .map(|j| m.joints[j].links.map(|l| l.index()));

@@ -1,7 +1,6 @@
 //! Costs in a file of their own: printed, changed, taken, and refused where they are none.
 
-use crate::common::{changed, json, out, run, text};
-use ozols::file::text::mechanism_from_str;
+use crate::common::{built_in, changed, json, out, run, text};
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
@@ -137,8 +136,7 @@ fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
 #[test]
 fn harm_costs_what_the_file_says_to_the_thousandth() {
     for (name, price) in [("tongs", 1730), ("tongs-pad", 1), ("tongs", 333)] {
-        let text = ozols::builtin::text(name).unwrap();
-        let mut m = mechanism_from_str(name, text).unwrap();
+        let mut m = built_in(name);
         m.search.costs.harmful_milli = Some(price);
         let conditions = Conditions {
             state: Some(InState::holding(StateId::new(1))),
@@ -168,8 +166,7 @@ fn harm_costs_what_the_file_says_to_the_thousandth() {
 #[test]
 fn choices_cost_what_the_formula_says() {
     let prices = [("revolute", 1500), ("spherical", 2250), ("universal", 4000)];
-    let text = ozols::builtin::text("gripper-10").unwrap();
-    let mut m = mechanism_from_str("gripper-10", text).unwrap();
+    let mut m = built_in("gripper-10");
     let costs = &mut m.search.costs;
     (costs.change_milli, costs.link_milli) = (Some(1300), Some(700));
     costs.by_type_milli = prices.map(|(name, p)| (name.to_owned(), p)).to_vec();
@@ -210,8 +207,7 @@ fn choices_cost_what_the_formula_says() {
 /// thousandths is the last whole step that is within it.
 #[test]
 fn bounds_are_whole_steps_above_the_cheapest() {
-    let text = ozols::builtin::text("gripper-10").unwrap();
-    let mut m = mechanism_from_str("gripper-10", text).unwrap();
+    let mut m = built_in("gripper-10");
     m.search.costs.by_type_milli = vec![("revolute".to_owned(), 9000)];
     let s = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
     assert!(s.steps.base_milli < 0 && s.steps.unit_milli > 1);

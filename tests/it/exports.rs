@@ -2,7 +2,7 @@
 
 mod physical;
 
-use crate::common::{out, ozols};
+use crate::common::{built_in, out, ozols};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, Mode, StateId};
@@ -12,9 +12,7 @@ use ozols::robots::{Options, import};
 use proptest::prelude::*;
 
 fn all() -> impl Iterator<Item = Mechanism> {
-    builtin::names()
-        .into_iter()
-        .map(|n| mechanism_from_str(&format!("{n}.toml"), builtin::text(n).unwrap()).unwrap())
+    builtin::names().into_iter().map(|n| built_in(n))
 }
 
 fn none(_: &str) -> std::io::Result<Vec<u8>> {

@@ -5,7 +5,7 @@ pub(crate) mod all;
 #[path = "traps/beyond_doubles.rs"]
 mod beyond_doubles;
 
-use crate::common::run_on;
+use crate::common::{built_in, run_on};
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
@@ -82,7 +82,7 @@ fn shakiness_of_higher_order_is_proven() {
 #[test]
 fn idle_spins_are_finite_motions() {
     for name in ["wren-platform", "stewart-turned-locked", "delta", "rssr"] {
-        let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let (_, found) = judged(&m);
         let mut part = m.clone();
         let exact = field_of(&m, StateId::FREE, 0).unwrap();

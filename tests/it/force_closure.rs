@@ -2,7 +2,7 @@
 
 mod programme;
 
-use crate::common::{json, near, run_on};
+use crate::common::{built_in, json, near, run_on};
 use ozols::Mechanism;
 use ozols::grip::clamped_part::{ClampedPart, PartError};
 use ozols::grip::force_closure::{Closure, closure};
@@ -254,7 +254,7 @@ fn the_share_of_samples_falls_with_the_tolerance() {
 fn every_clamped_mechanism_has_an_answer_for_parts_out_of_true() {
     let mut parts = 0;
     for name in ozols::builtin::names() {
-        let m = Mechanism::builtin(name).unwrap();
+        let m = built_in(name);
         let part = (m.state("clamped")).and_then(|s| ClampedPart::new(&m, s).ok());
         let Some(part) = part else { continue };
         parts += 1;
@@ -279,7 +279,7 @@ fn every_clamped_mechanism_has_an_answer_for_parts_out_of_true() {
 /// The same law where faces are nearly true, so that what is missing of it is small. Three of these were once form-closed.
 #[test]
 fn two_smooth_faces_never_close() {
-    let m = Mechanism::builtin("gripper-10-planar").unwrap();
+    let m = built_in("gripper-10-planar");
     let part = ClampedPart::new(&m, m.state("clamped").unwrap()).unwrap();
     let found = shares(&part, 0.01 * m.length_unit.metres, 400, 1).unwrap();
     assert_eq!((found.form_closed, found.form_undecided), (0, 0));
@@ -327,7 +327,7 @@ fn the_command_tells_both_closures_of_any_clamped_mechanism() {
 
 #[test]
 fn what_has_no_part_between_contacts_is_refused() {
-    let m = Mechanism::builtin("four-bar").unwrap();
+    let m = built_in("four-bar");
     let none = ClampedPart::new(&m, StateId::FREE);
     assert!(matches!(none, Err(PartError::NoPart { .. })));
     let text = vice(&[flat(0.1, ""), flat(-0.1, "")]).replacen("\"fixed\"", "\"revolute\"", 1);

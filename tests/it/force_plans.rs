@@ -1,7 +1,6 @@
 //! What the kinetostatics of the shears goes through: accelerations, inertia forces, tangential reactions, force plans.
 
-use crate::common::{json, near, out};
-use ozols::Mechanism;
+use crate::common::{built_in, json, near, out};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -40,7 +39,7 @@ fn accelerations_are_those_of_the_places() {
         "json",
     ]);
     let positions = found["positions"].as_array().unwrap();
-    let shears = Mechanism::builtin("parallel-shears").unwrap();
+    let shears = built_in("parallel-shears");
     let step = 0.001 / shears.loads.drive_speeds[0];
     for at in [1, 50, 99] {
         for name in ["4", "6", "7", "10"] {
@@ -81,7 +80,7 @@ fn tangential_reactions_are_the_moments_over_the_rods() {
         "--format",
         "json",
     ]);
-    let shears = Mechanism::builtin("parallel-shears").unwrap();
+    let shears = built_in("parallel-shears");
     let gravity = shears
         .loads
         .gravity

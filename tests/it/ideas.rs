@@ -6,7 +6,7 @@ mod textbook;
 mod toggle;
 mod why;
 
-use crate::common::{count, json, out, run, text};
+use crate::common::{built_in, count, json, out, run, text};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use ozols::geom::vector::{cross, real, unit};
@@ -259,7 +259,7 @@ fn ideas_are_those_of_a_list_of_all_variants() {
             &[],
         ),
     ] {
-        let m = Mechanism::builtin(name).unwrap();
+        let m = built_in(name);
         let request = Request {
             options: names(options),
             max_mobility,
@@ -267,7 +267,7 @@ fn ideas_are_those_of_a_list_of_all_variants() {
         };
         agrees(&m, &request, images);
     }
-    let gripper = Mechanism::builtin("gripper-10").unwrap();
+    let gripper = built_in("gripper-10");
     let request = Request {
         options: names(&["spherical", "sphere-in-cylinder"]),
         max_mobility: Some(1),
@@ -323,7 +323,7 @@ fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
 /// The ways of sharing out the freedoms of the cheapest redesign of the gripper: each half alike.
 #[test]
 fn an_idea_says_what_is_added_where() {
-    let gripper = Mechanism::builtin("gripper-10").unwrap();
+    let gripper = built_in("gripper-10");
     let request = Request {
         max_mobility: Some(1),
         ..Request::default()

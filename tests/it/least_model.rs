@@ -1,5 +1,6 @@
 //! Diagrams without the rows that no choice changes, against those with all rows, brute force and the slow twin.
 
+use crate::common::built_in;
 use crate::twin::{look, variants};
 use crate::varied::links_of;
 use num_bigint::BigUint;
@@ -15,10 +16,6 @@ use ozols::search::diagram::Stop;
 use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-
-fn builtin_mechanism(name: &str) -> Mechanism {
-    mechanism_from_str(name, builtin::text(name).unwrap()).unwrap()
-}
 
 fn search(m: &Mechanism, conditions: Conditions) -> Option<(Search, Diagrams)> {
     let search = Search::new(exact_field(m, 0).ok()?, m, conditions).ok()?;
@@ -43,7 +40,7 @@ fn counts((search, diagrams): &(Search, Diagrams)) -> [Counts; 2] {
 fn built_in_mechanisms_are_counted_and_listed_alike() {
     let mut three = Vec::new();
     for name in builtin::names() {
-        let m = builtin_mechanism(name);
+        let m = built_in(name);
         let with = |whole_twists| {
             let conditions = Conditions {
                 whole_twists,

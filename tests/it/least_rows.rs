@@ -1,6 +1,6 @@
 //! The rows that are enough for the rank of J: against all rows written out, by other primes, and by what is known of mechanisms.
 
-use crate::common::{json, out};
+use crate::common::{built_in, json, out};
 use crate::twin;
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
@@ -12,10 +12,6 @@ use ozols::redundancy::analysis::exact_field;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-fn built_in(name: &str) -> Mechanism {
-    mechanism_from_str(name, builtin::text(name).unwrap()).unwrap()
-}
 
 /// The least rows, by the first prime, have the rank of all rows by the second, and no part has more rank than rows.
 fn check(m: &Mechanism, state: StateId) -> LeastRows {

@@ -1,12 +1,12 @@
 //! Mobility methods: the automatic choice on every built-in mechanism, turned, scaled and measured; finite mobility by proof
 //! against finite mobility by following the motion; poses against finite differences.
 
+use crate::common::built_in;
 mod proven;
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::mechanism::{Frame, Mechanism, Mode, StateId};
 use ozols::motion::pose::Pose;
@@ -20,10 +20,6 @@ use ozols::rank::method::registry;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols_dense::Matrix;
 use proptest::prelude::*;
-
-fn built_in(name: &str) -> Mechanism {
-    mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap()
-}
 
 /// Uniform in -1..1.
 fn uniform(random: &mut ChaCha8Rng) -> f64 {
@@ -392,7 +388,7 @@ proptest! {
 /// The line that a rod spins about goes through both its balls, and through no other joint.
 #[test]
 fn a_rod_spins_about_the_line_of_its_balls() {
-    let m = ozols::Mechanism::builtin("rssr").unwrap();
+    let m = built_in("rssr");
     let found = &ozols::analyze(&m).unwrap()[0];
     let [idle] = &found.idle[..] else {
         panic!("{:?}", found.idle)

@@ -32,7 +32,7 @@ fn a_build_without_png_says_so() {
 #[cfg(feature = "png")]
 mod with_png {
     use super::refused;
-    use crate::common::ozols;
+    use crate::common::{built_in, ozols};
     use ozols::draw::png::png;
     use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
     use ozols::file::text::mechanism_from_str;
@@ -182,8 +182,7 @@ joint = [
 
     #[test]
     fn every_contour_is_seen_in_its_tint() {
-        let read =
-            |name: &str| mechanism_from_str(name, ozols::builtin::text(name).unwrap()).unwrap();
+        let read = |name: &str| built_in(name);
         let wishbone = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
         let built_in = [
             "door-two-hinges",

@@ -1,8 +1,6 @@
 //! Reactions over a stroke with inertia forces: against the planar solver, and against differences of energy.
 
-use crate::common::{json, out, ozols};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
+use crate::common::{built_in, json, out, ozols};
 use ozols::geom::expr::Expr;
 use ozols::model::joint_type::Freedom;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
@@ -24,7 +22,7 @@ fn real(v: &[Expr; 3]) -> [f64; 3] {
 
 /// A built-in mechanism with masses beside its joints, gravity, and a drive at a speed.
 fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism {
-    let mut m = mechanism_from_str(name, builtin::text(name).unwrap()).unwrap();
+    let mut m = built_in(name);
     let mut draw = (1..).map(|i| (f64::from(i) * 0.618_034).fract());
     for l in m.link_ids() {
         if matches!(m.links[l].role, Role::Frame | Role::Object) {

@@ -1,6 +1,6 @@
 //! What self-stresses do to each joint: directions, moments, shares, harm, in the plane and in space.
 
-use crate::common::{json, near, out, run_on};
+use crate::common::{built_in, json, near, out, run_on};
 use serde_json::Value;
 
 /// A bar on two slides along x, at x = 0 and x = 2: size ℓ = 1, the root mean square distance of the joints.
@@ -269,7 +269,7 @@ fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
     use ozols::redundancy::analysis::{Method, analyse};
     let mut seen = 0;
     for name in ozols::builtin::names() {
-        let m = ozols::Mechanism::builtin(name).unwrap();
+        let m = built_in(name);
         if m.joints.len() > 30 {
             continue;
         }

@@ -1,9 +1,8 @@
 //! Poses over a stroke: against closed forms, against the planar motion by Assur groups, and as the command shows them.
 
-use crate::common::{json, out, ozols};
+use crate::common::{built_in, json, out, ozols};
 use crate::statics::{file, mechanism, r};
 use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::follow::{Followed, Why, follow, slides};
 use ozols::motion::pose::Pose;
@@ -13,10 +12,6 @@ use ozols::statics::planar::PlanarMechanism;
 use ozols::statics::planar_motion::Motion;
 use ozols::statics::pose::Linkage;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-fn built_in(name: &str) -> Mechanism {
-    mechanism_from_str("t.toml", builtin::text(name).unwrap()).unwrap()
-}
 
 /// Columns of the file's drives in the free state.
 fn drives(m: &Mechanism, pose: &Pose) -> Vec<usize> {

@@ -1,6 +1,7 @@
 //! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
 //! shares of the contours from one basis of the self-stresses.
 
+use crate::common::built_in;
 use crate::twin;
 use ozols::accuracy::lattice::{self, Kind};
 use ozols::builtin;
@@ -59,7 +60,7 @@ fn check(mechanism: &Mechanism) {
 #[test]
 fn built_in_mechanisms() {
     for name in builtin::names() {
-        check(&mechanism_from_str(name, builtin::text(name).unwrap()).unwrap());
+        check(&built_in(name));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Masses and inertias as each format has them.
 
+use crate::common::built_in;
 use ozols::file::text::mechanism_from_str;
 use ozols::robots::formats;
 
@@ -93,7 +94,7 @@ fn motors_are_on_the_freedom_that_the_drive_holds() {
         ("four-bar", &["0-1"]),
         ("slider-crank-determinate", &["0-1"]),
     ] {
-        let m = mechanism_from_str(name, ozols::builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let text = formats::write(&m, "mjcf").unwrap();
         let xml = roxmltree::Document::parse(&text).unwrap();
         let found: Vec<&str> = xml

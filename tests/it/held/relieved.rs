@@ -1,7 +1,7 @@
 //! Unloading joints anywhere, σ by contour, joints of the free state alone, and what to do where nothing is found.
 
 use super::{file, pads, searched};
-use crate::common::{changed, count, out, run};
+use crate::common::{built_in, changed, count, out, run};
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::mechanism::StateId;
@@ -241,7 +241,7 @@ fn pads_stay_on_their_jaws_when_the_part_is_gone() {
     use ozols::redundancy::analysis::{Method, analyse, exact_field};
     use ozols::search::Search;
     use ozols::search::question::conditions::{Conditions, InState};
-    let m = ozols::Mechanism::builtin("tongs").unwrap();
+    let m = built_in("tongs");
     let state = StateId::new(1);
     let conditions = Conditions {
         state: Some(InState::holding(state)),

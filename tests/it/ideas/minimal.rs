@@ -1,6 +1,6 @@
 //! How many variants are minimal, against every pair of variants looked at in rational arithmetic.
 
-use crate::common::{count, json, out};
+use crate::common::{built_in, count, json, out};
 use crate::fuzz::runs;
 use crate::twin::less::does_with_less;
 use crate::twin::{look, random, suits, variants};
@@ -75,7 +75,7 @@ fn minimal_variants_of_built_in_mechanisms() {
         ("oldham", &[], 1, None),
         ("watt-six-bar", &["spherical"], 0, None),
     ] {
-        let mut m = Mechanism::builtin(name).unwrap();
+        let mut m = built_in(name);
         if !options.is_empty() {
             for joint in &mut m.joints {
                 let offered = |n: &str| n == "revolute" || options.contains(&n);

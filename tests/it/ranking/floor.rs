@@ -2,6 +2,7 @@
 //! what they score, and loads that turn a rod which spins.
 
 use super::{cheapest, near, search};
+use crate::common::built_in;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
@@ -19,7 +20,7 @@ fn vector(v: [i64; 3]) -> [Expr; 3] {
 
 /// A built-in mechanism as it is, with a force on its output.
 fn as_built(name: &str, force: [i64; 3]) -> Mechanism {
-    let mut m = mechanism_from_str(name, builtin::text(name).unwrap()).unwrap();
+    let mut m = built_in(name);
     for j in &mut m.joints {
         j.options.truncate(1);
         j.unloading.clear();

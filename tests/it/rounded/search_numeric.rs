@@ -1,9 +1,8 @@
 //! Searches of mechanisms that exact arithmetic does not have as they are meant: by singular values, and said so.
 
-use crate::common::run_on;
+use crate::common::{built_in, run_on};
 use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
 use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{JointOption, Mechanism};
 use ozols::rank::exact::field::exact_field;
 use ozols::score::outcome::Outcome;
@@ -45,7 +44,7 @@ pub(super) fn bare(mut m: Mechanism) -> Mechanism {
 
 /// A built-in mechanism without options of its own.
 pub(super) fn plain(name: &str) -> Mechanism {
-    bare(mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap())
+    bare(built_in(name))
 }
 
 /// It turned and rounded.
@@ -209,7 +208,7 @@ fn a_bennett_linkage_from_cad_has_the_counts_of_the_exact_one() {
 
 /// A search ready to be made, of exact geometry.
 fn ready(name: &str, request: &Request) -> (Search, Outcome) {
-    let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+    let m = built_in(name);
     let truth = ozols::search(&m, request).unwrap();
     let prepared = request.prepare(m, &mut |_| {}).unwrap();
     let (conditions, _) = request.conditions(&prepared, &mut |_| {}).unwrap();

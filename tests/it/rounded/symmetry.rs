@@ -2,6 +2,7 @@
 //! of images, are counted as in the exact file.
 
 use super::search_numeric::{bare, request, turned};
+use crate::common::built_in;
 use ozols::accuracy::stability::change::Noise;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
@@ -78,7 +79,7 @@ fn mirror_pairs_of_built_in_grippers_hold_in_turned_files() {
         "gripper-10-redesign",
         "parallelogram-gripper",
     ] {
-        let exact = bare(mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap());
+        let exact = bare(built_in(name));
         let [same, all] = same(name, &exact, &[4, 6, 9, 12]);
         sum = [sum[0] + same, sum[1] + all];
     }
