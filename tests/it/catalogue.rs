@@ -1,6 +1,7 @@
 //! Structures laid out: exactly symmetric, one motion that closes the jaws, determinate variants as published.
 
 mod carried_on;
+mod chains;
 mod command;
 mod killed;
 mod motions;

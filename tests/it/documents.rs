@@ -4,7 +4,7 @@
 //! on standard output, or on standard error where it prints nothing else, must be what follows it there, `...` standing for
 //! lines left out and `[..]` for part of a line. A block marked with a name, as `xml NAME`, is a file in that folder.
 
-use crate::assemblies::make;
+use crate::robots::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
 use snapbox::assert::Action;

@@ -8,6 +8,7 @@ mod meeting;
 mod moving;
 mod pairs;
 mod places;
+mod png;
 mod random;
 mod reading;
 mod space;

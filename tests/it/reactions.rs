@@ -2,9 +2,11 @@
 
 use crate::common::built_in;
 mod command;
+mod cycle;
 mod family;
 mod named_drives;
 mod point_masses;
+mod unilateral;
 
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;

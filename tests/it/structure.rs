@@ -2,7 +2,7 @@
 //! shares of the contours from one basis of the self-stresses.
 
 use crate::common::built_in;
-use crate::twin;
+use crate::search::twin;
 use ozols::accuracy::lattice::{self, Kind};
 use ozols::builtin;
 use ozols::closure::contour::Contour;

@@ -5,7 +5,7 @@ use super::make::{
     joint_type, label, number, packed, part, property, reference,
 };
 use super::{figures, read, refused};
-use crate::robot_fix::run;
+use crate::robots::fix::run;
 use ozols::robots::{Options, import};
 
 fn changed(objects: &[Object], name: &str, from: &str, to: &str) -> Vec<Object> {

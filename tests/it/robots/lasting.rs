@@ -1,7 +1,7 @@
 //! Robots: only what is redundant over the motion is let go; what is so at one pose passes by itself.
 
 use crate::common::run_on;
-use crate::robot_mjcf::mjcf;
+use crate::robots::mjcf::mjcf;
 use serde_json::Value;
 
 /// A four-bar of lengths 1, 2, 1.5 and 1.5 with all pins in a line, its second joint of a kind. On a ball it has nothing

@@ -1,7 +1,7 @@
 //! Robots: releases as one would build them, one cylindrical joint and one ball a loop, away from what bears a wheel.
 
 use crate::common::run_on;
-use crate::robot_mjcf::mjcf;
+use crate::robots::mjcf::mjcf;
 use itertools::Itertools;
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! The rows that are enough for the rank of J: against all rows written out, by other primes, and by what is known of mechanisms.
 
 use crate::common::{built_in, json, out};
-use crate::twin;
+use crate::search::twin;
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;

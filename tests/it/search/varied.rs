@@ -1,7 +1,7 @@
 //! Random mechanisms of more kinds than `twin` draws, against its oracle: planar mode, held links, helical and custom
 //! joints, mirror images, limits on W and on changes; and the two checks of the search on all of them.
 
-use crate::twin::{Twin, look, variants};
+use crate::search::twin::{Twin, look, variants};
 use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;

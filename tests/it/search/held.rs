@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use tempfile::TempDir;
 
 /// A file that is gone with its folder.
-pub(super) fn file(text: &str) -> (TempDir, String) {
+pub(crate) fn file(text: &str) -> (TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let path: PathBuf = folder.path().join("m.toml");
     std::fs::write(&path, text).unwrap();
@@ -19,7 +19,7 @@ pub(super) fn file(text: &str) -> (TempDir, String) {
 }
 
 /// The ten-link gripper that offers nothing but a ball pivot at each pad and four options of its hinges.
-pub(super) fn pads() -> String {
+pub(crate) fn pads() -> String {
     let text = builtin::text("gripper-10").unwrap();
     let lines = text.lines().filter(|l| !l.contains("name = \"cross\""));
     let text = lines.collect::<Vec<_>>().join("\n");
@@ -33,7 +33,7 @@ pub(super) fn pads() -> String {
 }
 
 /// Output, as data, of a search that may find nothing.
-pub(super) fn searched(path: &str, more: &[&str]) -> Value {
+pub(crate) fn searched(path: &str, more: &[&str]) -> Value {
     let args = [&["search", path, "--format", "json", "-q"][..], more].concat();
     let o = run(&args);
     assert!(matches!(o.status.code(), Some(0 | 1)), "{args:?}: {o:?}");

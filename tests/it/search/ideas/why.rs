@@ -1,7 +1,7 @@
 //! What an idea says of itself: what it lets go, of which parts, what was redundant there, what stays, and what joints bear.
 
 use crate::common::{json, near, out};
-use crate::ideas::toggle::gripper;
+use crate::search::ideas::toggle::gripper;
 use serde_json::{Value, json as value};
 use std::fs;
 

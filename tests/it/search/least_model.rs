@@ -1,8 +1,8 @@
 //! Diagrams without the rows that no choice changes, against those with all rows, brute force and the slow twin.
 
 use crate::common::built_in;
-use crate::twin::{look, variants};
-use crate::varied::links_of;
+use crate::search::twin::{look, variants};
+use crate::search::varied::links_of;
 use num_bigint::BigUint;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;

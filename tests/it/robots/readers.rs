@@ -2,7 +2,7 @@
 //! are refused with the place and the reason.
 
 use crate::common::{ozols, run_on};
-use crate::robot_mjcf::{mjcf, toml_of};
+use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{figures, folder, none, refused};
 use ozols::robots::{Imported, Options, import};
 

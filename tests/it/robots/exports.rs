@@ -150,7 +150,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..Default::default() })]
 
     #[test]
-    fn import_undoes_export_of_random_mechanisms(text in crate::twin::random()) {
+    fn import_undoes_export_of_random_mechanisms(text in crate::search::twin::random()) {
         if let Ok(m) = mechanism_from_str("x.toml", &text) {
             comes_back(&m);
         }

@@ -1,7 +1,7 @@
 //! Diagrams built from both ends, where one end does not fit the budget: the same counts and the same best as from one end.
 
-use crate::beyond_budget::{ladder, search};
-use crate::twin::look;
+use crate::search::beyond_budget::{ladder, search};
+use crate::search::twin::look;
 use num_bigint::BigUint;
 use ozols::search::Search;
 use ozols::search::answer::counts::Counts;

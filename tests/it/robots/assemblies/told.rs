@@ -5,7 +5,7 @@ use super::make::{
     packed, part, property,
 };
 use super::{figures, read};
-use crate::robot_fix::run;
+use crate::robots::fix::run;
 use ozols::robots::Options;
 use serde_json::{Value, json};
 

@@ -1,7 +1,7 @@
 //! The command: what it writes, says and refuses.
 
 use super::closures::four_bar;
-use crate::robot_fix::{gripper, run};
+use crate::robots::fix::{gripper, run};
 use crate::robots::folder;
 use serde_json::Value;
 use std::fs;

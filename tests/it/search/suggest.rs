@@ -168,7 +168,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 24, ..Default::default() })]
 
     #[test]
-    fn single_changes_of_random_mechanisms(text in crate::twin::random()) {
+    fn single_changes_of_random_mechanisms(text in crate::search::twin::random()) {
         let m = read(&text);
         for state in m.state_ids() {
             prop_assert_eq!(quickly(&m, state), slowly(&m, state));

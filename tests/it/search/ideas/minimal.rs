@@ -2,8 +2,8 @@
 
 use crate::common::{built_in, count, json, out};
 use crate::fuzz::runs;
-use crate::twin::less::does_with_less;
-use crate::twin::{look, random, suits, variants};
+use crate::search::twin::less::does_with_less;
+use crate::search::twin::{look, random, suits, variants};
 use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};

@@ -1,8 +1,8 @@
 //! `ozols lint`: what a description holds twice, by line, where on its motion, and how sure that is.
 
 use crate::common::{run_on, text};
-use crate::robot_fix::{gripper, run};
-use crate::robot_mjcf::mjcf;
+use crate::robots::fix::{gripper, run};
+use crate::robots::mjcf::mjcf;
 use crate::robots::{folder, legs};
 use serde_json::Value;
 

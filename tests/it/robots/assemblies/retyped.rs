@@ -2,7 +2,7 @@
 
 use super::make::{HINGES, fcstd, four_bar};
 use super::{figures, read};
-use crate::robot_fix::run;
+use crate::robots::fix::run;
 use ozols::redundancy::release::Release;
 use ozols::robots::{Options, fix};
 use std::io::{Cursor, Read};

@@ -1,8 +1,8 @@
 //! Motions that are proven: which, by what, and that following them never says otherwise.
 
 use super::built_in;
-use crate::finite_traps::{all::all as traps, judged, judged_in};
-use crate::rounded::cases::cases;
+use crate::rank::finite_traps::{all::all as traps, judged, judged_in};
+use crate::rank::rounded::cases::cases;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use itertools::Itertools;

@@ -1,8 +1,8 @@
 //! Robots: what other readers take is taken, and what is left out or not as drawn is said, by `lint` too.
 
 use crate::common::run_on;
-use crate::robot_fix::run;
-use crate::robot_mjcf::mjcf;
+use crate::robots::fix::run;
+use crate::robots::mjcf::mjcf;
 use serde_json::Value;
 
 /// W, σ and the notes of `lint` on a text.
