@@ -16,7 +16,6 @@ mod drawn;
 mod frame;
 mod labels;
 mod line;
-mod look;
 mod matrix;
 mod outline;
 mod page;
@@ -27,5 +26,6 @@ pub use outline::Outline;
 pub use page::page;
 pub use polygons::{Arrow, Pair, Panel, Polygons};
 
+mod style;
 #[cfg(test)]
 mod tests;

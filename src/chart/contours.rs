@@ -3,7 +3,7 @@
 use super::axis::{Fit, Label, Room, Ruler};
 use super::data::{Contours, Scale};
 use super::frame::{self, Head};
-use super::look::{PAD, TICK, WIDTH};
+use crate::chart::style::{PAD, TICK, WIDTH};
 use crate::format::csv;
 use crate::format::number::tooltip;
 use crate::svg::plane::Rect;

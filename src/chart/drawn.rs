@@ -3,7 +3,7 @@
 use super::data::{Series, Style};
 use super::frame;
 use super::labels;
-use super::look::{COLOURS, PAD, TICK, WIDTH};
+use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::number::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;

@@ -4,7 +4,7 @@ use super::axis::{Fit, Room, Ruler};
 use super::data::{Chart, Series, Style};
 use super::drawn::{self, Drawn, LEAD, SAMPLE, STEP};
 use super::frame::{self, Head};
-use super::look::{COLOURS, PAD, TICK, WIDTH};
+use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::csv;
 use crate::svg::plane::Rect;
 use crate::svg::text;

@@ -2,7 +2,7 @@
 
 use super::data::{Cell, Kind, Matrix};
 use super::frame::{self, Head};
-use super::look::{PAD, WIDTH};
+use crate::chart::style::{PAD, WIDTH};
 use crate::svg::text;
 use crate::svg::xml::{Xml, number};
 

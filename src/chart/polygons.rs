@@ -1,7 +1,7 @@
 //! Vectors set head to tail, panel beside panel: plans of forces that close where they are in equilibrium.
 
 use super::frame::{Head, begin, stroke};
-use super::look::{PAD, WIDTH};
+use crate::chart::style::{PAD, WIDTH};
 use crate::format::csv;
 use crate::format::number::significant;
 use crate::svg::plane::{Point, Rect, add, norm, scale, sub, unit};

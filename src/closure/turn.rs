@@ -1,6 +1,6 @@
 //! Half and third turns: whether joints that a file groups become each other when space is turned about one axis.
 
-use crate::closure::image::{Carrier, Map};
+use crate::closure::symmetry_image::{Carrier, Map};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;

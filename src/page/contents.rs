@@ -4,7 +4,7 @@ use crate::draw::{Drawing, Scene};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::score::outcome::Outcome;
-use crate::score::variant::Variant;
+use crate::score::outcome::variant::Variant;
 use crate::search::check::singular_values::Summary;
 use maud::{Markup, html};
 

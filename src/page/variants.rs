@@ -6,7 +6,7 @@ use super::number::Number;
 use super::workload::{Workload, workload};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::AnalysisError;
-use crate::score::variant::Variant;
+use crate::score::outcome::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;

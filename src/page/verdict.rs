@@ -4,7 +4,7 @@ use super::contents::{Page, Redesigns};
 use crate::format::number::{cost, grouped};
 use crate::format::phrase::{list, plural};
 use crate::model::mechanism::{Mechanism, Role};
-use crate::score::variant::Variant;
+use crate::score::outcome::variant::Variant;
 use crate::search::answer::k_best::Assignment;
 use crate::view::analysis::{Analysis, State};
 use crate::view::search::conditions::in_state;

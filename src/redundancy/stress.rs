@@ -8,8 +8,8 @@ use crate::linalg::echelon::{Echelon, combination, relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::redundancy::borne::{Borne, Faces, Shares};
 use crate::redundancy::joint_wrench::JointWrenches;
+use crate::redundancy::stress_loads::{Borne, Faces, Shares};
 use itertools::Itertools;
 
 /// What a self-stress does to the parts.

@@ -10,7 +10,7 @@ use crate::rank::method::registry;
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
 use crate::sweep::Sweep;
 use crate::sweep::forces::{Forces, forces};
-use crate::sweep::known::Known;
+use crate::sweep::known_or_why::Known;
 use crate::sweep::redesigns::{Redesigns, redesigns};
 use crate::sweep::space::Sample;
 use crate::sweep::stroke::{OverStroke, over_stroke};

@@ -81,8 +81,8 @@ fn ranking_terms_are_listed_in_their_three_files() {
     exhaustive.sort();
     let of_the_page = [
         "src/model/ranking.rs",
-        "src/score/lower_bound.rs",
-        "src/score/terms.rs",
+        "src/score/evaluation/lower_bound.rs",
+        "src/score/evaluation/terms.rs",
     ];
     assert_eq!(exhaustive, of_the_page);
     assert!(of_the_page.iter().all(|f| PAGE.contains(f)));

@@ -4,7 +4,7 @@ use crate::common::{built_in, changed, count, json, out, ozols, text};
 use num_bigint::BigUint;
 use ozols::Mechanism;
 use ozols::accuracy::searching::record::{Record, Trial};
-use ozols::accuracy::searching::way::Way;
+use ozols::accuracy::searching::search_method::Way;
 use ozols::accuracy::searching::{Effort, MECHANISMS, pictures, trial};
 use ozols::accuracy::timing::{Machine, Stopwatch};
 use ozols::file::text::mechanism_from_str;

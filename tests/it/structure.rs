@@ -15,7 +15,7 @@ use ozols::model::joint_type::Freedom;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::modular;
 use ozols::redundancy::analysis::exact_field;
-use ozols::redundancy::share::shares;
+use ozols::redundancy::contour_shares::shares;
 use proptest::prelude::*;
 
 /// (σ in the order given, least, greatest) of each contour, by a rank for each.

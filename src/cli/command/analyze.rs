@@ -8,7 +8,7 @@ use crate::cli::option::load;
 use crate::cli::option::named::File;
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::output;
-use crate::file::read::motion::stroke;
+use crate::file::read::workload::motion::stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::registry;
 use crate::rank::method::{MobilityMethod, RankOfJ};

@@ -1,6 +1,6 @@
 //! `ozols bench`.
 
-use crate::accuracy::searching::way::Way;
+use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::searching::{Effort, MECHANISMS, pictures, table, trial};
 use crate::accuracy::timing::Stopwatch;
 use crate::cli::done::Done;

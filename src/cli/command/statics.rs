@@ -8,7 +8,7 @@ use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
-use crate::file::read::motion::stroke;
+use crate::file::read::workload::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};

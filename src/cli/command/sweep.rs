@@ -9,7 +9,7 @@ use crate::cli::option::request::Which;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
-use crate::file::read::motion::stroke;
+use crate::file::read::workload::motion::stroke;
 use crate::file::text::text_of;
 use crate::format::phrase::plural;
 use crate::score::request::Request;

@@ -2,7 +2,7 @@
 
 use crate::robots::convert::lost::Lost;
 use crate::robots::convert::scene::Scene;
-use crate::robots::parts::Ratio;
+use crate::robots::description::parts::Ratio;
 use std::collections::BTreeMap;
 
 /// What a joint follows.

@@ -10,8 +10,8 @@ use crate::robots::convert::payload::{Actuator, Command};
 use crate::robots::convert::plan::Moves;
 use crate::robots::convert::scene::{Scene, Text, name_of};
 use crate::robots::convert::text::attributes;
-use crate::robots::parts::Ratio;
-use crate::robots::single_freedoms::{Names, escape, number};
+use crate::robots::description::parts::Ratio;
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

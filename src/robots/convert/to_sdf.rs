@@ -11,7 +11,7 @@ use crate::robots::convert::payload::Dynamics;
 use crate::robots::convert::plan::{Moves, Single, singles};
 use crate::robots::convert::scene::{Scene, Text, limits, name_of};
 use crate::robots::convert::text::pose;
-use crate::robots::single_freedoms::{Names, escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number, numbers};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fmt::Write;

@@ -9,7 +9,7 @@ use crate::geom::rigid::Motion;
 use crate::robots::convert::mimics::mimics;
 use crate::robots::convert::payload::{Actuator, Command};
 use crate::robots::convert::scene::{Scene, Text, moves, name_of};
-use crate::robots::single_freedoms::{Names, escape, number};
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

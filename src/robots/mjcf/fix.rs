@@ -4,13 +4,13 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::geom::vector::Vector;
+use crate::robots::description::massless::Light;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Part;
 use crate::robots::edit::{Edits, Freed, Freeing};
-use crate::robots::light::Light;
+use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
-use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms.

@@ -2,12 +2,12 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
+use crate::robots::description::massless::Light;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Part;
 use crate::robots::edit::{Edits, Freeing};
-use crate::robots::light::Light;
-use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
+use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::sdf::include::is_old;
-use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms.

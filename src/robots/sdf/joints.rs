@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{Motion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
-use crate::robots::parts::{Part, Ratio, Robot, free};
+use crate::robots::description::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::scene::{Scene, absolute, end, located, of_joint};
 use crate::robots::urdf::read::{same_link, unknown_type};

@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::robots::convert::payload::{Dynamics, Payload, Shape, Solid, Use, Weight, Words};
-use crate::robots::parts::Robot;
+use crate::robots::description::parts::Robot;
 use crate::robots::sdf::read::pose;
 use crate::robots::xml::Element;
 

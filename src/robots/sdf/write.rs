@@ -2,11 +2,11 @@
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::robots::description::massless::Light;
+use crate::robots::description::mimic::{Follows, mimics, settled, stand_in};
+use crate::robots::description::physical::{head, left_out, moving};
 use crate::robots::formats::Written;
-use crate::robots::light::Light;
-use crate::robots::mimic::{Follows, mimics, settled, stand_in};
-use crate::robots::physical::{head, left_out, moving};
-use crate::robots::single_freedoms::{
+use crate::robots::mechanism::series_of_single_joints::{
     Names, Place, Single, comment, escape, number, numbers, place, singles,
 };
 use std::fmt::Write;

@@ -4,14 +4,14 @@ use crate::closure::tree::{Step, spanning_tree};
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
+use crate::robots::description::massless::Light;
+use crate::robots::description::mimic::{mimics, settled, stand_in};
+use crate::robots::description::physical::{self, GRAM, inertial, left_out, moving};
 use crate::robots::formats::Written;
-use crate::robots::light::Light;
-use crate::robots::mimic::{mimics, settled, stand_in};
-use crate::robots::physical::{self, GRAM, inertial, left_out, moving};
-use crate::robots::problem::ExportError;
-use crate::robots::single_freedoms::{
+use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
+use crate::robots::problem::ExportError;
 use std::fmt::Write;
 
 /// What a file collects.

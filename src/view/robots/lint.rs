@@ -13,7 +13,7 @@ use crate::format::number::{brief, cost};
 use crate::format::phrase::plural;
 use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::redundancy::held_twice::HeldTwice;
+use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
 use crate::robots::{Count, Imported, Origin, Place};
 use itertools::Itertools;

@@ -4,9 +4,9 @@ use crate::format::number::{cost, grouped, significant};
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
-use crate::score::cases::Gripped;
-use crate::score::ranking::{Ranked, RankedPool};
-use crate::score::terms::Scores;
+use crate::score::evaluation::load_cases::Gripped;
+use crate::score::evaluation::terms::Scores;
+use crate::score::outcome::ranking::{Ranked, RankedPool};
 use itertools::Itertools;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 

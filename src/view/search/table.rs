@@ -2,7 +2,7 @@
 
 use crate::format::number::{cost, grouped};
 use crate::score::outcome::Outcome;
-use crate::score::variant::{Variant, in_words};
+use crate::score::outcome::variant::{Variant, in_words};
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Opinion, Second};
 use crate::view::search::ranking;
 use crate::view::terminal::layout::{fit, table};

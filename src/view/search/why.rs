@@ -2,9 +2,9 @@
 
 use crate::format::number::brief;
 use crate::model::mechanism::{JointId, Mechanism};
+use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::Outcome;
-use crate::score::terms::Peak;
-use crate::score::why::{LetGo, SIDE_LOAD, Why, Whys};
+use crate::score::outcome::why::{LetGo, SIDE_LOAD, Why, Whys};
 use crate::search::answer::k_best::Assignment;
 use crate::terms::PairWords;
 use itertools::Itertools;

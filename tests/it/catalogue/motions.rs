@@ -5,7 +5,7 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::figures::{Figures, figures};
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::looks::Limits;
+use ozols::synthesis::layout_quality::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::workload::Workload;

@@ -9,8 +9,8 @@ use ozols::geom::exact::ExactField;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
+use ozols::redundancy::contour_shares::shares;
 use ozols::redundancy::measured::Measured;
-use ozols::redundancy::share::shares;
 
 /// Every closed walk that passes no link twice.
 fn walks(m: &Mechanism, joints: &[JointId]) -> Vec<Contour> {

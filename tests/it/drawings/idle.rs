@@ -7,7 +7,7 @@ use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::StateId;
 use ozols::motion::pose::Pose;
 use ozols::redundancy::analysis::{Method, analyse};
-use ozols::redundancy::wiggle::wiggle;
+use ozols::redundancy::idle_animation::wiggle;
 
 #[test]
 fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {

@@ -31,8 +31,8 @@ fn a_build_without_png_says_so() {
 
 #[cfg(feature = "png")]
 mod with_png {
-    use crate::common::{built_in, ozols};
     use super::refused;
+    use crate::common::{built_in, ozols};
     use ozols::draw::png::png;
     use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
     use ozols::file::text::mechanism_from_str;

@@ -6,7 +6,7 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::ClearanceSum;
-use ozols::score::evaluate::Evaluator;
+use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::search::answer::k_best::Assignment;
 
 #[test]

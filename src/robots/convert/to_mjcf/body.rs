@@ -8,7 +8,7 @@ use crate::robots::convert::scene::{limits, moves};
 use crate::robots::convert::solid::turned;
 use crate::robots::convert::text::{attributes, is_straight, pos_axes, quaternion};
 use crate::robots::convert::to_mjcf::Writer;
-use crate::robots::single_freedoms::{escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
 /// The lines of all bodies.

@@ -4,7 +4,7 @@ use crate::geom::rigid::Motion;
 use crate::robots::convert::plan::{Single, ending};
 use crate::robots::convert::text::{attributes, pos_axes};
 use crate::robots::convert::to_mjcf::Writer;
-use crate::robots::single_freedoms::escape;
+use crate::robots::mechanism::series_of_single_joints::escape;
 
 impl Writer<'_> {
     pub(super) fn closing(&mut self, j: usize) {

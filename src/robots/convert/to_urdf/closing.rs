@@ -5,7 +5,7 @@ use crate::geom::vector::{Vector, X, Y, Z, scale};
 use crate::robots::convert::plan::{Moves, Single, ending};
 use crate::robots::convert::text::xyz_rpy;
 use crate::robots::convert::to_urdf::{Loops, Writer};
-use crate::robots::single_freedoms::{escape, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use std::fmt::Write;
 
 /// An end of a loop: a link of the file and the place on it.

@@ -7,7 +7,7 @@ use crate::robots::convert::plan::{Branch, Moves, Single};
 use crate::robots::convert::scene::{limits, name_of};
 use crate::robots::convert::text::xyz_rpy;
 use crate::robots::convert::to_urdf::{ENDLESS, Loops, Writer};
-use crate::robots::single_freedoms::{escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
 impl Writer<'_> {
