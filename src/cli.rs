@@ -1,24 +1,36 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
 mod command;
+mod done;
 mod examples;
 mod option;
 mod terminal;
 
-use crate::cli::option::args::Command;
-use clap::Parser;
+use crate::cli::command::Command;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
+use clap::{CommandFactory, Parser};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// How a command ended without failing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Done {
-    /// It did what was asked.
-    Found,
-    /// There was nothing to be found, or something was that should not be there.
-    Nothing,
-    /// Some of it failed, which was said, and the rest was done.
-    Partly,
+/// A search engine for statically determinate mechanisms.
+///
+/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), to a robot description (.urdf, .xml, .sdf) or
+/// to a CAD assembly (FreeCAD's .FCStd, OndselSolver's .asmt; see `ozols import` for more control), `-` for standard input,
+/// or the name of a built-in mechanism (see `ozols list`).
+#[derive(Debug, Parser)]
+#[command(
+    name = "ozols",
+    version,
+    max_term_width = 100,
+    after_help = examples::MAIN
+)]
+struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    global: Global,
 }
 
 /// Runs the program.
@@ -33,7 +45,7 @@ pub fn run() -> ExitCode {
 /// bad input or failure, 130 interrupted by Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
 pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
-    let args = match option::args::Args::try_parse_from(&words) {
+    let args = match Args::try_parse_from(&words) {
         Ok(args) => args,
         Err(_) if words.len() == 1 => {
             return finish(terminal::output::to(None, |out| {
@@ -48,33 +60,33 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
             return code;
         }
     };
-    let result = prepare(&args).and_then(|()| match &args.command {
-        Command::Analyze(a) => command::analyze::run(&args, a),
-        Command::Search(a) => command::search::run(&args, a),
-        Command::Statics(a) => command::statics::run(&args, a),
-        Command::Grip(a) => command::grip::run(&args, a),
-        Command::Drive(a) => command::drive::run(&args, a),
-        Command::Verify(a) => command::verify::run(&args, a),
+    let result = prepare(&args.global).and_then(|()| match &args.command {
+        Command::Analyze(a) => command::analyze::run(&args.global, a),
+        Command::Search(a) => command::search::run(&args.global, a),
+        Command::Statics(a) => command::statics::run(&args.global, a),
+        Command::Grip(a) => command::grip::run(&args.global, a),
+        Command::Drive(a) => command::drive::run(&args.global, a),
+        Command::Verify(a) => command::verify::run(&args.global, a),
         Command::Import(a) => command::import::run(a),
         Command::Convert(a) => command::convert::run(a),
         Command::Lint(a) => command::lint::run(a),
         Command::Fix(a) => command::fix::run(a),
-        Command::Draw(a) => command::draw::run(&args, a),
-        Command::Report(a) => command::report::run(&args, a),
-        Command::Watch(a) => command::watch::run(&args, a),
-        Command::Export(a) => command::export::run(&args, a),
-        Command::Accuracy(a) => command::accuracy::run(&args, a),
-        Command::Bench(a) => command::bench::run(&args, a),
-        Command::Catalog(a) => command::catalog::run(&args, a),
-        Command::Sweep(a) => command::sweep::run(&args, a),
-        Command::Check(a) => command::check::run(&args, a),
-        Command::New(a) => command::new::run(&args, a),
+        Command::Draw(a) => command::draw::run(&args.global, a),
+        Command::Report(a) => command::report::run(&args.global, a),
+        Command::Watch(a) => command::watch::run(&args.global, a),
+        Command::Export(a) => command::export::run(&args.global, a),
+        Command::Accuracy(a) => command::accuracy::run(&args.global, a),
+        Command::Bench(a) => command::bench::run(&args.global, a),
+        Command::Catalog(a) => command::catalog::run(&args.global, a),
+        Command::Sweep(a) => command::sweep::run(&args.global, a),
+        Command::Check(a) => command::check::run(&args.global, a),
+        Command::New(a) => command::new::run(&args.global, a),
         Command::List(a) => command::list::run(a),
         Command::Show(a) => command::check::show(a),
         Command::Schema => command::check::schema(),
         Command::Explain(a) => command::explain::run(a),
-        Command::Completions(a) => command::completions::run(a),
-        Command::Man(a) => command::man::run(a),
+        Command::Completions(a) => command::completions::run(a, Args::command()),
+        Command::Man(a) => command::man::run(a, Args::command()),
     });
     finish(result)
 }
@@ -98,7 +110,7 @@ fn finish(result: anyhow::Result<Done>) -> u8 {
 /// Most threads: each takes some memory, and more of them than processors are of no use.
 const THREADS: usize = 1024;
 
-fn prepare(args: &option::args::Args) -> anyhow::Result<()> {
+fn prepare(args: &Global) -> anyhow::Result<()> {
     terminal::interrupt::listen()?;
     terminal::spinner::show(args.quiet);
     if args.quiet {

@@ -2,12 +2,12 @@
 //! back, looked over, and made into templates.
 
 pub(crate) mod bounded;
-mod controls;
+mod control_characters;
 pub mod costs;
 mod digits;
 mod doubted;
 pub mod findings;
-mod guessed;
+mod guessed_directions;
 pub(crate) mod leftover;
 pub mod lint;
 pub mod locate;

@@ -3,8 +3,8 @@
 //! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
 //! formulas and numbers fail, [`robots`] (import and export), [`assemblies`] of CAD programs, [`beside`] other tools, [`catalog`] (structures
-//! that nobody has drawn yet), [`sweep`] (parameters of a file over a grid or at random), and [`speed`]. For programs: [`rust`] and [`python`]. Who carries the program
-//! on reads [`architecture`] and [`adding`]; what changed is in the [`changelog`].
+//! that nobody has drawn yet), [`sweep`] (parameters of a file over a grid or at random), and [`speed`]. For programs: [`rust`] and [`python`]. Contributors:
+//! read [`architecture`] and [`adding`]; what changed is in the [`changelog`].
 //!
 //! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
 

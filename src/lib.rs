@@ -54,8 +54,8 @@ pub use api::{Error, Scheme, analyze, draw, export, import, search};
 pub use model::mechanism::Mechanism;
 pub use redundancy::analysis::StateAnalysis as Analysis;
 pub use score::outcome::Outcome;
+pub use score::outcome::variant::Variant;
 pub use score::request::Request;
-pub use score::variant::Variant;
 
 pub mod accuracy;
 mod api;

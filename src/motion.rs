@@ -1,8 +1,8 @@
 //! Poses of closed mechanisms, and mechanisms followed along a drive.
 
 pub mod close;
+pub mod drive_range;
 pub mod follow;
 pub mod jaws;
 pub mod pose;
-pub mod way;
 pub mod working;

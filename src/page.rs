@@ -7,6 +7,7 @@
 #[cfg(feature = "cli")]
 pub mod catalogue;
 mod certainty;
+mod contents;
 mod data;
 mod explorer;
 mod figures;
@@ -14,77 +15,24 @@ mod number;
 mod policy;
 mod stage;
 mod states;
+mod style;
 mod symbols;
 mod variants;
 mod verdict;
 mod workload;
 
-use crate::draw::{Drawing, Scene};
 use crate::format::plain::straight;
-use crate::model::mechanism::Mechanism;
-use crate::redundancy::analysis::{AnalysisError, StateAnalysis};
-use crate::score::outcome::Outcome;
-use crate::score::variant::Variant;
-use crate::search::check::singular_values::Summary;
+use crate::redundancy::analysis::AnalysisError;
 use crate::view::analysis::Analysis;
 use data::Data;
 use maud::{Markup, PreEscaped, html};
+use policy::POLICY;
+use style::STYLE;
 use symbols::Drawn;
 
+pub use contents::{Commands, Page, Redesigns, SHOWN};
 pub use symbols::swaps;
 
-/// Idle freedoms, and self-stresses, of a state that are shown in space.
-pub const SHOWN: usize = 24;
-
-/// Everything a page tells.
-#[derive(Debug)]
-pub struct Page<'a> {
-    /// The mechanism.
-    pub mechanism: &'a Mechanism,
-    /// Its figures in every state, in order.
-    pub states: &'a [StateAnalysis],
-    /// Whether the page is written anew when the mechanism changes, and is to show that.
-    pub live: bool,
-    /// Its redesigns, or why none were searched.
-    pub redesigns: Result<Redesigns<'a>, String>,
-    /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.
-    pub ideas: Option<Redesigns<'a>>,
-    /// It in space in each state, to be turned and moved, where there is more to see than in a drawing; with [`SHOWN`] idle
-    /// freedoms and self-stresses at most.
-    pub scenes: Vec<Option<(Drawing, Scene)>>,
-    /// How to get the same from the command line.
-    pub commands: Commands,
-}
-
-/// What a search found.
-#[derive(Debug)]
-pub struct Redesigns<'a> {
-    /// Counts and conditions.
-    pub found: &'a Outcome,
-    /// The variants of the page, in their order.
-    pub variants: Vec<Variant<'a>>,
-    /// What second opinions and other poses say of them.
-    pub summary: Summary,
-    /// Whether the giving was interrupted.
-    pub interrupted: bool,
-}
-
-/// How to get what a page shows from the command line: commands quoted for a shell.
-#[derive(Debug, Clone)]
-pub struct Commands {
-    /// What each gives, and the command.
-    pub rows: Vec<(String, String)>,
-    /// The same about one variant, with `{}` for its number; none where other commands cannot be asked the same.
-    pub variant: Vec<(String, String)>,
-    /// The same about one idea.
-    pub idea: Vec<(String, String)>,
-    /// A longer list with other options at some joints: a command with `{}` for them.
-    pub longer: String,
-}
-
-const STYLE: &str = include_str!("page/page.css");
-/// What stands for the policy until all that it allows is written.
-const POLICY: &str = "default-src 'none'";
 /// The script by idea, in the order it is run.
 const SCRIPT: [&str; 18] = [
     include_str!("page/script/data.js"),
@@ -193,17 +141,4 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
         "\n"
     };
     Ok(policy::named(&straight(&markup.into_string()), POLICY))
-}
-
-impl Commands {
-    fn html(&self) -> Markup {
-        html! {
-            dl.commands {
-                @for (what, command) in &self.rows {
-                    dt { (what) }
-                    dd { code { (command) } }
-                }
-            }
-        }
-    }
 }

@@ -2,18 +2,18 @@
 //! what an over-constrained assembly is stressed with.
 
 pub mod analysis;
-pub mod borne;
+pub mod contour_shares;
+pub mod duplicate_constraints;
 pub mod external;
 pub mod figures;
-pub mod held_twice;
-pub mod idle;
+pub mod idle_animation;
 mod joint_wrench;
+pub mod local_mobility;
 pub mod measured;
 pub mod motion;
 pub mod moved;
-pub mod over_motion;
+pub mod other_poses;
 pub mod release;
-pub mod share;
 pub mod stress;
-pub mod wiggle;
+pub mod stress_loads;
 pub mod with_drives_held;

@@ -1,41 +1,28 @@
 //! Robot descriptions (URDF, MJCF, SDF) and CAD assemblies (FreeCAD, OndselSolver) read as mechanisms, and mechanisms written for other programs.
 
 mod asmt;
-mod build;
 mod cad;
-mod close;
 pub mod convert;
-mod coupling;
-mod digits;
+mod description;
 mod edit;
-mod emit;
 mod fcstd;
 mod fix;
 pub mod formats;
 mod graph;
 mod import;
-mod kinematics;
-mod light;
-mod loops;
-mod mimic;
+mod mechanism;
 mod mjcf;
-mod offers;
 mod options;
-mod origin;
-mod outputs;
-mod parts;
-mod physical;
 mod problem;
 mod sdf;
-mod single_freedoms;
 mod urdf;
 mod warning;
 mod xml;
 
+pub use description::origin::{Origin, Place};
 pub use fix::fix;
 pub use formats::is_description;
 pub use import::{Imported, import};
 pub use options::{Options, Reader};
-pub use origin::{Origin, Place};
 pub use problem::ExportError;
 pub use warning::{Count, Kept, Note, Report};

@@ -2,10 +2,11 @@
 //!
 //! # Scores
 //!
-//! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. What the joints bear, how well
-//! conditioned the equations are and what clearances do to the outputs does not add up; it is computed variant by variant
-//! ([`evaluate`]) for a pool of the cheapest, and [`ranking`] says whether a variant outside of the pool could still win.
-//! What it is computed for, the poses of the stroke under the file's loads and the parts that a grip holds, is in [`cases`].
+//! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. What the joints bear, how
+//! well conditioned the equations are and what clearances do to the outputs does not add up; it is computed variant by
+//! variant ([`evaluate`](evaluation::evaluate)) for a pool of the cheapest, and [`ranking`](outcome::ranking) says whether
+//! a variant outside of the pool could still win. What it is computed for, the poses of the stroke under the file's loads
+//! and the parts that a grip holds, is in [`load_cases`](evaluation::load_cases).
 //!
 //! # Speed
 //!
@@ -14,39 +15,20 @@
 //! gripper is to copy some 24 rows of 24 + 7 numbers, one elimination with seven right sides (the loads, and a unit force
 //! along each axis on each jaw), 13 sums of wrenches and the two ends of a spectrum of 24 values.
 //!
-//! `cargo bench --bench score` gives variants a second on one and two threads. `ozols search gripper-10-loaded --pool 400000
-//! --check none --threads 1` takes 3.3 s of processor time (release build, three runs, other work on the machine): 8.4 µs a
-//! variant with the giving and sorting of the variants, that is 1.2e5 variants a second and core. By `perf record` on the
-//! bench the [`spectrum`] limits it with two thirds of the time; wrenches and elimination take a sixth each.
+//! `cargo bench --bench score` gives variants a second on one and two threads. `ozols search gripper-10-loaded --pool
+//! 400000 --check none --threads 1` takes 3.3 s of processor time (release build, three runs, other work on the machine):
+//! 8.4 µs a variant with the giving and sorting of the variants, that is 1.2e5 variants a second and core. By `perf
+//! record` on the bench the [`spectrum`](evaluation::spectrum) limits it with two thirds of the time; wrenches and
+//! elimination take a sixth each.
 //!
 //! # Proof
 //!
-//! Variants come in order of cost and no more than a block of them is held, so a pool may be as large as the space. It ends
-//! early once cost and the [`lower_bound`] of the other terms put all later ones behind. Conditioning has no bound but 0, nor has
-//! the peak moment where every joint may be exchanged for one that bears none.
+//! Variants come in order of cost and no more than a block of them is held, so a pool may be as large as the space. It
+//! ends early once cost and the [`lower_bound`](evaluation::lower_bound) of the other terms put all later ones behind.
+//! Conditioning has no bound but 0, nor has the peak moment where every joint may be exchanged for one that bears none.
 
-pub mod bearing;
-pub mod cases;
-pub mod costs;
-pub mod elimination;
-pub mod evaluate;
+pub mod evaluation;
 pub mod joint_types;
-pub mod lower_bound;
-mod offers;
 pub mod outcome;
-pub mod pareto;
-pub mod prepared;
-mod ranked;
-pub mod ranking;
 pub mod request;
-mod request_error;
 pub mod run;
-pub mod slow;
-pub mod spectrum;
-pub mod table;
-pub mod terms;
-mod unlisted;
-pub mod variant;
-pub mod variants;
-pub mod why;
-mod would_help;

@@ -4,7 +4,7 @@
 //! What is found holds at the samples. Nothing is said of what lies between them.
 
 pub mod forces;
-pub mod known;
+pub mod known_or_why;
 pub mod redesigns;
 pub mod row;
 pub mod space;

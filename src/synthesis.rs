@@ -7,7 +7,7 @@
 mod coordinate;
 pub mod figures;
 pub mod layout;
-pub mod looks;
+pub mod layout_quality;
 pub mod mechanism;
 pub mod place;
 pub mod rules;

@@ -48,12 +48,13 @@ impl Written {
 
     fn hinge(&mut self, a: usize, b: usize) {
         let (x, y) = (self.below(997), self.below(997));
-        let (z, axis) = match self.spatial {
-            true => (
+        let (z, axis) = if self.spatial {
+            (
                 self.below(997),
                 [self.below(19) + 1, self.below(19), self.below(19)],
-            ),
-            false => (0, [0, 0, 1]),
+            )
+        } else {
+            (0, [0, 0, 1])
         };
         let _ = write!(
             self.text,

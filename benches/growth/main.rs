@@ -98,9 +98,12 @@ fn main() {
                 .sum();
             let (nodes, least, whole) = built(&m, false);
             let all_rows = built(&m, true);
-            let said = |(ms, whole): (f64, bool)| match whole {
-                true => format!("{ms:.1} ms"),
-                false => "over 200,000 nodes".to_owned(),
+            let said = |(ms, whole): (f64, bool)| {
+                if whole {
+                    format!("{ms:.1} ms")
+                } else {
+                    "over 200,000 nodes".to_owned()
+                }
             };
             let line = format!(
                 "| {name} | {contours} | 10^{variants:.0} | {nodes} | {} | {} |\n",

@@ -5,14 +5,14 @@
 //! else by the whole diagram over that prime, with as many variants as may be looked at drawn at random. A ranking is judged only
 //! by one of which it is proven that no further variant can win. Verdicts are the same on every run; only times differ.
 
-mod looked;
+mod brute_judgement;
+mod ground_truth;
 pub mod pictures;
 pub mod record;
+pub mod search_method;
 pub mod table;
-mod truth;
-pub mod way;
 
-pub use truth::Effort;
+pub use ground_truth::Effort;
 
 use super::timing::{Stopwatch, Timing};
 use crate::model::mechanism::Mechanism;
@@ -22,11 +22,11 @@ use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::Approximate;
 use crate::search::check::pruned::Pruned;
 use crate::search::diagram::Stop;
+use ground_truth::{Truth, listed};
 use rayon::prelude::*;
 use record::{Record, Trial};
+use search_method::Way;
 use std::hint::black_box;
-use truth::{Truth, listed};
-use way::Way;
 
 /// The built-in mechanisms that are looked at unless others are named: few variants and many, special geometry, coupled
 /// joints, planar mode, loads to rank by.
@@ -76,7 +76,7 @@ pub fn trial(
         .diagrams
         .as_ref()
         .map_or(0, |d| d.determinate.nodes.max(d.admissible.nodes));
-    let ways = way::all(nodes, ranked.then_some(effort.pool));
+    let ways = search_method::all(nodes, ranked.then_some(effort.pool));
     let mut records = Vec::with_capacity(ways.len());
     for (n, &way) in ways.iter().enumerate() {
         progress(way, n, ways.len());
@@ -110,8 +110,9 @@ fn by_diagram(
     if matches!(way, Way::Nodes(_)) && outcome.stop == Stop::Exhausted {
         return Ok(None);
     }
-    let judge = |choices: &[usize]| Ok::<_, RunError>(looked::by_diagram(&outcome, choices));
-    let judged = looked::judge_all(&truth.looked, judge)?;
+    let judge =
+        |choices: &[usize]| Ok::<_, RunError>(brute_judgement::by_diagram(&outcome, choices));
+    let judged = brute_judgement::judge_all(&truth.looked, judge)?;
     let mut record = Record {
         way,
         counting: None,
@@ -130,7 +131,7 @@ fn by_diagram(
             ..request.clone()
         };
         record.counting = Some(watch.time(|| listed(&unranked, &request)).1);
-        record.counts = truth.counts_right(&looked::cells_of_counts(&outcome));
+        record.counts = truth.counts_right(&brute_judgement::cells_of_counts(&outcome));
     }
     Ok(Some(record))
 }
@@ -159,21 +160,24 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
             Look::Exact(all) => Some(all.look(choices)),
             Look::Pruned(all) => all.look(choices),
         };
-        let judged = seen.map(|seen| looked::judged(&search, choices, seen));
+        let judged = seen.map(|seen| brute_judgement::judged(&search, choices, seen));
         Ok(judged.transpose()?.flatten())
     };
-    let (judged, mut time) = watch.time(|| looked::judge_all::<RunError>(&truth.looked, judge));
+    let (judged, mut time) =
+        watch.time(|| brute_judgement::judge_all::<RunError>(&truth.looked, judge));
     let judged = judged?;
     match (&look, truth.whole) {
         // One by one the branches would be gone down again for each.
         (Look::Pruned(all), _) => time = branches(truth, all, watch),
         (_, true) => {}
-        (_, false) => time = time.scaled(looked::ratio(&search.size(), truth.looked.len())),
+        (_, false) => {
+            time = time.scaled(brute_judgement::ratio(&search.size(), truth.looked.len()))
+        }
     }
     let counting = time.plus(ready.median);
     let whole = truth.whole.then_some(&judged);
-    let cells = whole.map(|j| looked::cells(&search, j));
-    let best = whole.map(|j| looked::cheapest(&search, &truth.looked, j, truth.top));
+    let cells = whole.map(|j| brute_judgement::cells(&search, j));
+    let best = whole.map(|j| brute_judgement::cheapest(&search, &truth.looked, j, truth.top));
     let best = match best {
         Some(best) if truth.pool.is_none() => truth.best_right(&best)?,
         _ => None,
@@ -192,7 +196,8 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
 /// The time of all branches of a search that prunes, or of some in proportion to all: those below beginnings drawn at random,
 /// each with the same chance, of so many variants together as are looked at.
 fn branches(truth: &Truth, all: &Pruned, watch: Stopwatch) -> Timing {
-    let (beginnings, of) = looked::beginnings(&truth.search, all.order(), truth.looked.len());
+    let (beginnings, of) =
+        brute_judgement::beginnings(&truth.search, all.order(), truth.looked.len());
     let visit = |beginning: &Vec<usize>| {
         let mut found = 0usize;
         all.visit(beginning, &mut |_, seen| found += black_box(seen).motion);
@@ -200,7 +205,7 @@ fn branches(truth: &Truth, all: &Pruned, watch: Stopwatch) -> Timing {
     };
     let all_of_them = || beginnings.par_iter().map(visit).sum::<usize>();
     let time = watch.time(all_of_them).1;
-    time.scaled(looked::ratio(&of, beginnings.len()))
+    time.scaled(brute_judgement::ratio(&of, beginnings.len()))
 }
 
 /// What looks at a variant.

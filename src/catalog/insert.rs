@@ -7,9 +7,10 @@ use crate::geom::vector::sides;
 use crate::model::ranking::Term;
 use crate::motion::follow::Why;
 use crate::synthesis::structure::Structure;
+use itertools::Itertools;
 use num_bigint::BigUint;
 use rusqlite::types::ToSqlOutput;
-use rusqlite::{Transaction, params};
+use rusqlite::{ToSql, Transaction};
 use std::collections::BTreeMap;
 
 /// Enters a row.
@@ -33,30 +34,44 @@ fn count(n: &BigUint) -> ToSqlOutput<'static> {
     }
 }
 
+/// Enters a row of a table, each value by the name of its column.
+fn put(t: &Transaction<'_>, table: &str, row: &[(&str, &dyn ToSql)]) -> rusqlite::Result<()> {
+    let names = row.iter().map(|(name, _)| *name).join(", ");
+    let places = row.iter().map(|_| "?").join(", ");
+    let sql = format!("INSERT OR REPLACE INTO {table} ({names}) VALUES ({places})");
+    let values: Vec<&dyn ToSql> = row.iter().map(|(_, value)| *value).collect();
+    t.prepare_cached(&sql)?.execute(&*values)?;
+    Ok(())
+}
+
 fn structure(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
     let (s, r) = (&row.structure, &row.structure.roles);
-    t.prepare_cached(
-        "INSERT OR REPLACE INTO structures VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
-    )?
-    .execute(params![
-        s.id(),
-        s.name(),
-        row.chain(),
-        number(s.chain.links()),
-        number(s.chain.joint_count()),
-        number(r.frame),
-        number(r.driver),
-        number(r.jaws[0]),
-        number(r.jaws[1]),
-        r.jaws.get(2).map(|&l| number(l)),
-        s.form.input.name(),
-        s.form.symmetry.name(),
-        s.form.parallel,
-        number(row.jaws_at_frame),
-        row.truss,
-        row.graph_symmetric,
-        row.laid.as_ref().err().map(ToString::to_string),
-    ])?;
+    put(
+        t,
+        "structures",
+        &[
+            ("id", &s.id()),
+            ("name", &s.name()),
+            ("chain", &row.chain()),
+            ("links", &number(s.chain.links())),
+            ("joints", &number(s.chain.joint_count())),
+            ("frame", &number(r.frame)),
+            ("driver", &number(r.driver)),
+            ("jaw_a", &number(r.jaws[0])),
+            ("jaw_b", &number(r.jaws[1])),
+            ("jaw_c", &r.jaws.get(2).map(|&l| number(l))),
+            ("input", &s.form.input.name()),
+            ("symmetry", &s.form.symmetry.name()),
+            ("parallel", &s.form.parallel),
+            ("jaws_at_frame", &number(row.jaws_at_frame)),
+            ("truss", &row.truss),
+            ("graph_symmetric", &row.graph_symmetric),
+            (
+                "no_layout",
+                &row.laid.as_ref().err().map(ToString::to_string),
+            ),
+        ],
+    )?;
     Ok(())
 }
 
@@ -70,74 +85,78 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
     let end = |w: Option<Why>| w.map(Why::word);
     let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded(t[k]));
     let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
-    t.prepare_cached(
-        "INSERT OR REPLACE INTO layouts VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, \
-         ?19, ?20, ?21, ?22, ?23, ?24, ?25, ?26, ?27, ?28, ?29, ?30, ?31, ?32, ?33, ?34)",
-    )?
-    .execute(params![
-        id,
-        laid.file,
-        laid.layout.start,
-        number(l.crossings),
-        rounded(l.ratio),
-        rounded(l.transmission),
-        rounded(laid.size()),
-        rounded(f.openings[0]),
-        rounded(f.openings[1]),
-        rounded(f.travel),
-        if f.closes > 0.0 { 1 } else { -1 },
-        rounded(f.force[0]),
-        rounded(f.force[1]),
-        rounded(f.force[2]),
-        f.jaws[0].name(),
-        f.jaws[1].name(),
-        f.jaws.get(2).map(|m| m.name()),
-        tip(0, 0),
-        tip(0, 1),
-        tip(1, 0),
-        tip(1, 1),
-        tip(2, 0),
-        tip(2, 1),
-        rounded(turn.to_degrees()),
-        end(f.ends[0]),
-        end(f.ends[1]),
-        number(laid.as_built.0),
-        number(laid.as_built.1),
-        known(&laid.finite),
-        count(&laid.determinate(None)),
-        count(&laid.determinate(Some(1))),
-        count(&laid.orbits()),
-        certainty(laid.exact),
-        laid.ideas.first().map(|i| milli(i.cost_milli)),
-    ])?;
+    put(
+        t,
+        "layouts",
+        &[
+            ("structure", &id),
+            ("mechanism", &laid.file),
+            ("start", &laid.layout.start),
+            ("crossings", &number(l.crossings)),
+            ("link_ratio", &rounded(l.ratio)),
+            ("transmission", &rounded(l.transmission)),
+            ("area", &rounded(laid.size())),
+            ("opening_min", &rounded(f.openings[0])),
+            ("opening_max", &rounded(f.openings[1])),
+            ("travel", &rounded(f.travel)),
+            ("closes", &if f.closes > 0.0 { 1 } else { -1 }),
+            ("force_min", &rounded(f.force[0])),
+            ("force_mean", &rounded(f.force[1])),
+            ("force_max", &rounded(f.force[2])),
+            ("jaw_a_motion", &f.jaws[0].name()),
+            ("jaw_b_motion", &f.jaws[1].name()),
+            ("jaw_c_motion", &f.jaws.get(2).map(|m| m.name())),
+            ("tip_a_dx", &tip(0, 0)),
+            ("tip_a_dy", &tip(0, 1)),
+            ("tip_b_dx", &tip(1, 0)),
+            ("tip_b_dy", &tip(1, 1)),
+            ("tip_c_dx", &tip(2, 0)),
+            ("tip_c_dy", &tip(2, 1)),
+            ("jaw_turn", &rounded(turn.to_degrees())),
+            ("ends_closing", &end(f.ends[0])),
+            ("ends_opening", &end(f.ends[1])),
+            ("mobility", &number(laid.as_built.0)),
+            ("redundant", &number(laid.as_built.1)),
+            ("finite", &known(&laid.finite)),
+            ("determinate", &count(&laid.determinate(None))),
+            ("determinate_w1", &count(&laid.determinate(Some(1)))),
+            ("orbits_w1", &count(&laid.orbits())),
+            ("certainty", &certainty(laid.exact)),
+            (
+                "best_cost",
+                &laid.ideas.first().map(|i| milli(i.cost_milli)),
+            ),
+        ],
+    )?;
     found(t, &id, (&laid.counts, &laid.symmetric), &laid.ideas)
 }
 
 /// Enters a drawn mechanism.
 pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
     let all: BigUint = d.counts.values().sum();
-    t.prepare_cached(
-        "INSERT OR REPLACE INTO drawn VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
-    )?
-    .execute(params![
-        d.id,
-        d.name,
-        d.description,
-        number(d.size[0]),
-        number(d.size[1]),
-        number(d.size[2]),
-        d.mode,
-        d.input,
-        d.file,
-        number(d.as_built.0),
-        number(d.as_built.1),
-        d.finite,
-        count(&all),
-        count(&d.admissible),
-        certainty(d.exact),
-        number(d.ideas_asked),
-        d.ideas.first().map(|i| milli(i.cost_milli)),
-    ])?;
+    put(
+        t,
+        "drawn",
+        &[
+            ("id", &d.id),
+            ("name", &d.name),
+            ("description", &d.description),
+            ("links", &number(d.size[0])),
+            ("joints", &number(d.size[1])),
+            ("contours", &number(d.size[2])),
+            ("mode", &d.mode),
+            ("input", &d.input),
+            ("mechanism", &d.file),
+            ("mobility", &number(d.as_built.0)),
+            ("redundant", &number(d.as_built.1)),
+            ("finite", &d.finite),
+            ("determinate", &count(&all)),
+            ("admissible", &count(&d.admissible)),
+            ("certainty", &certainty(d.exact)),
+            ("ideas_asked", &number(d.ideas_asked)),
+            ("best_cost", &d.ideas.first().map(|i| milli(i.cost_milli))),
+        ],
+    )?;
     // Another search of the same mechanism may have kept more.
     for table in ["counts", "ideas"] {
         t.execute(
@@ -159,37 +178,43 @@ fn found(
     (of, symmetric): (&BTreeMap<(i64, u32), BigUint>, &Symmetric),
     list: &[IdeaRow],
 ) -> rusqlite::Result<()> {
-    let mut counts =
-        t.prepare_cached("INSERT OR REPLACE INTO counts VALUES (?1, ?2, ?3, ?4, ?5, ?6)")?;
     for (key, n) in of {
         let (own, orbits) = symmetric.split(key, n);
-        counts.execute(params![
-            id,
-            key.0,
-            key.1,
-            count(n),
-            count(&orbits),
-            count(&own)
-        ])?;
+        put(
+            t,
+            "counts",
+            &[
+                ("structure", &id),
+                ("mobility", &key.0),
+                ("changes", &key.1),
+                ("variants", &count(n)),
+                ("orbits", &count(&orbits)),
+                ("symmetric", &count(&own)),
+            ],
+        )?;
     }
-    let mut ideas = t.prepare_cached(
-        "INSERT OR REPLACE INTO ideas VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
-    )?;
     for (i, idea) in list.iter().enumerate() {
         let term = |t: Term| idea.scores.as_ref().map(|s| rounded(s.value(t)));
-        ideas.execute(params![
-            id,
-            number(i + 1),
-            idea.adds,
-            idea.changes,
-            choices(idea),
-            milli(idea.cost_milli),
-            idea.change_count,
-            count(&idea.variants),
-            term(Term::PeakForce),
-            term(Term::PeakMoment),
-            term(Term::OutputError).map(|x| rounded(1e3 * x)),
-        ])?;
+        put(
+            t,
+            "ideas",
+            &[
+                ("structure", &id),
+                ("place", &number(i + 1)),
+                ("adds", &idea.adds),
+                ("changes", &idea.changes),
+                ("choices", &choices(idea)),
+                ("cost", &milli(idea.cost_milli)),
+                ("change_count", &idea.change_count),
+                ("variants", &count(&idea.variants)),
+                ("peak_force", &term(Term::PeakForce)),
+                ("peak_moment", &term(Term::PeakMoment)),
+                (
+                    "output_error",
+                    &term(Term::OutputError).map(|x| rounded(1e3 * x)),
+                ),
+            ],
+        )?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{OptionEntry, OptionTable};
-use crate::synthesis::looks::Limits;
+use crate::synthesis::layout_quality::Limits;
 use crate::synthesis::mechanism::Menu;
 use crate::synthesis::structure::Form;
 use crate::synthesis::workload::Workload;
@@ -93,7 +93,7 @@ pub enum SpecError {
     },
     /// Links that are no range.
     #[error(
-        "links: {0:?} is no range of even numbers from 4 to {MOST_LINKS}, such as 4..8: chains of mobility 1 have an even number of links"
+        "links: {0:?} is not a range of even numbers from 4 to {MOST_LINKS}, such as 4..8: chains of mobility 1 have an even number of links"
     )]
     Links(String),
     /// A number out of its range.

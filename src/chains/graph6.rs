@@ -12,7 +12,7 @@ const FIRST: u8 = 63;
 #[non_exhaustive]
 pub enum Graph6Error {
     /// A character that graph6 does not use.
-    #[error("{0:?} is no character of graph6, which has those from ? to ~")]
+    #[error("{0:?} is not a character of graph6, which has those from ? to ~")]
     Character(char),
     /// Too many vertices, or none.
     #[error("chains have 1 to {MOST_LINKS} links, and this is a graph of {0}")]

@@ -1,7 +1,7 @@
 //! Ranges, ticks and their labels.
 
-use super::Scale;
-use super::look::{self, TICK};
+use super::data::Scale;
+use crate::chart::style::{self, TICK};
 use crate::format::number::minus;
 use crate::svg::text;
 
@@ -62,7 +62,7 @@ impl Label {
     /// Its width in pixels.
     pub(super) fn width(&self) -> f64 {
         let power = self.power.as_deref().unwrap_or_default();
-        text::width(&self.base, TICK) + text::width(power, look::RAISED)
+        text::width(&self.base, TICK) + text::width(power, style::RAISED)
     }
 }
 
@@ -129,7 +129,7 @@ impl Ruler {
         let mut end = f64::NEG_INFINITY;
         for (at, label) in labels {
             let (middle, half) = (at * length, label.width() / 2.0);
-            if middle - half < end + look::GAP {
+            if middle - half < end + style::GAP {
                 return true;
             }
             end = middle + half;
@@ -146,7 +146,7 @@ impl Ruler {
         for tick in &mut self.ticks {
             let half = tick.label.as_ref().map_or(0.0, Label::width) / 2.0;
             let (from, to) = (tick.at * length - half, tick.at * length + half);
-            if from < -before || to > length + after || from < end + look::GAP {
+            if from < -before || to > length + after || from < end + style::GAP {
                 tick.label = None;
             } else {
                 end = to;
@@ -260,7 +260,7 @@ fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
     if top < 6 && exponent >= -4 {
         let size = whole.unsigned_abs() as f64 * ten(exponent);
         let digits = format!("{size:.0$}", (-exponent).max(0) as usize);
-        return plain(format!("{sign}{}", look::grouped(&digits)));
+        return plain(format!("{sign}{}", style::grouped(&digits)));
     }
     let decimals = (top - exponent).max(0);
     let mantissa = whole.unsigned_abs() as f64 / ten(decimals);
@@ -302,9 +302,10 @@ fn log(lo: f64, hi: f64, fit: Fit, room: Room, zero: Option<i32>) -> Ruler {
         ruler.ticks = decades
             .map(|e| Tick {
                 at: ruler.fraction(f64::from(e)).clamp(0.0, 1.0),
-                label: Some(match Some(e) == zero {
-                    true => Label::plain("0".to_owned()),
-                    false => decade(e, plain),
+                label: Some(if Some(e) == zero {
+                    Label::plain("0".to_owned())
+                } else {
+                    decade(e, plain)
                 }),
             })
             .collect();
@@ -333,7 +334,7 @@ fn decade(exponent: i32, plain: bool) -> Label {
     }
     let digits = format!("{:.1$}", ten(exponent), (-exponent).max(0) as usize);
     Label {
-        base: look::grouped(&digits),
+        base: style::grouped(&digits),
         power: None,
     }
 }

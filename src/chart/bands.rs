@@ -1,9 +1,9 @@
 //! Regions of an axis, row by row.
 
 use super::axis::{Fit, Room, Ruler};
+use super::data::{Bands, Kind, Scale};
 use super::frame::{self, Head};
-use super::look::{PAD, TICK, WIDTH};
-use super::{Bands, Kind, Scale};
+use crate::chart::style::{PAD, TICK, WIDTH};
 use crate::format::number::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;
@@ -121,9 +121,10 @@ fn bar(xml: &mut Xml, kind: Kind, (from, to): (f64, f64), y: f64, tip: &str) {
         Kind::Bad => 5.0,
         Kind::None => 2.0,
     };
-    let (from, to) = match to - from < 2.0 {
-        true => (from - 1.0, to + 1.0),
-        false => (from, to),
+    let (from, to) = if to - from < 2.0 {
+        (from - 1.0, to + 1.0)
+    } else {
+        (from, to)
     };
     let rect = xml
         .tag("rect")

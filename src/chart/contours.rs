@@ -1,9 +1,9 @@
 //! A quantity over two others: a mark for each sample, and lines of equal value where the samples are a grid.
 
 use super::axis::{Fit, Label, Room, Ruler};
+use super::data::{Contours, Scale};
 use super::frame::{self, Head};
-use super::look::{PAD, TICK, WIDTH};
-use super::{Contours, Scale};
+use crate::chart::style::{PAD, TICK, WIDTH};
 use crate::format::csv;
 use crate::format::number::tooltip;
 use crate::svg::plane::Rect;

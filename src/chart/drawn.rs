@@ -1,9 +1,9 @@
 //! The series of a chart on paper: lines, marks, names.
 
+use super::data::{Series, Style};
 use super::frame;
 use super::labels;
-use super::look::{COLOURS, PAD, TICK, WIDTH};
-use super::{Series, Style};
+use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::number::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;
@@ -111,9 +111,10 @@ fn path(runs: &[Run], steps: bool) -> String {
             if n == 0 {
                 out += &format!("M{x} {y}");
             } else if (&x, &y) != (&last.0, &last.1) {
-                out += &match steps {
-                    true => format!("H{x}V{y}"),
-                    false => format!("L{x} {y}"),
+                out += &if steps {
+                    format!("H{x}V{y}")
+                } else {
+                    format!("L{x} {y}")
                 };
             }
             last = (x, y);

@@ -1,7 +1,7 @@
 //! What every picture has: the root element, the title, axes across.
 
 use super::axis::{Label, Ruler};
-use super::look::{PAD, STYLE, TICK};
+use crate::chart::style::{PAD, STYLE, TICK};
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::Xml;

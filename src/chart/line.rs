@@ -1,10 +1,10 @@
 //! Series over two axes, as SVG and as CSV.
 
 use super::axis::{Fit, Room, Ruler};
+use super::data::{Chart, Series, Style};
 use super::drawn::{self, Drawn, LEAD, SAMPLE, STEP};
 use super::frame::{self, Head};
-use super::look::{COLOURS, PAD, TICK, WIDTH};
-use super::{Chart, Series, Style};
+use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::csv;
 use crate::svg::plane::Rect;
 use crate::svg::text;
@@ -143,9 +143,10 @@ impl Chart {
             .map(|s| s.name.as_str())
             .collect::<Vec<_>>()
             .join(", ");
-        let sentence = match self.subtitle.is_empty() {
-            true => String::new(),
-            false => format!("{} ", self.subtitle),
+        let sentence = if self.subtitle.is_empty() {
+            String::new()
+        } else {
+            format!("{} ", self.subtitle)
         };
         let (x, y) = (&self.x.label, &self.y.label);
         let missing = match all - shown {

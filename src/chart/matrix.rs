@@ -1,8 +1,8 @@
 //! Verdicts in rows and columns.
 
+use super::data::{Cell, Kind, Matrix};
 use super::frame::{self, Head};
-use super::look::{PAD, WIDTH};
-use super::{Cell, Kind, Matrix};
+use crate::chart::style::{PAD, WIDTH};
 use crate::svg::text;
 use crate::svg::xml::{Xml, number};
 

@@ -1,7 +1,7 @@
 //! Closed curves at their true shape, such as the profile of a cam.
 
 use super::frame::{Head, begin, stroke};
-use super::look::{PAD, WIDTH};
+use crate::chart::style::{PAD, WIDTH};
 use crate::format::csv;
 use crate::format::number::significant;
 

@@ -1,7 +1,7 @@
 //! Vectors set head to tail, panel beside panel: plans of forces that close where they are in equilibrium.
 
 use super::frame::{Head, begin, stroke};
-use super::look::{PAD, WIDTH};
+use crate::chart::style::{PAD, WIDTH};
 use crate::format::csv;
 use crate::format::number::significant;
 use crate::svg::plane::{Point, Rect, add, norm, scale, sub, unit};
@@ -103,9 +103,10 @@ impl Polygons {
                 ((half - 70.0) / wide.max(1e-300)).min((PLAN - 50.0) / high.max(1e-300))
             });
             for (k, panel) in row.panels.iter().enumerate() {
-                let by = match row.one_scale {
-                    true => fits[0].min(fits[1]),
-                    false => fits[k],
+                let by = if row.one_scale {
+                    fits[0].min(fits[1])
+                } else {
+                    fits[k]
                 };
                 #[allow(clippy::cast_precision_loss, reason = "two columns")]
                 let left = PAD + k as f64 * (half + PAD);

@@ -1,4 +1,4 @@
-//! The commands, one a file.
+//! The commands, one a file; this is the list of them.
 
 pub(in crate::cli) mod accuracy;
 pub(in crate::cli) mod analyze;
@@ -27,3 +27,89 @@ pub(in crate::cli) mod sweep;
 pub(in crate::cli) mod types;
 pub(in crate::cli) mod verify;
 pub(in crate::cli) mod watch;
+
+use crate::cli::examples;
+use crate::cli::option::named::File;
+use clap::Subcommand;
+
+#[derive(Debug, Subcommand)]
+pub(in crate::cli) enum Command {
+    /// Mobility and redundant constraints in each state.
+    #[command(after_help = examples::ANALYZE)]
+    Analyze(analyze::Analyze),
+    /// Every redesign that removes the redundant constraints: exact counts and the best ones.
+    #[command(after_help = examples::SEARCH)]
+    Search(search::Search),
+    /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
+    #[command(after_help = examples::STATICS)]
+    Statics(statics::args::Statics),
+    /// What a lever gripper can hold, and the drive moment it takes; force closure of any clamped mechanism.
+    #[command(after_help = examples::GRIP)]
+    Grip(grip::args::Grip),
+    /// Size a torsional drive of two discs and run its programme.
+    #[command(after_help = examples::DRIVE)]
+    Drive(drive::Drive),
+    /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
+    #[command(after_help = examples::VERIFY)]
+    Verify(verify::Verify),
+    /// Make a mechanism file of a robot description (URDF, MJCF, SDF) or a CAD assembly (.FCStd, .asmt).
+    #[command(after_help = examples::IMPORT)]
+    Import(import::Import),
+    /// Carry a robot description over to another format, loops and all: MJCF, SDF, URDF, Drake's tags.
+    #[command(after_help = examples::CONVERT)]
+    Convert(convert::Convert),
+    /// Name each redundant constraint of robot descriptions and CAD assemblies, with its line and what removes it.
+    #[command(after_help = examples::LINT)]
+    Lint(lint::Lint),
+    /// Let the redundant constraints of a robot description or a CAD assembly go, in its own file.
+    #[command(after_help = examples::FIX)]
+    Fix(fix::Fix),
+    /// Draw the structural or the kinematic scheme as SVG.
+    #[command(after_help = examples::DRAW)]
+    Draw(draw::Draw),
+    /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
+    #[command(after_help = examples::REPORT)]
+    Report(report::Report),
+    /// Write the report anew whenever FILE changes, until Ctrl-C: a page to keep open beside an editor.
+    #[command(after_help = examples::WATCH)]
+    Watch(watch::Watch),
+    /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML; assemblies in their own.
+    #[command(after_help = examples::EXPORT)]
+    Export(export::Export),
+    /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
+    #[command(after_help = examples::ACCURACY)]
+    Accuracy(accuracy::Accuracy),
+    /// How right and how fast each way of searching is: diagram, brute force, floating point, budgets, pools.
+    #[command(after_help = examples::BENCH)]
+    Bench(bench::Bench),
+    /// The structures that a mechanism can have, before it is drawn: chains, and grippers made of them.
+    #[command(after_help = examples::CATALOG)]
+    Catalog(catalog::Catalog),
+    /// Take the parameters of a mechanism file over a grid or at random: where σ changes, which redesigns are best, peak forces.
+    #[command(after_help = examples::SWEEP)]
+    Sweep(sweep::SweepArgs),
+    /// Write a commented mechanism file to start from.
+    #[command(after_help = examples::NEW)]
+    New(new::New),
+    /// What a file describes, and what is wrong or doubtful in it.
+    #[command(after_help = examples::CHECK)]
+    Check(File),
+    /// The built-in mechanisms.
+    #[command(after_help = examples::LIST)]
+    List(list::List),
+    /// Print the file of a built-in mechanism, or the table of costs.
+    #[command(after_help = examples::SHOW)]
+    Show(check::Show),
+    /// Print the JSON Schema of the mechanism file.
+    #[command(after_help = examples::SCHEMA)]
+    Schema,
+    /// What a word in the output or the help means.
+    #[command(after_help = examples::EXPLAIN)]
+    Explain(explain::Explain),
+    /// Print the script that completes commands and options in a shell.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions(completions::Completions),
+    /// Print the manual page, or write one for each command.
+    #[command(after_help = examples::MAN)]
+    Man(man::Man),
+}

@@ -1,6 +1,7 @@
 //! Arguments that several commands have.
 
-pub(in crate::cli) mod args;
+pub(in crate::cli) mod format;
+pub(in crate::cli) mod global;
 pub(in crate::cli) mod load;
 pub(in crate::cli) mod motion;
 pub(in crate::cli) mod named;

@@ -254,7 +254,7 @@ impl Tree {
         Tree { dist, last, first }
     }
 
-    /// The length of the closed walk through a joint, where the shortest paths to its two ends part at once. O(1).
+    /// The length of the closed walk through a joint, where the two shortest paths to its ends share only their first link. O(1).
     fn closes(&self, e: EdgeReference<'_, (JointId, u64)>) -> Option<(u64, usize)> {
         let (x, y) = (e.source().index(), e.target().index());
         let (dx, dy) = (self.dist[x]?, self.dist[y]?);

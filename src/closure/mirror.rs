@@ -1,6 +1,6 @@
 //! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
 
-use crate::closure::image::{Carrier, Map, Miss};
+use crate::closure::symmetry_image::{Carrier, Map, Miss};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;

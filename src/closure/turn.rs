@@ -1,6 +1,6 @@
 //! Half and third turns: whether joints that a file groups become each other when space is turned about one axis.
 
-use crate::closure::image::{Carrier, Map};
+use crate::closure::symmetry_image::{Carrier, Map};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;
@@ -88,17 +88,16 @@ impl Carrier for Turn {
         let centre = centre.map(|x| f.mul(part, x));
         let half = f.inv(number(2));
         // v cos + n × v sin / |n| + n (n·v) (1 - cos) / |n|²; of an equilateral triangle sin / |n| is 1 / side².
-        let (cosine, sine, rest) = match third {
-            false => (number(-1), f.zero(), number(2)),
-            true => {
-                let side = [0, 1, 2].map(|i| f.sub(points[1][i], points[0][i]));
-                let side = exact.dot(side, side);
-                let quarters = f.mul(number(3), f.mul(side, side));
-                if f.mul(number(4), square) != quarters {
-                    return Ok(None);
-                }
-                (f.neg(half), f.inv(side), f.mul(number(3), half))
+        let (cosine, sine, rest) = if third {
+            let side = [0, 1, 2].map(|i| f.sub(points[1][i], points[0][i]));
+            let side = exact.dot(side, side);
+            let quarters = f.mul(number(3), f.mul(side, side));
+            if f.mul(number(4), square) != quarters {
+                return Ok(None);
             }
+            (f.neg(half), f.inv(side), f.mul(number(3), half))
+        } else {
+            (number(-1), f.zero(), number(2))
         };
         let rest = f.mul(rest, f.inv(square));
         let linear = |v: [Residue; 3]| {

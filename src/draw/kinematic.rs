@@ -4,28 +4,20 @@ mod arcs;
 mod arrow;
 mod axes;
 mod body;
-mod concentric;
-mod coupler_curves;
 mod facets;
-mod frame;
 mod gears;
 mod legend;
 mod loads;
 mod marked;
 pub(super) mod moving;
 mod naming;
-mod pair;
-mod part;
 mod points;
 mod posed;
 pub(super) mod scene;
-mod sliding;
-mod swapped;
-mod symbol;
+
 use self::arrow::Arrow;
 use self::body::Body;
 use self::marked::{Marked, marked};
-use self::symbol::Symbol;
 use super::subject::{Mark, Subject, roominess};
 use crate::draw::place::projection::places::places;
 use crate::draw::place::projection::{self, Place, Projection, Seen, Vector, bounds};
@@ -34,6 +26,7 @@ use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use crate::draw::symbol::couplings;
 use crate::draw::symbol::drive;
 use crate::draw::symbol::ground::{Foot, Ground, grounds};
+use crate::draw::symbol::placed::Symbol;
 use crate::draw::symbol::swap::{self, Swap};
 use crate::draw::symbol::symbols;
 use crate::model::joint_type::Freedom;
@@ -180,7 +173,7 @@ impl<'a> Kinematic<'a> {
         }
         let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
         let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
-        let sizes = crate::draw::kinematic::concentric::sizes(&at, &of);
+        let sizes = crate::draw::symbol::concentric::sizes(&at, &of);
         let driven = drive::driven_slides(m, subject.state);
         let spots: Vec<Spot> = joints
             .iter()

@@ -22,9 +22,10 @@ pub(crate) fn bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
 /// Where it is no regular file, is longer, or cannot be read.
 pub(crate) fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     let all = bytes(path, limit)?;
-    match all.len() > limit {
-        true => Err(too_long(limit)),
-        false => Ok(all),
+    if all.len() > limit {
+        Err(too_long(limit))
+    } else {
+        Ok(all)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Document;
 use crate::file::problem::{ImportError, Problem, ProblemKind};
-use crate::file::read::costs::costs;
+use crate::file::read::search::costs::costs;
 use crate::model::mechanism::{CostSpec, Mechanism};
 use std::collections::BTreeMap;
 

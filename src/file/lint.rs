@@ -2,7 +2,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::doubted;
-use crate::file::guessed::guessed;
+use crate::file::guessed_directions::guessed;
 use crate::file::locate::{Step, index, key};
 use crate::file::problem::ImportError;
 use crate::file::read::build;

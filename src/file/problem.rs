@@ -182,7 +182,7 @@ pub enum ProblemKind {
         to: String,
     },
     #[error(
-        "parameter \"{name}\" has nothing to be; give a range such as [10, 20], or values such as [10, 12, 15]"
+        "parameter \"{name}\" has no values; give a range such as [10, 20], or values such as [10, 12, 15]"
     )]
     NoValues { name: String },
     #[error("the default {value} of parameter \"{name}\" is not {of}; choose one that is")]
@@ -205,7 +205,7 @@ pub enum ProblemKind {
         "nothing can move: all {links} links are rigidly joined; there is no mechanism to analyse"
     )]
     Rigid { links: usize },
-    #[error("{count} more problems are not listed; mend those above first")]
+    #[error("{count} more problems are not listed; correct those above first")]
     More { count: usize },
 }
 

@@ -1,11 +1,11 @@
 //! Reading a mechanism from text.
 
-use crate::file::controls::controls;
+use crate::file::control_characters::controls;
 use crate::file::digits;
 use crate::file::findings::{Finding, Findings};
 use crate::file::locate::Document;
 use crate::file::problem::{ImportError, Problem, ProblemKind};
-use crate::file::read::parameters::{Parameter, Values, parameters};
+use crate::file::read::value::parameters::{Parameter, Values, parameters};
 use crate::file::read::{build, build_at};
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::Mechanism;

@@ -135,7 +135,7 @@ pub enum WarningKind {
     )]
     UnloadingOfNothing { joint: String },
     #[error(
-        "joint \"{joint}\" forbids \"{option}\", which is no option of it; remove it, or mend the word"
+        "joint \"{joint}\" forbids \"{option}\", which is not an option of that joint; remove it, or correct the word"
     )]
     ForbidsNothing { joint: String, option: String },
     #[error("no joint is a drive, so {what} has nothing to move; mark one: drive = true")]
@@ -155,7 +155,7 @@ pub enum WarningKind {
     )]
     RankingUnloaded { term: &'static str },
     #[error(
-        "the file says {key} = {stated} in state {state}, and the analysis finds {found}; mend the figure, or delete [[expected]] where the mechanism is no longer the published one"
+        "the file says {key} = {stated} in state {state}, and the analysis finds {found}; correct the figure, or delete [[expected]] where the mechanism is no longer the published one"
     )]
     Stale {
         key: &'static str,

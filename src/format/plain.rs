@@ -48,9 +48,10 @@ pub(crate) fn coloured(text: &str) -> Cow<'_, str> {
         let end = digits.map_or(from.len(), |n| n + 2);
         let whole = from[end..].starts_with('m');
         let (colour, after) = from.split_at(end + usize::from(whole));
-        match whole {
-            true => out += colour,
-            false => out += &plain(colour),
+        if whole {
+            out += colour
+        } else {
+            out += &plain(colour)
         }
         rest = after;
     }
@@ -64,11 +65,10 @@ fn spelt(text: &str, steers: impl Fn(char) -> bool) -> Cow<'_, str> {
     }
     let mut out = String::with_capacity(text.len() + 8);
     for c in text.chars() {
-        match steers(c) {
-            true => {
-                let _ = write!(out, "\\u{{{:x}}}", u32::from(c));
-            }
-            false => out.push(c),
+        if steers(c) {
+            let _ = write!(out, "\\u{{{:x}}}", u32::from(c));
+        } else {
+            out.push(c)
         }
     }
     Cow::Owned(out)

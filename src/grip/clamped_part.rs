@@ -31,7 +31,7 @@ pub enum PartError {
     },
     /// An object that is joined otherwise.
     #[error(
-        "{object} is held by joint {joint}, which is no face; name faces only, or take the role \"object\" off the link"
+        "{object} is held by joint {joint}, which is not a face; name faces only, or take the role \"object\" off the link"
     )]
     Joined {
         /// The object.

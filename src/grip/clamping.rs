@@ -119,9 +119,12 @@ fn cases(load: &GripLoad) -> Vec<Case> {
         (Toward::Fixed(g), Toward::Fixed(a)) => Case {
             base: [0, 1, 2].map(|i| g[i] - a[i]),
             any: 0.0,
-            words: Box::new(move |_| match a == [0.0; 3] {
-                true => "at rest".to_owned(),
-                false => format!("acceleration {} m/s²", vector(a)),
+            words: Box::new(move |_| {
+                if a == [0.0; 3] {
+                    "at rest".to_owned()
+                } else {
+                    format!("acceleration {} m/s²", vector(a))
+                }
             }),
         },
         (Toward::Fixed(g), Toward::Any(size)) => Case {
@@ -134,13 +137,16 @@ fn cases(load: &GripLoad) -> Vec<Case> {
         (Toward::Any(size), Toward::Fixed(a)) => Case {
             base: a.map(|x| -x),
             any: size,
-            words: Box::new(move |u| match a == [0.0; 3] {
-                true => format!("gravity along {}", vector(u)),
-                false => format!(
-                    "acceleration {} m/s², gravity along {}",
-                    vector(a),
-                    vector(u)
-                ),
+            words: Box::new(move |u| {
+                if a == [0.0; 3] {
+                    format!("gravity along {}", vector(u))
+                } else {
+                    format!(
+                        "acceleration {} m/s², gravity along {}",
+                        vector(a),
+                        vector(u)
+                    )
+                }
             }),
         },
         (Toward::Any(g), Toward::Any(a)) => Case {

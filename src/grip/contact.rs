@@ -128,7 +128,7 @@ impl fmt::Display for Unholdable {
                 half_width,
             } => write!(
                 f,
-                "the levers meet: the middle of one comes to {:.4} mm from the axis, {:.4} mm are needed",
+                "the levers meet: the middle of one is {:.4} mm from the axis, and {:.4} mm are needed",
                 mm(clearance),
                 mm(half_width)
             ),

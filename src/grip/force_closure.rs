@@ -87,12 +87,13 @@ fn resisted(forces: &Forces, d: &Six) -> Result<(f64, Six), Unsolved> {
             return Ok((f64::INFINITY, found.normal));
         }
         if found.most < 0.99 * cap || cap == LIMIT {
-            return match found.agrees(KNOWN) || found.most - found.least < NOTHING {
-                true => Ok((found.least, found.normal)),
-                false => Err(Unsolved::Programme(format!(
+            return if found.agrees(KNOWN) || found.most - found.least < NOTHING {
+                Ok((found.least, found.normal))
+            } else {
+                Err(Unsolved::Programme(format!(
                     "a load between {:.3e} and {:.3e}",
                     found.least, found.most
-                ))),
+                )))
             };
         }
     }

@@ -22,7 +22,9 @@ pub enum MotionError {
     )]
     Gravity(usize),
     /// Not one of the diameters studied.
-    #[error("step {0} of the motion has a part of {1} m, which is none of the diameters studied")]
+    #[error(
+        "step {0} of the motion has a part of {1} m, which is not one of the diameters studied"
+    )]
     Diameter(usize, f64),
 }
 

@@ -58,9 +58,10 @@ impl Frame {
         let frequent = frequent.or(used().filter(other).min_by(sharper).map(|d| d.unit));
         let any = if z[0].abs() < 0.9 { X } else { Y };
         let x = unit(across(axis.or(frequent).unwrap_or(any), z));
-        match [x, z].iter().flatten().all(|c| c.is_finite()) {
-            true => Frame::turned([x, cross(z, x), z]),
-            false => Frame::file(),
+        if [x, z].iter().flatten().all(|c| c.is_finite()) {
+            Frame::turned([x, cross(z, x), z])
+        } else {
+            Frame::file()
         }
     }
 

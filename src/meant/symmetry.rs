@@ -118,9 +118,10 @@ impl Symmetry {
             return Vec::new();
         };
         // Images are apart along the normal of a mirror, or square to an axis; their middles are in the plane, or on the axis.
-        let (difference, middle) = match self.turned {
-            false => (across.to_vec(), vec![along]),
-            true => (vec![along], across.to_vec()),
+        let (difference, middle) = if self.turned {
+            (vec![along], across.to_vec())
+        } else {
+            (across.to_vec(), vec![along])
         };
         let mut out = Vec::new();
         for &[a, b] in &self.points {

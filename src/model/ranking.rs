@@ -23,6 +23,36 @@ pub enum Term {
     Harmful,
 }
 
+/// What is said of a term wherever it stands: files, text, JSON, CSV, the schema and the help follow from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AboutTerm {
+    /// The word used for it in files and on the command line.
+    pub word: &'static str,
+    /// Its key among the scores in JSON, and with underscores the head of its column in CSV.
+    pub key: &'static str,
+    /// The head of its column in a list of variants; `None` where such a list has the column anyway.
+    pub heading: Option<&'static str>,
+    /// Whether it is a column of the ranking in CSV, and not one that every variant has there.
+    pub csv: bool,
+    /// Whether it counts something.
+    pub is_count: bool,
+    /// What the figure is multiplied by in lists and in a weighted sum.
+    pub scale: f64,
+    /// What it is, for who writes a file.
+    pub meaning: &'static str,
+}
+
+/// A term that is measured, as most are.
+const MEASURED: AboutTerm = AboutTerm {
+    word: "",
+    key: "",
+    heading: None,
+    csv: true,
+    is_count: false,
+    scale: 1.0,
+    meaning: "",
+};
+
 impl Term {
     /// Every term.
     pub const ALL: [Term; 8] = [
@@ -36,33 +66,92 @@ impl Term {
         Term::Harmful,
     ];
 
+    /// What is said of it.
+    #[must_use]
+    pub fn about(self) -> AboutTerm {
+        match self {
+            Term::PeakForce => AboutTerm {
+                word: "peak-force",
+                key: "peak-force",
+                heading: Some("force"),
+                meaning: "the greatest joint force over its type's capacity",
+                ..MEASURED
+            },
+            Term::PeakMoment => AboutTerm {
+                word: "peak-moment",
+                key: "peak-moment",
+                heading: Some("moment"),
+                meaning: "the greatest joint moment over its type's capacity",
+                ..MEASURED
+            },
+            // A variant has a conditioning with its drives free, too.
+            Term::Conditioning => AboutTerm {
+                word: "conditioning",
+                key: "conditioning-held",
+                heading: Some("cond. held"),
+                meaning: "the smallest singular value over the largest with the drives held, greater being better",
+                ..MEASURED
+            },
+            Term::OutputError => AboutTerm {
+                word: "output-error",
+                key: "output-error",
+                heading: Some("error, mm"),
+                scale: 1e3,
+                meaning: "how far clearances move the outputs, in mm",
+                ..MEASURED
+            },
+            Term::Changes => AboutTerm {
+                word: "changes",
+                key: "changes",
+                heading: Some("changed"),
+                csv: false,
+                is_count: true,
+                meaning: "joints changed and inserted",
+                ..MEASURED
+            },
+            Term::Cost => AboutTerm {
+                word: "cost",
+                key: "cost",
+                csv: false,
+                meaning: "the additive cost",
+                ..MEASURED
+            },
+            Term::Idle => AboutTerm {
+                word: "idle",
+                key: "idle",
+                heading: Some("idle"),
+                is_count: true,
+                meaning: "mobility beyond the working one",
+                ..MEASURED
+            },
+            Term::Harmful => AboutTerm {
+                word: "harmful",
+                key: "harmful",
+                csv: false,
+                is_count: true,
+                meaning: "harmful redundant constraints that the searched state adds",
+                ..MEASURED
+            },
+        }
+    }
+
     /// The word used for it in files and results.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::ranking::Term;
+    /// assert_eq!(Term::PeakForce.name(), "peak-force");
+    /// assert_eq!(Term::from_name("peak-force"), Some(Term::PeakForce));
+    /// ```
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Term::PeakForce => "peak-force",
-            Term::PeakMoment => "peak-moment",
-            Term::Conditioning => "conditioning",
-            Term::OutputError => "output-error",
-            Term::Changes => "changes",
-            Term::Cost => "cost",
-            Term::Idle => "idle",
-            Term::Harmful => "harmful",
-        }
+        self.about().word
     }
 
     /// The head of its column in a list of variants; `None` where such a list has the column anyway.
     #[must_use]
     pub fn heading(self) -> Option<&'static str> {
-        match self {
-            Term::PeakForce => Some("force"),
-            Term::PeakMoment => Some("moment"),
-            Term::Conditioning => Some("cond. held"),
-            Term::OutputError => Some("error, mm"),
-            Term::Changes => Some("changed"),
-            Term::Idle => Some("idle"),
-            Term::Cost | Term::Harmful => None,
-        }
+        self.about().heading
     }
 
     /// The term a word names.

@@ -21,7 +21,7 @@ pub(crate) use long::{LONG_DIRECTION, LONG_LENGTH};
 pub(crate) use source::{Largest, Sources};
 pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
 
-/// Decimals with so many significant digits are taken to be measured or computed, not chosen.
+/// Decimals with at least this many significant digits count as measured or computed, not chosen.
 pub const DIGITS: usize = 9;
 /// One in so many of those has the unit or a coarser one: a last digit that happens to be 0 is one in ten.
 const SHARE: usize = 5;

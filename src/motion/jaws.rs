@@ -3,8 +3,8 @@
 use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, add, dot, length, scale, sub};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use crate::motion::way::Way;
 use std::f64::consts::TAU;
 
 /// Faces that pass each other at more than this share of the distance they began with have not met.

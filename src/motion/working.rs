@@ -2,8 +2,8 @@
 
 use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
+use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
-use crate::motion::way::Way;
 use ozols_dense::{Matrix, svd};
 
 /// How far it is followed to either side, by the coordinate that moves most from step to step: radians, or fractions of

@@ -1,7 +1,8 @@
 //! A catalogue as one page: a card for each structure, with its drawing, to filter, sort and choose from.
 
 use super::data::escaped;
-use super::{POLICY, STYLE, policy};
+use super::policy::{self, POLICY};
+use super::style::STYLE;
 use crate::catalog::store::{Store, StoreError};
 use crate::geom::vector::{real, sides};
 use crate::model::joint_type::JointType;

@@ -1,6 +1,6 @@
 //! How sure the figures of a page are: the same words as those of `analyze` and `search`.
 
-use super::{Page, Redesigns};
+use super::contents::{Page, Redesigns};
 use crate::format::phrase::plural;
 use crate::search::check::second_prime::{PrimeCheck, Verdict};
 use crate::view::analysis::{Analysis, LeftOut, State};

@@ -1,6 +1,6 @@
 //! What the script of a page knows, as JSON inside the page.
 
-use super::Page;
+use super::contents::Page;
 use super::symbols::Swaps;
 use super::variants::Found;
 use crate::draw::Scene;

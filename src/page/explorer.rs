@@ -1,6 +1,6 @@
 //! The frame that the script fills with the redesigns: filters, table and chart.
 
-use super::Page;
+use super::contents::Page;
 use maud::{Markup, html};
 
 /// The frame, or why there is nothing to fill it with.

@@ -4,9 +4,9 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
 use crate::rank::exact::modular;
-use crate::redundancy::idle::idle_motions;
+use crate::redundancy::contour_shares::shares;
+use crate::redundancy::local_mobility::idle_motions;
 use crate::redundancy::motion::motions;
-use crate::redundancy::share::shares;
 use crate::view::analysis::idle;
 
 /// W and σ of a state of a mechanism.

@@ -5,6 +5,9 @@ use base64::engine::general_purpose::STANDARD;
 use itertools::Itertools;
 use sha2::{Digest, Sha256};
 
+/// What stands for the policy until all that it allows is written.
+pub(super) const POLICY: &str = "default-src 'none'";
+
 /// The page with the policy that allows its scripts and styles in place of the first `stand_in`. Text of mechanisms is
 /// escaped by then, so that every element found here is the page's own.
 pub(super) fn named(page: &str, stand_in: &str) -> String {

@@ -1,6 +1,6 @@
 //! The stage beside the verdict: the mechanism as built, and next to it what is chosen, both moved by one slider.
 
-use super::{Page, SHOWN};
+use super::contents::{Page, SHOWN};
 use crate::view::analysis::Analysis;
 use maud::{Markup, PreEscaped, html};
 

@@ -1,6 +1,6 @@
 //! The drawings of each state, and every symbol that a variant may put into them.
 
-use super::Page;
+use super::contents::Page;
 use crate::draw::{Drawing, Subject, Swap, kinematic_with, scheme_with};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::score::outcome::Outcome;

@@ -1,11 +1,12 @@
 //! The variants as columns for the script.
 
+use super::contents::{Page, Redesigns};
+use super::figures;
 use super::number::Number;
 use super::workload::{Workload, workload};
-use super::{Page, Redesigns, figures};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::AnalysisError;
-use crate::score::variant::Variant;
+use crate::score::outcome::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;

@@ -1,10 +1,10 @@
 //! The verdict in words.
 
-use super::{Page, Redesigns};
+use super::contents::{Page, Redesigns};
 use crate::format::number::{cost, grouped};
 use crate::format::phrase::{list, plural};
 use crate::model::mechanism::{Mechanism, Role};
-use crate::score::variant::Variant;
+use crate::score::outcome::variant::Variant;
 use crate::search::answer::k_best::Assignment;
 use crate::view::analysis::{Analysis, State};
 use crate::view::search::conditions::in_state;
@@ -53,10 +53,10 @@ fn state(s: &State<'_>) -> Vec<String> {
     }
     out.push(
         if s.redundant == 0 {
-            "Parts a little out of true assemble without strain, and the loads alone say what each joint bears."
+            "Parts that are slightly inaccurate still assemble without strain, and the loads alone say what each joint bears."
         } else {
-            "Parts a little out of true bind: they must be bent or pressed together, and joints bear loads that nothing \
-             outside puts on them."
+            "Parts that are slightly inaccurate bind: they must be bent or pressed together, and joints bear loads even when \
+             nothing acts from outside."
         }
         .to_owned(),
     );

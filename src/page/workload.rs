@@ -1,11 +1,11 @@
 //! What the joints of each variant bear, and its scores, where the file states loads.
 
-use super::Redesigns;
+use super::contents::Redesigns;
 use super::number::Number;
 use crate::model::ranking::Term;
-use crate::score::bearing::{Bearing, Bearings};
-use crate::score::ranking::{Ranked, RankedPool};
-use crate::score::terms::Scores;
+use crate::score::evaluation::joint_loads::{Bearing, Bearings};
+use crate::score::evaluation::terms::Scores;
+use crate::score::outcome::ranking::{Ranked, RankedPool};
 use crate::view::search::ranking::{head, notes};
 use serde::Serialize;
 

@@ -2,7 +2,7 @@
 
 use crate::mechanism::Mechanism;
 use crate::told::{Told, failed, json, state};
-use ozols::file::read::motion;
+use ozols::file::read::workload::motion;
 use ozols::model::mechanism::StateId;
 use ozols::rank::method::registry;
 use ozols::rank::rounded::verdict::verdict;

@@ -2,7 +2,7 @@
 
 use crate::mechanism::Mechanism;
 use crate::told::{Told, failed, json, state};
-use ozols::file::read::motion;
+use ozols::file::read::workload::motion;
 use ozols::grip::clamped::{Found, clamped};
 use ozols::grip::jaw_loads::{Gripping, JawError};
 use ozols::model::mechanism::StateId;

@@ -3,7 +3,7 @@
 use crate::search;
 use crate::told::{Told, failed, json};
 use crate::waiting::with_progress;
-use ozols::file::read::motion;
+use ozols::file::read::workload::motion;
 use ozols::score::request::Request;
 use ozols::shard::Shard;
 use ozols::sweep::space::Sampling;

@@ -17,13 +17,13 @@ pub use crate::rank::numeric::Elimination;
 use crate::rank::numeric::{NumericError, NumericRank};
 use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::rank::rounded::verdict::Meant;
+pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
+use crate::redundancy::contour_shares::{coupling_shares, shares};
 pub use crate::redundancy::external::External;
 use crate::redundancy::external::{external, freedoms_of, int, present_links};
-use crate::redundancy::idle::{Idle, idle_motions};
+use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::measured::Measured;
 use crate::redundancy::motion::{Speeds, motions, twist};
-pub use crate::redundancy::share::{ContourShare, CouplingShare};
-use crate::redundancy::share::{coupling_shares, shares};
 use crate::redundancy::stress::{SelfStress, self_stresses};
 use thiserror::Error;
 

@@ -57,9 +57,10 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         for &(i, forward) in &self.passes[joint] {
             let block = &stress[i * self.dim..(i + 1) * self.dim];
             for (x, b) in sum.iter_mut().zip(block) {
-                *x = match forward {
-                    true => s.add(x.clone(), b.clone()),
-                    false => s.sub(x.clone(), b.clone()),
+                *x = if forward {
+                    s.add(x.clone(), b.clone())
+                } else {
+                    s.sub(x.clone(), b.clone())
                 };
             }
         }

@@ -5,7 +5,7 @@ use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::redundancy::share::{ContourShare, CouplingShare, over_bases};
+use crate::redundancy::contour_shares::{ContourShare, CouplingShare, over_bases};
 use ozols_dense::{Matrix, singular_values, svd};
 
 /// Ranks and motions of one J at one relative tolerance.

@@ -8,8 +8,8 @@ use crate::linalg::echelon::{Echelon, combination, relations, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::redundancy::borne::{Borne, Faces, Shares};
 use crate::redundancy::joint_wrench::JointWrenches;
+use crate::redundancy::stress_loads::{Borne, Faces, Shares};
 use itertools::Itertools;
 
 /// What a self-stress does to the parts.
@@ -236,9 +236,10 @@ fn first_those_without(
     let (mut with, mut without) = (Vec::new(), Vec::new());
     for s in stresses {
         let image = part(&s);
-        match image.iter().all(|&x| x == 0) {
-            true => without.push(s),
-            false => with.push((s, image)),
+        if image.iter().all(|&x| x == 0) {
+            without.push(s)
+        } else {
+            with.push((s, image))
         }
     }
     let (with, images): (Vec<_>, Vec<_>) = with.into_iter().unzip();

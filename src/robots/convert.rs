@@ -20,15 +20,15 @@ pub use judge::{Judged, Judgement, Motions, Wanted, figures};
 pub use lost::{Kind, Lost};
 
 use crate::file::problem::ImportError;
-use crate::robots::close::size;
 use crate::robots::convert::payload::Payload;
 use crate::robots::convert::plan::Plan;
 use crate::robots::convert::scene::{Scene, Text};
-use crate::robots::digits;
+use crate::robots::description::digits;
+use crate::robots::description::massless::Light;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Robot;
 use crate::robots::import::Imported;
-use crate::robots::light::Light;
-use crate::robots::origin::Origin;
-use crate::robots::parts::Robot;
+use crate::robots::mechanism::loop_closing::size;
 use crate::robots::{mjcf, sdf, urdf};
 use to_urdf::Loops;
 
@@ -171,7 +171,8 @@ fn pose(robot: &Robot, plan: &Plan, target: Target) -> Vec<(String, Vec<f64>)> {
     if target == Target::Sdf {
         return Vec::new();
     }
-    let one = |p: &&crate::robots::parts::Part| p.values.len() == 1 && p.values[0] != 0.0;
+    let one =
+        |p: &&crate::robots::description::parts::Part| p.values.len() == 1 && p.values[0] != 0.0;
     let joints = plan.branches.iter().map(|b| &robot.joints[b.joint]);
     let zero = |z: f64| if target == Target::Mjcf { z } else { 0.0 };
     joints

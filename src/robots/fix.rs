@@ -4,12 +4,12 @@ use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::redundancy::release::Release;
 use crate::robots::cad::retype;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Part;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::import::Imported;
-use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
+use crate::robots::mechanism::series_of_single_joints::comment;
 use crate::robots::problem::RobotProblem;
-use crate::robots::single_freedoms::comment;
 use crate::robots::{mjcf, sdf, urdf};
 use std::collections::BTreeMap;
 

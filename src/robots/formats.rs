@@ -3,8 +3,8 @@
 use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
 use crate::model::mechanism::Mechanism;
+use crate::robots::description::parts::Robot;
 use crate::robots::options::{Options, Reader};
-use crate::robots::parts::Robot;
 use crate::robots::problem::ExportError;
 use crate::robots::xml::Document;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};

@@ -2,7 +2,7 @@
 
 use crate::file::write::role;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
-use crate::robots::single_freedoms::escape;
+use crate::robots::mechanism::series_of_single_joints::escape;
 use petgraph::dot::{Config, Dot};
 use petgraph::graph::UnGraph;
 use std::fmt::Write;

@@ -13,19 +13,19 @@ use crate::file::write::{self, Comment};
 use crate::geom::extent::diagonal;
 use crate::model::mechanism::Mechanism;
 use crate::robots::asmt;
-use crate::robots::build::{Entries, apply_pose, close_loops, entries, held, root_link};
 use crate::robots::cad::archive::Archive;
-use crate::robots::close::size;
-use crate::robots::coupling;
-use crate::robots::digits;
+use crate::robots::description::coupling;
+use crate::robots::description::digits;
+use crate::robots::description::kinematics::spanning_tree;
+use crate::robots::description::loops;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Robot;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::formats::{Format, of_root, roots};
-use crate::robots::kinematics::spanning_tree;
-use crate::robots::loops;
-use crate::robots::offers;
+use crate::robots::mechanism::build::{Entries, apply_pose, close_loops, entries, held, root_link};
+use crate::robots::mechanism::loop_closing::size;
+use crate::robots::mechanism::loop_options;
 use crate::robots::options::{Options, Reader};
-use crate::robots::origin::Origin;
-use crate::robots::parts::Robot;
 use crate::robots::problem::{ExportError, RobotProblem};
 use crate::robots::warning::Report;
 use crate::robots::xml::{self, Document};
@@ -65,15 +65,16 @@ fn root(
 ) -> Result<usize, ImportError> {
     let Some(archive) = archive else {
         let text = xml::utf8(name, bytes)?;
-        return match asmt::read::is_one(text.as_bytes()) {
-            true => asmt::read::document(document, name, text),
-            false => document.read(name, text),
+        return if asmt::read::is_one(text.as_bytes()) {
+            asmt::read::document(document, name, text)
+        } else {
+            document.read(name, text)
         };
     };
     let name = format!("{name}/{DOCUMENT}");
     let Some(found) = archive.member(DOCUMENT)? else {
         let message =
-            format!("there is no {DOCUMENT} in the archive; it is no document of FreeCAD");
+            format!("there is no {DOCUMENT} in the archive; it is not a FreeCAD document");
         return Err(RobotProblem::Whole { message }.at(&name, "", None));
     };
     document.read(&name, xml::utf8(&name, &found)?)
@@ -196,7 +197,7 @@ fn with_offers(
         mechanism_from_str("the imported mechanism", &text)
     })?;
     let mut offered = file.clone();
-    if offers::at_loops(&mechanism, closes, &mut offered)
+    if loop_options::at_loops(&mechanism, closes, &mut offered)
         && let Ok(m) = build(&offered)
     {
         *file = offered;

@@ -1,8 +1,15 @@
 //! What a search found: counts, how they were checked, and the variants one by one.
 
-use crate::score::prepared::LooksRounded;
-use crate::score::ranking::RankedPool;
+pub mod listing;
+pub mod pareto;
+pub(in crate::score) mod ranked;
+pub mod ranking;
+pub mod variant;
+pub mod why;
+
+use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::Request;
+use crate::score::request::prepare::LooksRounded;
 use crate::search::Search;
 use crate::search::answer::counts;
 use crate::search::answer::counts::Counts;

@@ -1,12 +1,21 @@
 //! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
 //! how its answer is checked.
 
+pub mod costs;
+pub(in crate::score) mod error;
+pub(in crate::score) mod missing_options;
+pub(in crate::score) mod option_rules;
+pub mod prepare;
+pub(in crate::score) mod unlisted;
+
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::ranking::{Ranking, Term};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::rounded::intended::settle;
-use crate::score::prepared::{LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved};
-pub use crate::score::request_error::RequestError;
+pub use crate::score::request::error::RequestError;
+use crate::score::request::prepare::{
+    LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved,
+};
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
 
 /// How many of the cheapest variants a ranking scores at most, unless told otherwise: it ends before where the best are

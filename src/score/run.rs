@@ -4,11 +4,11 @@
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::exact_field;
-use crate::score::evaluate::ScoreError;
+use crate::score::evaluation::evaluate::ScoreError;
 use crate::score::outcome::Outcome;
-use crate::score::prepared::LooksRounded;
-use crate::score::ranked::ranked;
-use crate::score::ranking::RankedPool;
+use crate::score::outcome::ranked::ranked;
+use crate::score::outcome::ranking::RankedPool;
+use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
 use crate::search::Search;
 use crate::search::answer::counts::Counts;

@@ -143,7 +143,7 @@ pub(super) fn build(
         } = merge;
         stop = now;
         if refused {
-            // There is less than is allowed: no more than half of what is held by now.
+            // The system refused memory: lower the limit to half of what is in use.
             let now = held + nodes.bytes() + next.bytes() + size_of::<u32>() * edges.len();
             allowed = allowed.min(now / 2);
         }

@@ -157,8 +157,8 @@ impl Question {
         let said = |l: LinkId| {
             let (body, state) = (&m.links[l].id, &m.states[s.state]);
             format!(
-                "warning: in state {state} something moves {body} against all that holds it, in the mechanism as it is \
-                 already, so that no variant can hold it; --allow-loose-object does not ask for that"
+                "warning: {body} is loose in state {state} of the mechanism as built, so no variant can hold it; \
+                 --allow-loose-object searches all the same"
             )
         };
         let loose = loose(&self.exact, m, s.state, &self.grasps)?;

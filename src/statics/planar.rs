@@ -51,7 +51,7 @@ pub enum PlanarError {
     },
     /// Joints are coupled.
     #[error(
-        "joints {coupling} are coupled, and what gears or belts pass from joint to joint is not part of the statics; take the \
+        "joints {coupling} are coupled, and forces that gears or belts carry from joint to joint are not part of the statics; take the \
          coupling out and drive both joints"
     )]
     Coupled {

@@ -5,7 +5,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::cycle::Statics;
 use crate::statics::reactions::{Choice, Cycle};
 use crate::statics::solve::{Answer, Model, StaticsError, solve};
-use crate::sweep::known::Known;
+use crate::sweep::known_or_why::Known;
 use serde::{Deserialize, Serialize};
 
 /// The greatest force.

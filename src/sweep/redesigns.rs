@@ -2,14 +2,14 @@
 
 use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Order};
-use crate::score::elimination::Scratch;
-use crate::score::evaluate::Evaluator;
+use crate::score::evaluation::elimination::Scratch;
+use crate::score::evaluation::evaluate::Evaluator;
+use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
-use crate::score::ranking::{Ranked, RankedPool, weighted};
+use crate::score::outcome::ranking::{Ranked, RankedPool, weighted};
+use crate::score::outcome::variant::{changes, in_words};
 use crate::score::request::{Check, List, Request};
 use crate::score::run::{RunError, run};
-use crate::score::terms::Scores;
-use crate::score::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;
 use crate::sweep::forces::{is_loaded, rounded};
 use serde::{Deserialize, Serialize};

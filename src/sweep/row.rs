@@ -10,7 +10,7 @@ use crate::rank::method::registry;
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
 use crate::sweep::Sweep;
 use crate::sweep::forces::{Forces, forces};
-use crate::sweep::known::Known;
+use crate::sweep::known_or_why::Known;
 use crate::sweep::redesigns::{Redesigns, redesigns};
 use crate::sweep::space::Sample;
 use crate::sweep::stroke::{OverStroke, over_stroke};
@@ -140,9 +140,10 @@ impl Sweep {
     fn filled(&self, m: &Mechanism, empty: &Row) -> Result<Row, AnalysisError> {
         let states: Vec<StateId> = m.state_ids().collect();
         let asked = &self.spec.asked;
-        let method = match asked.as_written {
-            true => Method::Modular,
-            false => Method::Auto { tolerance: None },
+        let method = if asked.as_written {
+            Method::Modular
+        } else {
+            Method::Auto { tolerance: None }
         };
         let found = analyse(m, &states, method)?;
         let methods = match found.first() {

@@ -1,6 +1,6 @@
 //! The samples of a sweep: points of a grid, or of Sobol's sequence.
 
-use crate::file::read::parameters::{Domain, Parameter, Values, between, part};
+use crate::file::read::value::parameters::{Domain, Parameter, Values, between, part};
 use crate::geom::expr::Expr;
 use itertools::Itertools;
 use thiserror::Error;

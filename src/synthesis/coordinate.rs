@@ -6,9 +6,10 @@ use crate::synthesis::place::Place;
 /// A number, without a point where it is whole.
 pub(super) fn number(x: f64) -> Coordinate {
     #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
-    match x.fract() == 0.0 && x.abs() < 1e15 {
-        true => Coordinate::Integer(x as i64),
-        false => Coordinate::Decimal(x),
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        Coordinate::Integer(x as i64)
+    } else {
+        Coordinate::Decimal(x)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
 use crate::closure::tree::forest;
 use crate::geom::vector::add_scaled;
-use crate::synthesis::looks::{Limits, Looks};
+use crate::synthesis::layout_quality::{Limits, Looks};
 use crate::synthesis::place::Place;
 use crate::synthesis::rules::{Rule, Rules};
 use crate::synthesis::skeleton::{Point, Skeleton, middle};

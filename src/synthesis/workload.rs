@@ -43,9 +43,10 @@ fn rods(points: &[Point]) -> (f64, Point) {
         whole += rod;
         moment = add_scaled(moment, rod, middle(&[centre, *p]));
     }
-    match whole > 0.0 {
-        true => (whole, moment.map(|m| m / whole)),
-        false => (0.0, centre),
+    if whole > 0.0 {
+        (whole, moment.map(|m| m / whole))
+    } else {
+        (0.0, centre)
     }
 }
 

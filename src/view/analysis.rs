@@ -12,7 +12,7 @@ use crate::geom::expr::PI_DIGITS;
 use crate::model::claim::Topic;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::share::{ContourShare, CouplingShare};
+use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::stress::{JointWrench, Verdict};
 use crate::view::analysis::least_rows::{Part, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};

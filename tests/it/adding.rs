@@ -40,18 +40,26 @@ fn the_files_and_names_of_the_page_exist() {
     }
 }
 
-/// Files outside `homes` in which a word stands in quotes, tests aside.
+/// Files outside `homes` in which a word stands by itself, in quotes or in a longer text; comments and tests aside.
 fn elsewhere(word: &str, homes: &[&str]) -> Vec<String> {
     let mut all = Vec::new();
     sources(&root().join("src"), &mut all);
+    let part_of_word = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let alone = |line: &str| {
+        let code = line.split("//").next().unwrap();
+        code.match_indices(word).any(|(at, _)| {
+            let (before, after) = (&code[..at], &code[at + word.len()..]);
+            !before.ends_with(part_of_word) && !after.starts_with(part_of_word)
+        })
+    };
     all.iter()
         .map(|f| {
             let name = f.strip_prefix(root()).unwrap().to_str().unwrap().to_owned();
-            (name, fs::read_to_string(f).unwrap())
+            let text = fs::read_to_string(f).unwrap();
+            (name, crate::layering::without_tests(&text))
         })
         .filter(|(name, text)| {
-            let code = text.split("#[cfg(test)]").next().unwrap();
-            !homes.iter().any(|h| name.starts_with(h)) && code.contains(&format!("\"{word}\""))
+            !homes.iter().any(|h| name.starts_with(h)) && text.lines().any(alone)
         })
         .map(|(name, _)| name)
         .collect()
@@ -73,8 +81,8 @@ fn ranking_terms_are_listed_in_their_three_files() {
     exhaustive.sort();
     let of_the_page = [
         "src/model/ranking.rs",
-        "src/score/lower_bound.rs",
-        "src/score/terms.rs",
+        "src/score/evaluation/lower_bound.rs",
+        "src/score/evaluation/terms.rs",
     ];
     assert_eq!(exhaustive, of_the_page);
     assert!(of_the_page.iter().all(|f| PAGE.contains(f)));
@@ -116,7 +124,57 @@ fn the_words_of_rank_methods_stand_in_their_own_files() {
         let name = method.name();
         // These are words of other tables, too.
         if !["count", "finite", "auto", "modular", "svd", "generic"].contains(&name) {
-            assert_eq!(elsewhere(name, &homes), [""; 0], "{name}");
+            // As a word of English some stand in many sentences; as a name, in quotes.
+            let quoted = format!("\"{name}\"");
+            assert_eq!(elsewhere(&quoted, &homes), [""; 0], "{name}");
         }
     }
+}
+
+/// What can be asked of the library can be asked on the command line and in Python, or it is said here why not.
+#[test]
+fn every_field_of_a_request_is_an_option_and_a_keyword() {
+    let read = |file: &str| fs::read_to_string(root().join(file)).unwrap();
+    let request = read("src/score/request.rs");
+    let (_, fields) = request.split_once("pub struct Request {").unwrap();
+    let (fields, _) = fields.split_once("\n}").unwrap();
+    let fields = fields.lines().filter_map(|l| l.trim().strip_prefix("pub "));
+    let fields: Vec<&str> = fields.map(|l| l.split(':').next().unwrap()).collect();
+    assert!(fields.len() > 20, "{fields:?}");
+    let command = read("src/cli/option/request.rs") + &read("src/cli/command/search.rs");
+    let python = read("src/python/search.rs");
+    for field in fields {
+        assert!(command.contains(field), "{field}: no option");
+        assert!(python.contains(&format!("{field}:")), "{field}: no keyword");
+    }
+}
+
+/// SQL takes values by the names of columns: each column of the tables that rows go into has one.
+#[test]
+fn every_column_of_the_catalogue_is_entered_by_its_name() {
+    let read = |file: &str| fs::read_to_string(root().join(file)).unwrap();
+    let (sql, insert) = (
+        read("src/catalog/tables.sql"),
+        read("src/catalog/insert.rs"),
+    );
+    let mut tables = 0;
+    for table in sql.split("CREATE TABLE ").skip(1) {
+        let (name, rest) = table.split_once(' ').unwrap();
+        let Some((_, row)) = insert.split_once(&format!("\"{name}\",\n")) else {
+            assert!(["meta", "parts"].contains(&name), "{name}");
+            continue;
+        };
+        let (row, _) = row.split_once("],").unwrap();
+        let (columns, _) = rest.split_once("\n)").unwrap();
+        let columns = columns.lines().filter_map(|l| l.strip_prefix("  "));
+        let columns = columns.map(|l| l.split(' ').next().unwrap());
+        for column in columns.filter(|c| {
+            c.chars()
+                .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+        }) {
+            assert!(row.contains(&format!("\"{column}\"")), "{name}.{column}");
+        }
+        tables += 1;
+    }
+    assert_eq!(tables, 5);
 }

@@ -1,10 +1,10 @@
 //! Ways of searching: which answers of theirs are right.
 
-use crate::common::{changed, count, json, out, ozols, text};
+use crate::common::{built_in, changed, count, json, out, ozols, text};
 use num_bigint::BigUint;
 use ozols::Mechanism;
 use ozols::accuracy::searching::record::{Record, Trial};
-use ozols::accuracy::searching::way::Way;
+use ozols::accuracy::searching::search_method::Way;
 use ozols::accuracy::searching::{Effort, MECHANISMS, pictures, trial};
 use ozols::accuracy::timing::{Machine, Stopwatch};
 use ozols::file::text::mechanism_from_str;
@@ -31,8 +31,8 @@ fn tried(mechanism: &Mechanism, request: &Request, effort: Effort) -> Trial {
     trial(mechanism, request, effort, watch, &mut |_, _, _| {}).unwrap()
 }
 
-fn built_in(name: &str) -> Trial {
-    let m = Mechanism::builtin(name).unwrap();
+fn trial_of(name: &str) -> Trial {
+    let m = built_in(name);
     tried(&m, &Request::default(), EFFORT)
 }
 
@@ -49,7 +49,7 @@ const CHECKS: [Check; 3] = [Check::None, Check::Prime, Check::Full];
 #[test]
 fn exact_ways_are_right_and_cut_ones_are_not() {
     for name in ["four-bar", "3-rrr-planar", "geared-gripper", "gripper-10"] {
-        let t = built_in(name);
+        let t = trial_of(name);
         let looking = [Way::Pruned, Way::Brute];
         for way in CHECKS.map(Way::Diagram).into_iter().chain(looking) {
             let r = of(&t, way);
@@ -80,11 +80,11 @@ fn exact_ways_are_right_and_cut_ones_are_not() {
 /// The whole of gripper-10 is known: [Pogrebnyak 2018] and a brute force run once.
 #[test]
 fn the_truth_is_what_is_known() {
-    let t = built_in("gripper-10");
+    let t = trial_of("gripper-10");
     let known = [6_340_592_477_u64, 25_761_436].map(BigUint::from);
     assert_eq!(t.found, Some(known));
     assert!(!t.whole && t.looked == 400 && t.ranked.is_none());
-    let t = built_in("goldberg-5r");
+    let t = trial_of("goldberg-5r");
     let counts = json(&[
         "search",
         "goldberg-5r",
@@ -110,7 +110,7 @@ fn floating_point_looks_at_the_same_matrices() {
         ("3-rrr-planar", Request::default()),
         ("gripper-10-unloaded", clamped),
     ] {
-        let m = Mechanism::builtin(name).unwrap();
+        let m = built_in(name);
         let outcome = ozols::search(&m, &request).unwrap();
         let search = &outcome.search;
         let drawn = search.sample(outcome.diagrams.as_ref().unwrap(), 7);
@@ -155,7 +155,7 @@ fn floating_point_is_wrong_about_a_hair() {
 /// A pool is no judge of itself: where no pool is proven to hold the best, nobody is said to be right about them.
 #[test]
 fn the_best_are_judged_by_a_proven_pool_alone() {
-    let t = built_in("gripper-10-loaded");
+    let t = trial_of("gripper-10-loaded");
     assert_eq!(t.ranked, Some((2_000, false)));
     assert!(t.records.iter().all(|r| r.best.is_none()));
     let said = pictures::ranking(&t).unwrap();
@@ -164,7 +164,7 @@ fn the_best_are_judged_by_a_proven_pool_alone() {
     // Ranking takes time of its own, and counting none of it.
     let pool = of(&t, Way::Pool(1000));
     assert!(pool.naming.is_some() && pool.counting.is_none() && pool.counts.is_none());
-    let small = built_in("lever-gripper");
+    let small = trial_of("lever-gripper");
     assert_eq!(small.ranked, Some((305, true)), "all were scored");
     let shares = [10, 100].map(|n| of(&small, Way::Pool(n)).best.unwrap().right);
     assert!(shares.is_sorted(), "{shares:?}");
@@ -177,7 +177,7 @@ fn the_best_are_judged_by_a_proven_pool_alone() {
 #[test]
 fn what_prunes_loses_nothing() {
     for name in ["four-bar", "geared-gripper", "3-rrr-planar", "two-bennetts"] {
-        let m = Mechanism::builtin(name).unwrap();
+        let m = built_in(name);
         let search = ozols::search(&m, &Request::default()).unwrap().search;
         let all = Matrices::new(&search);
         let radix: Vec<usize> = search
@@ -235,7 +235,7 @@ fn charts_show_what_ways_give() {
         let points = c.series.iter().skip(1);
         points.map(|s| s.name.clone()).collect()
     };
-    let t = built_in("gripper-10");
+    let t = trial_of("gripper-10");
     let counts = pictures::counts(&t, &machine()).unwrap();
     assert!(counts.x.label.contains("processor time of counting"));
     let given = names(&counts);
@@ -252,7 +252,7 @@ fn charts_show_what_ways_give() {
     // What is never wrong stands at zero, on an axis by decades.
     let svg = counts.svg();
     assert!(svg.contains(">0</text>"), "{svg}");
-    let small = built_in("four-bar");
+    let small = trial_of("four-bar");
     assert!(pictures::variants(&small, &machine()).is_none());
     assert!(names(&pictures::counts(&small, &machine()).unwrap()).contains(&"pruned".to_owned()));
 }
@@ -272,7 +272,7 @@ fn machine() -> Machine {
 #[test]
 fn pictures_show_every_way_and_the_machine() {
     let machine = machine();
-    let trials = [built_in("four-bar"), built_in("lever-gripper")];
+    let trials = [trial_of("four-bar"), trial_of("lever-gripper")];
     let files = pictures::files(&trials, &machine);
     assert_eq!(files, pictures::files(&trials, &machine));
     let svgs: Vec<_> = files.iter().filter(|f| f.0.ends_with(".svg")).collect();
@@ -353,7 +353,7 @@ fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
     }
     let list = List::Top(3);
     let top = tried(
-        &Mechanism::builtin("four-bar").unwrap(),
+        &built_in("four-bar"),
         &Request {
             list,
             ..Request::default()

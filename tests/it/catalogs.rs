@@ -1,7 +1,7 @@
 //! Every built-in mechanism has the figures its file states, with their sources.
 
+use crate::common::built_in;
 use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
 use ozols::redundancy::figures::{Figures, figures};
@@ -10,8 +10,7 @@ use ozols::redundancy::figures::{Figures, figures};
 fn every_built_in_mechanism_has_the_figures_it_states() {
     let mut wrong = Vec::new();
     for name in builtin::names() {
-        let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap())
-            .unwrap_or_else(|e| panic!("{e}"));
+        let m = built_in(name);
         assert_eq!(m.name, name, "a file is named for its mechanism");
         assert!(!m.sources.is_empty(), "{name} states no source");
         assert!(
@@ -122,7 +121,7 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
         ("gripper-10-unloaded", 2, 0),
         ("gripper-10-redesign-unloaded", 2, 0),
     ] {
-        let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let clamped = m.state("clamped").unwrap();
         let s = &analyse(&m, &[clamped], Method::Modular).unwrap()[0];
         let external: Vec<Verdict> = s

@@ -1,6 +1,7 @@
 //! Structures laid out: exactly symmetric, one motion that closes the jaws, determinate variants as published.
 
 mod carried_on;
+mod chains;
 mod command;
 mod killed;
 mod motions;
@@ -22,11 +23,10 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
 use ozols::file::schema::{Coordinate, DriveWord};
 use ozols::geom::vector::real;
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::Mechanism;
+use ozols::model::{joint_type::JointType, mechanism::Mechanism};
 use ozols::score::request::{Check, List};
 use ozols::synthesis::figures::figures;
-use ozols::synthesis::looks::Limits;
+use ozols::synthesis::layout_quality::Limits;
 use ozols::synthesis::structure::{Form, Structure, structures};
 use ozols::synthesis::workload::Workload;
 use ozols::synthesis::{layout, mechanism::mechanism_file};

@@ -1,7 +1,6 @@
 //! What publications say of the mechanisms they show, against what is so.
 
-use crate::common::{json, near, out};
-use ozols::Mechanism;
+use crate::common::{built_in, json, near, out};
 use ozols::drive::torsion::{Bar, CamSpring};
 use serde_json::{Value, json as value};
 use std::collections::BTreeSet;
@@ -21,7 +20,7 @@ fn rods_and_rockers_are_told_apart() {
         text.contains("right: rods 2 and 6, rockers 3 and 7"),
         "{text}"
     );
-    let m = Mechanism::builtin("gripper-10").unwrap();
+    let m = built_in("gripper-10");
     for (link, on_frame) in [("2", false), ("6", false), ("3", true), ("7", true)] {
         let l = m.links.iter().position(|x| x.id == link).unwrap();
         let joined = |j: &&ozols::model::mechanism::Joint| {

@@ -8,6 +8,7 @@ mod interrupt;
 mod other_files;
 mod output;
 mod small;
+mod watch;
 
 use crate::common::{count, out, run, text};
 use serde_json::Value;

@@ -1,6 +1,7 @@
 //! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
 use assert_cmd::Command;
+use ozols::Mechanism;
 use serde_json::Value;
 use std::fs;
 use std::process::Output;
@@ -43,6 +44,11 @@ pub(crate) fn out(args: &[&str]) -> String {
 
 pub(crate) fn json(args: &[&str]) -> Value {
     serde_json::from_str(&out(args)).unwrap()
+}
+
+/// A built-in mechanism.
+pub(crate) fn built_in(name: &str) -> Mechanism {
+    Mechanism::builtin(name).unwrap()
 }
 
 /// A count, written as a string.

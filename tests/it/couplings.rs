@@ -3,7 +3,7 @@
 mod counted;
 mod exchange;
 
-use crate::common::ozols;
+use crate::common::{built_in, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::NoAnswer;
@@ -40,10 +40,6 @@ fn coupled(a: &str, b: &str, ratio: &str) -> String {
 
 fn mechanism(text: &str) -> Mechanism {
     mechanism_from_str("pair.toml", text).unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn builtin(name: &str) -> Mechanism {
-    mechanism(ozols::builtin::text(name).unwrap())
 }
 
 fn exact(m: &Mechanism) -> StateAnalysis {
@@ -239,7 +235,7 @@ fn gears_that_repeat_or_contradict() {
 fn the_carrier_follows_the_sun() {
     use ozols::motion::follow::follow;
     use ozols::motion::pose::Pose;
-    let m = builtin("planetary-gear");
+    let m = built_in("planetary-gear");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = follow(&pose, 0, &[], [0.0, 1.0], 4);
     let last = way.reached.last().unwrap().pose();
@@ -278,7 +274,7 @@ fn every_method_counts_the_rows() {
         ("geared-gripper", 1),
         ("planetary-gear", 1),
     ] {
-        let m = builtin(name);
+        let m = built_in(name);
         for method in [
             "lu32", "lu", "qr32", "qr", "svd", "modular", "finite", "auto",
         ] {
@@ -296,7 +292,7 @@ fn every_method_counts_the_rows() {
         assert!(e.to_string().contains("no couplings of joints"));
     }
     // 6·4 - 25 - 1, 3·4 - 10 - 1, and 5 - 3 - 1 by contours.
-    let m = builtin("geared-five-bar");
+    let m = built_in("geared-five-bar");
     for (method, w) in [("count", -2), ("count-planar", 1), ("loops", 1)] {
         assert_eq!(
             by_name(method)

@@ -4,7 +4,7 @@
 //! on standard output, or on standard error where it prints nothing else, must be what follows it there, `...` standing for
 //! lines left out and `[..]` for part of a line. A block marked with a name, as `xml NAME`, is a file in that folder.
 
-use crate::assemblies::make;
+use crate::robots::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
 use snapbox::assert::Action;
@@ -78,9 +78,10 @@ fn run(document: &str) -> (usize, Vec<String>) {
             wrong.push(format!("{place}\n{complaints}"));
             continue;
         }
-        let said = match output.stdout.is_empty() {
-            true => output.stderr,
-            false => output.stdout,
+        let said = if output.stdout.is_empty() {
+            output.stderr
+        } else {
+            output.stdout
         };
         let compared = Assert::new().action(Action::Verify).try_eq(
             Some(&place),

@@ -8,13 +8,14 @@ mod meeting;
 mod moving;
 mod pairs;
 mod places;
+mod png;
 mod random;
 mod reading;
 mod space;
 mod undriven;
 
 use self::reading::{collisions, covers, misread, outside, texts};
-use crate::common::{out, ozols};
+use crate::common::{built_in, out, ozols};
 use ozols::builtin;
 use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
 use ozols::file::text::mechanism_from_str;
@@ -26,10 +27,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-
-fn built_in(name: &str) -> Mechanism {
-    mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap()
-}
 
 /// Contact sheets, one a family, to look at: `contact-sheets` in the folder that cargo gives tests.
 #[derive(Default)]

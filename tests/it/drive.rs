@@ -1,5 +1,8 @@
 //! The torsional drive against `[Klyuchkovskyi 1999]`.
 
+mod cam;
+mod command;
+mod programmes;
 mod swings;
 
 use crate::common::near;

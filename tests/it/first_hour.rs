@@ -381,9 +381,10 @@ fn on_a_terminal_colour_obeys_no_color() {
             .env("TERM", "xterm")
             .env_remove("CLICOLOR_FORCE")
             .env_remove("CLICOLOR");
-        match no_color {
-            true => command.env("NO_COLOR", "1"),
-            false => command.env_remove("NO_COLOR"),
+        if no_color {
+            command.env("NO_COLOR", "1")
+        } else {
+            command.env_remove("NO_COLOR")
         };
         command
             .stdin(std::process::Stdio::null())

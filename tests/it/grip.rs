@@ -1,6 +1,9 @@
 //! Clamping levers against `[Pavlenko & Godunko 2010]`, and holding forces against independent statics.
 
 mod cases;
+mod clamped;
+mod force_closure;
+mod holding;
 mod motion;
 mod published;
 

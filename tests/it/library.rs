@@ -1,6 +1,6 @@
 //! The library by its front door: what a program gets is what the command writes.
 
-use crate::common::{ozols, text, timeless};
+use crate::common::{built_in, ozols, text, timeless};
 use ozols::model::ranking::Term;
 use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};
@@ -14,7 +14,7 @@ use ozols::{Error, Mechanism, Outcome, Request, Scheme};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 fn search(name: &str, request: &Request) -> Outcome {
-    ozols::search(&Mechanism::builtin(name).unwrap(), request).unwrap()
+    ozols::search(&built_in(name), request).unwrap()
 }
 
 fn json(outcome: &Outcome) -> String {
@@ -120,7 +120,7 @@ fn an_outcome_is_what_the_command_writes() {
 
 #[test]
 fn a_cancelled_search_says_so() {
-    let m = Mechanism::builtin("gripper-10").unwrap();
+    let m = built_in("gripper-10");
     let outcome = run(m, &Request::default(), &|| true, &mut |_| {}).unwrap();
     assert_eq!(outcome.stop, Stop::Interrupted);
     assert!(!outcome.is_exact());
@@ -135,7 +135,7 @@ fn cancelled_orbits_are_not_called_exact() {
     };
     let built = AtomicBool::new(false);
     let outcome = run(
-        Mechanism::builtin("gripper-10").unwrap(),
+        built_in("gripper-10"),
         &request,
         &|| built.load(Ordering::SeqCst),
         &mut |event| built.store(matches!(event, Event::Built), Ordering::SeqCst),
@@ -207,7 +207,7 @@ fn a_variant_tells_of_itself() {
 
 #[test]
 fn formats_and_drawings_are_those_of_the_command() {
-    let m = Mechanism::builtin("four-bar").unwrap();
+    let m = built_in("four-bar");
     let printed = |args: &[&str]| String::from_utf8(ozols(args).output().unwrap().stdout).unwrap();
     let sdf = ozols::export(&m, "sdf").unwrap();
     assert_eq!(sdf, printed(&["export", "four-bar", "--to", "sdf"]));
@@ -240,7 +240,7 @@ fn errors_read_as_those_of_the_command() {
         hold: vec!["nosuch".to_owned()],
         ..Request::default()
     };
-    let m = Mechanism::builtin("four-bar").unwrap();
+    let m = built_in("four-bar");
     let why = ozols::search(&m, &request).unwrap_err();
     assert!(matches!(why, Error::Search(_)));
     let printed = ozols(&["search", "four-bar", "--hold", "nosuch"]).output();

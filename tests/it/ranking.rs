@@ -10,11 +10,11 @@ use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};
 use ozols::redundancy::analysis::exact_field;
-use ozols::score::elimination::Scratch;
-use ozols::score::evaluate::Evaluator;
+use ozols::score::evaluation::elimination::Scratch;
+use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::score::joint_types::JointTypes;
-use ozols::score::pareto::{dominates, fronts};
-use ozols::score::ranking::{RankedPool, Ranker, compare, weighted};
+use ozols::score::outcome::pareto::{dominates, fronts};
+use ozols::score::outcome::ranking::{RankedPool, Ranker, compare, weighted};
 use ozols::search::Search;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::question::conditions::Conditions;
@@ -181,7 +181,8 @@ fn orders_keep_their_laws() {
     assert_eq!(set(&weight), set(&lexical));
     assert_eq!(set(&weight), set(&pareto));
     // Nobody of the first front is dominated by anybody.
-    let point = |r: &ozols::score::ranking::Ranked| TERMS.map(|(t, _)| r.scores.loss(t)).to_vec();
+    let point =
+        |r: &ozols::score::outcome::ranking::Ranked| TERMS.map(|(t, _)| r.scores.loss(t)).to_vec();
     for a in &pareto.list {
         let beaten = pareto.list.iter().any(|b| dominates(&point(b), &point(a)));
         assert_eq!(a.front == Some(1), !beaten);

@@ -1,11 +1,13 @@
 //! Joint reactions of any mechanism: equilibrium, virtual work, frames, linearity, energy, self-stresses.
 
+use crate::common::built_in;
 mod command;
+mod cycle;
 mod family;
 mod named_drives;
 mod point_masses;
+mod unilateral;
 
-use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::loads::{ExternalForce, MassProperties};
@@ -15,10 +17,6 @@ use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
 use ozols::statics::reactions::{Choice, JointReaction, Reactions, Solution, Unsolved};
 use proptest::prelude::*;
-
-fn built_in(name: &str) -> Mechanism {
-    mechanism_from_str(name, builtin::text(name).unwrap()).unwrap()
-}
 
 /// A number as written with nine decimals, so that the file's exactness is kept.
 fn expr(x: f64) -> Expr {

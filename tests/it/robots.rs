@@ -1,5 +1,19 @@
 //! Robot descriptions: real models against the figures of other engines, and what is refused.
 
+pub(crate) mod assemblies;
+mod convert;
+mod exports;
+pub(crate) mod fix;
+pub(crate) mod ideas;
+mod lasting;
+mod lint;
+mod masses;
+pub(crate) mod mjcf;
+mod models;
+mod readers;
+mod sdf;
+mod taken;
+
 use crate::common::ozols;
 use ozols::file::text::mechanism_from_str;
 use ozols::file::write::mechanism_file;

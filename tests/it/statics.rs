@@ -3,6 +3,7 @@
 mod command;
 mod cycle;
 mod enumeration;
+mod force_plans;
 mod published;
 mod reactions;
 mod stability;

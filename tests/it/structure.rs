@@ -1,7 +1,8 @@
 //! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
 //! shares of the contours from one basis of the self-stresses.
 
-use crate::twin;
+use crate::common::built_in;
+use crate::search::twin;
 use ozols::accuracy::lattice::{self, Kind};
 use ozols::builtin;
 use ozols::closure::contour::Contour;
@@ -14,7 +15,7 @@ use ozols::model::joint_type::Freedom;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::modular;
 use ozols::redundancy::analysis::exact_field;
-use ozols::redundancy::share::shares;
+use ozols::redundancy::contour_shares::shares;
 use proptest::prelude::*;
 
 /// (σ in the order given, least, greatest) of each contour, by a rank for each.
@@ -59,7 +60,7 @@ fn check(mechanism: &Mechanism) {
 #[test]
 fn built_in_mechanisms() {
     for name in builtin::names() {
-        check(&mechanism_from_str(name, builtin::text(name).unwrap()).unwrap());
+        check(&built_in(name));
     }
 }
 

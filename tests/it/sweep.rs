@@ -363,7 +363,7 @@ fn strokes_states_and_methods_are_swept_too() {
     let asked = Asked {
         stroke: Some((
             "0:20deg:2".to_owned(),
-            ozols::file::read::motion::stroke("0:20deg:2").unwrap(),
+            ozols::file::read::workload::motion::stroke("0:20deg:2").unwrap(),
         )),
         methods: true,
         ..asked()
@@ -409,7 +409,7 @@ fn sliding_drives_are_told_in_the_files_unit() {
 #[test]
 fn ties_and_strokes_that_end_early_are_told_apart() {
     use ozols::sweep::forces::Forces;
-    use ozols::sweep::known::Known;
+    use ozols::sweep::known_or_why::Known;
     let mut table = all(&sweep(LOADED, Sampling::Grid { points: 2 }, asked()), None);
     table.rows.truncate(5);
     let peak = |peak_force: f64, complete| {

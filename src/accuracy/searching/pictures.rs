@@ -33,14 +33,17 @@ fn chart(words: Words, points: &[Point<'_>], machine: &Machine) -> Chart {
     if let Some(&(_, share)) = steps.last() {
         steps.push((slowest, share));
     }
-    let name = |(r, t, s): &Point<'_>| match s.right == s.of {
-        true => format!("{} (none wrong, {})", r.way, duration(*t)),
-        false => format!(
-            "{} ({:.1} % wrong, {})",
-            r.way,
-            s.percent_wrong(),
-            duration(*t)
-        ),
+    let name = |(r, t, s): &Point<'_>| {
+        if s.right == s.of {
+            format!("{} (none wrong, {})", r.way, duration(*t))
+        } else {
+            format!(
+                "{} ({:.1} % wrong, {})",
+                r.way,
+                s.percent_wrong(),
+                duration(*t)
+            )
+        }
     };
     let names: Vec<String> = front.iter().map(name).collect();
     let mut series = vec![Series {
@@ -137,13 +140,14 @@ pub fn best(trial: &Trial, machine: &Machine) -> Option<Chart> {
 pub fn ranking(trial: &Trial) -> Option<String> {
     let (pool, proven) = trial.ranked?;
     let pool = grouped(&pool.to_string());
-    Some(match proven {
-        true => format!(
+    Some(if proven {
+        format!(
             "The best are judged by a ranking of the {pool} cheapest variants, the best of all."
-        ),
-        false => format!(
+        )
+    } else {
+        format!(
             "The best are not judged: beyond the {pool} cheapest variants there may be better ones."
-        ),
+        )
     })
 }
 
@@ -167,9 +171,10 @@ pub fn wrong(trial: &Trial) -> String {
         })
     });
     let all: Vec<String> = counted.chain(judged).collect();
-    match all.is_empty() {
-        true => "No way is wrong about a variant or a count.".to_owned(),
-        false => format!("Wrong: {}.", list(&all)),
+    if all.is_empty() {
+        "No way is wrong about a variant or a count.".to_owned()
+    } else {
+        format!("Wrong: {}.", list(&all))
     }
 }
 

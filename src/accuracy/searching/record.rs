@@ -1,6 +1,6 @@
 //! What ways of searching are worth.
 
-use super::way::Way;
+use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::timing::Timing;
 use num_bigint::BigUint;
 

@@ -5,8 +5,8 @@ use super::asked::{self, Asked};
 use super::change::Noise;
 use super::said::{Count, Counts};
 use super::sketch::Sketch;
+use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Truth;
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
@@ -228,9 +228,12 @@ fn sentence(sweep: &Sweep, auto: &[Count], pairs: usize) -> String {
         sum.iter_mut().zip(c.three()).for_each(|(s, n)| *s += n);
         sum
     });
-    let part = |what: &str, names: &[String]| match names.is_empty() {
-        true => String::new(),
-        false => format!(" {what}: {}.", list(names)),
+    let part = |what: &str, names: &[String]| {
+        if names.is_empty() {
+            String::new()
+        } else {
+            format!(" {what}: {}.", list(names))
+        }
     };
     format!(
         "{pairs} pairs from the seed, one of each special and one not, in the second to the sixteenth digit.{}{}{} auto is right \

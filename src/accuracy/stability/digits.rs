@@ -3,7 +3,7 @@
 
 use super::change::{Noise, turned_and_rounded};
 use super::said::{Count, Counts, Said};
-use super::{Effort, Progress, Study};
+use super::study::{Effort, Progress, Study};
 use crate::accuracy::survey::Case;
 use crate::format::phrase::list;
 use crate::model::mechanism::{JointOption, Mechanism, StateId};

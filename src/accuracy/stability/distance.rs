@@ -1,8 +1,8 @@
 //! Distance from special geometry, 1 to 1e-16: a special mechanism with one coordinate displaced, exactly.
 
 use super::change::power_of_ten;
+use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::bands;
-use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::{Truth, Verdict};
 use crate::builtin;
 use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};

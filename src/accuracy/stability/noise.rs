@@ -1,8 +1,8 @@
 //! Noise in the coordinates, 1e-15 to 1e-3 of the mechanism's size, judged by the mechanism without noise.
 
 use super::change::{Noise, shaken};
+use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::Case;
 use crate::closure::matrix::Closure;

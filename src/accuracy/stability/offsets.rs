@@ -4,7 +4,7 @@
 use super::change::Noise;
 use super::said::{Count, Counts, Said};
 use super::special::Kind;
-use super::{Effort, Progress, Study};
+use super::study::{Effort, Progress, Study};
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
 use crate::model::mechanism::StateId;

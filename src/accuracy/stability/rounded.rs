@@ -2,8 +2,8 @@
 //! as it was.
 
 use super::change::{Noise, turned_and_rounded};
+use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::survey::Case;
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;

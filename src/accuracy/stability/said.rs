@@ -1,6 +1,6 @@
 //! What is said of a mechanism against its true figures, counted over a range: right, left open, or wrong and sure.
 
-use super::Picture;
+use super::study::Picture;
 use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::csv;
 use crate::rank::method::auto::Decision;

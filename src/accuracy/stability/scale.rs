@@ -1,8 +1,8 @@
 //! Mechanisms in other units: every length times 10^-6 to 10^6.
 
 use super::change::resized;
+use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::Verdict;
 use crate::accuracy::survey::Case;
 use crate::format::number::scientific;

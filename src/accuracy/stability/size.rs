@@ -1,7 +1,7 @@
 //! Size: 1 to 200 contours.
 
+use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{Tally, bands};
-use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::lattice::{self, Kind as Shape};
 use crate::accuracy::timing::{Stopwatch, quantile};
 use crate::accuracy::{Truth, Verdict};

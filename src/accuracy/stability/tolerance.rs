@@ -1,8 +1,8 @@
 //! The tolerance of the floating-point methods, 1e-15 to 1e-3, with and without noise; the default follows from it.
 
 use super::change::{Noise, shaken};
+use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{Sweep, Tally};
-use super::{Effort, Picture, Progress, Study};
 use crate::accuracy::survey::Case;
 use crate::accuracy::tuned::tolerances;
 use crate::closure::matrix::Closure;

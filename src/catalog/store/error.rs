@@ -18,12 +18,12 @@ pub enum StoreError {
     },
     /// The file is something else.
     #[error(
-        "{} is no catalogue of ozols; choose another name, `ozols catalog build -o NAME.db` makes one", .0.display()
+        "{} is not a catalogue of ozols; choose another name, `ozols catalog build -o NAME.db` makes one", .0.display()
     )]
     Other(PathBuf),
     /// Nothing is in it.
     #[error(
-        "{} is empty: the command that was to make a catalogue of it was ended; run it again, it carries on", .0.display()
+        "{} is empty: the command that was making the catalogue was ended; run it again and it carries on", .0.display()
     )]
     Empty(PathBuf),
     /// Tables of a version that is not known.

@@ -40,7 +40,7 @@ impl Store {
     }
 
     pub(super) fn set_meta(&mut self, key: &str, value: &str) -> Stored<()> {
-        let sql = "INSERT OR REPLACE INTO meta VALUES (?1, ?2)";
+        let sql = "INSERT OR REPLACE INTO meta (key, value) VALUES (?1, ?2)";
         let done = self.db.execute(sql, [key, value]);
         self.ok(done.map(|_| ()))
     }

@@ -68,7 +68,7 @@ impl Store {
     /// Where the file cannot be written.
     pub fn finish_part(&mut self, part: Shard, structures: usize) -> Stored<()> {
         let structures = i64::try_from(structures).unwrap_or(i64::MAX);
-        let sql = "INSERT OR REPLACE INTO parts VALUES (?1, ?2)";
+        let sql = "INSERT OR REPLACE INTO parts (part, structures) VALUES (?1, ?2)";
         let done = self
             .db
             .execute(sql, rusqlite::params![part.to_string(), structures]);

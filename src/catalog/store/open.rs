@@ -144,9 +144,10 @@ fn connect(path: &Path, flags: OpenFlags) -> Stored<Connection> {
 
 /// A name that SQLite takes for that of a file: `:memory:` is one here, too.
 pub(super) fn plain_name(path: &Path) -> PathBuf {
-    match path.is_absolute() {
-        true => path.to_owned(),
-        false => Path::new(".").join(path),
+    if path.is_absolute() {
+        path.to_owned()
+    } else {
+        Path::new(".").join(path)
     }
 }
 

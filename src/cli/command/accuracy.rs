@@ -4,8 +4,8 @@ use crate::accuracy::folder;
 use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::Survey;
 use crate::accuracy::timing::Stopwatch;
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::terminal::machine;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
@@ -28,7 +28,7 @@ pub(in crate::cli) struct Accuracy {
     repeat: Option<usize>,
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &Accuracy) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
     ensure!(repeat > 0, "--repeat must be at least 1");
     // The folder before the work: a bad path should not cost a minute.

@@ -1,12 +1,14 @@
 //! `ozols analyze`.
 
-use crate::cli::Done;
 use crate::cli::command::verify;
-use crate::cli::option::args::{AnalyzeFormat, Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::format::TextOrJson;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::output;
-use crate::file::read::motion::stroke;
+use crate::file::read::workload::motion::stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::registry;
 use crate::rank::method::{MobilityMethod, RankOfJ};
@@ -52,7 +54,7 @@ pub(in crate::cli) struct Analyze {
     pub(in crate::cli) planar: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: AnalyzeFormat,
+    pub(in crate::cli) format: TextOrJson,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     pub(in crate::cli) output: Option<PathBuf>,
@@ -72,7 +74,7 @@ pub(in crate::cli) struct Analyze {
     pub(in crate::cli) svg: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file.file)?;
     if a.planar {
         load::put_in_plane(&mut mechanism);
@@ -95,7 +97,7 @@ pub(in crate::cli) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
     {
         bail!(
-            "--tolerance is nothing to --method {}, which rounds nothing; leave it out, or use auto or svd",
+            "--tolerance has no effect with --method {}, which does not round; leave it out, or use auto or svd",
             a.method.name()
         );
     }
@@ -138,8 +140,8 @@ pub(in crate::cli) fn run(_: &Args, a: &Analyze) -> anyhow::Result<Done> {
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &analysis)?,
-            AnalyzeFormat::Text => {
+            TextOrJson::Json => output::json(out, &analysis)?,
+            TextOrJson::Text => {
                 let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
                 let text = toned(analysis.text(width), a.output.as_deref(), verdicts);
                 write!(out, "{text}")?;
@@ -175,7 +177,7 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
     }
     if a.certificate.is_some() {
         bail!(
-            "--method {} counts and finds no rank, so that there is no certificate of one; use auto, or leave --certificate out",
+            "--method {} counts without a rank, so it has no certificate; use auto, or leave --certificate out",
             method.name()
         );
     }
@@ -187,8 +189,8 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
     let found = ByMethod::new(mechanism, method, &answers);
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &found)?,
-            AnalyzeFormat::Text => write!(out, "{}", found.text())?,
+            TextOrJson::Json => output::json(out, &found)?,
+            TextOrJson::Text => write!(out, "{}", found.text())?,
         }
         Ok(Done::Found)
     })

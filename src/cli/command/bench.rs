@@ -1,10 +1,10 @@
 //! `ozols bench`.
 
-use crate::accuracy::searching::way::Way;
+use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::searching::{Effort, MECHANISMS, pictures, table, trial};
 use crate::accuracy::timing::Stopwatch;
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::option::request::Which;
@@ -53,7 +53,7 @@ pub(in crate::cli) struct Bench {
     which: Which,
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &Bench) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 15 });
     let looked = a.looked.unwrap_or(if a.quick { 1_000 } else { 20_000 });
     ensure!(repeat > 0, "--repeat must be at least 1");

@@ -8,8 +8,8 @@ mod format;
 mod look;
 mod merge;
 
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use clap::{Args as ClapArgs, Subcommand};
 
 #[derive(Debug, ClapArgs)]
@@ -40,7 +40,7 @@ enum What {
     Page(look::Page),
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &Catalog) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
     match &a.what {
         What::Count(c) => chains::count(args, c),
         What::Chains(c) => chains::list(c),

@@ -1,9 +1,10 @@
 //! `ozols check`, `show` and `schema`.
 
 use crate::builtin;
-use crate::cli::Done;
-use crate::cli::option::args::{Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::output;
 use crate::file::lint::{Checked, across, check};
@@ -30,7 +31,7 @@ pub(in crate::cli) struct Show {
     name: String,
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &File) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;
     if let Some((name, tables)) = tables_alone(&name, &bytes)? {
         return output::to(None, |out| {

@@ -1,8 +1,9 @@
 //! `ozols grip --closure`: how firmly the contacts of any clamped mechanism hold the part.
 
-use crate::cli::Done;
 use crate::cli::command::grip::args::Grip;
-use crate::cli::option::args::{AnalyzeFormat, Args};
+use crate::cli::done::Done;
+use crate::cli::option::format::TextOrJson;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::output;
 use crate::grip::clamped_part::ClampedPart;
@@ -28,7 +29,7 @@ fn state(m: &Mechanism, asked: Option<&str>) -> anyhow::Result<StateId> {
     })
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &Grip) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     let m = load::mechanism(&a.file.file)?;
     let part = ClampedPart::new(&m, state(&m, a.state.as_deref())?)?;
     let force = closure(&part, &part.faces)?;
@@ -52,8 +53,8 @@ pub(in crate::cli) fn run(args: &Args, a: &Grip) -> anyhow::Result<Done> {
     let shown = Closure::new(&m, &part, [&force, &form], samples.as_ref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &shown)?,
-            AnalyzeFormat::Text => {
+            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Text => {
                 write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
             }
         }

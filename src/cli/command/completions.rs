@@ -1,10 +1,9 @@
 //! `ozols completions`.
 
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use clap::Args as ClapArgs;
-use clap::CommandFactory;
+use clap::Command;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Completions {
@@ -13,10 +12,10 @@ pub(in crate::cli) struct Completions {
     shell: clap_complete::Shell,
 }
 
-pub(in crate::cli) fn run(a: &Completions) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(a: &Completions, mut program: Command) -> anyhow::Result<Done> {
     // The generator panics where it cannot write, so it writes to memory.
     let mut script = Vec::new();
-    clap_complete::generate(a.shell, &mut Args::command(), "ozols", &mut script);
+    clap_complete::generate(a.shell, &mut program, "ozols", &mut script);
     output::to(None, |out| {
         out.write_all(&script)?;
         Ok(Done::Found)

@@ -1,8 +1,8 @@
 //! `ozols convert`.
 
 use crate::api;
-use crate::cli::Done;
 use crate::cli::command::import::{Reading, description};
+use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use crate::robots::Options;
 use crate::robots::convert::{Closure, Converted, Target, Wanted, convert, figures};

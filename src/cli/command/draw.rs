@@ -1,9 +1,10 @@
 //! `ozols draw`.
 
-use crate::cli::Done;
-use crate::cli::option::args::{Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::option::motion::Moving;
+use crate::cli::option::named::File;
 use crate::cli::option::picture;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
@@ -122,7 +123,7 @@ fn numbers(text: &str) -> Option<[f64; 3]> {
     (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
 }
 
-pub(in crate::cli) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
     let wanted = wanted(a)?;
     ensure!(
         a.moves()
@@ -182,7 +183,7 @@ pub(in crate::cli) fn run(_: &Args, a: &Draw) -> anyhow::Result<Done> {
         };
         ensure!(
             stress.joints.iter().any(|w| w.borne.is_some()),
-            "self-stress {} is of so many numbers that they were left uncomputed",
+            "self-stress {} is too large: its numbers were not computed",
             k + 1
         );
         draw::kinematic_stressed(&subject, &sight, (stress, &words.name(k)))

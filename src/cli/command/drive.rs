@@ -1,8 +1,10 @@
 //! `ozols drive`.
 
-use crate::cli::Done;
-use crate::cli::option::args::{AnalyzeFormat, Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::format::TextOrJson;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
 use crate::drive::driving::drive;
@@ -31,7 +33,7 @@ pub(in crate::cli) struct Drive {
     pub(in crate::cli) samples: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: AnalyzeFormat,
+    pub(in crate::cli) format: TextOrJson,
     /// Also write charts, each as SVG and CSV, the cam's profile as SVG, CSV and DXF, and the payload's motion on the first
     /// disc for `ozols grip --motion`, into this folder.
     #[arg(long, value_name = "DIR")]
@@ -41,7 +43,7 @@ pub(in crate::cli) struct Drive {
     pub(in crate::cli) output: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &Drive) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file.file)?;
     let file = drive_from_bytes(&name, &bytes)?;
     let found = drive(&file.spec)?;
@@ -78,8 +80,8 @@ pub(in crate::cli) fn run(args: &Args, a: &Drive) -> anyhow::Result<Done> {
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &shown)?,
-            AnalyzeFormat::Text => {
+            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Text => {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", text::drive(&shown, width))?;
                 if a.svg.is_none() && shown.design.is_some() {

@@ -2,7 +2,7 @@
 
 mod pair;
 
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::terminal::did_you_mean;
 use crate::cli::terminal::output;
 use crate::model::joint_type::JointType;

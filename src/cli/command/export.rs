@@ -1,10 +1,11 @@
 //! `ozols export`.
 
-use crate::cli::Done;
 use crate::cli::command::import::description;
 use crate::cli::command::types::changed;
-use crate::cli::option::args::{Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
 use crate::cli::option::variant::{Chosen, tell};
@@ -48,7 +49,7 @@ fn written() -> PossibleValuesParser {
     PossibleValuesParser::new(formats::written().map(value))
 }
 
-pub(in crate::cli) fn run(_: &Args, a: &Export) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     if formats::is_own(&a.to) {
         return own(a);
     }

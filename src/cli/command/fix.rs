@@ -1,11 +1,11 @@
 //! `ozols fix`.
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
-use crate::cli::Done;
 use crate::cli::command::import::{Reading, description};
 use crate::cli::command::lint;
 use crate::cli::command::types;
 use crate::cli::command::types::{Plan, changed};
+use crate::cli::done::Done;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
 use crate::cli::option::variant::tell;
@@ -210,7 +210,7 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
     let before = api::analyze(m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() && request.max_mobility.is_none() {
         note(format!(
-            "nothing is redundant: {} {k} of the search would only let more move; --max-mobility makes it all the same",
+            "nothing is redundant, so {} {k} of the search would only add mobility; --max-mobility makes the change all the same",
             request.one()
         ));
         let plan = Plan {

@@ -3,15 +3,16 @@
 pub(in crate::cli) mod args;
 
 use crate::api::MAX_DESCRIPTION_BYTES;
-use crate::cli::Done;
 use crate::cli::command::closure;
-use crate::cli::option::args::{AnalyzeFormat, Args};
+use crate::cli::done::Done;
+use crate::cli::option::format::TextOrJson;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
 use crate::file::bounded;
-use crate::file::read::trajectory::trajectory;
 use crate::file::read::workload::grip_from_bytes;
+use crate::file::read::workload::trajectory::trajectory;
 use crate::grip::gripping::grip;
 use crate::grip::motion::along;
 use crate::model::grip::Toward;
@@ -21,7 +22,7 @@ use crate::view::terminal::next_commands::{self, Step};
 use anyhow::{Context, bail, ensure};
 use args::Grip;
 
-pub(in crate::cli) fn run(args: &Args, a: &Grip) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     if a.closure {
         return closure::run(args, a);
     }
@@ -74,8 +75,8 @@ pub(in crate::cli) fn run(args: &Args, a: &Grip) -> anyhow::Result<Done> {
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &shown)?,
-            AnalyzeFormat::Text => {
+            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Text => {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", text::grip(&shown, width))?;
                 if a.svg.is_none() {

@@ -1,7 +1,7 @@
 //! `ozols import`.
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::option::named::Named;
 use crate::cli::terminal::output;
 use crate::robots::{self, Options};

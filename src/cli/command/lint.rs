@@ -1,8 +1,8 @@
 //! `ozols lint`.
 
-use crate::cli::Done;
 use crate::cli::command::import::{Reading, description};
 use crate::cli::command::types;
+use crate::cli::done::Done;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::terminal::colour::{Tone, toned};
@@ -12,8 +12,8 @@ use crate::file::text::mechanism_from_bytes;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::rank::method::Certainty;
-use crate::redundancy::held_twice::{HeldTwice, held_twice};
-use crate::redundancy::over_motion::Where;
+use crate::redundancy::duplicate_constraints::{HeldTwice, held_twice};
+use crate::redundancy::other_poses::Where;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::robots::lint::{self, Lint as Found, PassedOver, sarif};
@@ -70,9 +70,10 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                             (passed.text(), good)
                         }
                         Ok(lint) => {
-                            let verdict = match lint.is_clean() {
-                                true => ("nothing is redundant".to_owned(), Tone::Good),
-                                false => (lint.sigma(), Tone::Bad),
+                            let verdict = if lint.is_clean() {
+                                ("nothing is redundant".to_owned(), Tone::Good)
+                            } else {
+                                (lint.sigma(), Tone::Bad)
                             };
                             (lint.text(), Some(verdict))
                         }

@@ -1,7 +1,7 @@
 //! `ozols list`.
 
 use crate::builtin;
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::terminal::did_you_mean;
 use crate::cli::terminal::output;
 use crate::format::csv;

@@ -1,11 +1,10 @@
 //! `ozols man`.
 
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use anyhow::Context;
 use clap::Args as ClapArgs;
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::roff::{Roff, roman};
 use std::path::PathBuf;
 
@@ -19,8 +18,8 @@ pub(in crate::cli) struct Man {
 /// An apostrophe that no formatter turns into a quotation mark.
 const APOSTROPHE: &str = ".ie \\n(.g .ds Aq \\(aq\n.el .ds Aq '\n";
 
-pub(in crate::cli) fn run(a: &Man) -> anyhow::Result<Done> {
-    let mut main = Args::command().disable_help_subcommand(true);
+pub(in crate::cli) fn run(a: &Man, program: Command) -> anyhow::Result<Done> {
+    let mut main = program.disable_help_subcommand(true);
     main.build();
     let Some(folder) = &a.output else {
         let page = page(&main)?;

@@ -1,8 +1,8 @@
 //! `ozols new`.
 
 use crate::builtin;
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::output;
 use crate::file::template;
@@ -23,7 +23,7 @@ pub(in crate::cli) struct New {
     force: bool,
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &New) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
     let shown = a.file.display();
     let toml = a.file.extension().is_some_and(|e| e == "toml");
     // The name of a file may be any bytes; that of a mechanism is text.

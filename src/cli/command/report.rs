@@ -1,9 +1,10 @@
 //! `ozols report`.
 
-use crate::cli::Done;
-use crate::cli::option::args::{Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::option::motion::Moving;
+use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
@@ -14,8 +15,8 @@ use crate::page::{Commands, Page, Redesigns, SHOWN, html, swaps};
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
+use crate::score::outcome::listing::Variants;
 use crate::score::request::{List, Request};
-use crate::score::variants::Variants;
 use crate::view::analysis::{Analysis, State};
 use crate::view::terminal::next_commands::{file_name, flags, stem, word};
 use anyhow::ensure;
@@ -41,14 +42,14 @@ pub(in crate::cli) struct Report {
 /// A page with more variants than this is of no use to anybody.
 const MOST: usize = 10_000;
 
-pub(in crate::cli) fn run(args: &Args, a: &Report) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
     write(args, a, a.output.as_deref(), false)?;
     Ok(Done::Found)
 }
 
 /// Writes the page, which looks for newer ones where it is `live`, and gives the verdict on each state in a few words.
 pub(in crate::cli) fn write(
-    args: &Args,
+    args: &Global,
     a: &Report,
     path: Option<&Path>,
     live: bool,

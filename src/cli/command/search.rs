@@ -1,8 +1,9 @@
 //! `ozols search`.
 
-use crate::cli::Done;
-use crate::cli::option::args::{Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::interrupt;
@@ -112,7 +113,7 @@ impl Search {
     }
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let begun = machine::clock();
     let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file.file)?;
@@ -149,9 +150,10 @@ pub(in crate::cli) fn run(args: &Args, a: &Search) -> anyhow::Result<Done> {
             SearchFormat::Jsonl => json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => {
                 if let Some(short) = csv::write(out, &outcome, variants)? {
-                    match a.comment {
-                        true => writeln!(out, "# {short}")?,
-                        false => output::say(&format!("{short}\n")),
+                    if a.comment {
+                        writeln!(out, "# {short}")?
+                    } else {
+                        output::say(&format!("{short}\n"))
                     }
                 }
             }

@@ -2,13 +2,13 @@
 
 pub(in crate::cli) mod args;
 
-use crate::cli::Done;
 use crate::cli::command::clamped;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
-use crate::file::read::motion::stroke;
+use crate::file::read::workload::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -30,7 +30,7 @@ use anyhow::{Context, bail};
 use args::{Statics, StaticsFormat, StaticsMethod};
 use std::path::Path;
 
-pub(in crate::cli) fn run(args: &Args, a: &Statics) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.clone().unwrap_or_else(|| "parallel-shears".into()))?;
     if a.planar {
         load::put_in_plane(&mut m);
@@ -188,19 +188,20 @@ fn spatial(
                 StaticsFormat::Text => {
                     write!(out, "{}", reactions(&shown, "pose of the file", width))?;
                     let file = a.file.as_deref().unwrap_or(&m.name);
-                    let step = match shown.unique {
-                        false => Step::new(
-                            "search",
-                            file,
-                            "",
-                            "redesigns without redundant constraints, whose reactions are the only ones",
-                        ),
-                        true => Step::new(
+                    let step = if shown.unique {
+                        Step::new(
                             "statics",
                             file,
                             "--spatial --format csv -o reactions.csv",
                             "the components of every joint's reaction",
-                        ),
+                        )
+                    } else {
+                        Step::new(
+                            "search",
+                            file,
+                            "",
+                            "redesigns without redundant constraints, whose reactions are the only ones",
+                        )
                     };
                     write!(out, "{}", next_commands::text(&[step], width))?;
                 }

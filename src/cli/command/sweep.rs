@@ -1,14 +1,15 @@
 //! `ozols sweep`.
 
-use crate::cli::Done;
-use crate::cli::option::args::{AnalyzeFormat, Args};
+use crate::cli::done::Done;
+use crate::cli::option::format::TextOrJson;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::option::request::Which;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
-use crate::file::read::motion::stroke;
+use crate::file::read::workload::motion::stroke;
 use crate::file::text::text_of;
 use crate::format::phrase::plural;
 use crate::score::request::Request;
@@ -86,7 +87,7 @@ pub(in crate::cli) struct SweepArgs {
     methods: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    format: AnalyzeFormat,
+    format: TextOrJson,
     #[command(flatten)]
     which: Which,
 }
@@ -103,7 +104,7 @@ impl Watch for Watching {
     }
 }
 
-fn sweep(args: &Args, a: &SweepArgs, file: &Named) -> anyhow::Result<Sweep> {
+fn sweep(args: &Global, a: &SweepArgs, file: &Named) -> anyhow::Result<Sweep> {
     let (name, bytes) = load::named(file)?;
     let sampling = match a.sobol {
         None => Sampling::Grid { points: a.grid },
@@ -135,7 +136,7 @@ fn sweep(args: &Args, a: &SweepArgs, file: &Named) -> anyhow::Result<Sweep> {
     })?)
 }
 
-fn table(args: &Args, a: &SweepArgs) -> anyhow::Result<Table> {
+fn table(args: &Global, a: &SweepArgs) -> anyhow::Result<Table> {
     let Some(file) = &a.file else {
         let Some(whole) = &a.output else {
             bail!("--merge needs -o, the table of the whole");
@@ -157,7 +158,7 @@ fn table(args: &Args, a: &SweepArgs) -> anyhow::Result<Table> {
     Ok(made?)
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &SweepArgs) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &SweepArgs) -> anyhow::Result<Done> {
     let table = table(args, a)?;
     let shown = view::sweep::Sweep::new(&table);
     let write = |path: &Option<PathBuf>, text: &dyn Fn() -> anyhow::Result<String>| match path {
@@ -174,8 +175,8 @@ pub(in crate::cli) fn run(args: &Args, a: &SweepArgs) -> anyhow::Result<Done> {
     write(&a.svg, &|| Ok(shown.plot(a.plot, &a.over)?.svg()))?;
     output::to(None, |out| {
         match a.format {
-            AnalyzeFormat::Json => output::json(out, &shown)?,
-            AnalyzeFormat::Text => {
+            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Text => {
                 let width = output::width(None);
                 write!(out, "{}", shown.text(width))?;
                 write!(out, "{}", next_commands::text(&steps(a, &table), width))?;

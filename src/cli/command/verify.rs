@@ -1,8 +1,9 @@
 //! `ozols verify`, and the certificates that `ozols analyze` writes for it.
 
-use crate::cli::Done;
-use crate::cli::option::args::{Args, File};
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::terminal::output;
 use crate::file::bounded;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -72,7 +73,7 @@ pub(in crate::cli) fn write(
     Ok(())
 }
 
-pub(in crate::cli) fn run(_: &Args, a: &Verify) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file.file)?;
     if a.planar {
         load::put_in_plane(&mut m);

@@ -2,9 +2,9 @@
 
 mod changes;
 
-use crate::cli::Done;
 use crate::cli::command::report::{self, Report};
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
@@ -21,7 +21,7 @@ pub(in crate::cli) struct Watch {
     report: Report,
 }
 
-pub(in crate::cli) fn run(args: &Args, a: &Watch) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(args: &Global, a: &Watch) -> anyhow::Result<Done> {
     let file = a.report.file.file.clone();
     let path = file.path();
     ensure!(
@@ -50,7 +50,7 @@ pub(in crate::cli) fn run(args: &Args, a: &Watch) -> anyhow::Result<Done> {
 }
 
 /// Looks at the file as it is now; what is wrong with it is told, and may be mended.
-fn look(args: &Args, a: &Report, page: &Path) {
+fn look(args: &Global, a: &Report, page: &Path) {
     let file = &a.file.file;
     if !args.quiet
         && let Ok((name, bytes)) = load::named(file)

@@ -1,17 +1,17 @@
 //! The motion that a moving drawing shows.
 
 use crate::draw::Moved;
-use crate::file::read::motion::stroke;
+use crate::file::read::workload::motion::stroke;
 use crate::format::number::decimals;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::motion::drive_range::{SLIDE, Way, way as way_of};
 use crate::motion::follow::slides;
 use crate::motion::jaws::meet;
 use crate::motion::pose::Pose;
-use crate::motion::way::{SLIDE, Way, way as way_of};
 use crate::motion::working::working_way;
 use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
 use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::wiggle::{FAR, wiggle};
+use crate::redundancy::idle_animation::{FAR, wiggle};
 use crate::view::analysis::idle;
 use anyhow::{Context, bail, ensure};
 use std::f64::consts::PI;

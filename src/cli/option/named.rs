@@ -1,5 +1,6 @@
 //! FILE arguments as they were typed: paths of any bytes, which are told as text.
 
+use clap::{Args as ClapArgs, ValueHint};
 use std::ffi::OsString;
 use std::fmt;
 use std::ops::Deref;
@@ -44,4 +45,11 @@ impl fmt::Display for Named {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
     }
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct File {
+    /// A path, `-`, or the name of a built-in mechanism.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) file: Named,
 }

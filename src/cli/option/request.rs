@@ -226,8 +226,10 @@ impl Checked {
 /// The help of `--rank`.
 fn rank_help() -> String {
     format!(
-        "Rank under the workload by these terms, in place of the file's [ranking] terms: peak-force=1,cost=0.5. Terms: {}; weight \
-         1 where none stands",
+        "Rank under the workload by these terms, in place of the file's [ranking] terms: {}=1,{}=0.5. Terms: {}; weight 1 where \
+         none stands",
+        Term::PeakForce.name(),
+        Term::Cost.name(),
         Term::ALL.map(Term::name).join(", ")
     )
 }

@@ -2,9 +2,9 @@
 
 use crate::cli::terminal::progress::note;
 use crate::model::mechanism::Mechanism;
+use crate::score::outcome::variant::Variant;
 use crate::score::request::{Check, List, Request};
 use crate::score::run::{Event, run};
-use crate::score::variant::Variant;
 use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
 

@@ -1,7 +1,7 @@
 //! Charts and drawings into a folder, each as SVG and CSV.
 
 use crate::chart::{Chart, page};
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::terminal::output;
 
 /// A drawing beside the charts.

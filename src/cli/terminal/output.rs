@@ -24,8 +24,8 @@ fn file(path: Option<&Path>) -> Option<&Path> {
 /// Runs `write` on standard output, which is also `-`, or on a file that appears under its name only once it is complete.
 pub(in crate::cli) fn to(
     path: Option<&Path>,
-    write: impl FnOnce(&mut dyn Write) -> anyhow::Result<crate::cli::Done>,
-) -> anyhow::Result<crate::cli::Done> {
+    write: impl FnOnce(&mut dyn Write) -> anyhow::Result<crate::cli::done::Done>,
+) -> anyhow::Result<crate::cli::done::Done> {
     let Some(path) = file(path) else {
         let mut out = BufWriter::new(Standard::new());
         let done = write(&mut out)?;
@@ -91,7 +91,7 @@ pub(in crate::cli) fn files(
     for (name, text) in files {
         to(Some(&folder.join(&name)), |out| {
             out.write_all(text.as_bytes())?;
-            Ok(crate::cli::Done::Found)
+            Ok(crate::cli::done::Done::Found)
         })?;
     }
     Ok(())

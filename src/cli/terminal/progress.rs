@@ -5,7 +5,7 @@ use crate::cli::terminal::output;
 use crate::cli::terminal::spinner;
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
-use crate::score::prepared::LooksRounded;
+use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{List, Request};
 use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
 use crate::search::diagram::Progress;

@@ -52,15 +52,16 @@ pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
             add(at, [r * angle.cos(), r * angle.sin()])
         });
         let line = |points: Vec<Point>| Shape::line(class.to_owned(), points);
-        let inside = match toward > 0.0 {
-            true => vec![Shape::Circle {
+        let inside = if toward > 0.0 {
+            vec![Shape::Circle {
                 at,
                 radius: 0.3 * r,
                 class: format!("{class} head"),
-            }],
-            false => [-1.0, 1.0]
+            }]
+        } else {
+            [-1.0, 1.0]
                 .map(|s| line(vec![add(at, [-d, -s * d]), add(at, [d, s * d])]))
-                .to_vec(),
+                .to_vec()
         };
         return [vec![line(rim.collect())], inside].concat();
     }

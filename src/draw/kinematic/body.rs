@@ -1,6 +1,6 @@
 //! The shape of a link: a bar where its joints are in a row, a plate where they are not.
 
-use crate::draw::kinematic::concentric::one_place;
+use crate::draw::symbol::concentric::one_place;
 use crate::draw::symbol::pieces::hull;
 use crate::svg::plane::{Point, add, cross, dot, mean, norm, scale, sub, unit};
 

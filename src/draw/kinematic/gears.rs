@@ -1,6 +1,6 @@
 //! Joints that gears couple, as their pitch circles, and a pinion as that of its rack.
 
-use super::Kinematic;
+use crate::draw::kinematic::Kinematic;
 use crate::draw::place::projection::{self, Place, add, cross, dot, norm, scale, sub};
 use crate::geom::vector::Vector;
 use crate::model::coupling::Coupling;
@@ -16,22 +16,27 @@ type Circle = (usize, Vector, Vector, f64);
 
 impl Kinematic<'_> {
     /// The pitch circles of a coupling on paper with the joints at some places, each a closed line; none where no gears can make it.
-    pub(super) fn pitch_circles(&self, coupling: &Coupling, places: &[Place]) -> Vec<Vec<Point>> {
+    pub(in crate::draw) fn pitch_circles(
+        &self,
+        coupling: &Coupling,
+        places: &[Place],
+    ) -> Vec<Vec<Point>> {
         let flat = |circle: Vec<Vector>| circle.iter().map(|&p| self.projection.flat(p)).collect();
         let circles = self.pitch_circles_in_space(coupling, places).into_iter();
         circles.map(|(_, circle)| flat(circle)).collect()
     }
 
     /// The same in space, each with the end of the coupling that it is about.
-    pub(super) fn pitch_circles_in_space(
+    pub(in crate::draw) fn pitch_circles_in_space(
         &self,
         coupling: &Coupling,
         places: &[Place],
     ) -> Vec<(usize, Vec<Vector>)> {
-        let circles = match coupling.gear {
-            true => gears(self, coupling, places)
-                .or_else(|| pinion(self, coupling, places).map(|c| vec![c])),
-            false => None,
+        let circles = if coupling.gear {
+            gears(self, coupling, places)
+                .or_else(|| pinion(self, coupling, places).map(|c| vec![c]))
+        } else {
+            None
         };
         let line = |(end, middle, normal, radius): Circle| {
             let x = projection::across(normal);
@@ -47,7 +52,7 @@ impl Kinematic<'_> {
     }
 
     /// The lines from joint to joint that stand for couplings without circles.
-    pub(super) fn coupling_lines(&self) -> Vec<(Point, Point)> {
+    pub(in crate::draw) fn coupling_lines(&self) -> Vec<(Point, Point)> {
         let m = self.subject.mechanism;
         let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
         let all = m.couplings_in(self.subject.state);

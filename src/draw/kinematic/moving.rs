@@ -1,15 +1,19 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
-use super::frame::Frame;
-use super::symbol::Symbol;
+pub(in crate::draw::kinematic) mod coupler_curves;
+pub(in crate::draw::kinematic) mod frame;
+pub(in crate::draw::kinematic) mod sliding;
+
 use super::{Kinematic, STRIP};
+use crate::draw::kinematic::moving::frame::Frame;
 use crate::draw::kinematic::posed::Carried;
 use crate::draw::place::projection::{Place, bounds};
 use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Plan, Sheet, Swatch, plan};
 use crate::draw::subject::Subject;
+use crate::draw::symbol::placed::Symbol;
+use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use crate::motion::way::Way;
 use crate::svg::plane::{Point, Rect, add};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -2,13 +2,17 @@
 //!
 //! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
 
+pub(in crate::draw::kinematic) mod pair;
+pub(in crate::draw::kinematic) mod part;
+pub(in crate::draw::kinematic) mod swapped;
+
 use super::Kinematic;
 use super::arrow::Arrow;
-use super::frame::Frame;
 use super::moving::{Moved, flag_row, poses};
-use super::pair::{Pair, Tie};
-use super::part::{Part, below, paper, tidy};
+use crate::draw::kinematic::moving::frame::Frame;
 use crate::draw::kinematic::posed::Carried;
+use crate::draw::kinematic::scene::pair::{Pair, Tie};
+use crate::draw::kinematic::scene::part::{Part, below, paper, tidy};
 use crate::draw::place::projection::{Vector, View, add, cross, dot, norm, scale, sub};
 use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
@@ -316,7 +320,7 @@ impl Kinematic<'_> {
         // the ground, straight below whatever the view
         for ground in &self.grounds {
             let there = |i: &usize| {
-                crate::draw::kinematic::concentric::one_place(self.spots[*i].at, ground.from)
+                crate::draw::symbol::concentric::one_place(self.spots[*i].at, ground.from)
             };
             let Some(i) = (0..self.spots.len()).find(there) else {
                 continue;

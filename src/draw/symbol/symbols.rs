@@ -28,15 +28,7 @@ pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
         JointType::Cylindrical | JointType::Helical => Some(BUSH),
         JointType::CylindricalUniversal => Some(SLIDING_CROSS),
         JointType::SphereInCylinder => Some(TUBE),
-        JointType::Revolute
-        | JointType::Universal
-        | JointType::Slotted
-        | JointType::Spherical
-        | JointType::Planar
-        | JointType::CylinderOnPlane
-        | JointType::SphereOnPlane
-        | JointType::Fixed
-        | JointType::Custom(_) => None,
+        _ => None,
     }
 }
 

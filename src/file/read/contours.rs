@@ -4,7 +4,7 @@ use crate::closure::contour::closed_walk;
 use crate::file::findings::Findings;
 use crate::file::locate::{Step, index};
 use crate::file::problem::ProblemKind;
-use crate::file::read::names::joint_by_id;
+use crate::file::read::value::names::joint_by_id;
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::{JointId, Mechanism};
 

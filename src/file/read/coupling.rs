@@ -5,7 +5,7 @@ use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::file::findings::Findings;
 use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::number::number;
+use crate::file::read::value::number::number;
 use crate::file::schema::MechanismFile;
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;

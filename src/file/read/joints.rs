@@ -3,11 +3,11 @@
 use crate::file::findings::Findings;
 use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::limits::LIMITS;
-use crate::file::read::names::{check_id, link_by_id};
-use crate::file::read::number::{direction, pitch, vector};
-use crate::file::read::options::options;
 use crate::file::read::resolve::{frame, joint_type, motion_name, option};
+use crate::file::read::search::options::options;
+use crate::file::read::value::limits::LIMITS;
+use crate::file::read::value::names::{check_id, link_by_id};
+use crate::file::read::value::number::{direction, pitch, vector};
 use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading, Words};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};

@@ -3,8 +3,8 @@
 use crate::file::findings::Findings;
 use crate::file::locate::{Step, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::loads::mass;
-use crate::file::read::names::check_id;
+use crate::file::read::value::names::check_id;
+use crate::file::read::workload::loads::mass;
 use crate::file::schema::{MechanismFile, Words};
 use crate::model::mechanism::{Link, Role};
 use std::collections::BTreeSet;

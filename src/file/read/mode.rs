@@ -3,7 +3,7 @@
 use crate::file::findings::Findings;
 use crate::file::locate::Step;
 use crate::file::problem::ProblemKind;
-use crate::file::read::number::direction;
+use crate::file::read::value::number::direction;
 use crate::file::schema::MechanismFile;
 use crate::geom::expr::Expr;
 use crate::model::mechanism::Mode;

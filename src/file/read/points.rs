@@ -2,8 +2,8 @@
 
 use crate::file::findings::Findings;
 use crate::file::locate::{Step, index, key};
-use crate::file::read::names::{check_id, link_by_id};
-use crate::file::read::number::vector;
+use crate::file::read::value::names::{check_id, link_by_id};
+use crate::file::read::value::number::vector;
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::{Mechanism, PointOfInterest};
 

@@ -3,7 +3,7 @@
 use crate::file::findings::Findings;
 use crate::file::locate::{Step, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::number::{direction, pitch, vector};
+use crate::file::read::value::number::{direction, pitch, vector};
 use crate::file::schema::OptionEntry;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};

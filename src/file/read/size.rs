@@ -2,7 +2,7 @@
 
 use crate::file::findings::Findings;
 use crate::file::problem::ProblemKind;
-use crate::file::read::limits::ENTRIES;
+use crate::file::read::value::limits::ENTRIES;
 use crate::model::mechanism::{Mechanism, Mode};
 
 /// Whether no state's closure matrix is too large: a row for each constraint of a contour, a column for each freedom.

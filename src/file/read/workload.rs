@@ -1,14 +1,21 @@
 //! Reading the workload tables of a file, with or without a mechanism around them.
 
+pub mod drive;
+pub mod grip;
+pub mod joint_loads;
+pub mod loads;
+pub mod motion;
+pub mod trajectory;
+
 use crate::file::findings::{Finding, Findings};
 use crate::file::locate::Step;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::read::claims::claims;
-use crate::file::read::drive::drive;
-use crate::file::read::grip::grip;
-use crate::file::read::parameters::{Values, knowing};
-use crate::file::read::unit::length_unit;
+use crate::file::read::value::parameters::{Values, knowing};
+use crate::file::read::value::unit::length_unit;
+use crate::file::read::workload::drive::drive;
+use crate::file::read::workload::grip::grip;
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read, text_of};
 use crate::model::claim::Claim;
@@ -98,9 +105,10 @@ fn workload<T>(
     missing: ProblemKind,
 ) -> Result<Workload<T>, Vec<Finding>> {
     let mut out = knowing(file, &Values::new());
-    let mechanism = match file.link.is_empty() && file.joint.is_empty() {
-        true => None,
-        false => Some(build(file)?),
+    let mechanism = if file.link.is_empty() && file.joint.is_empty() {
+        None
+    } else {
+        Some(build(file)?)
     };
     let length_unit = length_unit(file, &mut out);
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &mut out);

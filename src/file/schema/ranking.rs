@@ -32,12 +32,19 @@ pub struct RankingEntry {
 #[serde(deny_unknown_fields)]
 pub struct TermEntry {
     /// Its word, of those that [`Term`] has.
-    #[schemars(description = format!("{}.", disjunction(Term::ALL.map(Term::name))))]
+    #[schemars(description = terms())]
     #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
     /// Its weight, 1 by default.
     #[serde(default)]
     pub weight: Option<f64>,
+}
+
+/// The words of terms with what they mean.
+fn terms() -> String {
+    let each = Term::ALL.map(Term::about);
+    let each = each.map(|a| format!("{} ({})", a.word, a.meaning));
+    format!("{}.", disjunction(each.iter().map(String::as_str)))
 }
 
 /// A bound.

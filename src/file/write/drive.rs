@@ -1,6 +1,6 @@
 //! The `[workload.drive]` table.
 
-use crate::file::read::drive::regular;
+use crate::file::read::workload::drive::regular;
 use crate::file::schema::{Coordinate, DriveEntry};
 use crate::file::write::quantity::{angle, number};
 use crate::model::drive::{DriveSpec, Push, Step};

@@ -199,9 +199,10 @@ impl Reading {
             axis: axis.0,
             reference: reference.0,
             // A whole pitch is chosen.
-            pitch: match is_whole(&f.pitch) {
-                true => 0.0,
-                false => self.length(&f.pitch),
+            pitch: if is_whole(&f.pitch) {
+                0.0
+            } else {
+                self.length(&f.pitch)
             },
         };
         let numbers = FrameNumbers {

@@ -117,7 +117,7 @@ function bodiesOf(scene, swaps) {
     if (symmetric && (a.link === scene.frame || (j.pair.free.join() !== "rz" && b.link !== j.links[1]))) [a, b] = [b, a];
     const mid = j.changed ? NEW : PIN;
     if (j.changed) [a, b] = [a, b].map((one) => ({ ...one, colour: times(plus(one.colour, NEW), 0.5) }));
-    const ends = FITTINGS[j.pair.joint_type]({ at, x, y, z, a, b, s, mid, slide: slideOf(scene, j) });
+    const ends = (FITTINGS[j.pair.joint_type] ?? FITTINGS.custom)({ at, x, y, z, a, b, s, mid, slide: slideOf(scene, j) });
     [a, b].forEach((one, n) => {
       if (one.link !== scene.frame) roots[one.link].push(ends[n]);
       else foot(one.heap, ends[n], unit(beside(one.toward, z) ?? times(z, Math.sign(dot(one.toward, z)) || -1)), s);

@@ -34,7 +34,7 @@ function fork(side, at, axis, gap, radius, s) {
 
 const along = ({ at }, axis, far) => plus(at, times(axis, far));
 
-/** The fittings by joint type: `f` has the place, the axes x, y, z, the sides a and b, the size s, and the colour of what is between. */
+/** The fittings by joint type, `custom` for one that has none: `f` has the place, the axes x, y, z, the sides a and b, the size s, and the colour of what is between. */
 const FITTINGS = {
   revolute({ at, z, a, b, s, mid }) {
     tube(a.heap, at, z, 6 * s, 2.3 * s, 2.4 * s, a.colour);

@@ -56,7 +56,7 @@ class Catalog:
             self._db = sqlite3.connect(f"{self.path.resolve().as_uri()}?mode=ro", uri=True)
             self._meta: dict[str, str] = dict(self._db.execute("SELECT key, value FROM meta"))
         except sqlite3.Error as e:
-            raise _native.Error(f"{self.path} is no catalogue of ozols: {e}") from e
+            raise _native.Error(f"{self.path} is not a catalogue of ozols: {e}") from e
 
     @property
     def spec(self) -> str:

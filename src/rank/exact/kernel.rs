@@ -62,7 +62,7 @@ pub enum NoCertificate {
     #[error("no prime was found that splits the number field, or shows that it is one")]
     NoPrimes,
     /// The certificate that was made has a flaw: a bug.
-    #[error("the certificate did not stand up: {0}; report this with the file")]
+    #[error("the certificate was rejected: {0}; report this with the file")]
     Rejected(Flaw),
 }
 

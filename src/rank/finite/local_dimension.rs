@@ -49,7 +49,7 @@ pub struct Traced {
 }
 
 /// The dimension of the closed poses at and near `pose`, none where a budget of closed poses runs out. `motions` is the
-/// instantaneous mobility; `shaky` says that not all of it can be motion.
+/// instantaneous mobility; `shaky` says that some of it is infinitesimal only.
 ///
 /// # Complexity
 /// About W closings of O((6k)² f) each at a regular pose, and some hundred at a singular one.

@@ -8,9 +8,9 @@ use ozols_dense::singular_values;
 
 /// Singular values below this fraction of the largest are zero in double precision.
 pub(in crate::rank) const ROUND_OFF: f64 = 1e-14;
-/// A gap this wide among the values that the exact rank counts,
+/// The least ratio between neighbouring singular values that counts as a gap.
 const GAP: f64 = 1e3;
-/// that ends below this fraction of the largest, says that some are left over from zero.
+/// A gap counts only if its lower end is below this fraction of the largest singular value.
 const LEFT_OVER: f64 = 1e-4;
 
 /// Singular values over the largest, falling.

@@ -11,7 +11,7 @@ use crate::rank::rounded::verdict::{Verdict, rank_of, resolved, verdict_on};
 /// The mechanism that is meant, for exact arithmetic.
 #[derive(Debug, Clone, Default)]
 pub struct Settled {
-    /// It, where it was snapped because that is what is meant or asked for; none where it is as written.
+    /// The snapped mechanism, where that is meant or asked for; `None` where the file is taken as written.
     pub snapped: Option<Mechanism>,
     /// The same as other scenes have it that the digits do not rule out.
     pub others: Vec<Mechanism>,

@@ -1,7 +1,7 @@
 //! The verdict on the rank of a state: as written, or as meant where coordinates are rounded, or undecided.
 //!
-//! Rounding raises ranks. A singular value above what rounding can do is there in truth; where all that the exact rank counts
-//! are, it holds. Where not, the widest gap among the others says which rank was meant, and it is taken only if there is such
+//! Rounding raises ranks. A singular value above the rounding bound is real; if all that the exact rank counts are, the
+//! exact rank holds. If not, the widest gap among the others says which rank was meant, and it is taken only if there is such
 //! a geometry within the digits: by snapping, exactly, or else by Newton's method.
 
 use crate::closure::matrix::Closure;

@@ -72,7 +72,7 @@ pub struct StrokeFigures {
     pub undriven: usize,
 }
 
-/// What a stroke is asked of.
+/// The input of a stroke analysis.
 #[derive(Debug, Clone)]
 pub struct StrokeRequest<'a> {
     /// The mechanism.

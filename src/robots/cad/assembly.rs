@@ -6,8 +6,8 @@ use crate::model::joint_type::JointType;
 use crate::robots::cad::coupled::coupling;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::meet::{Meeting, meeting};
+use crate::robots::description::parts::{Part, Robot, Unit, free};
 use crate::robots::options::Options;
-use crate::robots::parts::{Part, Robot, Unit, free};
 use crate::robots::warning::Count;
 
 /// Frames that are apart by less than this, as a share of the assembly's size and in radians, meet: solvers leave so much.

@@ -26,9 +26,10 @@ pub(crate) struct Meeting {
 fn frame(point: Vector, z: Vector, x: Vector) -> Motion {
     let z = towards(z);
     let x = sub(x, scale(z, dot(x, z)));
-    let x = match length(x) > FLAT {
-        true => towards(x),
-        false => perpendicular(z),
+    let x = if length(x) > FLAT {
+        towards(x)
+    } else {
+        perpendicular(z)
     };
     let y = cross(z, x);
     Motion {

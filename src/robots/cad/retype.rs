@@ -6,11 +6,11 @@ use crate::geom::vector::{Vector, add_scaled, cross, dot, length};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::JointId;
 use crate::redundancy::release::Release;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Part;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
@@ -94,9 +94,10 @@ impl Origin {
     /// Whether a joint can be given a freedom where it stands: whether it slides, and along or about which direction.
     #[must_use]
     pub fn can_be_freed(&self, joint: JointId, freedom: (bool, Vector)) -> bool {
-        match self.is_assembly() {
-            true => becomes(self, joint, &[freedom]).is_some(),
-            false => self.takes_joints(joint),
+        if self.is_assembly() {
+            becomes(self, joint, &[freedom]).is_some()
+        } else {
+            self.takes_joints(joint)
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::geom::rigid::{Motion, perpendicular};
 use crate::geom::vector::{Vector, Z, add, cross, length, scale, unit};
 use crate::model::joint_type::JointType;
-use crate::robots::parts::Robot;
+use crate::robots::description::parts::Robot;
 
 /// A way to close a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

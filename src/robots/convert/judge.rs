@@ -9,11 +9,11 @@ use crate::geom::vector::Vector;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled};
 use crate::rank::rounded::verdict::verdict;
-use crate::robots::close::size;
 use crate::robots::convert::closure::{Closure, applied, directions};
 use crate::robots::convert::plan::Plan;
+use crate::robots::description::parts::Robot;
 use crate::robots::import::{Imported, mechanism};
-use crate::robots::parts::Robot;
+use crate::robots::mechanism::loop_closing::size;
 use crate::robots::problem::{RobotProblem, known};
 use ozols_dense::svd;
 use std::collections::BTreeSet;
@@ -227,9 +227,10 @@ fn axes(closure: Closure, all: &[Vector]) -> Vec<[Vector; 2]> {
                 .iter()
                 .flat_map(|a| all.iter().filter(move |b| *b != a).map(|b| [*a, *b]));
             let pairs: Vec<[Vector; 2]> = pairs.collect();
-            match pairs.is_empty() {
-                true => vec![[first, perpendicular(first)]],
-                false => pairs,
+            if pairs.is_empty() {
+                vec![[first, perpendicular(first)]]
+            } else {
+                pairs
             }
         }
         c if c.is_directed() => all.iter().map(|d| [*d, perpendicular(*d)]).collect(),

@@ -2,7 +2,7 @@
 
 use crate::robots::convert::lost::Lost;
 use crate::robots::convert::scene::Scene;
-use crate::robots::parts::Ratio;
+use crate::robots::description::parts::Ratio;
 use std::collections::BTreeMap;
 
 /// What a joint follows.
@@ -72,9 +72,10 @@ fn either(
         .get(&c.said_by)
         .copied()
         .unwrap_or(0.0);
-    let offset = match from_pose {
-        true => stated + whole - y,
-        false => stated + whole - ratio * x,
+    let offset = if from_pose {
+        stated + whole - y
+    } else {
+        stated + whole - ratio * x
     };
     let offset = if offset.abs() < 1e-12 { 0.0 } else { offset };
     let ways = [

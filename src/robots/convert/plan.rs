@@ -4,7 +4,7 @@ use crate::closure::tree::{Step, forest};
 use crate::geom::rigid::{Motion, towards};
 use crate::geom::vector::{Vector, scale};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::parts::{Part, Robot};
+use crate::robots::description::parts::{Part, Robot};
 
 /// What a single freedom does; metres a radian of a screw.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,9 +112,10 @@ pub(crate) fn singles(part: &Part, backward: bool) -> Vec<Single> {
         freedom: i,
     };
     let all = part.joint_type.freedoms().iter().enumerate().map(one);
-    match backward {
-        false => all.collect(),
-        true => all.rev().map(Single::back).collect(),
+    if backward {
+        all.rev().map(Single::back).collect()
+    } else {
+        all.collect()
     }
 }
 

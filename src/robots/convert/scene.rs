@@ -4,8 +4,8 @@ use crate::geom::rigid::Motion;
 use crate::robots::convert::lost::Lost;
 use crate::robots::convert::payload::{Payload, Shape, Weight};
 use crate::robots::convert::plan::{Branch, Plan};
-use crate::robots::light::Light;
-use crate::robots::parts::{Part, Robot};
+use crate::robots::description::massless::Light;
+use crate::robots::description::parts::{Part, Robot};
 
 /// A robot to be written.
 pub(crate) struct Scene<'a> {

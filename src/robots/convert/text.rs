@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::Motion;
 use crate::geom::vector::{Vector, X, Y, length, sub};
-use crate::robots::single_freedoms::{escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 
 /// Fixed-axis roll, pitch and yaw of a turn.
 pub(crate) fn roll_pitch_yaw(m: &Motion) -> Vector {

@@ -10,8 +10,8 @@ use crate::robots::convert::payload::{Actuator, Command};
 use crate::robots::convert::plan::Moves;
 use crate::robots::convert::scene::{Scene, Text, name_of};
 use crate::robots::convert::text::attributes;
-use crate::robots::parts::Ratio;
-use crate::robots::single_freedoms::{Names, escape, number};
+use crate::robots::description::parts::Ratio;
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -61,9 +61,10 @@ pub(crate) fn mjcf(scene: &Scene<'_>) -> Text {
     w.bodies.fit("world");
     let plan = scene.plan;
     for l in std::iter::once(plan.root).chain(plan.branches.iter().map(|b| b.link)) {
-        let name = match Some(l) == scene.robot.world {
-            true => "world".to_owned(),
-            false => w.bodies.fit(&scene.robot.links[l]),
+        let name = if Some(l) == scene.robot.world {
+            "world".to_owned()
+        } else {
+            w.bodies.fit(&scene.robot.links[l])
         };
         w.names.insert(l, name);
     }
@@ -236,8 +237,9 @@ impl Writer<'_> {
 
 /// The range of a motor's control.
 fn range(bound: f64) -> String {
-    match bound.is_finite() {
-        true => format!(" ctrlrange=\"-{bound} {bound}\""),
-        false => String::new(),
+    if bound.is_finite() {
+        format!(" ctrlrange=\"-{bound} {bound}\"")
+    } else {
+        String::new()
     }
 }

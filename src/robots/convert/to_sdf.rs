@@ -11,7 +11,7 @@ use crate::robots::convert::payload::Dynamics;
 use crate::robots::convert::plan::{Moves, Single, singles};
 use crate::robots::convert::scene::{Scene, Text, limits, name_of};
 use crate::robots::convert::text::pose;
-use crate::robots::single_freedoms::{Names, escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number, numbers};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -51,17 +51,19 @@ pub(crate) fn sdf(scene: &Scene<'_>) -> Text {
     let order = std::iter::once(plan.root).chain(plan.branches.iter().map(|b| b.link));
     let order: Vec<usize> = order.collect();
     for &l in &order {
-        let name = match robot.world == Some(l) {
-            true => "world".to_owned(),
-            false => w.fit(&robot.links[l]),
+        let name = if robot.world == Some(l) {
+            "world".to_owned()
+        } else {
+            w.fit(&robot.links[l])
         };
         w.links.insert(l, name);
     }
     for (j, part) in robot.joints.iter().enumerate() {
         // A body without joints has no name for what holds it but its own.
-        let name = match part.is_nameless(robot) {
-            true => w.names.fit(&format!("{}_mount", part.id)),
-            false => w.fit(&part.id),
+        let name = if part.is_nameless(robot) {
+            w.names.fit(&format!("{}_mount", part.id))
+        } else {
+            w.fit(&part.id)
         };
         w.joints.insert(j, name);
     }
@@ -107,9 +109,10 @@ fn thread(s: &Single) -> String {
 impl Writer<'_> {
     /// A name that no other link or joint has; what SDF keeps for itself is changed.
     fn fit(&mut self, wanted: &str) -> String {
-        let plain = match wanted.starts_with("__") && wanted.ends_with("__") {
-            true => wanted.trim_matches('_'),
-            false => wanted,
+        let plain = if wanted.starts_with("__") && wanted.ends_with("__") {
+            wanted.trim_matches('_')
+        } else {
+            wanted
         };
         let name = self.names.fit(plain);
         if name != wanted {
@@ -182,19 +185,18 @@ impl Writer<'_> {
                 i => self.names.fit(&name_of(&name, i)),
             };
             let last = i + 1 == all.len();
-            let held = match last {
-                true => to.clone(),
-                false => {
-                    let light = self.names.fit(&format!("{own}~link"));
-                    let _ = write!(
-                        self.head,
-                        "    <link name=\"{}\">\n      <pose>{}</pose>\n      {}\n    </link>\n",
-                        escape(&light),
-                        pose(&at),
-                        self.scene.light.sdf()
-                    );
-                    light
-                }
+            let held = if last {
+                to.clone()
+            } else {
+                let light = self.names.fit(&format!("{own}~link"));
+                let _ = write!(
+                    self.head,
+                    "    <link name=\"{}\">\n      <pose>{}</pose>\n      {}\n    </link>\n",
+                    escape(&light),
+                    pose(&at),
+                    self.scene.light.sdf()
+                );
+                light
             };
             let far = if last { end } else { Motion::IDENTITY };
             let mut more = self.axis(j, s.freedom, s.axis, false);
@@ -284,9 +286,10 @@ impl Writer<'_> {
         more: &str,
     ) {
         let [parent, child] = [parent, child].map(|l| escape(l));
-        let place = match *at == Motion::IDENTITY {
-            true => String::new(),
-            false => format!("      <pose>{}</pose>\n", pose(at)),
+        let place = if *at == Motion::IDENTITY {
+            String::new()
+        } else {
+            format!("      <pose>{}</pose>\n", pose(at))
         };
         let _ = write!(
             self.body,

@@ -9,7 +9,7 @@ use crate::geom::rigid::Motion;
 use crate::robots::convert::mimics::mimics;
 use crate::robots::convert::payload::{Actuator, Command};
 use crate::robots::convert::scene::{Scene, Text, moves, name_of};
-use crate::robots::single_freedoms::{Names, escape, number};
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -65,9 +65,10 @@ pub(crate) fn urdf(scene: &Scene<'_>, loops: Loops) -> Text {
         w.joints.fit(link);
     }
     for (j, part) in scene.robot.joints.iter().enumerate() {
-        let wanted = match part.is_nameless(scene.robot) {
-            true => format!("{}_mount", part.id),
-            false => part.id.clone(),
+        let wanted = if part.is_nameless(scene.robot) {
+            format!("{}_mount", part.id)
+        } else {
+            part.id.clone()
         };
         let name = w.joints.fit(&wanted);
         if name != wanted && scene.robot.links.contains(&wanted) {
@@ -176,11 +177,10 @@ impl Writer<'_> {
                 Command::Position => "Position",
                 Command::Velocity => "Velocity",
             };
-            let drakes = match self.loops == Loops::Drake && rotor > 0.0 {
-                true => format!(
-                    "<drake:gear_ratio value=\"1\"/><drake:rotor_inertia value=\"{rotor}\"/>"
-                ),
-                false => String::new(),
+            let drakes = if self.loops == Loops::Drake && rotor > 0.0 {
+                format!("<drake:gear_ratio value=\"1\"/><drake:rotor_inertia value=\"{rotor}\"/>")
+            } else {
+                String::new()
             };
             let (joint, name) = (escape(&joint), escape(&name));
             let _ = write!(

@@ -139,9 +139,10 @@ pub(crate) fn rack(rack: &Motion, pinion: &Motion, slide: [f64; 3]) -> Motion {
     let y = cross(z, x);
     let to_rack = sub(rack.translation, pinion.translation);
     // The teeth are on the side of the pinion where the rack is.
-    let (x, y) = match dot(to_rack, y) > 0.0 {
-        true => (x.map(|c| -c), y.map(|c| -c)),
-        false => (x, y),
+    let (x, y) = if dot(to_rack, y) > 0.0 {
+        (x.map(|c| -c), y.map(|c| -c))
+    } else {
+        (x, y)
     };
     Motion {
         rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),

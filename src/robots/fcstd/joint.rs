@@ -75,9 +75,10 @@ pub(crate) fn held(
                 None => figure("Distance")?,
             };
             // FreeCAD takes an angle of 0 as parallel axes.
-            match (degrees % 180.0).abs() < 1e-9 {
-                true => plain(Holds::ParallelAxes),
-                false => plain(Holds::Angle(degrees.to_radians().cos())),
+            if (degrees % 180.0).abs() < 1e-9 {
+                plain(Holds::ParallelAxes)
+            } else {
+                plain(Holds::Angle(degrees.to_radians().cos()))
             }
         }
         "Distance" => {

@@ -4,12 +4,12 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::assembly::{Assembly, Connection, NO_LIMITS};
+use crate::robots::description::parts::{Robot, Unit};
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::fcstd::joint::{Held, Shapes, Slide, frames, held};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
 use crate::robots::options::{Options, Reader};
-use crate::robots::parts::{Robot, Unit};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::{self, Document};
 use std::collections::{BTreeMap, BTreeSet};
@@ -227,9 +227,10 @@ impl<'a> Assembling<'a, '_> {
         let mut labels = BTreeSet::new();
         for (joint, word, ends) in &ended {
             let label = joint.label();
-            let id = match labels.insert(label) {
-                true => label.to_owned(),
-                false => format!("{label} ({})", joint.name),
+            let id = if labels.insert(label) {
+                label.to_owned()
+            } else {
+                format!("{label} ({})", joint.name)
             };
             let Some(found) = held(word, joint, ends, &slides, self.shapes)? else {
                 robot.report.constraint_rows += UNKNOWN_ROWS;

@@ -127,9 +127,10 @@ fn follow<'a>(
             )));
         };
         let Some(o) = main.get(name) else {
-            let what = match array {
-                true => format!("{which} is element {name} of an array, whose place is not read"),
-                false => format!("{which} is broken: there is no object {name}"),
+            let what = if array {
+                format!("{which} is element {name} of an array, whose place is not read")
+            } else {
+                format!("{which} is broken: there is no object {name}")
             };
             return Ok(Err(what));
         };

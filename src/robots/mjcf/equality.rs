@@ -3,9 +3,9 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::model::joint_type::JointType;
-use crate::robots::kinematics::displacement;
+use crate::robots::description::kinematics::displacement;
+use crate::robots::description::parts::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
-use crate::robots::parts::{Part, Ratio, Robot};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::urdf::read::same_link;
 use crate::robots::xml::Element;

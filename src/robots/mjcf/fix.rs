@@ -4,13 +4,13 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::geom::vector::Vector;
+use crate::robots::description::massless::Light;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Part;
 use crate::robots::edit::{Edits, Freed, Freeing};
-use crate::robots::light::Light;
+use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
-use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms.
@@ -166,7 +166,7 @@ impl<'a> File<'a> {
             joint && !p.closes && self.body(id).id == body.id
         });
         let (Some((link, last)), Some(part)) = (last, self.part(e.id)) else {
-            return Err(e.unsupported("it is no joint of a body", "choose another (--at)"));
+            return Err(e.unsupported("it is not a joint of a body", "choose another (--at)"));
         };
         let last = self.origin.element(last);
         if self.parents[last.id] != Some(body.id) {
@@ -198,9 +198,12 @@ impl<'a> File<'a> {
         let (robot, one) = (&self.origin.robot, part.links[0]);
         let name = &robot.links[one];
         let is_world = robot.world == Some(one);
-        let named = |b: &Element<'a>| match is_world {
-            true => b.name() == "worldbody",
-            false => b.name() == "body" && b.attribute("name") == Some(name),
+        let named = |b: &Element<'a>| {
+            if is_world {
+                b.name() == "worldbody"
+            } else {
+                b.name() == "body" && b.attribute("name") == Some(name)
+            }
         };
         let all = (0..self.origin.document.nodes.len()).map(|id| self.origin.element(id));
         let Some(body) = all.into_iter().find(named) else {

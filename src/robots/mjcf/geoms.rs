@@ -71,9 +71,10 @@ impl<'a> Geoms<'a> {
                     let stem = std::path::Path::new(file).file_stem();
                     let stem = stem.map(|s| s.to_string_lossy().into_owned());
                     let name = name.map(str::to_owned).or(stem).unwrap_or_default();
-                    let path = match folder.is_empty() || file.starts_with('/') {
-                        true => file.to_owned(),
-                        false => format!("{folder}/{file}"),
+                    let path = if folder.is_empty() || file.starts_with('/') {
+                        file.to_owned()
+                    } else {
+                        format!("{folder}/{file}")
                     };
                     out.meshes
                         .insert(name, (path, a.vector("scale", [1.0; 3])?));

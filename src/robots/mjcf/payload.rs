@@ -4,10 +4,10 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::robots::convert::payload::{Actuator, Command, Dynamics, Payload, Weight, Words};
 use crate::robots::convert::solid::together;
+use crate::robots::description::parts::Robot;
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
 use crate::robots::mjcf::geoms::{Geoms, geom};
-use crate::robots::parts::Robot;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 

@@ -6,13 +6,13 @@ use crate::geom::vector::{Vector, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
+use crate::robots::description::massless::Light;
+use crate::robots::description::physical::{GRAM, head, left_out, moving};
 use crate::robots::formats::Written;
-use crate::robots::light::Light;
-use crate::robots::physical::{GRAM, head, left_out, moving};
-use crate::robots::problem::ExportError;
-use crate::robots::single_freedoms::{
+use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
+use crate::robots::problem::ExportError;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::driven;
 use crate::statics::reactions::geometry::Geometry;

@@ -2,12 +2,12 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
+use crate::robots::description::massless::Light;
+use crate::robots::description::origin::Origin;
+use crate::robots::description::parts::Part;
 use crate::robots::edit::{Edits, Freeing};
-use crate::robots::light::Light;
-use crate::robots::origin::Origin;
-use crate::robots::parts::Part;
+use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::sdf::include::is_old;
-use crate::robots::single_freedoms::{escape, numbers};
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms.
@@ -29,7 +29,7 @@ pub(crate) fn free(
         let model = origin.element(model);
         let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
         let Some(link) = model.named("link").find(named) else {
-            return Err(e.unsupported("its child is no link of its own model", remedy));
+            return Err(e.unsupported("its child is not a link of its own model", remedy));
         };
         let frame = axes_frame(origin, model, (part, e))?;
         let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();

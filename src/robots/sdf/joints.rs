@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{Motion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
-use crate::robots::parts::{Part, Ratio, Robot, free};
+use crate::robots::description::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::scene::{Scene, absolute, end, located, of_joint};
 use crate::robots::urdf::read::{same_link, unknown_type};
@@ -166,9 +166,10 @@ fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
 
 /// Tells how far, in metres, a joint is from the frame that is its parent.
 fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
-    let done = match assembled {
-        true => "put together",
-        false => "taken as drawn, as SDF has it (--assemble puts them together)",
+    let done = if assembled {
+        "put together"
+    } else {
+        "taken as drawn, as SDF has it (--assemble puts them together)"
     };
     let what = format!("its parent frame and the joint are {far:.3} m apart in the file; {done}");
     robot.report.approximate(&e.label(), what);

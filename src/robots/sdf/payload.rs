@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::robots::convert::payload::{Dynamics, Payload, Shape, Solid, Use, Weight, Words};
-use crate::robots::parts::Robot;
+use crate::robots::description::parts::Robot;
 use crate::robots::sdf::read::pose;
 use crate::robots::xml::Element;
 
@@ -68,9 +68,10 @@ fn number(e: Option<Element<'_>>, tag: &str, default: f64) -> Result<f64, Import
     match e.and_then(|e| e.child(tag)) {
         Some(c) => {
             let endless = c.text().parse::<f64>().is_ok_and(|x| x.abs() > ENDLESS);
-            match endless || c.text().is_empty() {
-                true => Ok(default),
-                false => Ok(c.text_numbers::<1>()?[0]),
+            if endless || c.text().is_empty() {
+                Ok(default)
+            } else {
+                Ok(c.text_numbers::<1>()?[0])
             }
         }
         None => Ok(default),

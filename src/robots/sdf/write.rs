@@ -2,11 +2,11 @@
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::robots::description::massless::Light;
+use crate::robots::description::mimic::{Follows, mimics, settled, stand_in};
+use crate::robots::description::physical::{head, left_out, moving};
 use crate::robots::formats::Written;
-use crate::robots::light::Light;
-use crate::robots::mimic::{Follows, mimics, settled, stand_in};
-use crate::robots::physical::{head, left_out, moving};
-use crate::robots::single_freedoms::{
+use crate::robots::mechanism::series_of_single_joints::{
     Names, Place, Single, comment, escape, number, numbers, place, singles,
 };
 use std::fmt::Write;
@@ -78,9 +78,10 @@ impl Writer<'_> {
         for (l, link) in m.links_with_ids() {
             if joints.iter().any(|&j| m.joints[j].links.contains(&l)) {
                 let is_world = link.role == Role::Frame && link.id == WORLD;
-                self.links[l] = Some(match is_world {
-                    true => WORLD.to_owned(),
-                    false => self.names.fit(&link.id),
+                self.links[l] = Some(if is_world {
+                    WORLD.to_owned()
+                } else {
+                    self.names.fit(&link.id)
                 });
             }
         }
@@ -143,18 +144,17 @@ impl Writer<'_> {
             write_joint(&mut self.body, &id, "fixed", [&from, &end], at, "");
         }
         for (i, single) in all.iter().enumerate() {
-            let to = match i + 1 == all.len() {
-                true => end.clone(),
-                false => {
-                    let to = self.names.fit(&format!("{id}~{}", i + 1));
-                    let light = &self.light;
-                    let _ = writeln!(
-                        self.head,
-                        "    <link name=\"{}\">{light}</link>",
-                        escape(&to)
-                    );
-                    to
-                }
+            let to = if i + 1 == all.len() {
+                end.clone()
+            } else {
+                let to = self.names.fit(&format!("{id}~{}", i + 1));
+                let light = &self.light;
+                let _ = writeln!(
+                    self.head,
+                    "    <link name=\"{}\">{light}</link>",
+                    escape(&to)
+                );
+                to
             };
             let part = match i {
                 0 => id.clone(),

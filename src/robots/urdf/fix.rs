@@ -2,10 +2,10 @@
 //! of a joint, or the first link of a loop, and the joint.
 
 use crate::file::problem::ImportError;
+use crate::robots::description::massless::Light;
+use crate::robots::description::origin::Origin;
 use crate::robots::edit::{Edits, Freeing};
-use crate::robots::light::Light;
-use crate::robots::origin::Origin;
-use crate::robots::single_freedoms::{comment, escape, numbers};
+use crate::robots::mechanism::series_of_single_joints::{comment, escape, numbers};
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms. What is put in between stands before the joint: its child, its name and what follows it stay.

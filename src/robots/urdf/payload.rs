@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::robots::convert::payload::{
     Actuator, Command, Dynamics, Payload, Shape, Solid, Use, Weight, Words,
 };
-use crate::robots::parts::Robot;
+use crate::robots::description::parts::Robot;
 use crate::robots::urdf::read::origin;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;

@@ -4,8 +4,8 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::Motion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
+use crate::robots::description::parts::{Part, Ratio, Robot, free};
 use crate::robots::options::{Options, Reader};
-use crate::robots::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::{Document, Element};
 

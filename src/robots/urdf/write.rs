@@ -4,14 +4,14 @@ use crate::closure::tree::{Step, spanning_tree};
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
+use crate::robots::description::massless::Light;
+use crate::robots::description::mimic::{mimics, settled, stand_in};
+use crate::robots::description::physical::{self, GRAM, inertial, left_out, moving};
 use crate::robots::formats::Written;
-use crate::robots::light::Light;
-use crate::robots::mimic::{mimics, settled, stand_in};
-use crate::robots::physical::{self, GRAM, inertial, left_out, moving};
-use crate::robots::problem::ExportError;
-use crate::robots::single_freedoms::{
+use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
+use crate::robots::problem::ExportError;
 use std::fmt::Write;
 
 /// What a file collects.
@@ -64,9 +64,10 @@ impl Writer<'_> {
     fn link(&mut self, l: LinkId, at: [f64; 3]) -> String {
         let name = self.links.fit(&self.m.links[l].id);
         // What stands still needs no mass, and some readers want none of it.
-        let weight = match l == self.m.frame() {
-            true => inertial(self.m, l, at),
-            false => Some(moving(self.m, l, at)),
+        let weight = if l == self.m.frame() {
+            inertial(self.m, l, at)
+        } else {
+            Some(moving(self.m, l, at))
         };
         let weight = weight.map_or("/>".to_owned(), |i| {
             let [xx, yy, zz, xy, xz, yz] = i.tensor.map(number);
@@ -118,9 +119,10 @@ impl Writer<'_> {
         let parts = kinds(self.m, j, sign)?;
         self.single[j] = parts.len() == 1;
         for (i, (kind, axis)) in parts.iter().enumerate() {
-            let held = match i + 1 == parts.len() {
-                true => child.clone(),
-                false => self.between(&id, i + 1),
+            let held = if i + 1 == parts.len() {
+                child.clone()
+            } else {
+                self.between(&id, i + 1)
             };
             let part = match i {
                 0 => id.clone(),

@@ -1,4 +1,4 @@
-//! What leads on from the nodes of a diagram to variants with a key: looked up once, however many variants come that way.
+//! The edges that lead from a node of a diagram to variants with a given key, looked up once and kept.
 
 use crate::search::answer::count_tables::{Count, Key, Steps, Tally};
 use crate::search::diagram::{DEAD, Diagram};

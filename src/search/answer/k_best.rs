@@ -55,7 +55,7 @@ pub enum Reach {
     Above(u64),
 }
 
-/// Told layer, node, what is left of the key there and the choices so far; says whether to look at what follows.
+/// Given layer, node, the remaining key and the choices so far; says whether to look at what follows.
 pub type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
 
 /// A node on the way down, what is left of the key there, its steps, and which of them is the next.
@@ -315,7 +315,7 @@ pub struct Sample<'d, C> {
 }
 
 impl<'d, C: Count> Sample<'d, C> {
-    /// Makes ready to draw; `told` are the steps the tally was made with.
+    /// Makes ready to draw; `told` must be the steps that the table of counts was made with.
     pub fn new(
         diagram: &'d Diagram,
         steps: &'d Steps,

@@ -27,9 +27,10 @@ pub fn orders(question: &Question) -> Orders {
     };
     let [determinate, common] = &question.blocks;
     let determinate = order(determinate);
-    let common = match one_diagram(question) {
-        true => determinate.clone(),
-        false => order(common),
+    let common = if one_diagram(question) {
+        determinate.clone()
+    } else {
+        order(common)
     };
     Orders {
         determinate,

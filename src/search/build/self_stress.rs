@@ -52,9 +52,10 @@ pub(in crate::search) fn in_self_stress_space(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Option<Diagram> {
     let field = question.exact.field();
-    let kept = match keep_output {
-        true => &question.kept.0[..],
-        false => &[],
+    let kept = if keep_output {
+        &question.kept.0[..]
+    } else {
+        &[]
     };
     let added = SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)?;
     let already = limits.already.saturating_add(added.lasting);

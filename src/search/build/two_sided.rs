@@ -124,9 +124,10 @@ fn halves(
             let choices = &model.space.variables[side.ahead().variable].choices;
             side.nodes.len() * choices.len()
         };
-        let (side, other) = match effort(&front) <= effort(&back) {
-            true => (&mut front, &back),
-            false => (&mut back, &front),
+        let (side, other) = if effort(&front) <= effort(&back) {
+            (&mut front, &back)
+        } else {
+            (&mut back, &front)
         };
         let room = limits.nodes.checked_sub(total)?;
         let bytes = limits.bytes.checked_sub(side.bytes() + other.bytes())?;

@@ -143,7 +143,7 @@ impl Missing {
                 cheapest.push(best);
                 passing.push(sum);
             }
-            // Long products come to nothing in floating point, and no chance may.
+            // Long products underflow to 0, and a probability must stay positive.
             let most = passing.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
             let scaled = passing.iter().map(|x| (x / most).max(SMALLEST));
             (least[t], share[t]) = (cheapest, scaled.collect());

@@ -8,7 +8,7 @@ use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// A whole diagram of such layers and terminals, minimal, its nodes numbered as they are met from the root.
+/// A whole diagram of such layers and terminals, minimal, its nodes numbered breadth first from the root.
 ///
 /// # Complexity
 /// O(edges).

@@ -7,16 +7,16 @@ pub enum Stop {
     Exhausted,
     /// The node budget cut layers down to a part of their nodes: counts are lower bounds.
     NodeBudget,
-    /// No more was asked for than the cheapest variants: counts are lower bounds.
+    /// Only the cheapest variants were asked for: counts are lower bounds.
     NotCounted,
-    /// What may be held of memory did, in the same way.
+    /// The memory limit cut layers down in the same way.
     Memory,
     /// The caller asked to end: layers were cut down, counts are lower bounds.
     Interrupted,
 }
 
 impl Stop {
-    /// The first of two reasons that is one.
+    /// The first of two reasons that is not [`Stop::Exhausted`].
     #[must_use]
     pub fn or(self, other: Stop) -> Stop {
         if self == Stop::Exhausted { other } else { self }

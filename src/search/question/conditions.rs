@@ -118,8 +118,8 @@ pub enum SearchError {
     Mirror(#[from] MirrorError),
     /// Chains that close nowhere.
     #[error(
-        "{open} joints are in no contour, more than the {OPEN} that a search takes: nothing there is redundant whatever is \
-         chosen, so leave such chains out"
+        "{open} joints are in no contour, and a search takes at most {OPEN} of them: they cannot be redundant, so leave such \
+         chains out"
     )]
     Open {
         /// How many.

@@ -1,8 +1,8 @@
 //! Which joint each becomes in a mirror, or by half a turn, that carries the mechanism over to itself: as the file says, or as
 //! its geometry has it where the file says nothing.
 
-use crate::closure::image::Carrier;
 use crate::closure::mirror::Plane;
+use crate::closure::symmetry_image::Carrier;
 use crate::closure::turn::Turn;
 use crate::geom::exact::ExactField;
 use crate::geom::vector::{length, real};

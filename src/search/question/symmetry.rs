@@ -1,8 +1,8 @@
 //! Whether the mirror pairs of a file, or the groups that a turn carries round, carry the mechanism over to itself, so that a variant and its image have the same
 //! figures: links and joints, each with its options, exactly.
 
-use crate::closure::image::Carrier;
 use crate::closure::mirror::Plane;
+use crate::closure::symmetry_image::Carrier;
 use crate::closure::turn::Turn;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::coupling::{CoupledFreedom, Coupling};

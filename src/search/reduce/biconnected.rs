@@ -1,4 +1,4 @@
-//! Blocks of a mechanism: parts that meet in a link at most, and that a question takes one after another.
+//! Biconnected blocks of a mechanism: parts that share at most one link; the search takes them one after another.
 //!
 //! Contours that no chain of common joints ties together make nothing redundant in each other, so each block has its own
 //! copy of the links it shares, and a diagram forgets one before it begins the next: nodes add up where they would
@@ -8,8 +8,8 @@
 //! # Sources
 //! Blocks and cut vertices: Harary, "Graph Theory" (1969), chapter 3.
 
+use crate::closure::connected::tied;
 use crate::closure::contour::Contour;
-use crate::closure::tied::tied;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::search::question::space::Space;
 use std::collections::{BTreeMap, BTreeSet};

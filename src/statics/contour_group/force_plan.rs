@@ -86,9 +86,12 @@ fn parts(
 fn plans(g: &GroupSolutions, r: &GroupReactions, split: bool) -> [Plan; 4] {
     let (pose, steps) = (&g.pose, &g.steps);
     let guide = pose.normal().map(|c| c * r.guide);
-    let split = |name: &str, whole, tangential, from, to| match split {
-        true => parts(name, whole, tangential, from, to).to_vec(),
-        false => vec![reaction(name, whole)],
+    let split = |name: &str, whole, tangential, from, to| {
+        if split {
+            parts(name, whole, tangential, from, to).to_vec()
+        } else {
+            vec![reaction(name, whole)]
+        }
     };
     let at_d = || split("R34", r.d, steps.r34_tangential, steps.delta, pose.d);
     let at_f = |sign: f64, name| {

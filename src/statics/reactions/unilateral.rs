@@ -119,10 +119,11 @@ pub(crate) fn pushing(
         }
     }
     // What the solver calls solved must be so by the measure that contacts are judged with.
-    match allowed(wrenches) {
-        true => Ok(()),
-        false => Err(Unsolved::Programme(
+    if allowed(wrenches) {
+        Ok(())
+    } else {
+        Err(Unsolved::Programme(
             "contacts beyond their cones".to_owned(),
-        )),
+        ))
     }
 }

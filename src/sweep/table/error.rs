@@ -21,7 +21,7 @@ pub enum TableError {
     #[error("{} is being written by another process; wait for it, or choose another name", .0.display())]
     Busy(PathBuf),
     /// It is something else.
-    #[error("{} is no table of a sweep; choose another name, `ozols sweep FILE -o NAME.jsonl` makes one", .0.display())]
+    #[error("{} is not a table of a sweep; choose another name, `ozols sweep FILE -o NAME.jsonl` makes one", .0.display())]
     Other(PathBuf),
     /// It is of another sweep.
     #[error("{} is of another sweep ({what} differs: {there} there, {asked} asked for); choose another name, or the same sweep", path.display())]

@@ -1,6 +1,6 @@
 //! The first line of a table: what it is of.
 
-use crate::file::read::parameters::Domain;
+use crate::file::read::value::parameters::Domain;
 use crate::shard::Shard;
 use crate::sweep::Sweep;
 use crate::sweep::redesigns::as_searched;

@@ -85,9 +85,10 @@ fn clean(whole: &Path) {
     let (Some(folder), Some(name)) = (whole.parent(), whole.file_name()) else {
         return;
     };
-    let folder = match folder.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => folder,
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
     };
     let name = name.as_encoded_bytes();
     leftover::clean(folder, |other| {

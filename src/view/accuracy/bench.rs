@@ -97,13 +97,14 @@ pub fn text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
         let _ = write!(out, "\n{}\n\n", table(&heads, rows, width));
         out += &fit(&format!("{}\n\n", notes(t)), width);
     }
-    let times = match trials
+    let times = if trials
         .iter()
         .flat_map(|t| &t.records)
         .any(|r| r.counting.is_some_and(|t| t.repeats > 1))
     {
-        true => "the median and the farthest from it",
-        false => "once",
+        "the median and the farthest from it"
+    } else {
+        "once"
     };
     let clock = machine.time();
     out + &fit(

@@ -1,7 +1,7 @@
 //! What idle motions are, in words.
 
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::idle::Idle;
+use crate::redundancy::local_mobility::Idle;
 use itertools::Itertools;
 
 /// "link 5 spins about the line through 4-5 and 5-1".

@@ -155,12 +155,13 @@ fn structure_text(d: &StructureData) -> String {
     let mut out = format!("{}: {}\n", s("id"), s("name"));
     // A third jaw, where there is one.
     let third = |row: &Map<String, Value>, key: &str| row.get(key).is_some_and(|v| !v.is_null());
-    let (jaws, both) = match third(&d.structure, "jaw_c") {
-        false => (format!("{} and {}", s("jaw_a"), s("jaw_b")), ""),
-        true => (
+    let (jaws, both) = if third(&d.structure, "jaw_c") {
+        (
             format!("{}, {} and {}", s("jaw_a"), s("jaw_b"), s("jaw_c")),
             " round the part",
-        ),
+        )
+    } else {
+        (format!("{} and {}", s("jaw_a"), s("jaw_b")), "")
     };
     let _ = writeln!(
         out,
@@ -194,14 +195,15 @@ fn structure_text(d: &StructureData) -> String {
     let _ = writeln!(
         out,
         "Jaws: {}, {} to {} mm apart for {} {} of the drive; they turn by {}° at most",
-        match third(layout, "jaw_c_motion") {
-            false => format!("{} and {}", l("jaw_a_motion"), l("jaw_b_motion")),
-            true => format!(
+        if third(layout, "jaw_c_motion") {
+            format!(
                 "{}, {} and {}",
                 l("jaw_a_motion"),
                 l("jaw_b_motion"),
                 l("jaw_c_motion")
-            ),
+            )
+        } else {
+            format!("{} and {}", l("jaw_a_motion"), l("jaw_b_motion"))
         },
         l("opening_min"),
         l("opening_max"),
@@ -242,9 +244,10 @@ fn structure_text(d: &StructureData) -> String {
 #[must_use]
 pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
     let is_drawn = d.structure.contains_key("mechanism");
-    let head = match is_drawn {
-        true => drawn_text(&d.structure),
-        false => structure_text(d),
+    let head = if is_drawn {
+        drawn_text(&d.structure)
+    } else {
+        structure_text(d)
     };
     let head = fit(&head, width);
     if !is_drawn && d.layout.is_none() {

@@ -49,16 +49,8 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
         significant(d.period / 2.0)
     )?;
     if let Some(t) = d.sizing.trials.last() {
-        match t.strong {
-            false => writeln!(
-                out,
-                "  (11) fails: the last bar tried, d = {} and l = {}, may be twisted by [φ] = {}, not more than φ0 = {}",
-                length(d, t.diameter),
-                length(d, t.length),
-                degrees(t.allowable_twist),
-                degrees(d.half_swing)
-            )?,
-            true => writeln!(
+        if t.strong {
+            writeln!(
                 out,
                 "  no room: the bar that satisfies (11), d = {}, must be l = {} long; there are {}",
                 length(d, t.diameter),
@@ -67,7 +59,16 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
                     .spec
                     .max_length
                     .map_or_else(String::new, |l| length(d, l))
-            )?,
+            )?
+        } else {
+            writeln!(
+                out,
+                "  (11) fails: the last bar tried, d = {} and l = {}, may be twisted by [φ] = {}, not more than φ0 = {}",
+                length(d, t.diameter),
+                length(d, t.length),
+                degrees(t.allowable_twist),
+                degrees(d.half_swing)
+            )?
         }
     }
     if let Some(Remedies {
@@ -79,7 +80,7 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
     }) = d.sizing.remedies
     {
         let lines = [
-            "  Any one of these is enough, bars of any diameter being had:".to_owned(),
+            "  Any one of these is enough (with a bar of any diameter):".to_owned(),
             format!("    a bar longer than {}", length(d, length_above)),
             format!(
                 "    a material of [τ_s] above {} MPa",
@@ -125,9 +126,10 @@ fn designed(
 ) -> std::fmt::Result {
     let spec = &d.file.spec;
     let wanted = plural(design.wanted, "swing");
-    let verdict = match d.complete {
-        true => format!("all {wanted} latched"),
-        false => format!("fails after {} of {wanted}", design.latched),
+    let verdict = if d.complete {
+        format!("all {wanted} latched")
+    } else {
+        format!("fails after {} of {wanted}", design.latched)
     };
     writeln!(
         out,
@@ -151,9 +153,10 @@ fn designed(
         };
         writeln!(out, "  disc {} {why}\n", disc + 1)?;
     }
-    let second = match d.inertias[1] == d.inertias[0] {
-        true => String::new(),
-        false => format!(" and {} kg·m²", significant(d.inertias[1])),
+    let second = if d.inertias[1] == d.inertias[0] {
+        String::new()
+    } else {
+        format!(" and {} kg·m²", significant(d.inertias[1]))
     };
     writeln!(
         out,
@@ -279,9 +282,10 @@ fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &Cam) -> std::fmt::Result
     let times = m.pulses.iter().map(|p| p.off - p.on);
     let least = times.clone().fold(f64::INFINITY, f64::min);
     let most = times.fold(0.0, f64::max);
-    let on = match significant(least) == significant(most) {
-        true => significant(most),
-        false => format!("{} to {}", significant(least), significant(most)),
+    let on = if significant(least) == significant(most) {
+        significant(most)
+    } else {
+        format!("{} to {}", significant(least), significant(most))
     };
     writeln!(
         out,

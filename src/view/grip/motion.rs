@@ -105,13 +105,14 @@ impl Motion {
             plural(self.steps.len(), "step")
         );
         let symbol = self.unit.symbol;
-        let effort = match self
+        let effort = if self
             .steps
             .iter()
             .any(|s| s.drive_effort.is_some() && !s.slides)
         {
-            true => "drive, N·m",
-            false => "drive, N",
+            "drive, N·m"
+        } else {
+            "drive, N"
         };
         let diameter = format!("D, {symbol}");
         let head = [

@@ -98,9 +98,10 @@ fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result
 
 /// What one drive of both levers takes: a force where it slides, a moment where it turns.
 pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
-    match slides {
-        true => format!("drive force {} N", significant(effort)),
-        false => format!("drive moment {} N·m", significant(effort)),
+    if slides {
+        format!("drive force {} N", significant(effort))
+    } else {
+        format!("drive moment {} N·m", significant(effort))
     }
 }
 
@@ -115,9 +116,10 @@ fn inputs(out: &mut String, g: &Grip<'_>) -> std::fmt::Result {
                 "pivots fixed at a = {} {symbol}",
                 length(g, d.pivot_distance)
             );
-            match nominal > 0.0 {
-                true => format!("{at}, nominal for D = {} {symbol}", length(g, nominal)),
-                false => format!("{at}, nominal for no diameter"),
+            if nominal > 0.0 {
+                format!("{at}, nominal for D = {} {symbol}", length(g, nominal))
+            } else {
+                format!("{at}, nominal for no diameter")
             }
         }
     };

@@ -108,9 +108,10 @@ impl<'a> Stroke<'a> {
     }
 
     fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
-        let unit = match self.slides {
-            true => self.of.length_unit.symbol,
-            false => "°",
+        let unit = if self.slides {
+            self.of.length_unit.symbol
+        } else {
+            "°"
         };
         let at = |x: f64| figure(if self.slides { x } else { x.to_degrees() });
         let all: Vec<(f64, &Reactions)> = self.solved().collect();
@@ -157,9 +158,12 @@ impl<'a> Stroke<'a> {
         let greatest = peaks.iter().map(|p| p.1.0.max(p.2.0)).fold(0.0, f64::max);
         let (scale, prefix) = prefix(greatest);
         // What is left of rounding is nothing.
-        let size = |x: f64| match x > NOTHING * greatest {
-            true => figure(x / scale),
-            false => "0".to_owned(),
+        let size = |x: f64| {
+            if x > NOTHING * greatest {
+                figure(x / scale)
+            } else {
+                "0".to_owned()
+            }
         };
         if greatest == 0.0 {
             writeln!(

@@ -20,9 +20,12 @@ fn joints(list: &[Joint<'_>], size: f64, rounding: f64, width: Option<u16>) -> S
         .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
         .fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
-    let show = |x: f64, least: f64| match x.abs() <= least {
-        true => "0".to_owned(),
-        false => figure(x / unit),
+    let show = |x: f64, least: f64| {
+        if x.abs() <= least {
+            "0".to_owned()
+        } else {
+            figure(x / unit)
+        }
     };
     let rows = list.iter().map(|r| {
         let (force, moment) = (rounding * greatest, rounding * greatest * size);
@@ -43,9 +46,12 @@ fn contacts(list: &[Contact<'_>], width: Option<u16>) -> String {
     let greatest = list.iter().map(|c| c.normal.abs().max(c.along_face));
     let greatest = greatest.fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
-    let show = |x: f64| match x.abs() <= 1e-7 * greatest {
-        true => "0".to_owned(),
-        false => figure(x / unit),
+    let show = |x: f64| {
+        if x.abs() <= 1e-7 * greatest {
+            "0".to_owned()
+        } else {
+            figure(x / unit)
+        }
     };
     let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), significant);
     let rows = list.iter().map(|c| {
@@ -90,9 +96,10 @@ fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
         writeln!(out, "NOT AS CONTACTS ACT: {} {what}", c.contact)?;
     }
     if !bad.is_empty() {
-        let way = match s.unique {
-            true => "no other reactions are in equilibrium, so the object is not held",
-            false => "--unilateral solves with contacts that only push",
+        let way = if s.unique {
+            "no other reactions are in equilibrium, so the object is not held"
+        } else {
+            "--unilateral solves with contacts that only push"
         };
         writeln!(out, "  contacts are taken as joints here; {way}")?;
     }

@@ -13,7 +13,7 @@ use crate::format::number::{brief, cost};
 use crate::format::phrase::plural;
 use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::redundancy::held_twice::HeldTwice;
+use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
 use crate::robots::{Count, Imported, Origin, Place};
 use itertools::Itertools;
@@ -114,9 +114,10 @@ impl Lint {
         let finding = |(i, d): (usize, &Duplicate)| words.finding(d, i < found.lasting, origin);
         let whole = found.cheapest.len() == found.lasting;
         let certainty = &found.analysis.certainty;
-        let sure = match origin.is_some_and(Origin::is_of_this_pose) && most == least {
-            true => (NUMERIC, OF_THIS_POSE.to_owned()),
-            false => (certainty.word(), certainty.describe()),
+        let sure = if origin.is_some_and(Origin::is_of_this_pose) && most == least {
+            (NUMERIC, OF_THIS_POSE.to_owned())
+        } else {
+            (certainty.word(), certainty.describe())
         };
         Lint {
             file: file.to_owned(),
@@ -137,13 +138,14 @@ impl Lint {
             }),
             moved: report.map_or(Vec::new(), |r| r.moved.clone()),
             findings: found.list.iter().enumerate().map(finding).collect(),
-            cheapest: match whole {
-                true => found
+            cheapest: if whole {
+                found
                     .cheapest
                     .iter()
                     .map(|&i| words.remedy(i, origin))
-                    .collect(),
-                false => Vec::new(),
+                    .collect()
+            } else {
+                Vec::new()
             },
             counted: report.and_then(|r| r.count).map(Count::freedoms),
             changes: Vec::new(),
@@ -192,21 +194,23 @@ impl Lint {
             );
         }
         let (sigma, passing) = (self.sigma(), self.passing());
-        let mut out = match self.is_clean() {
-            true => format!(
+        let mut out = if self.is_clean() {
+            format!(
                 "{file}: nothing is redundant over the motion; {sigma} at this pose, W = {mobility} there{}\n",
                 self.left_out()
-            ),
-            false => format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out()),
+            )
+        } else {
+            format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out())
         };
         if passing > 0 && !self.is_clean() {
             out += &format!("  {passing} of them at this pose only\n");
         }
         out += &count(self.counted.filter(|_| self.left_out == 0), self.mobility);
         if let Some(over) = &self.over_motion {
-            let what = match self.is_decided() {
-                true => "redundant",
-                false => "what is redundant is so",
+            let what = if self.is_decided() {
+                "redundant"
+            } else {
+                "what is redundant is so"
             };
             out += &format!("  {what} {over}\n");
         }
@@ -274,15 +278,16 @@ impl Lint {
     #[must_use]
     pub fn sigma(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
-        match self.is_decided() {
-            true => format!(
+        if self.is_decided() {
+            format!(
                 "{} (σ = {most}, {})",
                 plural(most, "redundant constraint"),
                 self.certainty_kind
-            ),
-            false => format!(
+            )
+        } else {
+            format!(
                 "{least} to {most} redundant constraints (undecided: coordinates are rounded too coarsely)"
-            ),
+            )
         }
     }
 }
@@ -315,9 +320,10 @@ impl Words<'_> {
                 direction,
             } => {
                 let line = name(direction);
-                let (row, what) = match slides {
-                    true => (line.clone(), format!("force along {line}")),
-                    false => (format!("turn about {line}"), format!("moment about {line}")),
+                let (row, what) = if slides {
+                    (line.clone(), format!("force along {line}"))
+                } else {
+                    (format!("turn about {line}"), format!("moment about {line}"))
                 };
                 (self.joint(joint).to_owned(), row, what)
             }
@@ -343,13 +349,10 @@ impl Words<'_> {
             Release::Coupling(_) => row.clone(),
             Release::Freedom { .. } => format!("row {row}"),
         };
-        let message = match lasts {
-            true => {
-                format!("{constraint}, {row_words} duplicates {shown}{more}; assembly {assembly}")
-            }
-            false => {
-                format!("{constraint}, {row_words} duplicates {shown}{more} at this pose only")
-            }
+        let message = if lasts {
+            format!("{constraint}, {row_words} duplicates {shown}{more}; assembly {assembly}")
+        } else {
+            format!("{constraint}, {row_words} duplicates {shown}{more} at this pose only")
         };
         let of_joint = match d.row {
             Release::Freedom { joint, .. } => Some(joint),

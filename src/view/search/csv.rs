@@ -3,9 +3,10 @@
 use crate::format::csv::encoded;
 use crate::format::number::cost;
 use crate::model::mechanism::JointId;
+use crate::model::ranking::Term;
 use crate::score::outcome::Outcome;
-use crate::score::variant::Variant;
-use crate::score::variants::Variants;
+use crate::score::outcome::listing::Variants;
+use crate::score::outcome::variant::Variant;
 use crate::search::Search;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::diagram::Stop;
@@ -14,6 +15,7 @@ use crate::view::search::numeric;
 use crate::view::search::second_opinion;
 use itertools::Itertools;
 use std::io::{self, Write};
+use std::iter;
 
 /// Columns before the joints.
 const FIGURES: [&str; 6] = [
@@ -29,16 +31,13 @@ const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
 /// Columns at the end.
 const MORE: [&str; 2] = ["external_harmful", "redundant_by_contour"];
 /// Columns of a ranking.
-const SCORES: [&str; 8] = [
-    "by_cost",
-    "peak_force",
-    "peak_moment",
-    "singular_ratio",
-    "output_error",
-    "idle",
-    "total",
-    "front",
-];
+fn scores() -> Vec<String> {
+    let terms = Term::ALL.map(Term::about).into_iter().filter(|a| a.csv);
+    let terms = terms.map(|a| a.key.replace('-', "_"));
+    let first = iter::once("by_cost".to_owned());
+    let last = ["total", "front"].map(str::to_owned);
+    first.chain(terms).chain(last).collect()
+}
 
 /// Writes the variants as they come, and gives what there is to say where they are not all that was asked for.
 ///
@@ -90,9 +89,12 @@ fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> 
         .map(|&(_, j)| search.mechanism.joints[j].id.as_str());
     heads.extend(names);
     heads.extend(OPINIONS);
-    if outcome.ranking.is_some() {
-        heads.extend(SCORES);
-    }
+    let scores = if outcome.ranking.is_some() {
+        scores()
+    } else {
+        Vec::new()
+    };
+    heads.extend(scores.iter().map(String::as_str));
     heads.extend(MORE);
     writeln!(out, "{}", heads.into_iter().map(encoded).join(","))?;
     let mut lines = Lines {
@@ -199,15 +201,13 @@ impl Lines {
             match v.ranked() {
                 Some(r) => {
                     self.number(r.by_cost);
-                    self.some(Some(r.scores.force.utilisation));
-                    self.some(Some(r.scores.moment.utilisation));
-                    self.some(Some(r.scores.conditioning));
-                    self.some(Some(r.scores.output_error));
-                    self.number(r.scores.idle);
+                    for term in Term::ALL.into_iter().filter(|t| t.about().csv) {
+                        self.some(Some(r.scores.value(term)));
+                    }
                     self.some(r.total);
                     self.some(r.front);
                 }
-                None => self.text.extend(SCORES.map(|_| ',')),
+                None => self.text.extend(scores().iter().map(|_| ',')),
             }
         }
         self.some(v.external_harmful());

@@ -1,9 +1,9 @@
 //! A search as JSON, and its variants as JSON lines, written as they come.
 
 use crate::score::outcome::Outcome;
-use crate::score::variant::Variant;
-use crate::score::variants::Variants;
-use crate::score::why::Whys;
+use crate::score::outcome::listing::Variants;
+use crate::score::outcome::variant::Variant;
+use crate::score::outcome::why::Whys;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::diagram::Stop;
 use crate::view::contract;

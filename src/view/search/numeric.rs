@@ -37,9 +37,10 @@ pub fn admissible(outcome: &Outcome) -> String {
 pub(in crate::view) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
     let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
-    match doubtful.is_zero() {
-        true => big(&sure),
-        false => format!("{} to {}", big(&sure), big(&(&sure + doubtful))),
+    if doubtful.is_zero() {
+        big(&sure)
+    } else {
+        format!("{} to {}", big(&sure), big(&(&sure + doubtful)))
     }
 }
 
@@ -63,7 +64,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
     )];
     if found.digits.undecided {
         out.push(
-            "It is not decided what the mechanism is meant to be: small values may be zero or not"
+            "What the mechanism is meant to be is undecided: small values may be zero or not"
                 .to_owned(),
         );
     }

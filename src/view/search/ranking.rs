@@ -2,12 +2,13 @@
 
 use crate::format::number::{cost, grouped, significant};
 use crate::format::phrase::plural;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::ranking::{ClearanceSum, Order, Term};
-use crate::score::cases::Gripped;
-use crate::score::ranking::{Ranked, RankedPool};
+use crate::score::evaluation::load_cases::Gripped;
+use crate::score::evaluation::terms::Scores;
+use crate::score::outcome::ranking::{Ranked, RankedPool};
 use itertools::Itertools;
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// Reasons told at most.
 const REASONS: usize = 10;
@@ -102,7 +103,7 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let left_out = [
         (
             p.unheld,
-            "left out: no equilibrium, an idle freedom gives way under the loads",
+            "left out: no equilibrium, since the loads move an idle freedom",
         ),
         (p.limited, "left out: beyond a limit"),
         (
@@ -154,7 +155,7 @@ pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
 }
 
 /// The ranking as data.
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 pub struct RankingData<'a> {
     order: &'static str,
     terms: Vec<TermData>,
@@ -173,7 +174,7 @@ pub struct RankingData<'a> {
 }
 
 /// What is missing to a proof: sums, a cost, and a count as text, since it may be large.
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct MissingData {
     least_sum_elsewhere: f64,
     last_sum: f64,
@@ -181,20 +182,20 @@ struct MissingData {
     cheaper: Option<String>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct TermData {
     term: &'static str,
     weight: f64,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct LimitData {
     term: &'static str,
     min: Option<f64>,
     max: Option<f64>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, serde::Serialize)]
 struct GripData<'a> {
     state: &'a str,
     held: &'a [f64],
@@ -246,24 +247,12 @@ impl<'a> RankingData<'a> {
     }
 }
 
-/// A ranked variant's own: scores (forces in N, moments in N·m, the error in m), place by cost, sum, front and reason.
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "kebab-case")]
+/// A ranked variant's own: each term's figure (the error in m), what the most loaded joints bear (forces in N, moments in
+/// N·m), place by cost, sum, front and reason.
+#[derive(Debug)]
 pub struct RankedData<'a> {
-    peak_force: f64,
-    peak_force_newton: f64,
-    peak_force_joint: Option<&'a str>,
-    peak_moment: f64,
-    peak_moment_newton_metre: f64,
-    peak_moment_joint: Option<&'a str>,
-    conditioning: f64,
-    output_error: f64,
-    changes: u32,
-    cost: f64,
-    idle: i64,
-    harmful: u32,
-    minimum_norm: bool,
-    #[serde(rename = "by_cost")]
+    scores: &'a Scores,
+    joints: &'a [Joint],
     by_cost: usize,
     total: Option<f64>,
     front: Option<usize>,
@@ -273,27 +262,44 @@ pub struct RankedData<'a> {
 impl<'a> RankedData<'a> {
     /// Of a ranked variant, with the reason of its place.
     #[must_use]
-    pub fn new(m: &'a Mechanism, r: &Ranked, reason: Option<String>) -> Self {
-        let joint = |j: JointId| m.joints.get(j.index()).map(|j| j.id.as_str());
-        let s = &r.scores;
+    pub fn new(m: &'a Mechanism, r: &'a Ranked, reason: Option<String>) -> Self {
         RankedData {
-            peak_force: s.force.utilisation,
-            peak_force_newton: s.force.value,
-            peak_force_joint: joint(s.force.joint),
-            peak_moment: s.moment.utilisation,
-            peak_moment_newton_metre: s.moment.value,
-            peak_moment_joint: joint(s.moment.joint),
-            conditioning: s.conditioning,
-            output_error: s.output_error,
-            changes: s.changes,
-            cost: s.value(Term::Cost),
-            idle: s.idle,
-            harmful: s.harmful,
-            minimum_norm: s.minimum_norm,
+            scores: &r.scores,
+            joints: &m.joints,
             by_cost: r.by_cost,
             total: r.total,
             front: r.front,
             reason,
         }
+    }
+}
+
+impl Serialize for RankedData<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for term in Term::ALL {
+            let (about, value) = (term.about(), self.scores.value(term));
+            if about.is_count {
+                #[allow(clippy::cast_possible_truncation, reason = "a count")]
+                map.serialize_entry(about.key, &(value as i64))?;
+            } else {
+                map.serialize_entry(about.key, &value)?;
+            }
+            if let Some(peak) = self.scores.peak(term) {
+                let unit = match term {
+                    Term::PeakForce => "newton",
+                    _ => "newton-metre",
+                };
+                map.serialize_entry(&format!("{}-{unit}", about.key), &peak.value)?;
+                let joint = self.joints.get(peak.joint.index());
+                map.serialize_entry(&format!("{}-joint", about.key), &joint.map(|j| &j.id))?;
+            }
+        }
+        map.serialize_entry("minimum-norm", &self.scores.minimum_norm)?;
+        map.serialize_entry("by_cost", &self.by_cost)?;
+        map.serialize_entry("total", &self.total)?;
+        map.serialize_entry("front", &self.front)?;
+        map.serialize_entry("reason", &self.reason)?;
+        map.end()
     }
 }

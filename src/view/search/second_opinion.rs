@@ -2,7 +2,7 @@
 
 use crate::format::number::grouped;
 use crate::score::outcome::Outcome;
-use crate::score::variant::{changes, in_words};
+use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::count_tables::Key;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::second_opinion::{Asked, Contradiction, SecondOpinion};

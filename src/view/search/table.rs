@@ -2,7 +2,7 @@
 
 use crate::format::number::{cost, grouped};
 use crate::score::outcome::Outcome;
-use crate::score::variant::{Variant, in_words};
+use crate::score::outcome::variant::{Variant, in_words};
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Opinion, Second};
 use crate::view::search::ranking;
 use crate::view::terminal::layout::{fit, table};
@@ -96,9 +96,12 @@ fn runs(places: &[usize]) -> String {
             _ => runs.push((p, p)),
         }
     }
-    let one = |&(a, b): &(usize, usize)| match a == b {
-        true => a.to_string(),
-        false => format!("{a}-{b}"),
+    let one = |&(a, b): &(usize, usize)| {
+        if a == b {
+            a.to_string()
+        } else {
+            format!("{a}-{b}")
+        }
     };
     runs.iter().map(one).join(", ")
 }

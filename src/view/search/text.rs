@@ -4,9 +4,9 @@ use crate::format::number::grouped;
 use crate::format::phrase::{plural, plural_of};
 use crate::robots::is_description;
 use crate::score::outcome::Outcome;
+use crate::score::outcome::listing::Variants;
+use crate::score::outcome::variant::Variant;
 use crate::score::request::{List, Request};
-use crate::score::variant::Variant;
-use crate::score::variants::Variants;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::check::second_prime::Verdict;
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
@@ -100,14 +100,15 @@ pub fn write(
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let undecided = summary.given == 0 && outcome.admissible_may_be_more();
-    let steps = match outcome.request.generic_only || undecided {
-        true => Vec::new(),
-        false => next(
+    let steps = if outcome.request.generic_only || undecided {
+        Vec::new()
+    } else {
+        next(
             outcome,
             (if sample { 0 } else { summary.given }, changed),
             (eased, helps),
             file,
-        ),
+        )
     };
     write!(out, "{}", next_commands::text(&steps, width))
 }

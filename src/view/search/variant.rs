@@ -1,7 +1,7 @@
 //! A variant as data, by the same contract as the search it is of.
 
 use crate::score::outcome::Outcome;
-use crate::score::variant::Variant;
+use crate::score::outcome::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::check::singular_values::Opinion;

@@ -2,9 +2,9 @@
 
 use crate::format::number::brief;
 use crate::model::mechanism::{JointId, Mechanism};
+use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::Outcome;
-use crate::score::terms::Peak;
-use crate::score::why::{LetGo, SIDE_LOAD, Why, Whys};
+use crate::score::outcome::why::{LetGo, SIDE_LOAD, Why, Whys};
 use crate::search::answer::k_best::Assignment;
 use crate::terms::PairWords;
 use itertools::Itertools;
@@ -62,9 +62,10 @@ pub(in crate::view) fn teller<'w>(
     m: &'w Mechanism,
 ) -> impl FnMut(&Assignment) -> WhyData + 'w {
     let words = PairWords::builtin();
-    let under = match whys.is_side_load() {
-        true => format!("{SIDE_LOAD} N on each output, along its hinge"),
-        false => "the loads of the file".to_owned(),
+    let under = if whys.is_side_load() {
+        format!("{SIDE_LOAD} N on each output, along its hinge")
+    } else {
+        "the loads of the file".to_owned()
     };
     let mut why = whys.teller();
     move |idea| {
@@ -164,9 +165,12 @@ pub fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String
     let whys = Whys::new(outcome);
     let why = teller(&whys, &outcome.search.mechanism);
     let all = ideas.iter().copied().map(why);
-    all.map(|w| match w.lets.is_empty() {
-        true => Vec::new(),
-        false => w.rows(),
+    all.map(|w| {
+        if w.lets.is_empty() {
+            Vec::new()
+        } else {
+            w.rows()
+        }
     })
     .collect()
 }
@@ -190,9 +194,10 @@ impl WhyData {
     fn lines(&self, idea: usize) -> String {
         let mut out = String::new();
         for (what, words) in self.rows() {
-            match out.is_empty() {
-                true => out += &format!("\n  idea {idea} {what} {words}\n"),
-                false => out += &format!("    {what} {words}\n"),
+            if out.is_empty() {
+                out += &format!("\n  idea {idea} {what} {words}\n")
+            } else {
+                out += &format!("    {what} {words}\n")
             }
         }
         out

@@ -196,9 +196,10 @@ pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
     });
     if !series.is_empty() {
         let prefix = scale(&mut series);
-        let (what, unit) = match found.drive_slides() {
-            true => ("force", "N"),
-            false => ("torque", "N·m"),
+        let (what, unit) = if found.drive_slides() {
+            ("force", "N")
+        } else {
+            ("torque", "N·m")
         };
         add(
             "drive".to_owned(),

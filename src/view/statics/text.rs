@@ -44,9 +44,10 @@ const SINGULAR: f64 = 1e12;
 #[must_use]
 pub fn structures(s: &Structures<'_>, width: Option<u16>) -> String {
     let group = |g: &Group| {
-        let inside = match g.locked.is_empty() {
-            true => "",
-            false => ", the drive inside",
+        let inside = if g.locked.is_empty() {
+            ""
+        } else {
+            ", the drive inside"
         };
         let singular = match g.condition {
             Some(c) if c > SINGULAR => ", singular in this pose",
@@ -89,9 +90,10 @@ pub fn statics(s: &Statics<'_>, width: Option<u16>) -> String {
 }
 
 fn write_statics(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Result {
-    let drives = match s.drives.is_empty() {
-        true => "nothing".to_owned(),
-        false => s.drives.join(", "),
+    let drives = if s.drives.is_empty() {
+        "nothing".to_owned()
+    } else {
+        s.drives.join(", ")
     };
     writeln!(
         out,

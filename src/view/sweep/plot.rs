@@ -118,9 +118,10 @@ impl Sweep<'_> {
         }
         let title = format!("{}: {}", self.mechanism, what.label());
         let rest = known.iter().filter(|n| !named.contains(n)).join(", ");
-        let greatest = match merged {
-            true => format!(" Of samples that differ in {rest} alone, the greatest."),
-            false => String::new(),
+        let greatest = if merged {
+            format!(" Of samples that differ in {rest} alone, the greatest.")
+        } else {
+            String::new()
         };
         let axis = |name: &str| Axis {
             label: name.to_owned(),

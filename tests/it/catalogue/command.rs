@@ -163,7 +163,7 @@ fn what_cannot_be_done_is_said() {
         ("show DB nothing", "no structure nothing"),
         ("show DB 4-", "the beginning of 2 structures"),
         ("merge DB -o DB", "one of the parts and the whole"),
-        ("count --links 4..x", "\"x\" is no number of links"),
+        ("count --links 4..x", "\"x\" is not a number of links"),
         (
             "count --links 8..4",
             "from the lesser number to the greater",
@@ -188,10 +188,10 @@ fn what_cannot_be_done_is_said() {
         "This is no database, though it is long enough to be looked at as one.".repeat(20),
     )
     .unwrap();
-    fails(&["catalog", "query", &other], "is no catalogue");
+    fails(&["catalog", "query", &other], "is not a catalogue");
     fails(
         &["catalog", "build", "--links", "4", "-o", &other],
-        "is no catalogue",
+        "is not a catalogue",
     );
     assert!(
         std::fs::read_to_string(&other)

@@ -84,9 +84,10 @@ fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> Vec<String>) {
         while low < high {
             let middle = (low + high).div_ceil(2);
             remove(&file);
-            match killed_at(&killer, &all, middle) {
-                true => low = middle,
-                false => high = middle - 1,
+            if killed_at(&killer, &all, middle) {
+                low = middle
+            } else {
+                high = middle - 1
             }
         }
         low

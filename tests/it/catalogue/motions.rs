@@ -5,7 +5,7 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::figures::{Figures, figures};
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::looks::Limits;
+use ozols::synthesis::layout_quality::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::workload::Workload;
@@ -53,9 +53,10 @@ fn transmission_angles_are_those_of_the_rods_ends() {
             };
             let v = speeds(&s, &l, &[(link, *a), (link, *b)]);
             let size = |v: [f64; 2]| v[0].hypot(v[1]);
-            let (fast, slow) = match size(v[0]) > size(v[1]) {
-                true => (v[0], v[1]),
-                false => (v[1], v[0]),
+            let (fast, slow) = if size(v[0]) > size(v[1]) {
+                (v[0], v[1])
+            } else {
+                (v[1], v[0])
             };
             if size(slow) < 1e-4 * size(fast) {
                 continue;

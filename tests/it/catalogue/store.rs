@@ -165,7 +165,10 @@ fn an_empty_file_is_a_catalogue_to_be_made() {
         &["build", "--links", "4", "-o", &other],
         &["search", "four-bar", "-o", &other],
     ] {
-        fails(&[&["catalog"], args].concat(), "is no catalogue of ozols");
+        fails(
+            &[&["catalog"], args].concat(),
+            "is not a catalogue of ozols",
+        );
     }
     assert_eq!(fs::read(&other).unwrap(), bytes);
 }

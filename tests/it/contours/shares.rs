@@ -1,16 +1,16 @@
 //! σ of a contour over all bases that it is part of, against every basis of simple closed walks.
 
+use crate::common::built_in;
 use itertools::Itertools;
 use ozols::builtin;
 use ozols::closure::contour::{Contour, closed_walk};
 use ozols::closure::matrix::Closure;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::exact::ExactField;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
+use ozols::redundancy::contour_shares::shares;
 use ozols::redundancy::measured::Measured;
-use ozols::redundancy::share::shares;
 
 /// Every closed walk that passes no link twice.
 fn walks(m: &Mechanism, joints: &[JointId]) -> Vec<Contour> {
@@ -83,7 +83,7 @@ fn redundant(exact: &ExactField, m: &Mechanism, of: Vec<Contour>) -> usize {
 fn the_range_over_bases_is_that_of_every_basis() {
     let (mut seen, mut wider) = (0, 0);
     for name in builtin::names() {
-        let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
         let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();

@@ -1,6 +1,7 @@
 //! Couplings among the constraints that formulas count.
 
-use super::{SLIDE, builtin, coupled, exact, mechanism, pair};
+use super::{SLIDE, coupled, exact, mechanism, pair};
+use crate::common::built_in;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 
@@ -8,9 +9,9 @@ use ozols::redundancy::analysis::{Method, analyse};
 #[test]
 fn the_formula_counts_couplings() {
     // Five links, five hinges, a gear between two of them: 6·4 - 5·5 - 1.
-    assert_eq!(exact(&builtin("geared-five-bar")).formula_mobility, -2);
+    assert_eq!(exact(&built_in("geared-five-bar")).formula_mobility, -2);
     for name in ozols::builtin::names() {
-        let m = builtin(name);
+        let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
         for s in analyse(&m, &states, Method::Modular).unwrap() {
             let wanted = s.mobility as i64 - s.redundant as i64;

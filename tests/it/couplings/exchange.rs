@@ -1,6 +1,7 @@
 //! Couplings in what is written and read: the page, mechanism files, robot formats, drawings.
 
-use super::{SLIDE, TURN, builtin, coupled, exact, mechanism, pair};
+use super::{SLIDE, TURN, coupled, exact, mechanism, pair};
+use crate::common::built_in;
 use crate::common::ozols;
 use ozols::model::mechanism::StateId;
 
@@ -63,7 +64,7 @@ fn exported_as_mimic_joints() {
         sdf.contains("<sdf version=\"1.11\">") && sdf.contains("<multiplier>50</multiplier>"),
         "{sdf}"
     );
-    let gear = builtin("planetary-gear");
+    let gear = built_in("planetary-gear");
     let sdf = formats::write(&gear, "sdf").unwrap();
     assert_eq!(
         (
@@ -74,7 +75,7 @@ fn exported_as_mimic_joints() {
         "{sdf}"
     );
     assert!(!sdf.contains('\0'));
-    let urdf = formats::write(&builtin("geared-gripper"), "urdf").unwrap();
+    let urdf = formats::write(&built_in("geared-gripper"), "urdf").unwrap();
     assert!(
         urdf.contains("<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>"),
         "{urdf}"

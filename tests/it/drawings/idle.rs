@@ -1,20 +1,19 @@
 //! Idle freedoms as motions: what rests does so, joints stay together, and one sees what turns in its place.
 
-use crate::common::out;
+use crate::common::{built_in, out};
 use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::vector::{length, real, scale, sub};
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::StateId;
 use ozols::motion::pose::Pose;
 use ozols::redundancy::analysis::{Method, analyse};
-use ozols::redundancy::wiggle::wiggle;
+use ozols::redundancy::idle_animation::wiggle;
 
 #[test]
 fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {
     let (mut seen, mut held) = (0, 0);
     for name in builtin::names() {
-        let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
         for (state, found) in states
             .iter()

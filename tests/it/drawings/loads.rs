@@ -1,15 +1,14 @@
 //! Self-stresses as arrows: what joints bear keeps every link in balance, and that is what is drawn.
 
-use crate::common::{out, ozols};
+use crate::common::{built_in, out, ozols};
 use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::vector::{add, cross, dot, length, real, scale, sub};
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::redundancy::stress::SelfStress;
 
 fn stresses(name: &str) -> (Mechanism, Vec<SelfStress>) {
-    let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap();
+    let m = built_in(name);
     let found = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
     let stresses = found[0].self_stresses.clone();
     (m, stresses)

@@ -1,9 +1,9 @@
 //! Joints whose axes meet in a point stand farther along them, each somewhere on its own axis.
 
 use super::places::{Point, Shown, axis, point};
+use crate::common::built_in;
 use ozols::builtin;
 use ozols::draw::{Sight, Subject, kinematic_seen};
-use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 
@@ -116,7 +116,7 @@ fn residual(all: &[[f64; 4]]) -> f64 {
 fn joints_that_meet_in_a_point_stand_on_their_own_axes() {
     let (mut wrong, mut looked) = (Vec::new(), 0);
     for name in builtin::names() {
-        let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         for state in m.state_ids() {
             let joints: Vec<JointId> = m.joints_in(state).collect();
             let meeting = |a: &JointId| joints.iter().any(|&b| meet(&m, *a, b));

@@ -2,9 +2,9 @@
 //! different places does not overlap.
 
 use super::reading::covers;
+use crate::common::built_in;
 use ozols::builtin;
 use ozols::draw::{Drawing, Sight, Subject, kinematic, kinematic_seen};
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::mechanism::{JointId, Mechanism, Role, StateId};
 use std::collections::BTreeMap;
@@ -109,7 +109,7 @@ pub(super) fn axis(m: &Mechanism, j: JointId) -> [f64; 3] {
 /// Each built-in mechanism in each state, drawn.
 pub(super) fn all(mut look: impl FnMut(&str, &Mechanism, StateId, &Drawing, &Shown)) {
     for name in builtin::names() {
-        let m = mechanism_from_str(&format!("{name}.toml"), builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         for state in m.state_ids() {
             let d = kinematic(&Subject {
                 mechanism: &m,
@@ -341,7 +341,7 @@ fn the_frame_is_drawn_once_at_each_of_its_places() {
 
 #[test]
 fn a_side_can_be_asked_for() {
-    let m = mechanism_from_str("bennett.toml", builtin::text("bennett").unwrap()).unwrap();
+    let m = built_in("bennett");
     let subject = Subject {
         mechanism: &m,
         state: StateId::FREE,

@@ -1,8 +1,6 @@
 //! Motions of mechanisms in which no joint can be a drive: their working motion is shown.
 
-use crate::common::out;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
+use crate::common::{built_in, out};
 use ozols::model::mechanism::{Role, StateId};
 use ozols::motion::pose::Pose;
 use ozols::motion::working::working_way;
@@ -16,7 +14,7 @@ fn joints_stay_together_while_the_outputs_move() {
         "shaft-two-bearings",
         "bennett",
     ] {
-        let m = mechanism_from_str("x.toml", builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let pose = Pose::of_file(&m, StateId::FREE).unwrap();
         let way = working_way(&m, StateId::FREE, &pose, 40).unwrap_or_else(|| panic!("{name}"));
         assert!(way.links.len() > 10, "{name}: {}", way.links.len());

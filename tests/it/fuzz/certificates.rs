@@ -1,8 +1,7 @@
 //! Files of certificates: whatever is done to one, no wrong rank is accepted.
 
 use super::{edits, runs, spoilt};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
+use crate::common::built_in;
 use ozols::model::mechanism::StateId;
 use ozols::rank::exact::certificate::{certify, matrix, number_field};
 use ozols::verify;
@@ -37,7 +36,7 @@ pub(super) const WORDS: [&str; 16] = [
 /// A mechanism's matrix, its rank, and the file of the certificate.
 static CERTIFIED: LazyLock<Vec<(MatrixOverRing, usize, String)>> = LazyLock::new(|| {
     let certified = |name: &str| {
-        let m = mechanism_from_str(name, builtin::text(name).unwrap()).unwrap();
+        let m = built_in(name);
         let certificate = certify(&m, StateId::FREE).unwrap();
         let rank = certificate.rank;
         let file = CertificateFile {

@@ -123,7 +123,7 @@ fn of_very_many_mistakes_the_first_are_told() {
         assert!(e.problems[..100].iter().all(|p| p.span.is_some()));
         let last = e.problems[100].kind.to_string();
         assert!(
-            last.ends_with("more problems are not listed; mend those above first"),
+            last.ends_with("more problems are not listed; correct those above first"),
             "{last}"
         );
     }

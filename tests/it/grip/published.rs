@@ -1,8 +1,7 @@
 //! The curves of figures 2 to 5 of `[Pavlenko & Godunko 2010]`, and what the paper found on them.
 
 use super::lever;
-use crate::common::{json, near, out};
-use ozols::Mechanism;
+use crate::common::{built_in, json, near, out};
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::Arms;
 use ozols::model::claim::{Claim, Topic};
@@ -229,7 +228,7 @@ fn the_findings_of_the_paper_are_confirmed() {
 
 /// What is published of the built-in gripper of the paper.
 fn claims() -> Vec<Claim> {
-    let claims = Mechanism::builtin("lever-gripper").unwrap().claims;
+    let claims = built_in("lever-gripper").claims;
     assert!(claims.iter().all(|c| c.topic == Topic::Grip));
     claims
 }

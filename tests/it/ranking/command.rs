@@ -6,7 +6,7 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::ClearanceSum;
-use ozols::score::evaluate::Evaluator;
+use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::search::answer::k_best::Assignment;
 
 #[test]
@@ -40,7 +40,7 @@ fn the_command_changes_the_order_and_says_why() {
     let heads = csv.lines().next().unwrap();
     assert!(
         heads.ends_with(
-            "by_cost,peak_force,peak_moment,singular_ratio,output_error,idle,total,front,external_harmful,redundant_by_contour"
+            "by_cost,peak_force,peak_moment,conditioning_held,output_error,idle,total,front,external_harmful,redundant_by_contour"
         )
     );
     assert!(

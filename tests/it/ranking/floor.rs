@@ -2,15 +2,16 @@
 //! what they score, and loads that turn a rod which spins.
 
 use super::{cheapest, near, search};
+use crate::common::built_in;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::loads::{ExternalForce, ExternalMoment, MassProperties};
 use ozols::model::mechanism::{Mechanism, Role};
 use ozols::model::ranking::{ClearanceSum, Term, TypeOverride};
-use ozols::score::elimination::Scratch;
-use ozols::score::evaluate::Evaluator;
-use ozols::score::terms::Scores;
+use ozols::score::evaluation::elimination::Scratch;
+use ozols::score::evaluation::evaluate::Evaluator;
+use ozols::score::evaluation::terms::Scores;
 use ozols::statics::reactions::Unsolved;
 
 fn vector(v: [i64; 3]) -> [Expr; 3] {
@@ -19,7 +20,7 @@ fn vector(v: [i64; 3]) -> [Expr; 3] {
 
 /// A built-in mechanism as it is, with a force on its output.
 fn as_built(name: &str, force: [i64; 3]) -> Mechanism {
-    let mut m = mechanism_from_str(name, builtin::text(name).unwrap()).unwrap();
+    let mut m = built_in(name);
     for j in &mut m.joints {
         j.options.truncate(1);
         j.unloading.clear();
@@ -160,7 +161,7 @@ fn losses_have_the_units_of_their_weights() {
 /// An output is off where it is loaded; at its mass centre where it is not, and at its first joint where it weighs nothing.
 #[test]
 fn errors_are_told_of_the_point_that_is_loaded() {
-    use ozols::score::terms::output_points;
+    use ozols::score::evaluation::terms::output_points;
     let mut m = as_built("slider-crank-determinate", [0, -10, 0]);
     let slider = m.link("3").unwrap();
     m.loads.forces[0].point = vector([160, 7, 1]);

@@ -25,7 +25,7 @@ fn a_file_with_parameters_is_wrong_where_they_are() {
         (
             "{ range = [20, 40], default = 30 }",
             "{ default = 30 }",
-            "parameter \"x\" has nothing to be",
+            "parameter \"x\" has no values",
         ),
         (
             "default = 30",
@@ -45,7 +45,7 @@ fn a_file_with_parameters_is_wrong_where_they_are() {
         (
             "values = [30, 40, \"10*sqrt(2)\"]",
             "values = []",
-            "parameter \"y\" has nothing to be",
+            "parameter \"y\" has no values",
         ),
         (
             "rod = 96",
@@ -256,10 +256,18 @@ fn a_table_of_something_else_stays_as_it_is() {
     assert!(read(&path).unwrap_err().to_string().contains("was changed"));
     for other in ["mine\n", "{}\n", "\u{0}\u{1}"] {
         fs::write(&path, other).unwrap();
-        assert!(tried(2).contains("is no table of a sweep"), "{}", tried(2));
+        assert!(
+            tried(2).contains("is not a table of a sweep"),
+            "{}",
+            tried(2)
+        );
     }
     fs::write(&path, [0xff, 0xfe, b'\n']).unwrap();
-    assert!(tried(2).contains("is no table of a sweep"), "{}", tried(2));
+    assert!(
+        tried(2).contains("is not a table of a sweep"),
+        "{}",
+        tried(2)
+    );
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::built::built;
 use crate::catalog::build::{build, work};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::progress::Bar;
 use crate::file::bounded;
@@ -120,7 +120,7 @@ impl Build {
     }
 }
 
-pub(super) fn run(args: &Args, a: &Build) -> anyhow::Result<Done> {
+pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     let spec = a.spec(args.seed)?;
     let mut store = Store::create(&a.output, &spec)?;
     let there = store.ids()?;

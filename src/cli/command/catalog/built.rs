@@ -1,7 +1,7 @@
 //! What a catalogue holds once something was added to it.
 
 use crate::catalog::store::Store;
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use crate::view::catalog::structures::built_text;
 use std::path::Path;

@@ -4,8 +4,8 @@ use super::format::CatalogFormat;
 use crate::catalog::spec::range;
 use crate::chains::census::census;
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
 use crate::format::csv::records;
@@ -76,8 +76,8 @@ const MOST_OF_GRIPPERS: usize = 12;
 const MOST_LISTED: usize = 14;
 
 fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let all =
-        range(text).map_err(|part| format!("{part:?} is no number of links: write 8 or 4..10"))?;
+    let all = range(text)
+        .map_err(|part| format!("{part:?} is not a number of links: write 8 or 4..10"))?;
     if all.is_empty() || *all.start() < 4 || *all.end() > 18 {
         return Err(
             "chains of 4 to 18 links are counted, from the lesser number to the greater".to_owned(),
@@ -86,16 +86,17 @@ fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
     Ok(all)
 }
 
-pub(super) fn count(args: &Args, a: &Count) -> anyhow::Result<Done> {
+pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
     let w = a.common.mobility;
     ensure!((1..=6).contains(&w), "--mobility must be 1 to 6");
     let mut bar = Bar::new(args.quiet);
     let mut all = Vec::new();
     for (i, n) in a.links.clone().enumerate() {
         bar.step(&format!("{n} links"), i, a.links.clone().count());
-        let found = match a.chains {
-            true => count_chains(n, w).map(|chains| CensusData::of_chains(n, w, chains)),
-            false => census(n, w, n <= MOST_OF_GRIPPERS).map(|c| CensusData::new(n, w, &c)),
+        let found = if a.chains {
+            count_chains(n, w).map(|chains| CensusData::of_chains(n, w, chains))
+        } else {
+            census(n, w, n <= MOST_OF_GRIPPERS).map(|c| CensusData::new(n, w, &c))
         };
         match found {
             Ok(found) => all.push(found),

@@ -5,8 +5,8 @@ use crate::builtin;
 use crate::catalog::drawn::{Drawn, drawn, id};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::cli::Done;
-use crate::cli::option::args::Args;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::terminal::interrupt;
@@ -33,7 +33,7 @@ pub(in crate::cli) struct Search {
     output: PathBuf,
 }
 
-pub(super) fn search(args: &Args, a: &Search) -> anyhow::Result<Done> {
+pub(super) fn search(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let mut files = a.files.clone();
     if a.grippers {
         files.extend(builtin::grippers().into_iter().map(Named::from));

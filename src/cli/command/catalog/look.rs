@@ -3,7 +3,7 @@
 use super::format::CatalogFormat;
 use crate::api::Scheme;
 use crate::catalog::store::Store;
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use crate::model::mechanism::Mechanism;
 use crate::page::catalogue::catalogue;

@@ -2,7 +2,7 @@
 
 use super::built::built;
 use crate::catalog::store::{Merged, Store};
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use crate::shard::Shard;
 use anyhow::ensure;

@@ -1,6 +1,6 @@
 //! The reference of joint types.
 
-use crate::cli::Done;
+use crate::cli::done::Done;
 use crate::cli::option::picture;
 use crate::cli::terminal::output;
 use crate::draw::{self, Size};

@@ -1,6 +1,7 @@
 //! The arguments of `ozols grip`.
 
-use crate::cli::option::args::{AnalyzeFormat, File};
+use crate::cli::option::format::TextOrJson;
+use crate::cli::option::named::File;
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
@@ -33,7 +34,7 @@ pub(in crate::cli) struct Grip {
     pub(in crate::cli) samples: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: AnalyzeFormat,
+    pub(in crate::cli) format: TextOrJson,
     /// Also write charts, each as SVG and CSV, into this folder.
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) svg: Option<PathBuf>,

@@ -15,7 +15,7 @@ const PLATE: f64 = 62.0;
 /// How thick a plate is.
 const THICK: f64 = 14.0;
 
-/// The faces of both links; none of a type that has no name of its own.
+/// The faces of both links; none of a type that has no name of its own, or is drawn by its symbol.
 pub(super) fn bodies(of: &JointType) -> Vec<Face> {
     match of {
         JointType::Revolute => hinge(),
@@ -54,7 +54,7 @@ pub(super) fn bodies(of: &JointType) -> Vec<Face> {
             [plate(), moved(round, [0.0, 0.0, 30.0])].concat()
         }
         JointType::Fixed => bolted(),
-        JointType::Custom(_) => Vec::new(),
+        _ => Vec::new(),
     }
 }
 

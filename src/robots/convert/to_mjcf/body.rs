@@ -8,7 +8,7 @@ use crate::robots::convert::scene::{limits, moves};
 use crate::robots::convert::solid::turned;
 use crate::robots::convert::text::{attributes, is_straight, pos_axes, quaternion};
 use crate::robots::convert::to_mjcf::Writer;
-use crate::robots::single_freedoms::{escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
 /// The lines of all bodies.
@@ -172,9 +172,10 @@ impl Writer<'_> {
             w.place = Motion::shift(w.place.translation);
         }
         let tensor = w.tensor.map(|x| number(x).to_string());
-        let inertia = match straight {
-            true => format!("diaginertia=\"{}\"", tensor[..3].join(" ")),
-            false => format!("fullinertia=\"{}\"", tensor.join(" ")),
+        let inertia = if straight {
+            format!("diaginertia=\"{}\"", tensor[..3].join(" "))
+        } else {
+            format!("fullinertia=\"{}\"", tensor.join(" "))
         };
         let at = pos_axes(&Motion {
             translation: [0.0; 3],

@@ -4,7 +4,7 @@ use crate::geom::rigid::Motion;
 use crate::robots::convert::plan::{Single, ending};
 use crate::robots::convert::text::{attributes, pos_axes};
 use crate::robots::convert::to_mjcf::Writer;
-use crate::robots::single_freedoms::escape;
+use crate::robots::mechanism::series_of_single_joints::escape;
 
 impl Writer<'_> {
     pub(super) fn closing(&mut self, j: usize) {
@@ -13,9 +13,10 @@ impl Writer<'_> {
         let mut sites = Vec::new();
         for (side, letter) in [(0, "a"), (1, "b")] {
             let site = self.sites.fit(&format!("{}~{letter}", part.id));
-            match end.on[side].is_empty() {
-                true => self.site(part.links[side], &site, &part.sides[side]),
-                false => self.small(j, part.links[side], &part.sides[side], &end.on[side], &site),
+            if end.on[side].is_empty() {
+                self.site(part.links[side], &site, &part.sides[side])
+            } else {
+                self.small(j, part.links[side], &part.sides[side], &end.on[side], &site)
             }
             sites.push(escape(&site));
         }

@@ -2,7 +2,7 @@
 
 use crate::robots::convert::payload::{Shape, Solid, Use};
 use crate::robots::convert::text::{attributes, pos_axes};
-use crate::robots::single_freedoms::{Names, escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number, numbers};
 use std::fmt::Write;
 
 /// Meshes by file and scale.

@@ -4,7 +4,7 @@ use crate::geom::rigid::Motion;
 use crate::robots::convert::payload::{Shape, Solid};
 use crate::robots::convert::text::pose;
 use crate::robots::convert::to_sdf::Writer;
-use crate::robots::single_freedoms::{Names, escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{Names, escape, number, numbers};
 use std::fmt::Write;
 
 impl Writer<'_> {

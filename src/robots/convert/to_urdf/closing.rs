@@ -5,7 +5,7 @@ use crate::geom::vector::{Vector, X, Y, Z, scale};
 use crate::robots::convert::plan::{Moves, Single, ending};
 use crate::robots::convert::text::xyz_rpy;
 use crate::robots::convert::to_urdf::{Loops, Writer};
-use crate::robots::single_freedoms::{escape, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use std::fmt::Write;
 
 /// An end of a loop: a link of the file and the place on it.
@@ -43,13 +43,12 @@ impl Writer<'_> {
             let link = part.links[side];
             let at = self.frames[&link].inverse().then(&part.sides[side]);
             let name = self.names[&link].clone();
-            ends.push(match end.on[side].is_empty() {
-                true => (name, at),
-                false => {
-                    let small = self.between(&format!("{id}~{}", ["a", "b"][side]));
-                    self.series(j, &end.on[side], at, [name, small.clone()]);
-                    (small, Motion::IDENTITY)
-                }
+            ends.push(if end.on[side].is_empty() {
+                (name, at)
+            } else {
+                let small = self.between(&format!("{id}~{}", ["a", "b"][side]));
+                self.series(j, &end.on[side], at, [name, small.clone()]);
+                (small, Motion::IDENTITY)
             });
         }
         match self.loops {

@@ -4,7 +4,7 @@ use crate::geom::rigid::Motion;
 use crate::robots::convert::payload::{Shape, Solid};
 use crate::robots::convert::text::xyz_rpy;
 use crate::robots::convert::to_urdf::{Loops, Writer};
-use crate::robots::single_freedoms::{escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
 impl Writer<'_> {
@@ -32,13 +32,10 @@ impl Writer<'_> {
         for s in self.scene.shapes(l) {
             self.shape(l, s, &back, &mut inside);
         }
-        match inside.is_empty() {
-            true => {
-                let _ = writeln!(self.head, "  <link name=\"{name}\"/>");
-            }
-            false => {
-                let _ = write!(self.head, "  <link name=\"{name}\">\n{inside}  </link>\n");
-            }
+        if inside.is_empty() {
+            let _ = writeln!(self.head, "  <link name=\"{name}\"/>");
+        } else {
+            let _ = write!(self.head, "  <link name=\"{name}\">\n{inside}  </link>\n");
         }
     }
 

@@ -7,7 +7,7 @@ use crate::robots::convert::plan::{Branch, Moves, Single};
 use crate::robots::convert::scene::{limits, name_of};
 use crate::robots::convert::text::xyz_rpy;
 use crate::robots::convert::to_urdf::{ENDLESS, Loops, Writer};
-use crate::robots::single_freedoms::{escape, number, numbers};
+use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
 impl Writer<'_> {
@@ -69,9 +69,10 @@ impl Writer<'_> {
             };
             let last = i + 1 == all.len();
             let screws = matches!(s.moves, Moves::Screw(_));
-            let held = match last && !screws {
-                true => to.clone(),
-                false => self.between(&name),
+            let held = if last && !screws {
+                to.clone()
+            } else {
+                self.between(&name)
             };
             let kind = if s.moves == Moves::Slide {
                 "prismatic"

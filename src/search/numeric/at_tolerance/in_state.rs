@@ -63,9 +63,12 @@ impl InStateSeen {
         } else {
             let judged = |at: JointId| {
                 with(&|j| {
-                    faces.contains(&j).then(|| match j == at {
-                        true => vec![Freedom::Tz, Freedom::Rx, Freedom::Ry],
-                        false => vec![Freedom::Tz],
+                    faces.contains(&j).then(|| {
+                        if j == at {
+                            vec![Freedom::Tz, Freedom::Rx, Freedom::Ry]
+                        } else {
+                            vec![Freedom::Tz]
+                        }
                     })
                 })
             };
@@ -73,9 +76,12 @@ impl InStateSeen {
         };
         let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
         let harmful = |least: bool| {
-            let of = |r: &RankRange| match least {
-                true => int(r.least.saturating_sub(own.most)),
-                false => int(r.most.saturating_sub(own.least)),
+            let of = |r: &RankRange| {
+                if least {
+                    int(r.least.saturating_sub(own.most))
+                } else {
+                    int(r.most.saturating_sub(own.least))
+                }
             };
             all.iter().map(of).min().unwrap_or(0)
         };

@@ -101,9 +101,10 @@ impl<'s> Judge<'s> {
         let sure = most <= limit;
         let standing = |sure: bool, redundancy: Redundancy| {
             let key = brute::key(self.question, choices, redundancy);
-            match sure {
-                true => Standing::Sure(key),
-                false => Standing::Doubtful(key),
+            if sure {
+                Standing::Sure(key)
+            } else {
+                Standing::Doubtful(key)
             }
         };
         let within = Redundancy {

@@ -36,17 +36,19 @@ impl PassedOver {
     #[must_use]
     pub fn text(&self) -> String {
         let (file, why) = (line(&self.file), line(&self.why));
-        match self.rigid {
-            true => format!("{file}: nothing is redundant: {why}\n"),
-            false => format!("{file}: not looked at: {why}\n"),
+        if self.rigid {
+            format!("{file}: nothing is redundant: {why}\n")
+        } else {
+            format!("{file}: not looked at: {why}\n")
         }
     }
 
     /// A notification of SARIF.
     fn notification(&self) -> Value {
-        let (id, level) = match self.rigid {
-            true => ("nothing-moves", "note"),
-            false => ("not-looked-at", "error"),
+        let (id, level) = if self.rigid {
+            ("nothing-moves", "note")
+        } else {
+            ("not-looked-at", "error")
         };
         notification(&self.file, id, level, &self.why)
     }

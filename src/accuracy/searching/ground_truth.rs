@@ -1,0 +1,211 @@
+//! What ways of searching are judged by, from a prime that none of them uses.
+
+use crate::accuracy::searching::brute_judgement::{self, Cells, Judged, Properties};
+use crate::accuracy::searching::record::Share;
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::Mechanism;
+use crate::rank::exact::field::exact_field;
+use crate::score::outcome::Outcome;
+use crate::score::request::Request;
+use crate::score::run::{RunError, run};
+use crate::search::Search;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::brute::Matrices;
+use crate::search::diagram::Stop;
+use num_bigint::BigUint;
+use std::collections::BTreeMap;
+
+/// How much to do.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort {
+    /// Variants that brute force looks at; a larger space is sampled.
+    pub looked: usize,
+    /// The pool that a ranking of all is judged by.
+    pub pool: usize,
+}
+
+/// The prime of the truth, counted from 0: searches use the first two.
+const PRIME: usize = 2;
+
+/// The best, in truth.
+enum Best {
+    /// By cost: variants of equal properties are equally good.
+    Cheapest(Vec<Properties>),
+    /// By a ranking.
+    Ranked(Vec<Vec<usize>>),
+}
+
+/// The truth about a mechanism.
+pub(super) struct Truth {
+    /// The search over the prime of the truth.
+    pub(super) search: Search,
+    matrices: Matrices,
+    /// Variants looked at one by one: all, or half of them drawn from all and half from the admissible ones.
+    pub(super) looked: Vec<Vec<usize>>,
+    /// Whether those are all.
+    pub(super) whole: bool,
+    /// How many are determinate, and how many admissible.
+    pub(super) found: Option<[BigUint; 2]>,
+    /// How many of the best are asked for.
+    pub(super) top: usize,
+    /// The pool of the ranking, and whether no variant outside of it can win.
+    pub(super) pool: Option<(usize, bool)>,
+    judged: Vec<Option<Judged>>,
+    cells: Option<Cells>,
+    best: Option<Best>,
+}
+
+impl Truth {
+    /// The truth about the mechanism and the conditions of an outcome. A ranking is made over the largest pool.
+    pub(super) fn new(
+        outcome: &Outcome,
+        mechanism: &Mechanism,
+        (request, top): (&Request, usize),
+        effort: Effort,
+    ) -> Result<Truth, RunError> {
+        let search = over(&outcome.search, PRIME)?;
+        let matrices = Matrices::new(&search);
+        let judge =
+            |choices: &[usize]| brute_judgement::judged(&search, choices, matrices.look(choices));
+        let (looked, diagrams) = match brute_judgement::every(&search, effort.looked) {
+            Some(all) => (all, None),
+            None => {
+                let diagrams = search.build(&|| false, &mut |_| {});
+                let mut some =
+                    brute_judgement::drawn(&search, effort.looked.div_ceil(2), request.seed);
+                let good = search.sample(&diagrams, request.seed);
+                let good: Vec<_> = good.take(effort.looked / 2).collect();
+                some.extend(good.into_iter().map(|a| a.choices));
+                (some, Some(diagrams))
+            }
+        };
+        let judged = brute_judgement::judge_all(&looked, judge)?;
+        let (cells, cheapest) = match &diagrams {
+            None => {
+                let best = brute_judgement::cheapest(&search, &looked, &judged, top);
+                (Some(brute_judgement::cells(&search, &judged)), best)
+            }
+            Some(d) if d.stop() == Stop::Exhausted => {
+                let counts = [(false, &d.determinate), (true, &d.admissible)];
+                let of = counts.into_iter().flat_map(|(all, diagram)| {
+                    let counts = search.counts(diagram, all).by_mobility_and_changes;
+                    counts.into_iter().map(move |((w, c), n)| ((all, w, c), n))
+                });
+                (Some(of.collect()), search.cheapest(d, top).collect())
+            }
+            Some(_) => (None, Vec::new()),
+        };
+        let (mut pool, mut best) = (None, None);
+        if outcome.ranking.is_some() {
+            let request = Request {
+                pool: effort.pool,
+                ..request.clone()
+            };
+            let (all, list) = listed(mechanism, &request)?;
+            pool = all.ranking.as_ref().map(|r| (r.scored, r.proven));
+            // A pool is no judge of itself: outside of it may be better ones.
+            let ranked = || Best::Ranked(list.into_iter().map(|a| a.choices).collect());
+            best = pool.is_some_and(|(_, proven)| proven).then(ranked);
+        } else if cells.is_some() {
+            let of = |a: &Assignment| brute_judgement::properties(&search, a.key);
+            best = Some(Best::Cheapest(cheapest.iter().map(of).collect()));
+        }
+        let total = |cells: &Cells, which| {
+            let of = cells.iter().filter(|(k, _)| k.0 == which);
+            of.map(|(_, n)| n).sum::<BigUint>()
+        };
+        Ok(Truth {
+            found: cells.as_ref().map(|c| [total(c, false), total(c, true)]),
+            whole: diagrams.is_none(),
+            top,
+            pool,
+            judged,
+            cells,
+            best,
+            looked,
+            matrices,
+            search,
+        })
+    }
+
+    /// The same search over a prime.
+    pub(super) fn over(&self, nth: usize) -> Result<Search, RunError> {
+        over(&self.search, nth)
+    }
+
+    /// How many of all counts, those there are in truth and those a way has, are equal.
+    pub(super) fn counts_right(&self, found: &Cells) -> Option<Share> {
+        let truth = self.cells.as_ref()?;
+        let only = found.keys().filter(|k| !truth.contains_key(k)).count();
+        let right = truth.iter().filter(|(k, n)| found.get(k) == Some(n));
+        Some(Share {
+            right: right.count(),
+            of: truth.len() + only,
+        })
+    }
+
+    /// How many of the best a list has. A variant that is not admissible in truth is none of them.
+    pub(super) fn best_right(&self, list: &[Assignment]) -> Result<Option<Share>, ExactError> {
+        let Some(best) = &self.best else {
+            return Ok(None);
+        };
+        let (right, of) = match best {
+            Best::Ranked(best) => {
+                let given = best
+                    .iter()
+                    .filter(|b| list.iter().any(|a| a.choices == **b));
+                (given.count(), best.len())
+            }
+            Best::Cheapest(best) => {
+                let seen = |a: &Assignment| self.matrices.look(&a.choices);
+                let truth =
+                    |a: &Assignment| brute_judgement::judged(&self.search, &a.choices, seen(a));
+                let judged = list.iter().map(truth).collect::<Result<Vec<_>, _>>()?;
+                let good = judged.into_iter().flatten().filter(|j| j.admissible);
+                let mut left: BTreeMap<Properties, usize> = BTreeMap::new();
+                good.for_each(|j| {
+                    *left
+                        .entry(brute_judgement::properties(&self.search, j.key))
+                        .or_default() += 1
+                });
+                let given = best.iter().filter(|p| match left.get_mut(p) {
+                    Some(n) if *n > 0 => {
+                        *n -= 1;
+                        true
+                    }
+                    _ => false,
+                });
+                (given.count(), best.len())
+            }
+        };
+        Ok(Some(Share { right, of }))
+    }
+
+    /// How many of the variants looked at are judged rightly: whether determinate, with which σ, and whether admissible.
+    pub(super) fn variants_right(&self, judged: &[Option<Judged>]) -> Share {
+        let verdict = |j: &Option<Judged>| j.map(|j| (j.key.internal(), j.admissible));
+        let pairs = self.judged.iter().zip(judged);
+        Share {
+            right: pairs.filter(|(a, b)| verdict(a) == verdict(b)).count(),
+            of: self.judged.len(),
+        }
+    }
+}
+
+/// Searches by the diagram, and gives the list that was asked for.
+pub(super) fn listed(
+    mechanism: &Mechanism,
+    request: &Request,
+) -> Result<(Outcome, Vec<Assignment>), RunError> {
+    let outcome = run(mechanism.clone(), request, &|| false, &mut |_| {})?;
+    let list = outcome.variants().map(|v| v.assignment().clone());
+    let list = list.collect();
+    Ok((outcome, list))
+}
+
+/// A search over another prime.
+fn over(search: &Search, nth: usize) -> Result<Search, RunError> {
+    let field = exact_field(&search.mechanism, nth)?;
+    let conditions = search.conditions.clone();
+    Ok(Search::new(field, search.mechanism.clone(), conditions)?)
+}

@@ -1,0 +1,173 @@
+//! Whether a joint is the image of another when space is reflected or turned, and by how much it is not.
+
+use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+use crate::format::number::brief;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
+use crate::geom::vector::{Vector, cross, dot, length, real};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Frame, Mode};
+
+/// How far the image of a joint is from the joint it is paired with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Miss {
+    /// Distance of their points; for a joint that is the same all along its axis, of the axes. In the file's unit.
+    pub distance: f64,
+    /// Angle between their axes, in radians.
+    pub angle: f64,
+}
+
+impl Miss {
+    /// Of a joint whose point and axis have become these.
+    pub(super) fn new((point, axis): ([f64; 3], [f64; 3]), of: &JointType, to: &Frame) -> Miss {
+        let (q, own) = (real(&to.point), real(&to.axis));
+        let off = [0, 1, 2].map(|i| point[i] - q[i]);
+        let sine = length(cross(axis, own));
+        let angle = match of {
+            JointType::Spherical | JointType::Fixed => 0.0,
+            _ => sine.atan2(dot(axis, own).abs()),
+        };
+        let distance = match of {
+            JointType::Prismatic => 0.0,
+            JointType::Revolute | JointType::Cylindrical | JointType::Helical => {
+                length(cross(off, own)) / length(own)
+            }
+            _ => length(off),
+        };
+        Miss { distance, angle }
+    }
+
+    /// Distance and angle as one number, to compare by.
+    pub(super) fn size(&self) -> f64 {
+        self.distance + self.angle
+    }
+
+    /// "2.062 cm and 0.5°"; `unit` is the file's.
+    #[must_use]
+    pub fn words(&self, unit: &str) -> String {
+        let number = |x: f64| {
+            if x < 1e-3 {
+                format!("{x:.3e}")
+            } else {
+                brief(x)
+            }
+        };
+        let distance = format!("{} {unit}", number(self.distance));
+        match self.angle.to_degrees() {
+            0.0 => distance,
+            angle => format!("{distance} and {}°", number(angle)),
+        }
+    }
+}
+
+/// What carries space over to itself, and a mechanism with it.
+pub trait Carrier {
+    /// Where it carries the point and the axis of a joint, in numbers.
+    fn place(&self, frame: &Frame) -> (Vector, Vector);
+
+    /// What becomes of space in exact numbers; none where lengths do not stay.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError>;
+
+    /// How far the image of a joint is from a place.
+    #[must_use]
+    fn miss(&self, (from, of): (&Frame, &JointType), to: &Frame) -> Miss {
+        Miss::new(self.place(from), of, to)
+    }
+
+    /// Whether the image of a joint allows exactly the motions of another.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        from: (&Frame, &JointType),
+        to: (&Frame, &JointType),
+    ) -> Result<bool, ExactError> {
+        match self.map(exact)? {
+            Some(map) => map.carries(exact, mode, from, to),
+            None => Ok(false),
+        }
+    }
+}
+
+/// What becomes of space: x goes to `linear`·x + `shift`, lengths stay.
+#[derive(Debug, Clone, Copy)]
+pub struct Map {
+    /// What becomes of x, y and z.
+    pub(super) linear: [[Residue; 3]; 3],
+    /// What becomes of the origin.
+    pub(super) shift: [Residue; 3],
+    /// Whether right hands become left ones.
+    pub(super) reflects: bool,
+}
+
+impl Map {
+    /// The map that does to directions what `linear` does.
+    pub(super) fn new(
+        f: Field,
+        linear: impl Fn([Residue; 3]) -> [Residue; 3],
+        shift: [Residue; 3],
+        reflects: bool,
+    ) -> Map {
+        let unit = |i: usize| [0, 1, 2].map(|j| if i == j { f.one() } else { f.zero() });
+        Map {
+            linear: [0, 1, 2].map(|i| linear(unit(i))),
+            shift,
+            reflects,
+        }
+    }
+
+    fn direction(&self, f: Field, v: [Residue; 3]) -> [Residue; 3] {
+        [0, 1, 2].map(|i| {
+            let columns = self.linear.iter().zip(v);
+            columns.fold(f.zero(), |sum, (c, x)| f.add(sum, f.mul(c[i], x)))
+        })
+    }
+
+    fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        (frame, of): (&Frame, &JointType),
+        (to, other): (&Frame, &JointType),
+    ) -> Result<bool, ExactError> {
+        let f = exact.field();
+        // A turn about u is one about -u in a mirror; the body point at the origin is the image of that at the shift.
+        let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
+            let turned = self.direction(f, [w0, w1, w2]);
+            let w = if self.reflects {
+                turned.map(|x| f.neg(x))
+            } else {
+                turned
+            };
+            let arm = exact.cross(self.shift, w);
+            let v = self.direction(f, [v0, v1, v2]);
+            let at = |i: usize| f.add(v[i], arm[i]);
+            [w[0], w[1], w[2], at(0), at(1), at(2)]
+        };
+        let space = MotionSpace::new(exact, mode)?;
+        let values = FrameValues::new(exact, frame)?.within(&space, of.freedoms());
+        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
+        for &freedom in of.freedoms() {
+            let twist = values.twist(exact, freedom);
+            if space.components(exact, &twist).is_none() {
+                continue;
+            }
+            match space.components(exact, &image(twist)) {
+                Some(t) => images.insert(&t),
+                None => return Ok(false),
+            };
+        }
+        for (_, t) in joint_twists(exact, &space, to, other)? {
+            own.insert(&t);
+        }
+        Ok(images.reduced() == own.reduced())
+    }
+}

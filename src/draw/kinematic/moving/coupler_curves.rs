@@ -1,0 +1,57 @@
+//! The points whose ways over a motion are shown.
+
+use crate::draw::kinematic::Kinematic;
+use crate::draw::kinematic::posed::Carried;
+use crate::draw::place::projection::{Vector, add as add3, scale as times};
+use crate::draw::symbol::concentric::one_place;
+use crate::model::mechanism::LinkId;
+use crate::svg::plane::{Point, sub};
+
+impl Kinematic<'_> {
+    /// The way of each point that is shown.
+    pub(in crate::draw::kinematic) fn ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
+        let tips = self.tips().into_iter();
+        let of = tips.map(|(link, tip)| {
+            let at = |c: &Carried<'_>| self.projection.flat(c.point(link, tip));
+            poses.iter().map(at).collect()
+        });
+        of.collect()
+    }
+
+    /// The points of interest; of output links that have none the free end of one with a single joint, else its joints but those of the frame.
+    pub(in crate::draw::kinematic) fn tips(&self) -> Vec<(LinkId, Vector)> {
+        let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
+        let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
+        let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
+        for link in self.links.iter().filter(|(l, _)| bare(*l)) {
+            let (l, of) = link;
+            let mut seen: Vec<Point> = Vec::new();
+            for &i in of {
+                let spot = &self.spots[i];
+                let links = self.subject.mechanism.joints[spot.joint].links;
+                let grounded = links.iter().any(|&l| self.is_frame(l));
+                if !grounded && !seen.iter().any(|&p| one_place(p, spot.at)) {
+                    seen.push(spot.at);
+                    out.push((*l, self.places[i].point));
+                }
+            }
+            out.extend(self.loose_in_space(link).map(|p| (*l, p)));
+        }
+        out
+    }
+
+    /// The free end of a link with one joint.
+    pub(in crate::draw::kinematic) fn loose_in_space(
+        &self,
+        link: &(LinkId, Vec<usize>),
+    ) -> Option<Vector> {
+        let of = &link.1;
+        let off = sub(self.loose(link)?, self.spots[of[0]].at);
+        let (view, scale) = (&self.projection.view, self.projection.scale);
+        let across = add3(
+            times(view.right, off[0] / scale),
+            times(view.up, -off[1] / scale),
+        );
+        Some(add3(self.places[of[0]].point, across))
+    }
+}

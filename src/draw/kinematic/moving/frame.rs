@@ -1,0 +1,183 @@
+//! One picture of a moving scheme: where a pose has carried everything.
+
+use crate::draw::kinematic::Kinematic;
+use crate::draw::kinematic::body::Body;
+use crate::draw::kinematic::marked::draw_mark;
+use crate::draw::kinematic::posed::Carried;
+use crate::draw::place::projection::{
+    Place, Vector, add as add3, cross, norm, scale as times, sub,
+};
+use crate::draw::sheet::Sheet;
+use crate::geom::vector::{dot, unit};
+use crate::model::mechanism::LinkId;
+use crate::svg::plane::{Point, polyline};
+
+/// The length of a flag, in pixels.
+const FLAG: f64 = 26.0;
+/// What moves by less than this, in pixels, is not seen to.
+const STILL: f64 = 2.0;
+/// What turns by less than this, in radians, is not seen to.
+const UPRIGHT: f64 = 0.05;
+
+/// One picture.
+pub(in crate::draw::kinematic) struct Frame {
+    /// Where the points of interest are.
+    pub(in crate::draw::kinematic) points: Vec<Point>,
+    /// Where each joint stands, with its frame.
+    pub(in crate::draw::kinematic) places: Vec<Place>,
+    pub(in crate::draw::kinematic) at: Vec<Point>,
+    /// The shape of each link but the frame.
+    pub(in crate::draw::kinematic) bodies: Vec<(usize, Body)>,
+    /// Lines on links that move.
+    pub(in crate::draw::kinematic) lines: Vec<(&'static str, [Point; 2])>,
+    pub(in crate::draw::kinematic) circles: Vec<Vec<Point>>,
+}
+
+/// A line on a link that moves: what a block slides along, or a flag that shows it turn.
+pub(in crate::draw::kinematic) struct Line {
+    pub(in crate::draw::kinematic) class: &'static str,
+    pub(in crate::draw::kinematic) link: LinkId,
+    pub(in crate::draw::kinematic) ends: [Vector; 2],
+}
+
+impl Frame {
+    /// Every point of it that can move.
+    pub(in crate::draw::kinematic) fn all(&mut self) -> impl Iterator<Item = &mut Point> {
+        let bodies = self.bodies.iter_mut().flat_map(|(_, b)| &mut b.points);
+        let lines = self.lines.iter_mut().flat_map(|(_, ends)| ends);
+        let circles = self.circles.iter_mut().flatten();
+        let points = self.points.iter_mut().chain(&mut self.at);
+        points.chain(bodies).chain(lines).chain(circles)
+    }
+
+    /// Everything but the symbols of joints.
+    pub(in crate::draw::kinematic) fn draw(&self, of: &Kinematic<'_>, s: &mut Sheet) {
+        for (l, body) in &self.bodies {
+            if body.points.len() > 1 {
+                s.path(&of.look(*l, body), &polyline(&body.points, body.plate));
+            }
+        }
+        for &(class, [a, b]) in &self.lines {
+            s.line(class, a, b);
+        }
+        for c in &self.circles {
+            s.path("fine pitch", &polyline(c, true));
+        }
+        for &p in &self.points {
+            draw_mark(s, p);
+        }
+    }
+}
+
+impl Kinematic<'_> {
+    /// The points of a link that its shape goes through.
+    pub(in crate::draw::kinematic) fn points_in_space(&self, link: usize) -> Vec<Vector> {
+        let whole = &self.links[link];
+        let own = whole.1.iter().map(|&i| self.places[i].point);
+        let own = own.chain(self.points_of(whole.0).map(|p| p.place));
+        own.chain(self.loose_in_space(whole)).collect()
+    }
+
+    /// The middle of those points.
+    pub(in crate::draw::kinematic) fn middle_in_space(&self, link: usize) -> Vector {
+        let points = self.points_in_space(link);
+        let sum = points.iter().fold([0.0; 3], |s, &p| add3(s, p));
+        times(sum, 1.0 / points.len() as f64)
+    }
+
+    /// The lines on links that move over some poses; rails become as long as their blocks slide.
+    pub(in crate::draw::kinematic) fn moving_lines(&mut self, poses: &[Carried<'_>]) -> Vec<Line> {
+        let slides = self.slides(poses);
+        self.lengthen_rails(&slides);
+        let mut lines = self.guides(&slides);
+        lines.extend(self.flags(poses));
+        lines
+    }
+
+    /// What blocks slide along, on links that move.
+    fn guides(&self, slides: &[Option<[f64; 2]>]) -> Vec<Line> {
+        let one = |(i, range): (usize, &Option<[f64; 2]>)| {
+            let (range, axis) = ((*range)?, self.slide_axis(i)?);
+            let (_, link) = self.carriers(i);
+            let ends = range.map(|x| add3(self.places[i].point, times(axis, x)));
+            let class = "guide";
+            let there = !self.is_frame(link) && range[1] > range[0];
+            there.then_some(Line { class, link, ends })
+        };
+        slides.iter().enumerate().filter_map(one).collect()
+    }
+
+    /// A flag on each link that turns while nothing that is drawn of it moves: a rod about itself, a gear about its axle.
+    fn flags(&self, poses: &[Carried<'_>]) -> Vec<Line> {
+        let one = |row: usize| {
+            let link = self.links[row].0;
+            let points = self.points_in_space(row);
+            let far = |c: &Carried<'_>, p: Vector| norm(sub(c.point(link, p), p));
+            let moves = |&p: &Vector| {
+                let scale = self.projection.scale;
+                poses.iter().any(|c| far(c, p) * scale > STILL)
+            };
+            if self.is_frame(link) || points.iter().any(moves) {
+                return None;
+            }
+            let turns = poses.iter().map(|c| c.links[link].rotation_vector());
+            let about = turns.max_by(|a, b| norm(*a).total_cmp(&norm(*b)))?;
+            if norm(about) < UPRIGHT {
+                return None;
+            }
+            let (about, view) = (unit(about), &self.projection.view);
+            // aslant, so that a little turn either way is seen
+            let side = cross(about, view.toward);
+            let out = if norm(side) > 0.1 {
+                let side = unit(side);
+                unit(add3(side, cross(about, side)))
+            } else {
+                unit(sub(view.up, times(about, dot(view.up, about))))
+            };
+            let from = self.middle_in_space(row);
+            let to = add3(from, times(out, FLAG / self.projection.scale));
+            let (class, ends) = ("flag", [from, to]);
+            Some(Line { class, link, ends })
+        };
+        (0..self.links.len()).filter_map(one).collect()
+    }
+
+    /// Where the joints are in a pose, with their frames.
+    pub(in crate::draw::kinematic) fn frame(&self, carried: &Carried<'_>, lines: &[Line]) -> Frame {
+        let flat = |p: Vector| self.projection.flat(p);
+        let places: Vec<Place> = (0..self.spots.len())
+            .map(|i| {
+                let (rides, guides) = self.carriers(i);
+                carried.place(rides, guides, &self.places[i])
+            })
+            .collect();
+        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
+        let body = |l: usize| {
+            let link = self.links[l].0;
+            let there = |p| carried.point(link, p);
+            if let Some(made) = self.arc(l, there).or_else(|| self.facet(l, there)) {
+                return (l, made);
+            }
+            let points = self.points_in_space(l).into_iter();
+            let points: Vec<Point> = points.map(|p| flat(carried.point(link, p))).collect();
+            (l, Body::new(&points).bowed(self.bows[l]))
+        };
+        let on_paper = |l: &Line| (l.class, l.ends.map(|p| flat(carried.point(l.link, p))));
+        let m = self.subject.mechanism;
+        Frame {
+            points: self
+                .points
+                .iter()
+                .map(|p| flat(carried.point(p.link, p.place)))
+                .collect(),
+            at: places.iter().map(|p| flat(p.point)).collect(),
+            bodies: moving.map(body).collect(),
+            lines: lines.iter().map(on_paper).collect(),
+            circles: m
+                .couplings_in(self.subject.state)
+                .flat_map(|c| self.pitch_circles(c, &places))
+                .collect(),
+            places,
+        }
+    }
+}

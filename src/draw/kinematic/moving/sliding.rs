@@ -1,0 +1,91 @@
+//! What slides along what in a moving scheme, and how far.
+
+use crate::draw::kinematic::Kinematic;
+use crate::draw::kinematic::posed::Carried;
+use crate::draw::place::projection::{Vector, dot, scale as times, sub as sub3};
+use crate::draw::symbol::concentric::one_place;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::LinkId;
+
+impl Kinematic<'_> {
+    /// How far along its axis each joint slides from where it is at rest, over all poses; nothing for those that do not.
+    pub(in crate::draw::kinematic) fn slides(
+        &self,
+        poses: &[Carried<'_>],
+    ) -> Vec<Option<[f64; 2]>> {
+        let one = |i: usize| {
+            let along = self.slide_axis(i)?;
+            let (rides, guides) = self.carriers(i);
+            let place = &self.places[i];
+            let of = poses.iter().map(|c| {
+                let apart = sub3(c.point(rides, place.point), c.point(guides, place.point));
+                dot(apart, c.links[guides].direction(along))
+            });
+            Some(of.fold([0.0f64, 0.0], |[l, h], x| [l.min(x), h.max(x)]))
+        };
+        (0..self.spots.len()).map(one).collect()
+    }
+
+    /// The direction that a joint slides in, where it slides in just one.
+    pub(in crate::draw::kinematic) fn slide_axis(&self, i: usize) -> Option<Vector> {
+        let joint = &self.subject.mechanism.joints[self.spots[i].joint];
+        let place = &self.places[i];
+        let freedoms = joint.joint_type.freedoms();
+        let axes = [
+            (Freedom::Tx, place.x),
+            (Freedom::Ty, place.y),
+            (Freedom::Tz, place.z),
+            (Freedom::Screw, place.z),
+        ];
+        let mut slides = axes.into_iter().filter(|(f, _)| freedoms.contains(f));
+        let first = slides.next()?;
+        slides.next().is_none().then_some(first.1)
+    }
+
+    /// The link that the symbol of a joint rides on, and the one that it slides along: a block rides on the link that is
+    /// nothing else, and on any rather than on the frame; a slot is the second link's, the pin in it the first's.
+    pub(in crate::draw::kinematic) fn carriers(&self, i: usize) -> (LinkId, LinkId) {
+        let joint = &self.subject.mechanism.joints[self.spots[i].joint];
+        let [a, b] = joint.links;
+        if joint.joint_type.freedoms().contains(&Freedom::Tx) {
+            return (a, b);
+        }
+        let small = |l: LinkId| {
+            let of = self.links.iter().find(|(k, _)| *k == l);
+            of.is_some_and(|(_, of)| {
+                of.len() > 1
+                    && of
+                        .iter()
+                        .all(|&k| one_place(self.spots[k].at, self.spots[i].at))
+            })
+        };
+        if small(a) || self.is_frame(b) {
+            (a, b)
+        } else if small(b) || self.is_frame(a) {
+            (b, a)
+        } else {
+            (a, b)
+        }
+    }
+
+    /// Rails are as long as what slides along them needs.
+    pub(in crate::draw::kinematic) fn lengthen_rails(&mut self, slides: &[Option<[f64; 2]>]) {
+        for (i, &range) in slides.iter().enumerate() {
+            let (Some(range), Some(axis)) = (range, self.slide_axis(i)) else {
+                continue;
+            };
+            if !self.is_frame(self.carriers(i).1) {
+                continue;
+            }
+            let [low, high] = range.map(|x| {
+                let flat = self.projection.view.flat(times(axis, x));
+                flat.map(|c| c * self.projection.scale)
+            });
+            let at = self.spots[i].at;
+            let rail = self.grounds.iter_mut().find(|g| one_place(g.from, at));
+            if let Some(g) = rail {
+                g.lengthen(low, high);
+            }
+        }
+    }
+}

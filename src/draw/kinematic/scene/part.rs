@@ -1,0 +1,93 @@
+//! Pieces of symbols as a program that turns them has them: numbers in the frame of a joint, or on paper.
+
+use crate::draw::place::projection::Vector;
+use crate::draw::sheet::Shape;
+use crate::draw::symbol::pieces::{Form, Piece};
+use crate::svg::plane::Point;
+use serde::Serialize;
+
+/// A piece of a symbol: the numbers of a [`Form`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(in crate::draw::kinematic) struct Part {
+    form: &'static str,
+    class: String,
+    points: Vec<Vec<f64>>,
+    radius: f64,
+    seen: [f64; 2],
+}
+
+/// What goes along an axis, by the axis and by whether it is closed.
+const ALONG: [[&str; 2]; 3] = [
+    ["along x", "along x loop"],
+    ["along y", "along y loop"],
+    ["along z", "along z loop"],
+];
+
+/// To a hundredth of a pixel.
+pub(in crate::draw::kinematic) fn tidy(x: f64) -> f64 {
+    (x * 100.0).round() / 100.0
+}
+
+/// A piece of a symbol.
+pub(in crate::draw::kinematic) fn part(p: &Piece, mark: &str, size: f64) -> Part {
+    let three = |points: &[Vector]| points.iter().map(|p| p.to_vec()).collect();
+    let (form, points, radius): (_, Vec<Vec<f64>>, f64) = match &p.form {
+        Form::Hull(points, round) => ("hull", three(points), *round),
+        Form::Face(points) => ("face", three(points), 0.0),
+        Form::Line(points) => ("line", three(points), 0.0),
+        Form::Ball(at, radius) => ("ball", three(&[*at]), *radius),
+        Form::Along(axis, points, closed) => {
+            let points = points.iter().map(|p| p.to_vec()).collect();
+            (ALONG[*axis][usize::from(*closed)], points, 0.0)
+        }
+        Form::Paper(points, closed) => {
+            let points = points.iter().map(|p| p.to_vec()).collect();
+            (if *closed { "loop" } else { "line" }, points, 0.0)
+        }
+    };
+    let scaled = |p: Vec<f64>| p.iter().map(|x| tidy(x * size)).collect();
+    Part {
+        form,
+        class: format!("{}{mark}", p.class),
+        points: points.into_iter().map(scaled).collect(),
+        radius: tidy(radius * size),
+        seen: [p.seen.start, p.seen.end],
+    }
+}
+
+pub(in crate::draw::kinematic) fn paper(class: &str, points: Vec<Point>, closed: bool) -> Part {
+    Part {
+        form: if closed { "loop" } else { "line" },
+        class: class.to_owned(),
+        points: points.iter().map(|p| p.map(tidy).to_vec()).collect(),
+        radius: 0.0,
+        seen: [0.0, 2.0],
+    }
+}
+
+/// A finished shape, turned to the reader always.
+pub(in crate::draw::kinematic) fn flat(shape: &Shape) -> Part {
+    match shape {
+        Shape::Path {
+            class,
+            points,
+            closed,
+        } => paper(class, points.clone(), *closed),
+        Shape::Circle { at, radius, class } => Part {
+            form: "ball",
+            radius: tidy(*radius),
+            ..paper(class, vec![*at], false)
+        },
+    }
+}
+
+/// The ground below a joint.
+pub(in crate::draw::kinematic) fn below(reach: f64) -> Vec<Part> {
+    let strokes = (0..5).map(|i| {
+        let x = 10.0 - 5.0 * f64::from(i);
+        paper("fine", vec![[x, reach], [x - 4.0, reach + 6.0]], false)
+    });
+    let stem = paper("bone", vec![[0.0, 0.0], [0.0, reach]], false);
+    let line = paper("bone", vec![[-11.0, reach], [11.0, reach]], false);
+    [stem, line].into_iter().chain(strokes).collect()
+}

@@ -1,0 +1,121 @@
+//! The symbol of a joint, with the ring of a drive.
+
+use crate::draw::place::projection::{Place, View};
+use crate::draw::sheet::{Shape, Sheet};
+use crate::draw::subject::{Mark, Subject};
+use crate::draw::symbol::drive;
+use crate::draw::symbol::pieces::{Piece, Pose};
+use crate::draw::symbol::symbols;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::JointId;
+use crate::svg::plane::Rect;
+
+/// The symbol of a joint round the origin.
+pub(in crate::draw) struct Symbol {
+    of: JointType,
+    pose: Pose,
+    shapes: Vec<Shape>,
+    /// How many times the usual size it is.
+    pub(in crate::draw) size: f64,
+    pub(in crate::draw) room: Rect,
+    /// The radius of the ring of a drive that turns.
+    pub(in crate::draw) ring: Option<f64>,
+    /// The axis that a driven slide goes along.
+    pub(in crate::draw) slide: Option<usize>,
+}
+
+impl Symbol {
+    pub(in crate::draw) fn new(
+        subject: &Subject<'_>,
+        joint: JointId,
+        (of, place): (&JointType, &Place),
+        view: &View,
+        size: f64,
+        slide: Option<usize>,
+    ) -> Symbol {
+        let pose = Pose::new(place, view);
+        let shapes = symbols::symbol(of, &pose, "", size);
+        let own = symbols::extent(&shapes);
+        let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
+        let joint = &subject.mechanism.joints[joint];
+        let ring = (joint.drive && slide.is_none()).then_some(reach.min(14.0 * size));
+        let mut room = own;
+        if let Some(r) = ring {
+            room = room.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4));
+        }
+        if let Some(axis) = slide {
+            let arrow = drive::straight(axis);
+            let arrow: Vec<Shape> = arrow
+                .iter()
+                .filter_map(|p| p.shape(&pose, "", size))
+                .collect();
+            room = room.with(&symbols::extent(&arrow));
+        }
+        Symbol {
+            of: of.clone(),
+            pose,
+            shapes,
+            size,
+            room,
+            ring,
+            slide,
+        }
+    }
+
+    pub(in crate::draw) fn marked(mut self, mark: Mark) -> Symbol {
+        self.shapes = symbols::symbol(&self.of, &self.pose, mark.class(), self.size);
+        self
+    }
+
+    /// Its shapes in the usual size, without a mark.
+    pub(in crate::draw) fn plain(&self) -> Vec<Shape> {
+        symbols::symbol(&self.of, &self.pose, "", 1.0)
+    }
+
+    /// How far it reaches from its middle.
+    pub(in crate::draw) fn reach(&self) -> f64 {
+        let r = &self.room;
+        [-r.left, -r.top, r.right, r.bottom]
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    pub(in crate::draw) fn draw(
+        &self,
+        sheet: &mut Sheet,
+        subject: &Subject<'_>,
+        joint: JointId,
+        mark: Mark,
+    ) {
+        let (below, above) = self.round(subject, joint, mark);
+        sheet.shapes(&below, [0.0; 2]);
+        sheet.shapes(&self.shapes, [0.0; 2]);
+        let arrow = self.arrow();
+        let arrow = arrow.iter();
+        let arrow = arrow.filter_map(|p| p.shape(&self.pose, mark.class(), self.size));
+        sheet.shapes(&arrow.collect::<Vec<_>>(), [0.0; 2]);
+        sheet.shapes(&above, [0.0; 2]);
+    }
+
+    /// The straight arrow of a driven slide.
+    pub(in crate::draw) fn arrow(&self) -> Vec<Piece> {
+        self.slide.map(drive::straight).unwrap_or_default()
+    }
+
+    /// What stands round the symbol, below and above it, and is turned to the reader always.
+    pub(in crate::draw) fn round(
+        &self,
+        subject: &Subject<'_>,
+        joint: JointId,
+        mark: Mark,
+    ) -> (Vec<Shape>, Vec<Shape>) {
+        let drive = |r| drive::round(mark.class(), r);
+        let only_here = subject.only_here(joint).then(|| Shape::Circle {
+            at: [0.0; 2],
+            radius: self.ring.unwrap_or(10.0 * self.size) + 2.5,
+            class: "fine dash".to_owned(),
+        });
+        let below = self.ring.map(drive).unwrap_or_default();
+        (below, only_here.into_iter().collect())
+    }
+}

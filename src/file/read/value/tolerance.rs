@@ -1,0 +1,152 @@
+//! How well numbers are known, where the file states it.
+
+use crate::file::findings::Findings;
+use crate::file::locate::{Step, index, key};
+use crate::file::problem::ProblemKind;
+use crate::file::read::value::number::number;
+use crate::file::schema::{Coordinate, MechanismFile};
+use crate::geom::expr::{End, Expr, Written};
+use crate::geom::extent::diagonal;
+use crate::geom::vector::{length, real};
+use crate::model::mechanism::{Frame, Joint, Mechanism};
+
+/// Directions that are off by more, in radians, say nothing.
+const MOST_TURN: f64 = 0.1;
+/// Nor do places that are off by more of the size of the mechanism.
+const MOST_SHIFT: f64 = 0.1;
+
+/// Puts what is stated in place of what digits say.
+pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findings) {
+    let across = diagonal(m.joints.iter().map(|j| real(&j.frame.point)));
+    // Joints that are all in one place have no size.
+    let most = if across > 0.0 {
+        MOST_SHIFT * across
+    } else {
+        f64::INFINITY
+    };
+    let mut shift = |c: Option<&Coordinate>, path: &[Step]| {
+        let allowed = "0, or at most a tenth of the distance across the joints";
+        stated(c?, path, (most, allowed), out)
+    };
+    let root = |k: &str| vec![Step::Key(k.to_owned())];
+    let of_file = file.tolerance.as_ref();
+    let lengths = shift(
+        of_file.and_then(|t| t.length.as_ref()),
+        &key(&root("tolerance"), "length"),
+    );
+    let each = file.joint.iter().enumerate();
+    let of_joints: Vec<Option<f64>> = each
+        .map(|(i, j)| {
+            let at = index(&root("joint"), i);
+            shift(j.tolerance.as_ref(), &key(&at, "tolerance"))
+        })
+        .collect();
+    let each = file.point.iter().enumerate();
+    let of_points: Vec<Option<f64>> = each
+        .map(|(i, p)| {
+            let at = index(&root("point"), i);
+            shift(p.tolerance.as_ref(), &key(&at, "tolerance"))
+        })
+        .collect();
+    let directions = of_file.and_then(|t| t.direction.as_ref()).and_then(|c| {
+        let at = key(&root("tolerance"), "direction");
+        stated(c, &at, (MOST_TURN, "0, or at most 0.1 rad"), out)
+    });
+    for (joint, own) in m.joints.iter_mut().zip(of_joints) {
+        joint_at(joint, lengths, directions, own);
+    }
+    for (point, own) in m.points.iter_mut().zip(of_points) {
+        put(&mut point.point, lengths, own);
+    }
+}
+
+/// A tolerance, nothing where it is none.
+fn stated(
+    c: &Coordinate,
+    path: &[Step],
+    (most, allowed): (f64, &'static str),
+    out: &mut Findings,
+) -> Option<f64> {
+    let before = out.count();
+    let value = number(c, path, out).to_f64();
+    if out.count() > before {
+        return None;
+    }
+    if !(0.0..=most).contains(&value) {
+        let what = "tolerance";
+        let value = value.to_string();
+        out.add(
+            path,
+            ProblemKind::BadQuantity {
+                what,
+                value,
+                allowed,
+            },
+        );
+        return None;
+    }
+    Some(value)
+}
+
+fn joint_at(joint: &mut Joint, lengths: Option<f64>, directions: Option<f64>, own: Option<f64>) {
+    let before = joint.frame.point.clone();
+    let at_joint = |f: &Frame| f.point.iter().zip(&before).all(|(a, b)| a.is_same(b));
+    let offered = joint.options.iter_mut().chain(&mut joint.unloading);
+    let frames = offered.map(|o| &mut o.frame).chain([&mut joint.frame]);
+    for frame in frames {
+        let own = own.filter(|_| at_joint(frame));
+        put(&mut frame.point, lengths, own);
+        if let Some(half) = lengths {
+            pitch(&mut frame.pitch, half);
+        }
+        if let Some(half) = directions {
+            turn(&mut frame.axis, half);
+            turn(&mut frame.reference, half);
+        }
+    }
+}
+
+/// A point: all of it where it has a tolerance of its own, else the numbers of it that are written as such, but for a whole 0.
+fn put(point: &mut [Expr; 3], of_file: Option<f64>, own: Option<f64>) {
+    for e in point {
+        let half =
+            own.or_else(|| of_file.filter(|_| is_number(e) && !(is_whole(e) && e.to_f64() == 0.0)));
+        state(e, half);
+    }
+}
+
+/// A direction within so many radians: its numbers, but for whole 0 and 1.
+fn turn(v: &mut [Expr; 3], half: f64) {
+    let of_length = half * length(real(v));
+    for e in v {
+        let size = e.to_f64().abs();
+        let chosen = is_whole(e) && (size == 0.0 || size == 1.0);
+        state(e, Some(of_length).filter(|_| is_number(e) && !chosen));
+    }
+}
+
+/// A pitch, or what a lead makes it.
+fn pitch(e: &mut Expr, half: f64) {
+    let Written::Decimal(digits) = e.written() else {
+        return;
+    };
+    state(e, Some(half * digits.factor()));
+}
+
+fn state(e: &mut Expr, half: Option<f64>) {
+    if let Some(half) = half {
+        *e = std::mem::replace(e, Expr::from(0)).with_half_unit(half);
+    }
+}
+
+fn is_number(e: &Expr) -> bool {
+    matches!(e.written(), Written::Decimal(_) | Written::Whole)
+}
+
+fn is_whole(e: &Expr) -> bool {
+    match e.written() {
+        Written::Whole => true,
+        Written::Decimal(digits) => digits.end == End::Float,
+        Written::No | Written::Stated(_) => false,
+    }
+}

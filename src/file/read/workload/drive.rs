@@ -1,0 +1,165 @@
+//! The `[workload.drive]` table.
+
+mod inertias;
+mod programme;
+mod push;
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step as Place;
+use crate::file::locate::{index, key};
+use crate::file::read::value::quantity::{Bound, Table};
+use crate::file::schema::{DriveEntry, MechanismFile};
+use crate::model::drive::{Cam, Damping, DriveSpec};
+use crate::model::mechanism::Mechanism;
+use inertias::inertias;
+pub use programme::regular;
+use programme::{MOST, programme};
+use push::push;
+
+fn damping(t: &mut Table<'_>, e: &DriveEntry) -> Option<Damping> {
+    let viscous = t.not_negative("viscous_damping", &e.viscous_damping, 1.0);
+    let coulomb = t.not_negative("friction_moment", &e.friction_moment, 1.0);
+    (viscous.is_some() || coulomb.is_some()).then(|| Damping {
+        viscous: viscous.unwrap_or(0.0),
+        coulomb: coulomb.unwrap_or(0.0),
+    })
+}
+
+fn cam(t: &mut Table<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
+    let stroke = t.positive("spring_stroke", &e.spring_stroke, unit);
+    let mounting = t.not_negative("mounting_coefficient", &e.mounting_coefficient, 1.0);
+    let efficiency = t.optional(
+        "cam_efficiency",
+        e.cam_efficiency.as_ref(),
+        1.0,
+        Bound::Range(1e-6, 1.0, "a number above 0, up to 1"),
+    );
+    if stroke.is_none() {
+        for (k, _) in [
+            ("mounting_coefficient", mounting),
+            ("cam_efficiency", efficiency),
+        ]
+        .iter()
+        .filter(|(_, v)| v.is_some())
+        {
+            t.needs(k, "spring_stroke beside it");
+        }
+    }
+    let radius = t.positive("cam_radius", &e.cam_radius, unit);
+    let roller = t.positive("roller_radius", &e.roller_radius, unit);
+    let profile = radius.zip(roller);
+    match (stroke, radius, roller) {
+        (_, Some(_), None) => t.needs("cam_radius", "roller_radius beside it"),
+        (_, None, Some(_)) => t.needs("roller_radius", "cam_radius beside it"),
+        (None, Some(_), Some(_)) => t.needs("cam_radius", "spring_stroke beside it"),
+        (Some(stroke), Some(radius), Some(roller)) if radius <= stroke + roller => {
+            let path = key(&t.at, "cam_radius");
+            t.bad(
+                &path,
+                "cam_radius",
+                (radius / unit).to_string(),
+                "more than spring_stroke and roller_radius together, so that the cam keeps clear of the axis",
+            );
+        }
+        _ => {}
+    }
+    stroke.map(|stroke| Cam {
+        stroke,
+        mounting: mounting.unwrap_or(0.0),
+        efficiency: efficiency.unwrap_or(1.0),
+        profile,
+    })
+}
+
+/// The drive of a file, where it has one.
+pub(crate) fn drive(
+    file: &MechanismFile,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+    out: &mut Findings,
+) -> Option<DriveSpec> {
+    let e = file.workload.drive.as_ref()?;
+    let at = ["workload", "drive"]
+        .map(|k| Place::Key(k.to_owned()))
+        .to_vec();
+    let t = &mut Table { at, out };
+    let twist = t.angle_in(
+        "swing_angle",
+        &e.swing_angle,
+        (1e-3, 3600.0),
+        "an angle above 0, up to 3600 degrees",
+    ) / 2.0;
+    let whole = t.positive("period", &e.period, 1.0);
+    let half = t.positive("swing_time", &e.swing_time, 1.0);
+    let period = match (whole, half) {
+        (Some(period), None) => period,
+        (None, Some(half)) => 2.0 * half,
+        (Some(_), Some(_)) => {
+            t.excludes("swing_time", "period");
+            1.0
+        }
+        (None, None) => {
+            let at = t.at.clone();
+            t.needs_at(&at, "drive", "period, or swing_time, its half");
+            1.0
+        }
+    };
+    let (inertias, payload) = inertias(t, e, unit, mechanism);
+    let at = key(&t.at, "diameters");
+    let mut diameters = Vec::new();
+    for (i, d) in e.diameters.iter().take(MOST).enumerate() {
+        diameters.push(t.number_at(&index(&at, i), "diameter", d, unit, Bound::Positive));
+    }
+    diameters.sort_by(f64::total_cmp);
+    let missing = e
+        .missing_angle
+        .as_ref()
+        .map(|c| t.angle("missing_angle", c));
+    if let Some(found) = missing.filter(|m| !(0.0..twist).contains(m)) {
+        let path = key(&t.at, "missing_angle");
+        t.bad(
+            &path,
+            "missing_angle",
+            format!("{} degrees", found.to_degrees()),
+            "an angle from 0 to below half the swing",
+        );
+    }
+    let damping = damping(t, e);
+    let cam = cam(t, e, unit);
+    let push = push(t, e, twist);
+    let capture = e
+        .latch_capture
+        .as_ref()
+        .map(|c| t.angle_in("latch_capture", c, (0.0, 3600.0), "an angle from 0"));
+    Some(DriveSpec {
+        twist,
+        period,
+        inertias,
+        payload,
+        shear_modulus: t.number(
+            "shear_modulus",
+            &e.shear_modulus,
+            1.0,
+            Bound::Range(
+                1e3,
+                1e12,
+                "a modulus from 1e3 to 1e12 Pa, such as 8e10 for steel",
+            ),
+        ),
+        allowable_stress: t.number(
+            "allowable_stress",
+            &e.allowable_stress,
+            1.0,
+            Bound::Range(1e3, 1e12, "a stress from 1e3 to 1e12 Pa, such as 4e8"),
+        ),
+        length: t.positive("torsion_length", &e.torsion_length, unit),
+        max_length: t.positive("max_length", &e.max_length, unit),
+        diameters,
+        missing,
+        damping,
+        cam,
+        push,
+        capture: capture.unwrap_or(1f64.to_radians()),
+        programme: programme(t, e),
+    })
+}

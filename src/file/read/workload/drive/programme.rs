@@ -1,0 +1,93 @@
+//! Swings and dwells in order.
+
+use crate::file::locate::{index, key};
+use crate::file::read::value::quantity::{Bound, Table, word};
+use crate::file::schema::DriveEntry;
+use crate::model::drive::Step;
+
+/// Most steps of a programme.
+pub(in crate::file::read) const MOST: usize = 10_000;
+
+/// So many swings, of both discs in turn or of the second alone, with a dwell after each where one is given.
+#[must_use]
+pub fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<Step> {
+    let mut steps = Vec::new();
+    for i in 0..swings {
+        // The second disc goes first, so that the first, which is ahead, is followed.
+        steps.push(Step::Swing(if stepwise { (i + 1) % 2 } else { 1 }));
+        steps.extend(dwell.map(Step::Dwell));
+    }
+    steps
+}
+
+pub(crate) fn programme(t: &mut Table<'_>, e: &DriveEntry) -> Vec<Step> {
+    let dwell = t.optional(
+        "dwell",
+        e.dwell.as_ref(),
+        1.0,
+        Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s"),
+    );
+    let Some(list) = &e.programme else {
+        let stepwise = word(
+            t,
+            "motion",
+            e.motion.as_ref(),
+            &[("stepwise", true), ("reversing", false)],
+        );
+        let count = e.swings.unwrap_or(8);
+        let Some(count) = usize::try_from(count)
+            .ok()
+            .filter(|n| (1..=MOST).contains(n))
+        else {
+            let path = key(&t.at, "swings");
+            t.bad(
+                &path,
+                "number of swings",
+                count.to_string(),
+                "a whole number from 1 to 10000",
+            );
+            return Vec::new();
+        };
+        return regular(stepwise, count, dwell.filter(|d| *d > 0.0));
+    };
+    let beside = [
+        ("motion", e.motion.is_some()),
+        ("swings", e.swings.is_some()),
+        ("dwell", e.dwell.is_some()),
+    ];
+    for (k, _) in beside.into_iter().filter(|(_, given)| *given) {
+        t.excludes(k, "programme");
+    }
+    let at = key(&t.at, "programme");
+    if list.is_empty() || list.len() > MOST {
+        t.bad(&at, "number of steps", list.len().to_string(), "1 to 10000");
+        return Vec::new();
+    }
+    let step = |text: &str| match text.trim() {
+        "1" => Some(Step::Swing(0)),
+        "2" => Some(Step::Swing(1)),
+        other => {
+            let time = other
+                .strip_prefix("wait")?
+                .trim()
+                .trim_end_matches('s')
+                .trim_end()
+                .parse::<f64>()
+                .ok()?;
+            (0.0..=1e6).contains(&time).then_some(Step::Dwell(time))
+        }
+    };
+    let mut steps = Vec::new();
+    for (i, text) in list.iter().enumerate() {
+        match step(text) {
+            Some(s) => steps.push(s),
+            None => t.bad(
+                &index(&at, i),
+                "step",
+                format!("{text:?}"),
+                "\"1\", \"2\" or a dwell such as \"wait 0.3\"",
+            ),
+        }
+    }
+    steps
+}

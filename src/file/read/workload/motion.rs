@@ -1,0 +1,94 @@
+//! Positions and speeds of drives, with the units that files may write.
+
+use crate::file::findings::Findings;
+use crate::file::locate::Step;
+use crate::file::problem::ProblemKind;
+use crate::file::schema::Quantity;
+use crate::model::loads::Stroke;
+use thiserror::Error;
+
+/// Most forces, moments or misalignments.
+pub(in crate::file::read) const MAX_FORCES: usize = 10_000;
+/// Most steps of a stroke.
+pub const MAX_STEPS: usize = 100_000;
+/// Largest mass, inertia or speed.
+pub(in crate::file::read) const LARGEST: f64 = 1e12;
+
+/// A drive position in radians or the file's length unit: "1.5", "1.5rad", "360deg".
+#[must_use]
+pub fn position(text: &str) -> Option<f64> {
+    with_units(text, &[("deg", 1f64.to_radians()), ("rad", 1.0)])
+}
+
+/// A drive speed in rad/s or the file's length unit per second: "6.28", "60rpm", "30deg/s".
+#[must_use]
+pub fn speed(text: &str) -> Option<f64> {
+    let rpm = std::f64::consts::TAU / 60.0;
+    let units = [("rpm", rpm), ("deg/s", 1f64.to_radians()), ("rad/s", 1.0)];
+    with_units(text, &units)
+}
+
+/// A stroke that is not written as one.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("--stroke {0:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps")]
+pub struct NoStroke(String);
+
+/// A range and its steps, such as "0:360deg:72".
+///
+/// # Errors
+/// Where it is none.
+pub fn stroke(text: &str) -> Result<Stroke, NoStroke> {
+    let parts: Vec<&str> = text.split(':').collect();
+    let parsed = match parts[..] {
+        [from, to, steps] => position(from)
+            .zip(position(to))
+            .zip(steps.parse::<usize>().ok()),
+        _ => None,
+    };
+    match parsed {
+        Some(((from, to), steps)) if (1..=MAX_STEPS).contains(&steps) => {
+            Ok(Stroke { from, to, steps })
+        }
+        _ => Err(NoStroke(text.to_owned())),
+    }
+}
+
+fn with_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let text = text.trim();
+    let (number, factor) = units
+        .iter()
+        .find_map(|(u, f)| text.strip_suffix(u).map(|n| (n.trim_end(), *f)))
+        .unwrap_or((text, 1.0));
+    let value = number.parse::<f64>().ok()? * factor;
+    (value.abs() <= LARGEST).then_some(value)
+}
+
+pub(crate) fn quantity(
+    q: &Quantity,
+    parse: fn(&str) -> Option<f64>,
+    what: &'static str,
+    allowed: &'static str,
+    path: &[Step],
+    out: &mut Findings,
+) -> f64 {
+    let (value, shown) = match q {
+        Quantity::Number(x) => (Some(*x).filter(|x| x.abs() <= LARGEST), x.to_string()),
+        Quantity::Text(t) => (parse(t), format!("{t:?}")),
+    };
+    value.unwrap_or_else(|| {
+        out.add(
+            path,
+            ProblemKind::BadQuantity {
+                what,
+                value: shown,
+                allowed,
+            },
+        );
+        0.0
+    })
+}
+
+pub(in crate::file::read) const POSITION: &str =
+    "a number of radians or length units such as 1.5, or an angle such as \"90deg\"";
+pub(in crate::file::read) const SPEED: &str =
+    "a number of rad/s or length units per second, or a speed such as \"60rpm\" or \"30deg/s\"";

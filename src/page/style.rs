@@ -1,0 +1,3 @@
+//! How every page looks.
+
+pub(super) const STYLE: &str = include_str!("page.css");

@@ -1,0 +1,252 @@
+//! What a mechanism holds twice: each redundant constraint by name, where it holds over the motion, and what removes it.
+
+use crate::closure::tree::spanning_tree;
+use crate::geom::vector::{Vector, cross, length, real, unit};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
+use crate::motion::pose::Pose;
+use crate::rank::method::Certainty;
+use crate::rank::rounded::verdict::verdict;
+use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
+use crate::redundancy::moved::{moved, turned_back};
+use crate::redundancy::other_poses::{Where, redundant_where};
+use crate::redundancy::release::{Duplicate, Release, Stressed};
+
+/// Relative singular values that count as zero where no rounding is known of.
+const FLAT: f64 = 1e-9;
+
+/// The redundant constraints of a free state.
+#[derive(Debug)]
+pub struct HeldTwice {
+    /// Its analysis.
+    pub analysis: StateAnalysis,
+    /// Where σ holds; none where nothing is redundant.
+    pub over: Option<Where>,
+    /// How many are redundant over the motion, as far as is known: the others are so at this pose only, and no release is for
+    /// them. As many as are redundant where that is not decided.
+    pub lasting: usize,
+    /// Each redundant constraint, those over the motion first; none where they cannot be told apart.
+    pub list: Vec<Duplicate>,
+    /// Releases that were looked at, with their costs in thousandths.
+    pub releases: Vec<(i64, Release)>,
+    /// The places among them of the cheapest set that removes all that last and lets nothing move; fewer where there is none.
+    pub cheapest: Vec<usize>,
+}
+
+impl HeldTwice {
+    /// Least and greatest number of redundant constraints: the same but where rounded coordinates leave it open.
+    #[must_use]
+    pub fn range(&self) -> (usize, usize) {
+        let least = self.analysis.redundant;
+        (
+            least,
+            self.analysis.at_most().map_or(least, |(_, most)| most),
+        )
+    }
+}
+
+/// Finds what is held twice. `closes` says which joints are there to close loops, `may` what may be let go, `inside` which poses
+/// are within the limits of the joints; where there is none of that, only this pose is looked at.
+///
+/// # Guarantee
+/// σ is as the analysis says. What is redundant of each loop is numeric; there are other choices of as many constraints. What is
+/// redundant at this pose only is told by some further poses, where nothing is proven.
+///
+/// # Errors
+/// As [`analyse`].
+///
+/// # Complexity
+/// That of an analysis, two decompositions of J and, where nothing is proven, some tens of closings. An analysis alone where σ = 0.
+pub fn held_twice(
+    m: &Mechanism,
+    closes: &dyn Fn(JointId) -> bool,
+    may: &dyn Fn(&Release) -> bool,
+    inside: Option<&dyn Fn(&Pose) -> bool>,
+) -> Result<HeldTwice, AnalysisError> {
+    let state = StateId::FREE;
+    let mut found = analyse(m, &[state], Method::Auto { tolerance: None })?;
+    let analysis = found.remove(0);
+    let mut out = HeldTwice {
+        analysis,
+        over: None,
+        lasting: 0,
+        list: Vec::new(),
+        releases: Vec::new(),
+        cheapest: Vec::new(),
+    };
+    let (least, most) = out.range();
+    out.lasting = most;
+    if most == 0 {
+        return Ok(out);
+    }
+    let meant = verdict(m, state, None)?;
+    let geometry = meant.mechanism().unwrap_or(m);
+    let gap = meant
+        .numeric
+        .map_or(FLAT, |n| (n.kept * n.dropped.max(1e-13)).sqrt());
+    // Between what is kept and what is dropped, where coordinates are rounded.
+    let tolerance = gap.max(FLAT);
+    let mut elsewhere = None;
+    if let Some(inside) = inside {
+        let finite = match out.analysis.certainty {
+            Certainty::Undecided { .. } => out.analysis.finite.by_numeric_rank(),
+            _ => out.analysis.finite,
+        };
+        let figures = (most, tolerance);
+        let (over, pose) = redundant_where(geometry, state, &finite, figures, inside)?;
+        out.over = Some(over);
+        if let (Where::Pose { elsewhere: n, .. }, Some(pose), true) = (over, pose, least == most) {
+            out.lasting = n;
+            elsewhere = Some(pose);
+        }
+    }
+    let rank = out.analysis.rows - most;
+    let Some(stressed) = Stressed::new(geometry, state, rank)? else {
+        return Ok(out);
+    };
+    let (mut rows, releases) = candidates(m, &stressed, closes, may);
+    out.releases = releases;
+    match elsewhere {
+        None => out.cheapest = as_built(m, &stressed, &out.releases),
+        Some(_) if out.lasting == 0 => out.releases.clear(),
+        // What lasts is told where it is all there is, and taken back to this pose.
+        Some(pose) => {
+            let Some(there) = moved(geometry, &pose) else {
+                return Ok(out);
+            };
+            let rank = out.analysis.rows - out.lasting;
+            let Some(lasting) = Stressed::new(&there, state, rank)? else {
+                return Ok(out);
+            };
+            let (theirs, releases) = candidates(m, &lasting, closes, may);
+            out.cheapest = as_built(m, &lasting, &releases);
+            let back = |r: &Release| match *r {
+                Release::Coupling(q) => Release::Coupling(q),
+                Release::Freedom {
+                    joint,
+                    slides,
+                    direction,
+                } => Release::Freedom {
+                    joint,
+                    slides,
+                    direction: settled_back(m, &pose, joint, direction),
+                },
+            };
+            let chosen = lasting.cheapest(&theirs);
+            let first: Vec<(i64, Release)> = chosen
+                .iter()
+                .map(|&i| (FIRST, back(&theirs[i].1)))
+                .collect();
+            rows.splice(0..0, first);
+            out.releases = releases.iter().map(|(c, r)| (*c, back(r))).collect();
+        }
+    }
+    out.list = stressed.duplicates(&rows, &out.releases);
+    Ok(out)
+}
+
+/// A direction of a moved pose in the pose of the file, as a multiple of 1e-9, so that rounding errors of the way back are none.
+fn settled_back(m: &Mechanism, pose: &Pose, joint: JointId, direction: Vector) -> Vector {
+    let d = turned_back(pose, m.joints[joint].links[0], direction);
+    unit(d.map(|x| (x * 1e9).round() / 1e9 + 0.0))
+}
+
+/// Before all others.
+const FIRST: i64 = -1;
+
+type Costed = Vec<(i64, Release)>;
+
+/// The constraints that self-stresses load, by the order in which they are told of, and what may be let go, by its cost.
+fn candidates(
+    m: &Mechanism,
+    stressed: &Stressed<'_>,
+    closes: &dyn Fn(JointId) -> bool,
+    may: &dyn Fn(&Release) -> bool,
+) -> (Costed, Costed) {
+    let (mut rows, mut releases) = (Vec::new(), Vec::new());
+    for q in 0..stressed.closure.couplings.len() {
+        let r = Release::Coupling(q);
+        rows.push((0, r));
+        if may(&r) {
+            releases.push((COUPLING, r));
+        }
+    }
+    for j in m.joints_in(StateId::FREE) {
+        for r in stressed.at(j) {
+            rows.push((if closes(j) { 1 } else { 2 }, r));
+            if may(&r) {
+                releases.push((cost(m, &r, closes(j)), r));
+            }
+        }
+    }
+    (rows, releases)
+}
+
+/// More for a slide at a joint that has got one, for each: a ball on three slides holds nothing.
+const SLIDES: i64 = 3000;
+/// Less for a turn at a hinge that has got one: it becomes a ball, and no second joint changes.
+const BALL: i64 = -500;
+/// More for a slide at a joint that got a turn, and the other way round: a ball and a cylindrical joint are two joints.
+const BOTH: i64 = 500;
+/// More at the joint that bears a link whose motion is wanted, such as a wheel or a hand: it would yield where it is loaded.
+const BEARING: i64 = 1500;
+
+/// The releases that one would build: of those that cost about the same, one cylindrical joint and one ball a loop, in the middle
+/// of it.
+fn as_built(m: &Mechanism, stressed: &Stressed<'_>, candidates: &[(i64, Release)]) -> Vec<usize> {
+    let tree = spanning_tree(m, StateId::FREE);
+    let bears = |j: JointId| {
+        let mut steps = tree.iter();
+        steps.any(|s| s.joint == j && m.links[s.link].role == Role::Output)
+    };
+    stressed.chosen(candidates, &|i, chosen| {
+        let (cost, release) = &candidates[i];
+        let Release::Freedom { joint, slides, .. } = *release else {
+            return *cost;
+        };
+        let here = chosen.iter().filter_map(|&c| match candidates[c].1 {
+            Release::Freedom {
+                joint: j, slides, ..
+            } if j == joint => Some(slides),
+            _ => None,
+        });
+        let (before, others): (Vec<bool>, Vec<bool>) = here.partition(|s| *s == slides);
+        let hinge = m.joints[joint].joint_type == JointType::Revolute;
+        let again = match slides {
+            true => SLIDES * i64::try_from(before.len()).unwrap_or(0),
+            false if hinge && !before.is_empty() => BALL,
+            false => 0,
+        };
+        let both = if others.is_empty() { 0 } else { BOTH };
+        cost + again + both + if bears(joint) { BEARING } else { 0 }
+    })
+}
+
+/// Cost of taking a coupling away.
+const COUPLING: i64 = 500;
+
+/// What a release costs, in thousandths of a revolute joint: a pin that may slide is the cheapest.
+fn cost(m: &Mechanism, release: &Release, closes: bool) -> i64 {
+    let Release::Freedom {
+        joint,
+        slides,
+        direction,
+    } = *release
+    else {
+        return COUPLING;
+    };
+    let j = &m.joints[joint];
+    let pin = j.joint_type == JointType::Revolute
+        && slides
+        && parallel(unit(real(&j.frame.axis)), direction);
+    match (closes, pin, slides) {
+        (false, true, _) => 1500,
+        (true, _, true) => 1750,
+        (_, _, false) => 2500,
+        _ => 3000,
+    }
+}
+
+fn parallel(a: Vector, b: Vector) -> bool {
+    length(cross(a, b)) < 1e-6
+}

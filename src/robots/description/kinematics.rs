@@ -1,0 +1,111 @@
+//! The spanning tree of a robot and the places of its links.
+
+use crate::closure::tree::{Step, forest};
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{Vector, scale};
+use crate::model::joint_type::Freedom;
+use crate::robots::description::parts::{Part, Robot};
+
+/// A spanning tree, or forest, of the links.
+#[derive(Debug)]
+pub(crate) struct Tree {
+    /// Roots, the frame first.
+    pub(in crate::robots) roots: Vec<usize>,
+    /// The joints of the tree, roots first: the joint, the link it leads to, and whether that is its child.
+    pub(in crate::robots) steps: Vec<Step<usize, usize>>,
+    /// For each link the step that leads to it.
+    pub(in crate::robots) into: Vec<Option<usize>>,
+    /// The joints that close loops.
+    pub(in crate::robots) loops: Vec<usize>,
+}
+
+/// The spanning tree from `frame`, breadth first; links that it does not reach start trees of their own at links that
+/// are no joint's child. Joints that say they close loops join a tree only where nothing else holds a link.
+pub(crate) fn spanning_tree(robot: &Robot, frame: usize) -> Tree {
+    let n = robot.links.len();
+    let mut is_child = vec![false; n];
+    for p in robot.joints.iter().filter(|p| !p.closes) {
+        is_child[p.links[1]] = true;
+    }
+    let starts = std::iter::once(frame)
+        .chain((0..n).filter(|&l| !is_child[l]))
+        .chain(0..n);
+    let closes = |j: usize| robot.joints[j].closes;
+    let (roots, steps) = forest(n, robot.joints.iter().map(|p| p.links), closes, starts);
+    let mut into = vec![None; n];
+    let mut used = vec![false; robot.joints.len()];
+    for (i, s) in steps.iter().enumerate() {
+        (into[s.link], used[s.joint]) = (Some(i), true);
+    }
+    Tree {
+        roots,
+        steps,
+        into,
+        loops: (0..robot.joints.len()).filter(|&j| !used[j]).collect(),
+    }
+}
+
+/// The displacement of one freedom.
+fn elementary(part: &Part, freedom: Freedom, value: f64) -> Motion {
+    let d = towards(part.direction(freedom));
+    match freedom {
+        Freedom::Rx | Freedom::Ry | Freedom::Rz => Motion::turn(d, value),
+        Freedom::Tx | Freedom::Ty | Freedom::Tz => Motion::shift(scale(d, value)),
+        Freedom::Screw => Motion {
+            translation: scale(d, value * part.pitch),
+            ..Motion::turn(d, value)
+        },
+    }
+}
+
+/// The displacement of a joint: its child's side in its parent's.
+pub(crate) fn displacement(part: &Part) -> Motion {
+    part.joint_type
+        .freedoms()
+        .iter()
+        .zip(&part.values)
+        .fold(Motion::IDENTITY, |pose, (&f, &v)| {
+            pose.then(&elementary(part, f, v))
+        })
+}
+
+/// The places of all links.
+pub(crate) fn places(robot: &Robot, tree: &Tree) -> Vec<Motion> {
+    let mut out = robot.places.clone();
+    for s in &tree.steps {
+        let p = &robot.joints[s.joint];
+        let across = p.sides[0]
+            .then(&displacement(p))
+            .then(&p.sides[1].inverse());
+        out[s.link] = if s.forward {
+            out[s.from].then(&across)
+        } else {
+            out[s.from].then(&across.inverse())
+        };
+    }
+    out
+}
+
+/// A freedom of a joint in the world.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WorldAxis {
+    pub(in crate::robots) freedom: Freedom,
+    pub(in crate::robots) point: Vector,
+    /// Of the length it has in the file.
+    pub(in crate::robots) direction: Vector,
+}
+
+/// The freedoms of a joint in the world; each is carried along by those before it.
+pub(crate) fn world_axes(part: &Part, places: &[Motion]) -> Vec<WorldAxis> {
+    let mut pose = places[part.links[0]].then(&part.sides[0]);
+    let mut out = Vec::new();
+    for (&freedom, &value) in part.joint_type.freedoms().iter().zip(&part.values) {
+        out.push(WorldAxis {
+            freedom,
+            point: pose.translation,
+            direction: pose.direction(part.direction(freedom)),
+        });
+        pose = pose.then(&elementary(part, freedom, value));
+    }
+    out
+}

@@ -1,0 +1,316 @@
+//! Loop closures from a file beside the description: YAML, JSON or TOML, in three shapes.
+//!
+//! - ozols' own: a list `loop` of tables with `a` and `b` (names of links, frames or joints), `type` (spherical by
+//!   default), and `point_a`, `point_b`, `axis_a`, `axis_b` in those frames;
+//! - `closed_loop: [[a, b], ...]`, `type: [6d, 3d, ...]`, `name_mot: [...]` of example-parallel-robots, with `joint_name: [...]`
+//!   and `joint_type: [...]` of the joints that are not what the URDF says;
+//! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::Motion;
+use crate::geom::vector::{Vector, X, Y, Z, length};
+use crate::model::joint_type::JointType;
+use crate::robots::description::parts::{Part, Robot};
+use crate::robots::problem::{RobotProblem, known};
+use serde_json::{Map, Value};
+
+/// Largest file, in bytes.
+const MAX_BYTES: usize = 1 << 20;
+const TYPES: &str = "revolute, prismatic, cylindrical, spherical (3d), fixed (6d)";
+
+/// Adds the closures that the file names.
+pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Result<(), ImportError> {
+    let text = std::str::from_utf8(bytes).unwrap_or("");
+    let fail = |p: RobotProblem| p.at(name, "", None);
+    if bytes.len() > MAX_BYTES {
+        let (bytes, limit) = (bytes.len(), MAX_BYTES);
+        return Err(fail(RobotProblem::TooLarge { bytes, limit }));
+    }
+    if let Err(e) = std::str::from_utf8(bytes) {
+        return Err(fail(RobotProblem::NotUtf8 {
+            at: e.valid_up_to(),
+        }));
+    }
+    let value = parse(name, text).map_err(|message| fail(RobotProblem::Whole { message }))?;
+    shapes(&value, robot).map_err(fail)
+}
+
+fn parse(name: &str, text: &str) -> Result<Value, String> {
+    let ending = std::path::Path::new(name)
+        .extension()
+        .map_or(String::new(), |e| e.to_string_lossy().to_lowercase());
+    match ending.as_str() {
+        "json" => serde_json::from_str(text).map_err(|e| e.to_string()),
+        "toml" => toml::from_str(text).map_err(|e| e.to_string().trim().to_owned()),
+        "yaml" | "yml" => serde_saphyr::from_str(text).map_err(|e| e.to_string().trim().to_owned()),
+        _ => Err("the ending is unknown; name the file .yaml, .json or .toml".to_owned()),
+    }
+}
+
+fn whole(message: String) -> RobotProblem {
+    RobotProblem::Whole { message }
+}
+
+fn shapes(value: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
+    match value {
+        Value::Object(o) if o.contains_key("closed_loop") => pairs(o, robot),
+        Value::Object(o) if o.contains_key("loop") => {
+            for (i, item) in list(o, "loop")?.iter().enumerate() {
+                own(i, item, robot)?;
+            }
+            Ok(())
+        }
+        Value::Array(items) if !items.is_empty() => {
+            for (i, item) in items.iter().enumerate() {
+                ball(i, item, robot)?;
+            }
+            Ok(())
+        }
+        _ => Err(whole(
+            "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]".to_owned(),
+        )),
+    }
+}
+
+fn list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], RobotProblem> {
+    match o.get(key) {
+        None => Ok(&[]),
+        Some(Value::Array(items)) => Ok(items),
+        Some(_) => Err(whole(format!("{key} is not a list; write one in brackets"))),
+    }
+}
+
+fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, RobotProblem> {
+    v.and_then(Value::as_str).ok_or_else(|| {
+        whole(format!(
+            "{what} is missing or not a word; write it in quotes"
+        ))
+    })
+}
+
+/// The link and place of a name: of a link or frame, or of the child's side of a joint.
+fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, Motion), RobotProblem> {
+    if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
+        return Ok((j.links[1], j.sides[1]));
+    }
+    robot.frame(name).ok_or_else(|| RobotProblem::UnknownName {
+        element: element.to_owned(),
+        what: "link, frame or joint",
+        name: name.to_owned(),
+        known: known("links and frames", robot.frames.keys().map(String::as_str)),
+    })
+}
+
+fn joint_type(element: &str, word: &str) -> Result<JointType, RobotProblem> {
+    Ok(match word.to_lowercase().as_str() {
+        "6d" | "fixed" | "weld" => JointType::Fixed,
+        "3d" | "spherical" | "ball" => JointType::Spherical,
+        "revolute" => JointType::Revolute,
+        "prismatic" => JointType::Prismatic,
+        "cylindrical" => JointType::Cylindrical,
+        _ => {
+            return Err(RobotProblem::UnknownWord {
+                element: element.to_owned(),
+                what: "type",
+                word: word.to_owned(),
+                known: TYPES.to_owned(),
+            });
+        }
+    })
+}
+
+fn put(
+    element: &str,
+    ends: [(usize, Motion); 2],
+    kind: JointType,
+    robot: &mut Robot,
+) -> Result<(), RobotProblem> {
+    let links = ends.map(|e| e.0);
+    if links[0] == links[1] {
+        return Err(whole(format!(
+            "{element} connects link \"{}\" to itself; name two different links",
+            robot.links[links[0]]
+        )));
+    }
+    let mut part = Part::new(element, links, ends.map(|e| e.1), kind);
+    part.closes = true;
+    part.comment = Some("closes a loop".to_owned());
+    robot.report.map("loop closure");
+    robot.joints.push(part);
+    Ok(())
+}
+
+/// Gives the joints of `joint_name` the kinds of `joint_type`: those that URDF has no word for.
+fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> {
+    let (names, types) = (list(o, "joint_name")?, list(o, "joint_type")?);
+    if names.len() != types.len() {
+        return Err(whole(format!(
+            "joint_name has {} entries and joint_type {}; write one type for each joint",
+            names.len(),
+            types.len()
+        )));
+    }
+    for (name, kind) in names.iter().zip(types) {
+        let (name, kind) = (
+            word(Some(name), "joint_name")?,
+            word(Some(kind), "joint_type")?,
+        );
+        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == name) else {
+            return Err(RobotProblem::UnknownName {
+                element: "joint_name".to_owned(),
+                what: "joint",
+                name: name.to_owned(),
+                known: known("joints", robot.joints.iter().map(|j| j.id.as_str())),
+            });
+        };
+        let axis = |letter: u8| match letter {
+            b'X' => Some(X),
+            b'Y' => Some(Y),
+            b'Z' => Some(Z),
+            _ => None,
+        };
+        let upper = kind.to_uppercase();
+        let new = match upper.as_bytes() {
+            b"SPHERICAL" => Some((JointType::Spherical, Z, X)),
+            b"FIXED" => Some((JointType::Fixed, Z, X)),
+            b"CARDAN" => Some((JointType::Universal, X, Y)),
+            [b'U', b'J', b'O', b'I', b'N', b'T', b'_', a, b] if a != b => axis(*a)
+                .zip(axis(*b))
+                .map(|(first, second)| (JointType::Universal, first, second)),
+            _ => None,
+        };
+        let Some((new, first, second)) = new else {
+            return Err(RobotProblem::UnknownWord {
+                element: format!("joint \"{name}\""),
+                what: "joint_type",
+                word: kind.to_owned(),
+                known: "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like".to_owned(),
+            });
+        };
+        joint.values = vec![0.0; new.freedoms().len()];
+        (joint.joint_type, joint.axis, joint.second) = (new, first, second);
+        (joint.limits, joint.zero) = (None, 0.0);
+        joint.comment = Some(format!("{kind} by the file beside the description"));
+        robot.report.map("joint type");
+    }
+    Ok(())
+}
+
+/// The form of example-parallel-robots.
+fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> {
+    retyped(o, robot)?;
+    let types = list(o, "type")?;
+    for (i, pair) in list(o, "closed_loop")?.iter().enumerate() {
+        let element = format!("loop-{}", i + 1);
+        let Some([a, b]) = pair.as_array().map(Vec::as_slice) else {
+            return Err(whole(format!(
+                "closed_loop {} is not a pair of names; write [a, b]",
+                i + 1
+            )));
+        };
+        let kind = match types.get(i) {
+            None => JointType::Fixed,
+            Some(t) => joint_type(&element, word(Some(t), "type")?)?,
+        };
+        let mut ends = [(0, Motion::IDENTITY); 2];
+        for (end, name) in ends.iter_mut().zip([a, b]) {
+            *end = place(&element, word(Some(name), "the end of a loop")?, robot)?;
+        }
+        put(&element, ends, kind, robot)?;
+    }
+    for name in list(o, "name_mot")? {
+        let name = word(Some(name), "name_mot")?;
+        match robot.joints.iter_mut().find(|j| j.id == name) {
+            Some(j) => j.drive = true,
+            None => robot.report.drop("motor of no joint", Some(name)),
+        }
+    }
+    Ok(())
+}
+
+/// Numbers as a list, or as text with spaces as Drake writes them.
+fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, RobotProblem> {
+    let bad = || {
+        whole(format!(
+            "{what} is not three finite numbers; write [0, 0, 1]"
+        ))
+    };
+    let numbers: Vec<f64> = match v {
+        None => return Ok(None),
+        Some(Value::String(s)) => {
+            let read: Result<Vec<f64>, _> = s.split_whitespace().map(str::parse).collect();
+            read.map_err(|_| bad())?
+        }
+        Some(Value::Array(items)) => items.iter().filter_map(Value::as_f64).collect(),
+        Some(_) => return Err(bad()),
+    };
+    match numbers[..] {
+        [x, y, z] if [x, y, z].iter().all(|c| c.abs() <= 1e9) => Ok(Some([x, y, z])),
+        _ => Err(bad()),
+    }
+}
+
+fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
+    let element = format!("ball-{}", i + 1);
+    let mut ends = [(0, Motion::IDENTITY); 2];
+    for (end, (body, point)) in ends
+        .iter_mut()
+        .zip([("body_A", "p_AP"), ("body_B", "p_BQ")])
+    {
+        let (body, point) = (
+            format!("ball_constraint_{body}"),
+            format!("ball_constraint_{point}"),
+        );
+        let (link, frame) = place(
+            &element,
+            word(item.get(&body), &format!("{body} of {element}"))?,
+            robot,
+        )?;
+        let at = vector(item.get(&point), &format!("{point} of {element}"))?.unwrap_or([0.0; 3]);
+        *end = (link, frame.then(&Motion::shift(at)));
+    }
+    put(&element, ends, JointType::Spherical, robot)
+}
+
+fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
+    let element = match item.get("id").and_then(Value::as_str) {
+        Some(id) => id.to_owned(),
+        None => format!("loop-{}", i + 1),
+    };
+    if let Some(key) = item.as_object().and_then(|o| {
+        let known = [
+            "id", "a", "b", "type", "point_a", "point_b", "axis_a", "axis_b",
+        ];
+        o.keys().find(|k| !known.contains(&k.as_str()))
+    }) {
+        return Err(whole(format!(
+            "{element} has the unknown key {key}; known: id, a, b, type, point_a, point_b, axis_a, axis_b"
+        )));
+    }
+    let kind = match item.get("type") {
+        None => JointType::Spherical,
+        some => joint_type(&element, word(some, "type")?)?,
+    };
+    let mut ends = [(0, Motion::IDENTITY); 2];
+    for (end, side) in ends.iter_mut().zip(["a", "b"]) {
+        let (link, frame) = place(
+            &element,
+            word(item.get(side), &format!("{side} of {element}"))?,
+            robot,
+        )?;
+        let key = |k: &str| format!("{k}_{side}");
+        let at = vector(item.get(key("point")), &key("point"))?.unwrap_or([0.0; 3]);
+        let axis = vector(item.get(key("axis")), &key("axis"))?.unwrap_or(Z);
+        if length(axis) < 1e-9 {
+            return Err(whole(format!(
+                "{} of {element} is zero; give a direction such as [0, 0, 1]",
+                key("axis")
+            )));
+        }
+        *end = (
+            link,
+            frame.then(&Motion::shift(at)).then(&Motion::z_to(axis)),
+        );
+    }
+    put(&element, ends, kind, robot)
+}

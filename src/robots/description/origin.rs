@@ -1,0 +1,140 @@
+//! Where in a description the parts of the mechanism stand.
+
+use crate::geom::rigid::Motion;
+use crate::model::mechanism::JointId;
+use crate::motion::pose::Pose;
+use crate::robots::cad::archive::Archive;
+use crate::robots::cad::assembly;
+use crate::robots::description::parts::{Part, Robot};
+use crate::robots::xml::{Document, Element};
+
+/// The description that a mechanism was read from, and which of its elements the mechanism's parts are.
+#[derive(Debug, Clone)]
+pub struct Origin {
+    pub(in crate::robots) document: Document,
+    /// The archive that it is a member of.
+    pub(in crate::robots) archive: Option<Archive>,
+    /// The root element.
+    pub(in crate::robots) root: usize,
+    pub(in crate::robots) robot: Robot,
+    /// The link that stands still.
+    pub(in crate::robots) frame: usize,
+    /// Places of the robot's links in the pose found.
+    pub(in crate::robots) places: Vec<Motion>,
+    /// The robot's joints that the mechanism's are.
+    pub(in crate::robots) joints: Vec<usize>,
+    /// The elements that the mechanism's couplings are.
+    pub(in crate::robots) couplings: Vec<usize>,
+}
+
+/// The place of an element.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Name of the file.
+    pub file: String,
+    /// Line and column, from 1.
+    pub at: [usize; 2],
+    /// Its tag.
+    pub tag: String,
+}
+
+impl Origin {
+    pub(in crate::robots) fn part(&self, joint: JointId) -> &Part {
+        &self.robot.joints[self.joints[joint.index()]]
+    }
+
+    pub(in crate::robots) fn element(&self, id: usize) -> Element<'_> {
+        self.document.element(id)
+    }
+
+    /// The element that a joint is; none where a file beside the description says that it is there.
+    #[must_use]
+    pub fn joint(&self, joint: JointId) -> Option<Place> {
+        self.part(joint).element.map(|e| self.place(e))
+    }
+
+    /// The element that a coupling is, by its place among the mechanism's.
+    #[must_use]
+    pub fn coupling(&self, coupling: usize) -> Option<Place> {
+        self.couplings.get(coupling).map(|&e| self.place(e))
+    }
+
+    /// Whether a joint is there to close a loop, by what the description says.
+    #[must_use]
+    pub fn closes(&self, joint: JointId) -> bool {
+        self.part(joint).closes
+    }
+
+    /// Whether a joint is moved by an actuator, alone or by a tendon: it is best left as it is.
+    #[must_use]
+    pub fn is_actuated(&self, joint: JointId) -> bool {
+        self.part(joint).drive || self.part(joint).pulled
+    }
+
+    /// Whether all joints of one freedom are within their limits in a pose; the mechanism's unit of length is so many metres.
+    #[must_use]
+    pub fn is_inside(&self, pose: &Pose, metres: f64) -> bool {
+        pose.columns.iter().all(|c| {
+            let part = self.part(c.joint);
+            let (Some((low, high)), [value]) = (part.limits, &part.values[..]) else {
+                return true;
+            };
+            let unit = if c.freedom.slides() {
+                pose.length * metres / self.robot.unit.metres()
+            } else {
+                1.0
+            };
+            // Limits are often where the joint stands.
+            let slack = 1e-6 * (high - low).max(1e-3);
+            (low - slack..=high + slack).contains(&(value + c.moved * unit))
+        })
+    }
+
+    /// Whether it is an assembly of a CAD program: joints are changed to one of its types, not by one freedom.
+    #[must_use]
+    pub fn is_assembly(&self) -> bool {
+        self.robot.assembly
+    }
+
+    /// Whether the mechanism is that of this pose alone: joints are open, or have freedoms that no joint has.
+    #[must_use]
+    pub fn is_of_this_pose(&self) -> bool {
+        self.robot.here_only
+    }
+
+    /// How far the two frames of a joint of an assembly are apart in what it holds: a length in the mechanism's unit, and
+    /// radians. None where the file places one frame only.
+    #[must_use]
+    pub fn misfit(&self, joint: JointId) -> Option<[f64; 2]> {
+        self.part(joint).misfit
+    }
+
+    /// The same in words, where it is more than rounding.
+    #[must_use]
+    pub fn open_by(&self, joint: JointId) -> Option<String> {
+        let misfit = self.misfit(joint)?;
+        let told = misfit.iter().any(|x| *x > 1e-6);
+        told.then(|| assembly::words(misfit, self.robot.unit))
+    }
+
+    /// Whether a joint can be given more joints in series where it stands.
+    pub(in crate::robots) fn takes_joints(&self, joint: JointId) -> bool {
+        let element = self.part(joint).element.map(|e| self.element(e).name());
+        element.is_some_and(|e| ["joint", "connect", "weld", "loop_joint"].contains(&e))
+    }
+
+    fn place(&self, id: usize) -> Place {
+        let node = self.element(id).node();
+        let source = &self.document.sources[node.source];
+        let before = &source.text[..node.span.start];
+        let line = before.rfind('\n').map_or(0, |n| n + 1);
+        Place {
+            file: source.name.clone(),
+            at: [
+                before.matches('\n').count() + 1,
+                before[line..].chars().count() + 1,
+            ],
+            tag: self.element(id).name().to_owned(),
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! What robot formats say of links besides joints, and what they have no words for.
+
+use crate::geom::vector::{Vector, real, sub};
+use crate::model::loads::Inertia;
+use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
+use crate::robots::mechanism::series_of_single_joints::comment;
+use itertools::Itertools;
+
+/// What a link weighs: kg, m, kg·m².
+pub(crate) struct Inertial {
+    pub(in crate::robots) mass: f64,
+    /// From the origin asked for.
+    pub(in crate::robots) centre: Vector,
+    /// xx, yy, zz, xy, xz, yz about the centre, in global axes.
+    pub(in crate::robots) tensor: [f64; 6],
+}
+
+/// Of a link whose mass the file states, its centre as seen from an origin in metres.
+pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<Inertial> {
+    let p = m.links[link].mass.as_ref()?;
+    let tensor = match p.inertia {
+        None => [0.0; 6],
+        // The plane's normal is told of by the comment on planar models.
+        Some(Inertia::Plane(i)) => [i, i, i, 0.0, 0.0, 0.0],
+        Some(Inertia::Principal([x, y, z])) => [x, y, z, 0.0, 0.0, 0.0],
+        Some(Inertia::Tensor([xx, yy, zz, xy, yz, zx])) => [xx, yy, zz, xy, zx, yz],
+    };
+    let centre = real(&p.centre).map(|c| c * m.length_unit.metres);
+    Some(Inertial {
+        mass: p.mass,
+        centre: sub(centre, origin),
+        tensor,
+    })
+}
+
+/// What is told where links have no mass of their own in the mechanism.
+pub(crate) const GRAM: &str =
+    "links without a mass weigh a gram, as engines refuse what moves without";
+
+/// The same of a link that moves, which engines refuse without mass or inertia: a gram where the file states none.
+pub(crate) fn moving(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
+    let found = inertial(m, link, origin).filter(|i| i.mass > 0.0);
+    let mut out = found.unwrap_or(Inertial {
+        mass: 1e-3,
+        centre: [0.0; 3],
+        tensor: [0.0; 6],
+    });
+    if out.tensor[..3].iter().any(|x| *x <= 0.0) {
+        out.tensor = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
+    }
+    out
+}
+
+/// Comments at the head of a robot description: what the mechanism says of itself, and what is told of its writing.
+pub(crate) fn head(m: &Mechanism, indent: &str, told: &[String]) -> String {
+    let own = Some(&m.description).filter(|d| !d.is_empty());
+    let plain = |s: &String| s.replace(|c: char| c.is_control(), " ");
+    let lines = own.into_iter().chain(told).map(plain);
+    lines
+        .map(|t| format!("{indent}<!-- {} -->\n", comment(&t)))
+        .collect()
+}
+
+/// What a robot description of the free state leaves out, a sentence each.
+pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
+    let mut out = Vec::new();
+    if let Mode::Planar { .. } = m.mode {
+        let what =
+            "a planar model: its figures count 3 constraints per contour, those of this file 6";
+        out.push(what.to_owned());
+    }
+    let others = m.joint_ids().filter(|&j| !m.joints[j].is_in(StateId::FREE));
+    let others = others.map(|j| m.joints[j].id.as_str()).join(", ");
+    if !others.is_empty() {
+        out.push(format!("left out, as not of the free state: {others}"));
+    }
+    let plane = |l: &crate::model::mechanism::Link| {
+        let inertia = l.mass.as_ref().and_then(|p| p.inertia);
+        matches!(inertia, Some(Inertia::Plane(_)))
+    };
+    if m.links.iter().any(plane) {
+        out.push("inertias about the plane's normal stand for all three axes".to_owned());
+    }
+    let loads = &m.loads;
+    let told = [
+        (
+            !loads.forces.is_empty() || !loads.moments.is_empty(),
+            "forces",
+        ),
+        (loads.gravity.is_some(), "gravity"),
+        (
+            loads.stroke.is_some() || !loads.drive_speeds.is_empty(),
+            "strokes and speeds",
+        ),
+        (loads.grip.is_some(), "the gripper's data"),
+        (loads.drive.is_some(), "the drive's data"),
+        (
+            m.joints.iter().any(|j| j.options.len() > 1),
+            "the options of a search",
+        ),
+    ];
+    let told = told.iter().filter(|t| t.0).map(|t| t.1).join(", ");
+    if !told.is_empty() {
+        out.push(format!(
+            "left out, as this format has no words for it: {told}"
+        ));
+    }
+    out
+}

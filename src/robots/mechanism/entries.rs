@@ -1,0 +1,251 @@
+//! The entries of the mechanism file of a robot.
+
+use crate::file::schema::{
+    Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
+    SearchEntry,
+};
+use crate::file::write::Comment;
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{Vector, length};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::robots::description::coupling::Usable;
+use crate::robots::description::kinematics::world_axes;
+use crate::robots::description::parts::{Part, Robot};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Longest name in a mechanism file, in characters.
+const LONGEST: usize = 64;
+
+/// The links after merging those that are rigidly joined.
+#[derive(Debug)]
+pub(crate) struct Bodies {
+    /// For each link of the robot the link that stands for it.
+    pub(in crate::robots) of: Vec<usize>,
+}
+
+impl Bodies {
+    /// Merges along the fixed joints of the tree.
+    pub(crate) fn new(links: usize, fixed: impl Iterator<Item = (usize, usize)>) -> Bodies {
+        let mut of: Vec<usize> = (0..links).collect();
+        // The steps of a tree lead away from its roots, so that `from` is already settled.
+        for (from, to) in fixed {
+            of[to] = of[from];
+        }
+        Bodies { of }
+    }
+}
+
+/// Names that fit a mechanism file: unique, not empty, short, without control characters.
+#[derive(Debug, Default)]
+pub(crate) struct Names {
+    used: BTreeSet<String>,
+}
+
+impl Names {
+    pub(crate) fn fit(&mut self, wanted: &str) -> String {
+        let plain: String = wanted
+            .chars()
+            .filter(|c| !c.is_control())
+            .take(LONGEST)
+            .collect();
+        let plain = if plain.is_empty() {
+            "unnamed".to_owned()
+        } else {
+            plain
+        };
+        let mut name = plain.clone();
+        let mut n = 2;
+        while !self.used.insert(name.clone()) {
+            let end = format!("~{n}");
+            name = plain.chars().take(LONGEST - end.len()).collect::<String>() + &end;
+            n += 1;
+        }
+        name
+    }
+}
+
+/// What goes into the file.
+#[derive(Debug)]
+pub(crate) struct Content<'a> {
+    pub(in crate::robots) robot: &'a Robot,
+    /// Name of the file read, and of its format.
+    pub(in crate::robots) file: &'a str,
+    pub(in crate::robots) format: &'static str,
+    pub(in crate::robots) places: &'a [Motion],
+    pub(in crate::robots) bodies: &'a Bodies,
+    pub(in crate::robots) frame: usize,
+    /// Bodies that are outputs.
+    pub(in crate::robots) outputs: &'a [usize],
+    /// Joints to write, in order.
+    pub(in crate::robots) joints: &'a [usize],
+    /// Joints that lead and follow.
+    pub(in crate::robots) couplings: &'a [Usable],
+}
+
+impl Content<'_> {
+    /// Whether the rates of a joint matter: its axis is then of length 1, so that they are exact.
+    fn coupled(&self, joint: usize) -> bool {
+        self.couplings.iter().any(|u| u.ends.contains(&joint))
+    }
+}
+
+/// The entries of the file and what is to be said above them.
+pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
+    let mut comments = Vec::new();
+    let (links, ids) = links(c, &mut comments);
+    let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
+    for &j in c.joints {
+        let id = names.fit(&c.robot.joints[j].id);
+        joint_ids.insert(j, id.clone());
+        if let Some(what) = &c.robot.joints[j].comment {
+            comments.push(Comment::new("joint", joints.len(), what));
+        }
+        joints.push(joint(j, id, c, &ids));
+    }
+    let coupling = |u: &Usable| CouplingEntry {
+        joints: u.ends.map(|j| joint_ids[&j].clone()),
+        ratio: number(u.ratio),
+        gear: u.gear,
+    };
+    let what = "What a search may put in place of a joint; edit freely.";
+    comments.push(Comment::new("search", 0, what));
+    let options = c.robot.options.iter().map(|t| t.name().to_owned());
+    let file = MechanismFile {
+        name: one_line(&c.robot.name),
+        description: description(c),
+        length_unit: Some(c.robot.unit.symbol().to_owned()),
+        link: links,
+        joint: joints,
+        coupling: c.couplings.iter().map(coupling).collect(),
+        search: SearchEntry {
+            options: options.map(OptionEntry::Word).collect(),
+            ..SearchEntry::default()
+        },
+        ..MechanismFile::default()
+    };
+    (file, comments)
+}
+
+fn one_line(s: &str) -> String {
+    s.chars().filter(|c| !c.is_control()).collect()
+}
+
+/// Where the mechanism comes from, and what was left out on the way.
+fn description(c: &Content<'_>) -> String {
+    let report = &c.robot.report;
+    let left_out = match (report.coupling_rows, report.constraint_rows) {
+        (0, 0) => "",
+        (_, 0) => " Some couplings of joints are left out.",
+        _ => " Some joints are left out.",
+    };
+    let left_behind = report.left_behind();
+    let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));
+    let (file, format) = (one_line(c.file), c.format);
+    format!("Imported from {file} ({format}).{left_out}{left_behind}")
+}
+
+/// The links, the frame first, with the names of the bodies that they are.
+fn links(
+    c: &Content<'_>,
+    comments: &mut Vec<Comment>,
+) -> (Vec<LinkEntry>, BTreeMap<usize, String>) {
+    let mut merged: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
+    for (l, &b) in c.bodies.of.iter().enumerate() {
+        if l != b {
+            merged.entry(b).or_default().push(&c.robot.links[l]);
+        }
+    }
+    let ends = |&j: &usize| c.robot.joints[j].links.map(|l| c.bodies.of[l]);
+    let used: BTreeSet<usize> = c.joints.iter().flat_map(ends).collect();
+    let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
+    let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
+    for b in order {
+        let id = names.fit(&c.robot.links[b]);
+        let role = if b == c.frame {
+            Some("frame")
+        } else {
+            c.outputs.contains(&b).then_some("output")
+        };
+        if let Some(with) = merged.get(&b) {
+            let text = format!("with {}, fixed to it", with.join(", "));
+            comments.push(Comment::new("link", links.len(), &text));
+        }
+        ids.insert(b, id.clone());
+        links.push(LinkEntry {
+            id,
+            role: role.map(str::to_owned),
+            mass: None,
+            centre: None,
+            inertia: None,
+        });
+    }
+    (links, ids)
+}
+
+/// A number as it is written: rounding errors around multiples of 1e-9 are taken off.
+fn number(x: f64) -> Coordinate {
+    let r = (x * 1e9).round() / 1e9;
+    let x = if (r - x).abs() < 1e-12 { r } else { x };
+    #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
+    if x == x.trunc() && x.abs() < 1e15 {
+        Coordinate::Integer(x as i64)
+    } else {
+        Coordinate::Decimal(x)
+    }
+}
+
+/// A direction as written: of its own length unless that is extreme.
+fn direction(v: Vector) -> Vector {
+    if (0.1..=10.0).contains(&length(v)) {
+        v
+    } else {
+        towards(v)
+    }
+}
+
+fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -> JointEntry {
+    let p: &Part = &c.robot.joints[j];
+    let place = c.places[p.links[0]].then(&p.sides[0]);
+    let axes = world_axes(p, c.places);
+    let about = |f: &[Freedom]| {
+        let found = axes.iter().find(|a| f.contains(&a.freedom));
+        found.map(|a| a.direction)
+    };
+    let axis = || {
+        let z = about(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
+        let z = z.unwrap_or_else(|| place.direction(p.axis));
+        let z = if c.coupled(j) {
+            towards(z)
+        } else {
+            direction(z)
+        };
+        z.map(number)
+    };
+    let second = || Some(place.direction(p.second));
+    let ball = matches!(p.joint_type, JointType::Spherical | JointType::Fixed);
+    let universal = p.joint_type == JointType::Universal;
+    let screws = p.joint_type.freedoms().contains(&Freedom::Screw);
+    JointEntry {
+        id,
+        links: p.links.map(|l| ids[&c.bodies.of[l]].clone()),
+        kind: p.joint_type.name().to_owned(),
+        freedoms: match &p.joint_type {
+            JointType::Custom(list) => Some(list.iter().map(|f| f.name().to_owned()).collect()),
+            _ => None,
+        },
+        point: place.translation.map(number),
+        axis: (!ball).then(axis),
+        reference: about(&[Freedom::Rx])
+            .filter(|_| universal)
+            .or_else(|| second().filter(|_| p.joint_type.has_second_axis()))
+            .map(|x| direction(x).map(number)),
+        lead: None,
+        pitch: screws.then(|| number(p.pitch)),
+        tolerance: None,
+        drive: DriveWord::Driven(p.drive),
+        state: None,
+        options: None,
+        forbid: Vec::new(),
+        unloading: None,
+    }
+}

@@ -1,0 +1,307 @@
+//! Closing loops: damped least squares over all joint values, from the pose of the file.
+
+use crate::geom::rigid::{Motion, towards};
+use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
+use crate::model::joint_type::Freedom;
+use crate::robots::description::kinematics::{Tree, displacement, places, world_axes};
+use crate::robots::description::parts::{Part, Robot};
+use ozols_dense::{Matrix, solve_positive};
+
+/// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.
+pub(crate) const CLOSED: f64 = 1e-6;
+/// One that no motion of the joints closes further, and that is open by less than this fraction, counts as closed too: where
+/// constraints are redundant, rounded coordinates contradict one another by their last digit. It is said.
+pub(crate) const ROUNDED: f64 = 5e-4;
+/// Most unknowns; beyond them a pose has to be given.
+const MAX_UNKNOWNS: usize = 600;
+/// Most steps from one start, and most starts.
+const STEPS: usize = 300;
+const STARTS: usize = 12;
+/// Longest step of a joint, in radians or sizes of the robot: the loops close near by or not at all.
+const LONGEST: f64 = 0.3;
+
+/// How far a loop is from closed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    pub(in crate::robots) joint: usize,
+    /// In metres.
+    pub(in crate::robots) shift: f64,
+    /// In radians.
+    pub(in crate::robots) turn: f64,
+}
+
+/// Size of the robot: the largest distance between joints of one link, for weighing angles against lengths.
+pub(crate) fn size(robot: &Robot) -> f64 {
+    robot
+        .joints
+        .iter()
+        .flat_map(|j| j.sides.iter().map(|s| length(s.translation)))
+        .fold(1e-3, f64::max)
+}
+
+/// How the two sides of a loop joint differ: a shift and a rotation vector, in the world.
+fn mismatch(robot: &Robot, places: &[Motion], j: usize) -> (Vector, Vector) {
+    let p = &robot.joints[j];
+    let near = places[p.links[0]].then(&p.sides[0]).then(&displacement(p));
+    let far = places[p.links[1]].then(&p.sides[1]);
+    let turn = near.inverse().then(&far).rotation_vector();
+    let spherical = free_turns(robot, j) == 3;
+    (
+        sub(far.translation, near.translation),
+        if spherical {
+            [0.0; 3]
+        } else {
+            near.direction(turn)
+        },
+    )
+}
+
+fn free_turns(robot: &Robot, j: usize) -> usize {
+    let freedoms = robot.joints[j].joint_type.freedoms().iter();
+    freedoms.filter(|f| f.turns()).count()
+}
+
+/// The gaps of all loops.
+pub(crate) fn gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
+    let places = places(robot, tree);
+    tree.loops
+        .iter()
+        .map(|&joint| {
+            let (shift, turn) = mismatch(robot, &places, joint);
+            Gap {
+                joint,
+                shift: length(shift),
+                turn: length(turn),
+            }
+        })
+        .collect()
+}
+
+/// The largest gap as a length.
+pub(crate) fn worst(gaps: &[Gap], size: f64) -> f64 {
+    gaps.iter()
+        .map(|g| g.shift.max(g.turn * size))
+        .fold(0.0, f64::max)
+}
+
+/// Changes the joint values so that the loops close, staying near where they are; gives the largest gap left
+/// and the number of joints outside their limits.
+///
+/// Of several starts the first that closes with all joints within their limits is taken, else the one that breaks the
+/// fewest limits, else the first that comes as near as rounded coordinates do, else the values stay.
+pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
+    let size = size(robot);
+    let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let set = |robot: &mut Robot, values: &[Vec<f64>]| {
+        for (j, v) in robot.joints.iter_mut().zip(values) {
+            j.values.clone_from(v);
+        }
+    };
+    let mut best: Option<(usize, f64, Vec<Vec<f64>>)> = None;
+    let mut near = None;
+    for start in 0..STARTS {
+        set(robot, &first);
+        if start > 0 {
+            begin(robot, start);
+        }
+        let left = descend(robot, tree, size);
+        if left > ROUNDED * size || (left > CLOSED * size && near.is_some()) {
+            continue;
+        }
+        let broken = robot
+            .joints
+            .iter_mut()
+            .map(wind_back)
+            .filter(|inside| !inside)
+            .count();
+        let values = robot.joints.iter().map(|j| j.values.clone()).collect();
+        if left > CLOSED * size {
+            near = Some((broken, left, values));
+            continue;
+        }
+        if best.as_ref().is_none_or(|(b, ..)| broken < *b) {
+            best = Some((broken, left, values));
+        }
+        if broken == 0 {
+            break;
+        }
+    }
+    match best.or(near) {
+        Some((broken, left, values)) => {
+            set(robot, &values);
+            (left, broken)
+        }
+        None => {
+            set(robot, &first);
+            (worst(&gaps(robot, tree), size), 0)
+        }
+    }
+}
+
+/// Takes whole turns off angles; says whether the joint is within its limits.
+fn wind_back(j: &mut Part) -> bool {
+    const TURN: f64 = std::f64::consts::TAU;
+    let middle = j.limits.map_or(0.0, |(low, high)| f64::midpoint(low, high));
+    for (v, f) in j.values.iter_mut().zip(j.joint_type.freedoms()) {
+        if f.turns() {
+            *v -= TURN * ((*v - middle) / TURN).round();
+        }
+    }
+    match (&j.values[..], j.limits) {
+        ([v], Some((low, high))) => (low - 1e-3..=high + 1e-3).contains(v),
+        _ => true,
+    }
+}
+
+/// Other values to start from: limited joints within their limits, others turned a little, differently each time.
+fn begin(robot: &mut Robot, start: usize) {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(start as u64);
+    for j in &mut robot.joints {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        #[allow(clippy::cast_precision_loss, reason = "53 bits")]
+        let part = (state >> 11) as f64 / (1_u64 << 53) as f64;
+        let turns = matches!(j.joint_type.freedoms(), [Freedom::Rz]);
+        if let ([value], Some((low, high))) = (&mut j.values[..], j.limits) {
+            // The middle at first, then anywhere.
+            let part = if start == 1 { 0.5 } else { part };
+            if start > 1 || !(low..=high).contains(value) {
+                *value = low + part * (high - low);
+            }
+        } else if turns && start > 1 {
+            j.values[0] += part - 0.5;
+        }
+    }
+}
+
+/// Levenberg-Marquardt with the exact twists as derivatives.
+fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
+    let offsets: Vec<usize> = robot
+        .joints
+        .iter()
+        .scan(0, |n, j| {
+            let first = *n;
+            *n += j.values.len();
+            Some(first)
+        })
+        .collect();
+    let unknowns: usize = robot.joints.iter().map(|j| j.values.len()).sum();
+    let mut left = worst(&gaps(robot, tree), size);
+    if unknowns == 0 || unknowns > MAX_UNKNOWNS {
+        return left;
+    }
+    let (mut damping, mut cost) = (1e-4, cost(robot, tree, size));
+    let mut milestone = cost;
+    for step in 1..=STEPS {
+        // Hardly nearer for a while: a minimum that is not a closed pose.
+        if step % 25 == 0 && std::mem::replace(&mut milestone, cost) * 0.99 < cost {
+            break;
+        }
+        if left <= 1e-14 * size || damping > 1e8 {
+            break;
+        }
+        let (jacobian, residual) = linearise(robot, tree, size, &offsets, unknowns);
+        let mut normal = jacobian.transpose_times(&jacobian);
+        let right = jacobian.transpose_times(&residual);
+        for i in 0..unknowns {
+            normal[(i, i)] += damping;
+        }
+        let Some(change) = solve_positive(&normal, right.col(0)) else {
+            damping *= 10.0;
+            continue;
+        };
+        let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+        let longest = change.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let shrink = if longest > LONGEST {
+            LONGEST / longest
+        } else {
+            1.0
+        };
+        for (j, &first) in robot.joints.iter_mut().zip(&offsets) {
+            for (i, (v, f)) in j.values.iter_mut().zip(j.joint_type.freedoms()).enumerate() {
+                *v += shrink * change[first + i] * if f.slides() { size } else { 1.0 };
+            }
+        }
+        let after = self::cost(robot, tree, size);
+        if after < cost {
+            (cost, damping) = (after, (damping / 5.0).max(1e-15));
+            left = worst(&gaps(robot, tree), size);
+        } else {
+            for (j, v) in robot.joints.iter_mut().zip(before) {
+                j.values = v;
+            }
+            damping = (damping * 4.0).max(1e-12);
+        }
+    }
+    left
+}
+
+fn cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {
+    let places = places(robot, tree);
+    let square = |v: Vector| dot(v, v);
+    tree.loops
+        .iter()
+        .map(|&j| {
+            let (shift, turn) = mismatch(robot, &places, j);
+            square(scale(shift, 1.0 / size)) + square(turn)
+        })
+        .sum()
+}
+
+/// The derivative of "near side less far side" and the mismatch that it has to make up for.
+fn linearise(
+    robot: &Robot,
+    tree: &Tree,
+    size: f64,
+    offsets: &[usize],
+    unknowns: usize,
+) -> (Matrix, Matrix) {
+    let places = places(robot, tree);
+    let rows = 6 * tree.loops.len();
+    let mut jacobian = Matrix::zeros(rows, unknowns);
+    let mut residual = Matrix::zeros(rows, 1);
+    for (n, &j) in tree.loops.iter().enumerate() {
+        let (shift, turn) = mismatch(robot, &places, j);
+        let turning = free_turns(robot, j) != 3;
+        for i in 0..3 {
+            residual[(6 * n + i, 0)] = shift[i] / size;
+            residual[(6 * n + 3 + i, 0)] = turn[i];
+        }
+        let p = &robot.joints[j];
+        let near = places[p.links[0]]
+            .then(&p.sides[0])
+            .then(&displacement(p))
+            .translation;
+        let far = places[p.links[1]].then(&p.sides[1]).translation;
+        let mut put = |joint: usize, at: Vector, sign: f64| {
+            let part = &robot.joints[joint];
+            for (i, a) in world_axes(part, &places).iter().enumerate() {
+                let d = towards(a.direction);
+                let (v, w) = match a.freedom {
+                    Freedom::Rx | Freedom::Ry | Freedom::Rz => (cross(d, sub(at, a.point)), d),
+                    Freedom::Tx | Freedom::Ty | Freedom::Tz => (scale(d, size), [0.0; 3]),
+                    Freedom::Screw => {
+                        let along = scale(d, part.pitch);
+                        (add(cross(d, sub(at, a.point)), along), d)
+                    }
+                };
+                for k in 0..3 {
+                    jacobian[(6 * n + k, offsets[joint] + i)] += sign * v[k] / size;
+                    if turning {
+                        jacobian[(6 * n + 3 + k, offsets[joint] + i)] += sign * w[k];
+                    }
+                }
+            }
+        };
+        put(j, near, 1.0);
+        for (link, at, sign) in [(p.links[0], near, 1.0), (p.links[1], far, -1.0)] {
+            let mut next = tree.into[link];
+            while let Some(s) = next.map(|s| tree.steps[s]) {
+                put(s.joint, at, if s.forward { sign } else { -sign });
+                next = tree.into[s.from];
+            }
+        }
+    }
+    (jacobian, residual)
+}

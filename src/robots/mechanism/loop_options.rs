@@ -1,0 +1,115 @@
+//! What a search may do at the joints that close loops: let them go in the directions that are held twice.
+
+use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, OptionTable};
+use crate::geom::vector::{Vector, cross, dot};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::rank::rounded::verdict::verdict;
+use crate::redundancy::release::{Release, Stressed};
+use crate::robots::description::coupling::LARGEST;
+
+/// Gives the joints that close loops options of their own: more freedom along each direction that their self-stresses have, and
+/// along all of them. Says whether there are any.
+pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile) -> bool {
+    if !closes.contains(&true) {
+        return false;
+    }
+    let Ok(found) = verdict(m, StateId::FREE, None) else {
+        return false;
+    };
+    let rank = found.at_least();
+    let work = found.rows * found.freedoms * found.rows.min(found.freedoms);
+    if rank == found.rows || work > LARGEST {
+        return false;
+    }
+    let geometry = found.mechanism().unwrap_or(m);
+    let Ok(Some(stressed)) = Stressed::new(geometry, StateId::FREE, rank) else {
+        return false;
+    };
+    let mut any = false;
+    for j in m.joint_ids().filter(|j| closes[j.index()]) {
+        let all = stressed.at(j);
+        let tables = tables(m, j, &all);
+        any |= !tables.is_empty();
+        if !tables.is_empty() {
+            let entry: &mut JointEntry = &mut file.joint[j.index()];
+            // Options hold what the joint can do now: all do where it is rigid, none of the words where it is a ball.
+            let rigid = m.joints[j].joint_type == JointType::Fixed;
+            let words = file.search.options.iter().filter(|_| rigid).cloned();
+            entry.options = Some(words.chain(tables).collect());
+        }
+    }
+    any
+}
+
+fn tables(m: &Mechanism, joint: JointId, all: &[Release]) -> Vec<OptionEntry> {
+    let kind = &m.joints[joint].joint_type;
+    if !matches!(kind, JointType::Spherical | JointType::Fixed) {
+        return Vec::new();
+    }
+    let single = |r: &Release| match *r {
+        Release::Freedom {
+            slides, direction, ..
+        } => Some((slides, direction)),
+        Release::Coupling(_) => None,
+    };
+    let all: Vec<(bool, Vector)> = all.iter().filter_map(single).collect();
+    let mut out: Vec<OptionEntry> = all.iter().map(|one| table(kind, &[*one])).collect();
+    if all.len() > 1 {
+        out.push(table(kind, &all));
+    }
+    out
+}
+
+/// The joint with more freedoms, about and along axes that are square to one another.
+fn table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
+    let z = more[0].1;
+    let square = |d: &Vector| dot(*d, z).abs() < 0.5;
+    let x = more.iter().map(|m| m.1).find(square);
+    let y = x.map(|x| cross(z, x));
+    let letter = |d: Vector| match (x, y) {
+        (Some(x), _) if dot(d, x).abs() > 0.5 => 'x',
+        (_, Some(y)) if dot(d, y).abs() > 0.5 => 'y',
+        _ => 'z',
+    };
+    let mut freedoms: Vec<String> = kind
+        .freedoms()
+        .iter()
+        .map(|f| f.name().to_owned())
+        .collect();
+    let mut names = Vec::new();
+    for &(slides, d) in more {
+        freedoms.push(format!("{}{}", if slides { 't' } else { 'r' }, letter(d)));
+        let word = if slides { "slide" } else { "turn" };
+        names.push(format!("{word} {}", line(d)));
+    }
+    let written = |d: Vector| Some(d.map(Coordinate::Decimal));
+    let now = match kind {
+        JointType::Fixed => String::new(),
+        t => format!("{} + ", t.name()),
+    };
+    // With one more freedom it has a name of its own.
+    let named = match (kind, more) {
+        (JointType::Spherical, [(true, _)]) => Some(JointType::SphereInCylinder),
+        (JointType::Fixed, [(true, _)]) => Some(JointType::Prismatic),
+        (JointType::Fixed, [(false, _)]) => Some(JointType::Revolute),
+        _ => None,
+    };
+    OptionEntry::Table(Box::new(OptionTable {
+        freedoms: named.is_none().then_some(freedoms),
+        kind: named.map(|t| t.name().to_owned()),
+        axis: written(z),
+        reference: x.and_then(written),
+        name: Some(format!("{now}{}", names.join(" + "))),
+        ..OptionTable::default()
+    }))
+}
+
+/// "y", or "(0.60 0.80 0.00)".
+fn line(d: Vector) -> String {
+    let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
+    match along {
+        Some(i) => ["x", "y", "z"][i].to_owned(),
+        None => format!("({})", d.map(|x| format!("{x:.2}")).join(" ")),
+    }
+}

@@ -1,0 +1,98 @@
+//! Joints in metres and double precision, taken apart into single freedoms.
+
+use crate::geom::vector::{Vector, across, cross, real, unit};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{Joint, Mechanism};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// A joint's place: origin in metres, unit axes x, y, z.
+pub(crate) struct Place {
+    pub(in crate::robots) point: Vector,
+    pub(in crate::robots) axes: [Vector; 3],
+    /// Metres per radian.
+    pub(in crate::robots) pitch: f64,
+}
+
+/// What a single freedom does, about or along its axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Single {
+    Turn(Vector),
+    Shift(Vector),
+    Screw(Vector, f64),
+}
+
+pub(crate) fn place(m: &Mechanism, j: &Joint) -> Place {
+    let metres = m.length_unit.metres;
+    let z = unit(real(&j.frame.axis));
+    let x = unit(across(real(&j.frame.reference), z));
+    let y = cross(z, x);
+    Place {
+        point: real(&j.frame.point).map(|c| c * metres),
+        axes: [x, y, z],
+        pitch: j.frame.pitch.to_f64() * metres,
+    }
+}
+
+/// The freedoms one by one.
+pub(crate) fn singles(j: &JointType, p: &Place) -> Vec<Single> {
+    let [x, y, z] = p.axes;
+    j.freedoms()
+        .iter()
+        .map(|f| match f {
+            Freedom::Rx => Single::Turn(x),
+            Freedom::Ry => Single::Turn(y),
+            Freedom::Rz => Single::Turn(z),
+            Freedom::Tx => Single::Shift(x),
+            Freedom::Ty => Single::Shift(y),
+            Freedom::Tz => Single::Shift(z),
+            Freedom::Screw => Single::Screw(z, p.pitch),
+        })
+        .collect()
+}
+
+/// A number without the rounding errors of scaling.
+pub(crate) fn number(x: f64) -> f64 {
+    let r = (x * 1e12).round() / 1e12;
+    let y = if (r - x).abs() < 1e-15 { r } else { x };
+    if y == 0.0 { 0.0 } else { y }
+}
+
+/// Three numbers with spaces between.
+pub(crate) fn numbers(v: Vector) -> String {
+    let mut out = String::new();
+    for (i, x) in v.into_iter().enumerate() {
+        let gap = if i == 0 { "" } else { " " };
+        let _ = write!(out, "{gap}{}", number(x));
+    }
+    out
+}
+
+/// Unique names that robot formats take.
+#[derive(Default)]
+pub(crate) struct Names {
+    used: BTreeSet<String>,
+}
+
+impl Names {
+    pub(crate) fn fit(&mut self, wanted: &str) -> String {
+        let plain = wanted.replace("::", ":");
+        let mut name = plain.clone();
+        let mut n = 2;
+        while !self.used.insert(name.clone()) {
+            name = format!("{plain}~{n}");
+            n += 1;
+        }
+        name
+    }
+}
+
+/// Text for an attribute or element.
+pub(crate) fn escape(text: &str) -> String {
+    quick_xml::escape::escape(text).into_owned()
+}
+
+/// Text for a comment.
+pub(crate) fn comment(text: &str) -> String {
+    text.replace("--", "- -")
+}

@@ -1,0 +1,11 @@
+//! Scores of variants under the workload, fast and in plain ways, and bounds on them.
+
+pub mod elimination;
+pub mod evaluate;
+pub mod joint_loads;
+pub mod load_cases;
+pub mod lower_bound;
+pub mod pose_tables;
+pub mod reference_scores;
+pub mod spectrum;
+pub mod terms;

@@ -1,0 +1,262 @@
+//! The scores of variants, fast.
+
+use crate::geom::vector::dot;
+use crate::model::mechanism::{JointId, LinkId, StateId};
+use crate::model::ranking::ClearanceSum;
+use crate::redundancy::analysis::{AnalysisError, Method, analyse};
+use crate::score::evaluation::elimination::{Ended, Scratch};
+use crate::score::evaluation::load_cases::{CaseError, Cases, cases};
+use crate::score::evaluation::pose_tables::Table;
+use crate::score::evaluation::terms::{ErrorSum, Peak, Scores, output_points};
+use crate::score::joint_types::JointTypes;
+use crate::search::Search;
+use crate::search::answer::k_best::Assignment;
+use crate::statics::reactions::drives::{Driven, driven};
+use crate::statics::reactions::follow::follow;
+use crate::statics::reactions::geometry::Geometry;
+use crate::statics::reactions::{Unsolved, no_couplings};
+use thiserror::Error;
+
+/// Work of the loads on undriven motions below this fraction of them is none.
+const NO_WORK: f64 = 1e-8;
+
+/// Why variants cannot be scored.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ScoreError {
+    /// The present mechanism has no numbers.
+    #[error(transparent)]
+    Unsolved(#[from] Unsolved),
+    /// The present mechanism could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// It has no cases to be scored in.
+    #[error(transparent)]
+    Cases(#[from] CaseError),
+}
+
+/// What a joint bears in one pose, without what its drive does.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::score) struct Load {
+    pub(in crate::score) joint: JointId,
+    /// `[N]`
+    pub(in crate::score) force: f64,
+    /// `[N·m]`
+    pub(in crate::score) moment: f64,
+    /// The greatest of both that its type bears; `None` for moments where it bears none and need not.
+    pub(in crate::score) capacity: (f64, Option<f64>),
+}
+
+/// Scores the variants of one search.
+#[derive(Debug)]
+pub struct Evaluator<'s> {
+    /// The search.
+    pub search: &'s Search,
+    /// What joints bear.
+    pub types: JointTypes,
+    /// How clearances add up.
+    pub clearance: ClearanceSum,
+    /// The freedoms that drives hold.
+    pub drives: Vec<Driven>,
+    /// The poses looked at with their loads.
+    pub cases: Cases,
+    pub(in crate::score) outputs: Vec<(LinkId, [f64; 3])>,
+    tables: Vec<Table>,
+    working: i64,
+}
+
+impl<'s> Evaluator<'s> {
+    /// Makes everything ready that does not depend on the variant, for the states with loads.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value, singular values do not converge, or joints are coupled.
+    ///
+    /// # Complexity
+    /// O(poses · options · loads), and the poses of the stroke.
+    pub fn new(search: &'s Search, clearance: ClearanceSum) -> Result<Evaluator<'s>, ScoreError> {
+        Evaluator::in_states(search, clearance, &[])
+    }
+
+    /// The same for the states named; for those with loads where none are.
+    ///
+    /// # Errors
+    /// As [`Evaluator::new`], and where a grip loads nothing.
+    pub fn in_states(
+        search: &'s Search,
+        clearance: ClearanceSum,
+        states: &[StateId],
+    ) -> Result<Evaluator<'s>, ScoreError> {
+        let m = &*search.mechanism;
+        no_couplings(m, StateId::FREE)?;
+        let types = JointTypes::of(m);
+        let start = follow(m, StateId::FREE, &[], None)?;
+        let drives = match start.poses.first() {
+            Some((_, pose)) => driven(
+                m,
+                &Geometry::new(m, StateId::FREE, pose).map_err(Unsolved::from)?,
+            )?,
+            None => Vec::new(),
+        };
+        let cases = cases(m, &drives, states)?;
+        let outputs = output_points(m, &cases);
+        let tables = cases
+            .list
+            .iter()
+            .map(|case| Table::new(search, &types, &outputs, &drives, case))
+            .collect::<Result<_, _>>()?;
+        let states = analyse(m, &[StateId::FREE], Method::Modular)?;
+        let working = states
+            .first()
+            .map_or(0, |s| i64::try_from(s.working_mobility).unwrap_or(0));
+        Ok(Evaluator {
+            search,
+            types,
+            clearance,
+            drives,
+            cases,
+            outputs,
+            tables,
+            working,
+        })
+    }
+
+    /// The scores of a variant; [`Unsolved`] where its loads have no equilibrium. Variants with redundant constraints left
+    /// are solved the slow way.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    ///
+    /// # Complexity
+    /// O((6k)²·f) for each pose, for k contours and f freedoms.
+    pub fn scores(&self, variant: &Assignment, scratch: &mut Scratch) -> Result<Scores, Unsolved> {
+        self.scores_and_loads(variant, scratch, &mut |_| {})
+    }
+
+    /// The same, and `each` is told what every joint bears in every pose; where the fast way turns out not to serve, it is
+    /// told all over again by the slow one.
+    pub(in crate::score) fn scores_and_loads(
+        &self,
+        variant: &Assignment,
+        scratch: &mut Scratch,
+        each: &mut dyn FnMut(Load),
+    ) -> Result<Scores, Unsolved> {
+        let mut worst: Option<Scores> = None;
+        for table in &self.tables {
+            let Some(now) = self.at(table, variant, scratch, each)? else {
+                return self.slowly_with(variant, each);
+            };
+            match &mut worst {
+                Some(w) => w.worse(&now),
+                None => worst = Some(now),
+            }
+        }
+        worst.map_or_else(|| self.slowly_with(variant, each), Ok)
+    }
+
+    pub(in crate::score) fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
+    /// What needs no equations.
+    pub(in crate::score) fn plain(&self, variant: &Assignment) -> Scores {
+        Scores {
+            force: Peak::NONE,
+            moment: Peak::NONE,
+            conditioning: 1.0,
+            output_error: 0.0,
+            changes: variant.key.changes(),
+            cost_milli: self.search.steps.milli(variant.key.cost()),
+            idle: self.search.mobility(variant.key) - self.working,
+            harmful: variant.key.harmful(),
+            minimum_norm: false,
+        }
+    }
+
+    fn at(
+        &self,
+        table: &Table,
+        variant: &Assignment,
+        scratch: &mut Scratch,
+        each: &mut dyn FnMut(Load),
+    ) -> Result<Option<Scores>, Unsolved> {
+        let dim = table.basis.len();
+        let unknowns = dim * table.contours;
+        let width = unknowns + table.cases;
+        let cell = |p: &crate::score::evaluation::pose_tables::Place| {
+            &table.cells[p.variable][variant.choices[p.variable]][p.slot]
+        };
+        scratch.rows.clear();
+        scratch.gram.clear();
+        scratch.gram.resize(unknowns * unknowns, 0.0);
+        let mut count = 0;
+        for place in &table.places {
+            let cell = cell(place);
+            for row in &cell.rows {
+                let from = count * width;
+                scratch.rows.resize(from + width, 0.0);
+                let out = &mut scratch.rows[from..];
+                for &(k, sign) in &place.contours {
+                    for (o, x) in out[k * dim..(k + 1) * dim].iter_mut().zip(row) {
+                        *o = sign * x;
+                    }
+                }
+                out[unknowns..].copy_from_slice(&row[dim..]);
+                count += 1;
+            }
+            for &(k, s) in &place.contours {
+                // The upper triangle is enough.
+                for &(l, t) in place.contours.iter().filter(|(l, _)| *l >= k) {
+                    for a in 0..dim {
+                        let from = (k * dim + a) * unknowns + l * dim;
+                        let out = &mut scratch.gram[from..from + dim];
+                        for (o, g) in out.iter_mut().zip(&cell.gram[a * dim..]) {
+                            *o += s * t * g;
+                        }
+                    }
+                }
+            }
+        }
+        match scratch.eliminate(count, unknowns, width) {
+            Ended::Open => return Ok(None),
+            Ended::Solved { left } if left > NO_WORK * table.scale => {
+                return Err(Unsolved::Moves {
+                    link: String::new(),
+                    mobility: count - unknowns,
+                });
+            }
+            Ended::Solved { .. } => {}
+        }
+        let mut out = self.plain(variant);
+        let mut errors = vec![ErrorSum::new(self.clearance); self.outputs.len()];
+        let x = &scratch.solution;
+        for place in &table.places {
+            let (f, m) = table.borne(place, &table.wrench(place, 0, x));
+            let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
+            for &capacity in &cell(place).bears {
+                let (force, moment) = capacity;
+                each(Load {
+                    joint: place.joint,
+                    force: f,
+                    moment: m,
+                    capacity,
+                });
+                out.force.raise(f, force, place.joint);
+                if let Some(moment) = moment {
+                    out.moment.raise(m, moment, place.joint);
+                }
+            }
+        }
+        for (o, error) in errors.iter_mut().enumerate() {
+            for axis in 0..3 {
+                for place in &table.places {
+                    let (f, _) = table.borne(place, &table.wrench(place, 1 + 3 * o + axis, x));
+                    error.joint(cell(place).clearance, dot(f, f));
+                }
+                error.end_axis();
+            }
+            out.output_error = out.output_error.max(error.error());
+        }
+        out.conditioning = scratch.spectrum.conditioning(&mut scratch.gram, unknowns);
+        Ok(Some(out))
+    }
+}

@@ -1,0 +1,102 @@
+//! What each joint of a variant bears.
+
+use crate::score::evaluation::elimination::Scratch;
+use crate::score::evaluation::evaluate::{Evaluator, Load, ScoreError};
+use crate::score::evaluation::load_cases::is_loaded;
+use crate::score::evaluation::terms::Scores;
+use crate::score::outcome::Outcome;
+use crate::score::outcome::variant::Variant;
+use crate::search::answer::k_best::Assignment;
+use crate::statics::reactions::Unsolved;
+use rayon::prelude::*;
+
+/// The most that a joint bears over the poses looked at.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Bearing {
+    /// Force `[N]`.
+    pub force: f64,
+    /// Moment `[N·m]`.
+    pub moment: f64,
+    /// Force over capacity.
+    pub force_share: f64,
+    /// Moment over capacity; `None` where the joint bears none and need not.
+    pub moment_share: Option<f64>,
+}
+
+impl Bearing {
+    fn raise(&mut self, load: &Load) {
+        let (force, moment) = load.capacity;
+        self.force = self.force.max(load.force);
+        self.moment = self.moment.max(load.moment);
+        self.force_share = self.force_share.max(load.force / force);
+        if let Some(capacity) = moment {
+            let share = load.moment / capacity;
+            self.moment_share = Some(self.moment_share.map_or(share, |s| s.max(share)));
+        }
+    }
+}
+
+impl Evaluator<'_> {
+    /// The scores of a variant and, for each joint of the mechanism in file order, the most it bears; an unloading joint
+    /// counts as the one it is in series with. `None` stands for joints that are not there in the free state.
+    ///
+    /// # Errors
+    /// [`Unsolved`] where the loads have no equilibrium.
+    ///
+    /// # Complexity
+    /// That of [`Evaluator::scores`].
+    pub fn bearings(
+        &self,
+        variant: &Assignment,
+        scratch: &mut Scratch,
+    ) -> Result<(Scores, Vec<Option<Bearing>>), Unsolved> {
+        let mut out: Vec<Option<Bearing>> = vec![None; self.search.mechanism.joints.len()];
+        let scores = self.scores_and_loads(variant, scratch, &mut |load| {
+            out[load.joint].get_or_insert_default().raise(&load);
+        })?;
+        Ok((scores, out))
+    }
+}
+
+/// What the joints of some variants bear.
+#[derive(Debug, Clone)]
+pub struct Bearings {
+    /// How many poses were looked at.
+    pub poses: usize,
+    /// Where the stroke could be followed no further, in the drive's unit.
+    pub stopped: Option<f64>,
+    /// Of each variant its scores and what each joint bears; `None` where its loads have no equilibrium.
+    pub of: Vec<Option<(Scores, Vec<Option<Bearing>>)>>,
+}
+
+impl Outcome {
+    /// What the joints of some variants bear, in the states of the ranking or else in those with loads; `None` where the file
+    /// states no loads and no ranking was asked for. Scores of a ranking are made for its whole pool; bearings are not, so
+    /// they are had here for the few that are shown.
+    ///
+    /// # Errors
+    /// As [`Evaluator::in_states`].
+    ///
+    /// # Complexity
+    /// [`Evaluator::scores`] for each variant, in parallel.
+    pub fn bearings(&self, variants: &[Variant<'_>]) -> Result<Option<Bearings>, ScoreError> {
+        let ranking = self.ranking.as_ref();
+        if !is_loaded(&self.search.mechanism) && ranking.is_none() {
+            return Ok(None);
+        }
+        let clearance = ranking.map_or_else(Default::default, |p| p.ranking.clearance);
+        let states = ranking.map_or(&[][..], |p| &p.ranking.states);
+        let evaluator = Evaluator::in_states(&self.search, clearance, states)?;
+        let of = variants
+            .par_iter()
+            .map_init(Scratch::default, |scratch, v| {
+                evaluator.bearings(v.assignment(), scratch).ok()
+            })
+            .collect();
+        Ok(Some(Bearings {
+            poses: evaluator.cases.list.len(),
+            stopped: evaluator.cases.stopped,
+            of,
+        }))
+    }
+}

@@ -1,0 +1,313 @@
+//! The least that the terms of any variant can be.
+//!
+//! Every option of a joint keeps its present motion, and loads do no work on a motion of the mechanism but through the
+//! reactions: one equation for each present freedom, which the reactions of all variants satisfy, whatever else they do. The
+//! best that reactions could do under these equations alone is a convex problem; it is solved by least squares with weights
+//! that follow the reactions (for peaks [Lawson 1961], for sums of sizes [Weiszfeld 1937]), and each step's dual gives a
+//! bound that holds whether or not the steps have converged.
+
+use crate::geom::vector::{dot, length};
+use crate::model::ranking::{ClearanceSum, Ranking, Term};
+use crate::score::evaluation::evaluate::Evaluator;
+use crate::score::evaluation::pose_tables::{Place, Table};
+use ozols_dense::{Matrix, svd, thin_svd};
+
+/// Steps of each problem.
+const STEPS: usize = 60;
+/// Singular values below this fraction of the greatest are none.
+const NONE: f64 = 1e-10;
+/// What rounding may have added to a bound.
+const MARGIN: f64 = 1e-6;
+
+/// Lower bounds on terms, for every variant of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Floor {
+    /// On the greatest force over capacity.
+    pub force: f64,
+    /// On the greatest moment over capacity.
+    pub moment: f64,
+    /// On the error of the outputs `[m]`.
+    pub output_error: f64,
+}
+
+impl Floor {
+    /// Σ weight · bound over the terms but cost; those without a bound are at least 0.
+    #[must_use]
+    pub fn weighted(&self, ranking: &Ranking) -> f64 {
+        let bound = |t: Term| match t {
+            Term::PeakForce => self.force,
+            Term::PeakMoment => self.moment,
+            Term::OutputError => 1e3 * self.output_error,
+            Term::Conditioning | Term::Changes | Term::Cost | Term::Idle | Term::Harmful => 0.0,
+        };
+        ranking.terms.iter().map(|&(t, w)| w * bound(t)).sum()
+    }
+}
+
+/// A vector at each of some joints, an affine function of what the common equations leave open, with a limit or weight.
+struct Part {
+    /// Its capacity, or its clearance.
+    limit: f64,
+    /// The vector where the open coordinates are 0.
+    fixed: [f64; 3],
+    /// What each open coordinate adds.
+    open: Vec<[f64; 3]>,
+}
+
+/// What the common equations say of the contours' wrenches.
+struct Common {
+    /// A solution, unknowns × cases.
+    solution: Vec<f64>,
+    /// Directions they leave open, each over the unknowns.
+    open: Vec<Vec<f64>>,
+}
+
+impl Evaluator<'_> {
+    /// Lower bounds for every variant of the search; 0 where none is known.
+    ///
+    /// # Complexity
+    /// Some hundred least squares problems of 3 joints × freedoms for each pose and output.
+    #[must_use]
+    pub fn floor(&self) -> Floor {
+        let mut out = Floor::default();
+        for table in self.tables() {
+            let Some(common) = common(table) else {
+                continue;
+            };
+            let parts = |of: &dyn Fn(&Place) -> Option<f64>, case: usize, moment: bool| {
+                let places = table.places.iter();
+                let parts =
+                    places.filter_map(|p| Some(part(table, &common, p, case, moment, of(p)?)));
+                parts.collect::<Vec<Part>>()
+            };
+            let force = parts(&|p| capacity(table, p, |(f, _)| Some(f)), 0, false);
+            let moment = parts(&|p| capacity(table, p, |(_, m)| m), 0, true);
+            out.force = out.force.max(least_peak(&force));
+            out.moment = out.moment.max(least_peak(&moment));
+            for output in 0..table.cases / 3 {
+                let square: f64 = (0..3)
+                    .map(|axis| {
+                        let case = 1 + 3 * output + axis;
+                        let all = parts(&|p| Some(clearance(table, p)), case, false);
+                        match self.clearance {
+                            ClearanceSum::Worst => least_sum(&all).powi(2),
+                            ClearanceSum::Rms => least_square(&all) / 3.0,
+                        }
+                    })
+                    .sum();
+                out.output_error = out.output_error.max(square.sqrt());
+            }
+        }
+        Floor {
+            force: out.force * (1.0 - MARGIN),
+            moment: out.moment * (1.0 - MARGIN),
+            output_error: out.output_error * (1.0 - MARGIN),
+        }
+    }
+}
+
+/// The greatest capacity that a choice gives a place; `None` where a choice bears nothing of the kind that counts.
+fn capacity(
+    table: &Table,
+    place: &Place,
+    of: impl Fn((f64, Option<f64>)) -> Option<f64>,
+) -> Option<f64> {
+    let mut best: Option<f64> = None;
+    for choice in &table.cells[place.variable] {
+        let bears = choice[place.slot].bears.iter();
+        let weakest = bears.filter_map(|&b| of(b)).reduce(f64::min)?;
+        best = Some(best.map_or(weakest, |b| b.max(weakest)));
+    }
+    best
+}
+
+fn clearance(table: &Table, place: &Place) -> f64 {
+    let choices = table.cells[place.variable].iter();
+    let least = choices.map(|c| c[place.slot].clearance).reduce(f64::min);
+    least.unwrap_or(0.0)
+}
+
+/// The equations that hold for every variant: rows in the span of those of each choice.
+fn common(table: &Table) -> Option<Common> {
+    let dim = table.basis.len();
+    let unknowns = dim * table.contours;
+    let mut rows: Vec<(&Place, &Vec<f64>)> = Vec::new();
+    for place in &table.places {
+        let choices = &table.cells[place.variable];
+        let Some(first) = choices.first() else {
+            continue;
+        };
+        for row in &first[place.slot].rows {
+            let kept = |c: &Vec<crate::score::evaluation::pose_tables::Cell>| {
+                within(row, &c[place.slot].rows, dim)
+            };
+            if choices.iter().all(kept) {
+                rows.push((place, row));
+            }
+        }
+    }
+    if rows.is_empty() || unknowns == 0 {
+        return None;
+    }
+    let mut matrix = Matrix::zeros(rows.len(), unknowns);
+    for (r, (place, row)) in rows.iter().enumerate() {
+        for &(k, sign) in &place.contours {
+            for (b, x) in row[..dim].iter().enumerate() {
+                matrix[(r, k * dim + b)] = sign * x;
+            }
+        }
+    }
+    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r].1[dim + c]);
+    let svd = svd(&matrix)?;
+    let rank = svd.rank(NONE);
+    let x = svd.least_norm(rank, &right);
+    let solution = (0..unknowns)
+        .flat_map(|u| (0..table.cases).map(move |c| (u, c)))
+        .map(|(u, c)| x[(u, c)])
+        .collect();
+    let open = (rank..unknowns).map(|j| svd.v.col(j).to_vec()).collect();
+    Some(Common { solution, open })
+}
+
+/// Whether a unit twist is in the span of others; the right sides follow, being linear in the twist.
+fn within(row: &[f64], others: &[Vec<f64>], dim: usize) -> bool {
+    let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let clear = |mut v: Vec<f64>, basis: &[Vec<f64>]| {
+        // Twice is enough [Parlett 1998, 6.9].
+        for b in basis.iter().chain(basis) {
+            let along = inner(&v, b);
+            v.iter_mut().zip(b).for_each(|(x, y)| *x -= along * y);
+        }
+        v
+    };
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for other in others {
+        let rest = clear(other[..dim].to_vec(), &basis);
+        let size = inner(&rest, &rest).sqrt();
+        if size > NONE {
+            basis.push(rest.iter().map(|x| x / size).collect());
+        }
+    }
+    let rest = clear(row[..dim].to_vec(), &basis);
+    inner(&rest, &rest).sqrt() <= NONE
+}
+
+/// What a place bears in one load case, as far as the common equations tell.
+fn part(
+    table: &Table,
+    common: &Common,
+    place: &Place,
+    case: usize,
+    moment: bool,
+    limit: f64,
+) -> Part {
+    let borne = |x: &[f64]| {
+        let (force, turning) = table.borne(place, &table.wrench(place, case, x));
+        if moment { turning } else { force }
+    };
+    let fixed = borne(&common.solution);
+    let mut x = common.solution.clone();
+    let open = common.open.iter().map(|direction| {
+        for (u, d) in direction.iter().enumerate() {
+            x[u * table.cases + case] = common.solution[u * table.cases + case] + d;
+        }
+        let there = borne(&x);
+        [0, 1, 2].map(|i| there[i] - fixed[i])
+    });
+    let open = open.collect();
+    Part { limit, fixed, open }
+}
+
+/// The vectors at which Σ weight · |vector|² is least.
+fn weighted_least(parts: &[Part], weights: &[f64]) -> Option<Vec<[f64; 3]>> {
+    let open = parts.first()?.open.len();
+    let mut out: Vec<[f64; 3]> = parts.iter().map(|p| p.fixed).collect();
+    if open == 0 {
+        return Some(out);
+    }
+    let root = |r: usize| weights[r / 3].sqrt();
+    let matrix = Matrix::from_fn(3 * parts.len(), open, |r, c| {
+        root(r) * parts[r / 3].open[c][r % 3]
+    });
+    let right = Matrix::from_fn(3 * parts.len(), 1, |r, _| {
+        -root(r) * parts[r / 3].fixed[r % 3]
+    });
+    let svd = thin_svd(&matrix)?;
+    let y = svd.least_norm(svd.rank(NONE), &right);
+    for (out, part) in out.iter_mut().zip(parts) {
+        for (c, direction) in part.open.iter().enumerate() {
+            for i in 0..3 {
+                out[i] += direction[i] * y[(c, 0)];
+            }
+        }
+    }
+    Some(out)
+}
+
+/// A bound below the greatest |vector| / limit: for z = weight · vector at the least squares, Σ z · vector is the same for
+/// all that is open, and at most Σ |z| limit · peak.
+fn least_peak(parts: &[Part]) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
+    let mut share = vec![1.0 / parts.len().max(1) as f64; parts.len()];
+    let mut best = 0.0;
+    for _ in 0..STEPS {
+        let weights: Vec<f64> = share
+            .iter()
+            .zip(parts)
+            .map(|(s, p)| s / p.limit.powi(2))
+            .collect();
+        let Some(at) = weighted_least(parts, &weights) else {
+            break;
+        };
+        let (mut work, mut most) = (0.0, 0.0);
+        for ((w, v), p) in weights.iter().zip(&at).zip(parts) {
+            work += w * dot(*v, *v);
+            most += w * length(*v) * p.limit;
+        }
+        if most <= 0.0 {
+            break;
+        }
+        best = f64::max(best, work / most);
+        for ((s, v), p) in share.iter_mut().zip(&at).zip(parts) {
+            *s *= length(*v) / p.limit;
+        }
+        let whole: f64 = share.iter().sum();
+        share.iter_mut().for_each(|s| *s /= whole);
+    }
+    best
+}
+
+/// A bound below Σ limit · |vector|, by a z of the same kind with |z| at most the limit.
+fn least_sum(parts: &[Part]) -> f64 {
+    let mut weights: Vec<f64> = parts.iter().map(|p| p.limit).collect();
+    let mut best = 0.0;
+    for _ in 0..STEPS {
+        let Some(at) = weighted_least(parts, &weights) else {
+            break;
+        };
+        let greatest = at.iter().map(|v| length(*v)).fold(0.0, f64::max);
+        if greatest <= 0.0 {
+            break;
+        }
+        let each = || weights.iter().zip(&at).zip(parts);
+        let work: f64 = each().map(|((w, v), _)| w * dot(*v, *v)).sum();
+        let scale = each()
+            .filter(|((w, v), _)| **w * length(**v) > 0.0)
+            .map(|((w, v), p)| p.limit / (w * length(*v)))
+            .fold(f64::INFINITY, f64::min);
+        if scale.is_finite() {
+            best = f64::max(best, scale * work);
+        }
+        for ((w, v), p) in weights.iter_mut().zip(&at).zip(parts) {
+            *w = p.limit / length(*v).max(1e-9 * greatest);
+        }
+    }
+    best
+}
+
+/// The least Σ (limit · |vector|)².
+fn least_square(parts: &[Part]) -> f64 {
+    let weights: Vec<f64> = parts.iter().map(|p| p.limit.powi(2)).collect();
+    let at = weighted_least(parts, &weights).unwrap_or_default();
+    weights.iter().zip(&at).map(|(w, v)| w * dot(*v, *v)).sum()
+}

@@ -1,0 +1,283 @@
+//! Everything about a search that does not depend on the variant, in numbers, pose by pose.
+
+use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+use crate::geom::scalars::Reals;
+use crate::geom::vector::{across, cross};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
+use crate::motion::pose::Pose;
+use crate::score::evaluation::load_cases::Case;
+use crate::score::evaluation::terms::axis_of;
+use crate::score::joint_types::JointTypes;
+use crate::search::Search;
+use crate::statics::reactions::Unsolved;
+use crate::statics::reactions::applied::link_loads;
+use crate::statics::reactions::drives::{Driven, period};
+use crate::statics::reactions::geometry::{Geometry, Six, about, power, wrench};
+
+/// What a choice puts at one joint.
+#[derive(Debug, Clone)]
+pub(in crate::score) struct Cell {
+    /// Equations, each its twist in the wrench basis and then its right sides.
+    pub(in crate::score) rows: Vec<Vec<f64>>,
+    /// Σ of outer products of the twists, dim × dim.
+    pub(in crate::score) gram: Vec<f64>,
+    /// Force, and moment where it bears one, of the joints in series.
+    pub(in crate::score) bears: Vec<(f64, Option<f64>)>,
+    /// Sum of their clearances `[m]`.
+    pub(in crate::score) clearance: f64,
+}
+
+/// A joint's place.
+#[derive(Debug, Clone)]
+pub(in crate::score) struct Place {
+    pub(in crate::score) joint: JointId,
+    pub(in crate::score) variable: usize,
+    /// Place in the variable's list of joints.
+    pub(in crate::score) slot: usize,
+    /// Contours through it, with their directions.
+    pub(in crate::score) contours: Vec<(usize, f64)>,
+    pub(in crate::score) point: [f64; 3],
+    /// Direction of its drive, and whether that is a shift.
+    pub(in crate::score) held: Option<([f64; 3], bool)>,
+    /// Wrench of each load case along the tree.
+    pub(in crate::score) along_tree: Vec<Six>,
+}
+
+/// A pose.
+#[derive(Debug, Clone)]
+pub(in crate::score) struct Table {
+    pub(in crate::score) basis: Vec<Six>,
+    pub(in crate::score) contours: usize,
+    pub(in crate::score) size: f64,
+    /// Load cases: the loads, then a unit force along each axis on each output.
+    pub(in crate::score) cases: usize,
+    pub(in crate::score) places: Vec<Place>,
+    /// By variable, choice, joint of the variable.
+    pub(in crate::score) cells: Vec<Vec<Vec<Cell>>>,
+    /// Greatest component of the first case's wrenches.
+    pub(in crate::score) scale: f64,
+}
+
+impl Table {
+    pub(in crate::score) fn new(
+        search: &Search,
+        types: &JointTypes,
+        outputs: &[(LinkId, [f64; 3])],
+        drives: &[Driven],
+        Case { drive, pose, loads }: &Case,
+    ) -> Result<Table, Unsolved> {
+        let m = &*search.mechanism;
+        let geometry = Geometry::new(m, StateId::FREE, pose)?;
+        let mut cases = vec![link_loads(
+            m,
+            loads,
+            &geometry,
+            pose,
+            *drive,
+            period(drives),
+        )];
+        for &(link, point) in outputs {
+            let at = geometry.place(pose, link, point);
+            for axis in 0..3 {
+                let mut force = [0.0; 3];
+                force[axis] = 1.0;
+                let mut case = vec![[0.0; 6]; m.links.len()];
+                case[link] = geometry.within(&wrench(at, force, [0.0; 3]));
+                cases.push(case);
+            }
+        }
+        let along: Vec<Vec<Six>> = cases
+            .iter()
+            .map(|c| geometry.along_tree(m.joints.len(), c))
+            .collect();
+        let scale = along[0]
+            .iter()
+            .flatten()
+            .fold(0.0, |a: f64, x| a.max(x.abs()));
+        let (mut places, mut cells) = (Vec::new(), Vec::new());
+        for (v, variable) in search.space.variables.iter().enumerate() {
+            let mut of_variable = vec![Vec::new(); variable.choices.len()];
+            for &joint in &variable.joints {
+                if !geometry.joints.contains(&joint) {
+                    continue;
+                }
+                let place = Place {
+                    joint,
+                    variable: v,
+                    slot: of_variable.first().map_or(0, Vec::len),
+                    contours: (0..geometry.contours.len())
+                        .filter_map(|k| {
+                            let forward = geometry.contours[k].direction(joint)?;
+                            Some((k, if forward { 1.0 } else { -1.0 }))
+                        })
+                        .collect(),
+                    point: geometry.points[joint],
+                    held: drives.iter().find(|(j, _)| *j == joint).and_then(|(_, f)| {
+                        let (axis, shift) = axis_of(*f)?;
+                        Some((geometry.axes[joint][axis], shift))
+                    }),
+                    along_tree: along.iter().map(|a| a[joint]).collect(),
+                };
+                for (choice, out) in variable.choices.iter().zip(&mut of_variable) {
+                    let j = &m.joints[joint];
+                    let series = j
+                        .options
+                        .get(choice.option)
+                        .map(|o| (o, choice.option == 0))
+                        .into_iter()
+                        .chain(
+                            choice
+                                .unloading
+                                .and_then(|u| j.unloading.get(u))
+                                .map(|o| (o, false)),
+                        );
+                    out.push(cell(m, &geometry, pose, types, drives, &place, series)?);
+                }
+                places.push(place);
+            }
+            cells.push(of_variable);
+        }
+        Ok(Table {
+            basis: geometry.basis.clone(),
+            contours: geometry.contours.len(),
+            size: geometry.size,
+            cases: cases.len(),
+            places,
+            cells,
+            scale,
+        })
+    }
+
+    /// Wrench of a place in a load case, for the contours' wrenches `x`, unknowns × cases.
+    pub(in crate::score) fn wrench(&self, place: &Place, case: usize, x: &[f64]) -> Six {
+        let dim = self.basis.len();
+        let mut w = place.along_tree[case];
+        for &(k, sign) in &place.contours {
+            for (b, i) in self.basis.iter().zip(k * dim..) {
+                let x = sign * x[i * self.cases + case];
+                for (w, b) in w.iter_mut().zip(b) {
+                    *w += x * b;
+                }
+            }
+        }
+        w
+    }
+
+    /// Force `[N]` and moment about the place `[N·m]` of a wrench, without what a drive bears.
+    pub(in crate::score) fn borne(&self, place: &Place, wrench: &Six) -> ([f64; 3], [f64; 3]) {
+        let w = about(wrench, place.point);
+        let (mut f, mut m) = ([w[3], w[4], w[5]], [w[0], w[1], w[2]]);
+        if let Some((axis, shift)) = place.held {
+            if shift {
+                f = across(f, axis);
+            } else {
+                m = across(m, axis);
+            }
+        }
+        (f, m.map(|x| x * self.size))
+    }
+}
+
+fn cell<'o>(
+    m: &Mechanism,
+    geometry: &Geometry,
+    pose: &Pose,
+    types: &JointTypes,
+    drives: &[Driven],
+    place: &Place,
+    series: impl Iterator<Item = (&'o JointOption, bool)>,
+) -> Result<Cell, Unsolved> {
+    let dim = geometry.basis.len();
+    let mut out = Cell {
+        rows: Vec::new(),
+        gram: vec![0.0; dim * dim],
+        bears: Vec::new(),
+        clearance: 0.0,
+    };
+    for (option, present) in series {
+        let t = types.option(option);
+        out.bears.push((t.capacity_force, t.capacity_moment));
+        out.clearance += t.clearance;
+        let twists: Vec<(Freedom, Six)> = if present {
+            let own = geometry.columns.iter().filter(|c| c.joint == place.joint);
+            own.map(|c| (c.freedom, c.twist)).collect()
+        } else {
+            option_twists(m, geometry, pose, place, option)?
+        };
+        for (freedom, twist) in twists {
+            let held = drives.contains(&(place.joint, freedom));
+            if held && out.bears.len() == 1 {
+                continue;
+            }
+            let own: Vec<f64> = geometry.basis.iter().map(|b| power(b, &twist)).collect();
+            for a in 0..dim {
+                for b in 0..dim {
+                    out.gram[a * dim + b] += own[a] * own[b];
+                }
+            }
+            let right = place.along_tree.iter().map(|w| -power(&twist, w));
+            out.rows.push(own.iter().copied().chain(right).collect());
+        }
+    }
+    Ok(out)
+}
+
+/// Unit twists of an option at a pose of the present mechanism: freedoms before the present turn (slides) go with the
+/// joint's first link, those after it with the second.
+fn option_twists(
+    m: &Mechanism,
+    geometry: &Geometry,
+    pose: &Pose,
+    place: &Place,
+    option: &JointOption,
+) -> Result<Vec<(Freedom, Six)>, Unsolved> {
+    let space = MotionSpace::new(&Reals, &m.mode)?;
+    let joint = &m.joints[place.joint];
+    let kept = joint_twists(&Reals, &space, &option.frame, &option.joint_type)?;
+    let frame = FrameValues::new(&Reals, &option.frame)?;
+    let unit = |a: [f64; 3]| {
+        let size = a.iter().map(|x| x * x).sum::<f64>().sqrt();
+        a.map(|x| x / size)
+    };
+    let present = joint.joint_type.freedoms();
+    let mut second = false;
+    let mut out = Vec::new();
+    let slides = |f: &Freedom| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz);
+    let mut freedoms: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
+    freedoms.sort_by_key(|f| !slides(f));
+    for freedom in freedoms {
+        let link = joint.links[usize::from(second)];
+        second |= present.contains(&freedom);
+        let carried = &pose.links[link];
+        let point = geometry.place(pose, link, frame.point);
+        let axis = |i: usize| carried.direction(unit(frame.axes[i]));
+        let turn = |a: [f64; 3], along: f64| {
+            let v = cross(point, a);
+            [
+                a[0],
+                a[1],
+                a[2],
+                v[0] + along * a[0],
+                v[1] + along * a[1],
+                v[2] + along * a[2],
+            ]
+        };
+        let twist = match axis_of(freedom) {
+            Some((i, true)) => {
+                let a = axis(i);
+                [0.0, 0.0, 0.0, a[0], a[1], a[2]]
+            }
+            Some((i, false)) => {
+                let planar = geometry.basis.len() == 3;
+                let n = geometry.basis[0];
+                // In a plane every turn that is kept is about its normal.
+                let a = if planar { [n[0], n[1], n[2]] } else { axis(i) };
+                turn(a, 0.0)
+            }
+            None => turn(axis(2), frame.pitch * geometry.metres / geometry.size),
+        };
+        out.push((freedom, twist));
+    }
+    Ok(out)
+}

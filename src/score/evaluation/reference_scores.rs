@@ -1,0 +1,139 @@
+//! The scores of a variant the plain way: built as a mechanism and solved by singular values.
+
+use crate::geom::vector::length;
+use crate::model::joint_type::Freedom;
+use crate::model::loads::{ExternalForce, Loads};
+use crate::model::mechanism::{JointId, StateId};
+use crate::score::evaluation::evaluate::Evaluator;
+use crate::score::evaluation::evaluate::Load;
+use crate::score::evaluation::terms::{ErrorSum, Scores, axis_of};
+use crate::score::joint_types::JointType;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::variant_mechanism;
+use crate::statics::reactions::follow::follow_to;
+use crate::statics::reactions::{Choice, JointReaction, Reactions, Unsolved};
+
+/// Force and moment of a joint without what its drive bears.
+fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
+    let (mut f, mut m) = (r.force, r.moment);
+    let held = r
+        .effort
+        .and_then(|(freedom, _): (Freedom, f64)| axis_of(freedom));
+    match held {
+        Some((i, true)) => f[i] = 0.0,
+        Some((i, false)) => m[i] = 0.0,
+        None => {}
+    }
+    (f, m)
+}
+
+impl Evaluator<'_> {
+    /// The scores of a variant, by realizing it and solving its equilibrium by singular values, reactions of minimum norm
+    /// where redundant constraints leave them open.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub fn slowly(&self, variant: &Assignment) -> Result<Scores, Unsolved> {
+        self.slowly_with(variant, &mut |_| {})
+    }
+
+    /// The same, and `each` is told what every joint bears in every pose.
+    pub(in crate::score) fn slowly_with(
+        &self,
+        variant: &Assignment,
+        each: &mut dyn FnMut(Load),
+    ) -> Result<Scores, Unsolved> {
+        let m = variant_mechanism::realize(self.search, &variant.choices);
+        let types = self.realized_types(&variant.choices);
+        let mut worst: Option<Scores> = None;
+        let positions: Vec<f64> = self.cases.list.iter().map(|c| c.drive).collect();
+        let followed = follow_to(&m, StateId::FREE, &self.drives, &positions)?;
+        for case in &self.cases.list {
+            let there = followed.poses.iter().find(|(at, _)| *at == case.drive);
+            let Some((drive, pose)) = there else {
+                return Err(Unsolved::NoConvergence);
+            };
+            let solve =
+                |loads: &Loads| Reactions::at(&m, StateId::FREE, loads, pose, *drive, &self.drives);
+            let solution = solve(&case.loads)?;
+            let mut now = self.plain(variant);
+            now.conditioning = 1.0 / solution.condition;
+            now.minimum_norm = solution.choice == Choice::MinimumNorm;
+            for r in &solution.reactions {
+                let (at, t) = &types[r.joint];
+                let (f, moment) = borne(r);
+                each(Load {
+                    joint: *at,
+                    force: length(f),
+                    moment: length(moment),
+                    capacity: (t.capacity_force, t.capacity_moment),
+                });
+                now.force.raise(length(f), t.capacity_force, *at);
+                if let Some(capacity) = t.capacity_moment {
+                    now.moment.raise(length(moment), capacity, *at);
+                }
+            }
+            for &(link, point) in &self.outputs {
+                let mut error = ErrorSum::new(self.clearance);
+                for axis in 0..3 {
+                    let unit = [0, 1, 2].map(|i| i64::from(i == axis).into());
+                    let force = ExternalForce {
+                        link,
+                        point: point.map(|x| {
+                            crate::geom::expr::Expr::from_f64(x).unwrap_or_else(|_| 0.into())
+                        }),
+                        force: unit,
+                        range: None,
+                        states: None,
+                    };
+                    let loads = Loads {
+                        forces: vec![force],
+                        ..Loads::default()
+                    };
+                    for r in &solve(&loads)?.reactions {
+                        let f = length(borne(r).0);
+                        error.joint(types[r.joint].1.clearance, f * f);
+                    }
+                    error.end_axis();
+                }
+                now.output_error = now.output_error.max(error.error());
+            }
+            match &mut worst {
+                Some(w) => w.worse(&now),
+                None => worst = Some(now),
+            }
+        }
+        worst.ok_or(Unsolved::NoConvergence)
+    }
+
+    /// By joint of the realized variant: the joint of the mechanism it stands for, and what it bears.
+    fn realized_types(&self, choices: &[usize]) -> Vec<(JointId, JointType)> {
+        let m = &self.search.mechanism;
+        let mut chosen = vec![(0, None); m.joints.len()];
+        for (variable, &choice) in self.search.space.variables.iter().zip(choices) {
+            if let Some(c) = variable.choices.get(choice) {
+                for &j in &variable.joints {
+                    chosen[j] = (c.option, c.unloading);
+                }
+            }
+        }
+        let (mut here, mut inserted) = (Vec::new(), Vec::new());
+        for (j, (option, unloading)) in m.joint_ids().zip(chosen) {
+            let joint = &m.joints[j];
+            let bears = |o: Option<&crate::model::mechanism::JointOption>| {
+                let nothing = JointType {
+                    capacity_force: 1.0,
+                    capacity_moment: None,
+                    clearance: 0.0,
+                };
+                (j, o.map_or(nothing, |o| self.types.option(o)))
+            };
+            here.push(bears(joint.options.get(option)));
+            if let Some(u) = unloading.and_then(|u: usize| joint.unloading.get(u)) {
+                inserted.push(bears(Some(u)));
+            }
+        }
+        here.extend(inserted);
+        here
+    }
+}

@@ -1,0 +1,199 @@
+//! The scores of one variant.
+
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::model::ranking::{ClearanceSum, Term};
+use crate::score::evaluation::load_cases::Cases;
+
+/// A joint that bears the greatest part of its capacity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// Reaction over capacity.
+    pub utilisation: f64,
+    /// The reaction there `[N]` or `[N·m]`.
+    pub value: f64,
+    /// The joint of the mechanism; an unloading joint counts as the one it is in series with.
+    pub joint: JointId,
+}
+
+impl Peak {
+    pub(in crate::score) const NONE: Peak = Peak {
+        utilisation: 0.0,
+        value: 0.0,
+        joint: JointId::new(0),
+    };
+
+    /// Takes the greater of two, the first where they are alike.
+    pub(in crate::score) fn raise(&mut self, value: f64, capacity: f64, joint: JointId) {
+        let utilisation = value / capacity;
+        if utilisation > self.utilisation {
+            *self = Peak {
+                utilisation,
+                value,
+                joint,
+            };
+        }
+    }
+}
+
+/// What a variant scores, the worst over the poses looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scores {
+    /// Greatest force over capacity.
+    pub force: Peak,
+    /// Greatest moment over capacity.
+    pub moment: Peak,
+    /// Smallest over greatest singular value, drives held.
+    pub conditioning: f64,
+    /// Position error of the outputs `[m]`.
+    pub output_error: f64,
+    /// Changes.
+    pub changes: u32,
+    /// Cost in thousandths.
+    pub cost_milli: i64,
+    /// Mobility beyond the working one.
+    pub idle: i64,
+    /// Harmful redundant constraints that the searched state adds.
+    pub harmful: u32,
+    /// Whether redundant constraints are left, so that reactions are those of minimum norm.
+    pub minimum_norm: bool,
+}
+
+#[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
+impl Scores {
+    /// The figure of a term as it is told: utilisations, a ratio, metres, counts.
+    #[must_use]
+    pub fn value(&self, term: Term) -> f64 {
+        match term {
+            Term::PeakForce => self.force.utilisation,
+            Term::PeakMoment => self.moment.utilisation,
+            Term::Conditioning => self.conditioning,
+            Term::OutputError => self.output_error,
+            Term::Changes => f64::from(self.changes),
+            Term::Cost => self.cost_milli as f64 / 1000.0,
+            Term::Idle => self.idle as f64,
+            Term::Harmful => f64::from(self.harmful),
+        }
+    }
+
+    /// The joint that bears most, where the term is such a peak.
+    #[must_use]
+    pub fn peak(&self, term: Term) -> Option<&Peak> {
+        match term {
+            Term::PeakForce => Some(&self.force),
+            Term::PeakMoment => Some(&self.moment),
+            _ => None,
+        }
+    }
+
+    /// The figure as it stands in a list: what is measured to four decimals, lengths in millimetres.
+    #[must_use]
+    pub fn cell(&self, term: Term) -> String {
+        let (about, value) = (term.about(), self.value(term));
+        if about.is_count {
+            value.to_string()
+        } else {
+            format!("{:.4}", about.scale * value)
+        }
+    }
+
+    /// What a term adds to a weighted sum, smaller being better: the figure, for conditioning minus its decimal logarithm,
+    /// for the output error millimetres. What is measured counts to eleven digits: mirror images score alike, and
+    /// rounding must not put one before the other.
+    #[must_use]
+    pub fn loss(&self, term: Term) -> f64 {
+        let coarse = |x: f64| f64::from_bits((x.to_bits() + 0x8000) & !0xffff);
+        let about = term.about();
+        match term {
+            Term::Conditioning => coarse(-self.conditioning.max(1e-300).log10()),
+            Term::Cost => self.value(term),
+            _ if about.is_count => self.value(term),
+            _ => coarse(about.scale * self.value(term)),
+        }
+    }
+
+    /// The worse of two poses' scores.
+    pub(in crate::score) fn worse(&mut self, other: &Scores) {
+        if other.force.utilisation > self.force.utilisation {
+            self.force = other.force;
+        }
+        if other.moment.utilisation > self.moment.utilisation {
+            self.moment = other.moment;
+        }
+        self.conditioning = self.conditioning.min(other.conditioning);
+        self.output_error = self.output_error.max(other.output_error);
+        self.minimum_norm |= other.minimum_norm;
+    }
+}
+
+/// A point of each output link, in the file's unit: where the first force of the cases on it acts, else its mass centre, else
+/// its first joint.
+#[must_use]
+pub fn output_points(m: &Mechanism, cases: &Cases) -> Vec<(LinkId, [f64; 3])> {
+    let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
+    let each = outputs.filter_map(|l| {
+        let mut forces = cases.list.iter().flat_map(|c| &c.loads.forces);
+        let force = forces.find(|f| f.link == l).map(|f| &f.point);
+        let mass = m.links[l].mass.as_ref().map(|x| &x.centre);
+        let joint = m.joints.iter().find(|j| j.links.contains(&l));
+        let p = force.or(mass).or(joint.map(|j| &j.frame.point))?;
+        Some((l, [p[0].to_f64(), p[1].to_f64(), p[2].to_f64()]))
+    });
+    each.collect()
+}
+
+/// Adds up what clearances do to one output, from the joints' forces under a unit force on it along each axis: by virtual
+/// work, a joint off by d moves the output by d·f along the axis.
+///
+/// The worst case is every joint off along its force, axis by axis, and the root of the sum of squares over the axes: an
+/// upper bound. The mean square is for joints off by their clearance in independent random directions.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::score) struct ErrorSum {
+    how: ClearanceSum,
+    square: f64,
+    axis: f64,
+}
+
+impl ErrorSum {
+    pub(in crate::score) fn new(how: ClearanceSum) -> ErrorSum {
+        ErrorSum {
+            how,
+            square: 0.0,
+            axis: 0.0,
+        }
+    }
+
+    /// A joint's clearance `[m]` and the square of its force.
+    pub(in crate::score) fn joint(&mut self, clearance: f64, force_square: f64) {
+        match self.how {
+            ClearanceSum::Worst => self.axis += clearance * force_square.sqrt(),
+            ClearanceSum::Rms => self.axis += clearance * clearance * force_square / 3.0,
+        }
+    }
+
+    /// Ends an axis.
+    pub(in crate::score) fn end_axis(&mut self) {
+        self.square += match self.how {
+            ClearanceSum::Worst => self.axis * self.axis,
+            ClearanceSum::Rms => self.axis,
+        };
+        self.axis = 0.0;
+    }
+
+    pub(in crate::score) fn error(&self) -> f64 {
+        self.square.sqrt()
+    }
+}
+
+/// The axis of the joint's frame that a freedom is along, and whether it is a shift.
+pub(in crate::score) fn axis_of(freedom: Freedom) -> Option<(usize, bool)> {
+    match freedom {
+        Freedom::Rx => Some((0, false)),
+        Freedom::Ry => Some((1, false)),
+        Freedom::Rz => Some((2, false)),
+        Freedom::Tx => Some((0, true)),
+        Freedom::Ty => Some((1, true)),
+        Freedom::Tz => Some((2, true)),
+        Freedom::Screw => None,
+    }
+}

@@ -1,0 +1,332 @@
+//! The variants of an outcome, one by one.
+
+use crate::model::mechanism::Mechanism;
+use crate::score::outcome::Outcome;
+use crate::score::outcome::variant::Variant;
+use crate::score::request::{Check, List, Request, RequestError};
+use crate::score::run::ShouldCancel;
+use crate::search::answer::ideas;
+use crate::search::answer::ideas::Idea;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::other_poses::Stroke;
+use crate::search::check::singular_values;
+use crate::search::check::singular_values::{CHECKED, Certified, Summary};
+use crate::search::diagram::Stop;
+use crate::search::question::conditions::Symmetry;
+use itertools::Itertools;
+use num_traits::Zero;
+use std::fmt;
+
+impl Request {
+    /// How many of the cheapest variants are looked at, to give the list that is asked for; 0 where it takes all, or none.
+    pub(in crate::score) fn cheapest(&self, mechanism: &Mechanism) -> Result<usize, RequestError> {
+        let List::Top(top) = self.list else {
+            return Ok(0);
+        };
+        let looked = match self.ranking(mechanism)? {
+            Some(_) => self.pool.saturating_add(1),
+            None => self.listed(top),
+        };
+        // Of a variant and its images one is kept.
+        let images = match self.symmetry {
+            Symmetry::OnePerOrbit => mechanism.search.order(),
+            Symmetry::All | Symmetry::SymmetricOnly => 1,
+        };
+        Ok(looked.saturating_mul(images))
+    }
+
+    /// How many of the cheapest are looked at to give `top` of them: lucky ones make room for others.
+    fn listed(&self, top: usize) -> usize {
+        if self.generic_only && top > 0 {
+            top.saturating_mul(100).max(CHECKED)
+        } else {
+            top
+        }
+    }
+}
+
+impl Outcome {
+    /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
+    /// and second opinions are had in parallel.
+    #[must_use]
+    pub fn variants(&self) -> Variants<'_> {
+        self.variants_unless(&|| false)
+    }
+
+    /// The same until `cancelled`.
+    #[must_use]
+    pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
+        let request = &self.request;
+        self.listed((request.list, request.distinct), request.seed, cancelled)
+    }
+
+    /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
+    #[must_use]
+    pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
+        self.listed((self.request.list, true), self.request.seed, cancelled)
+    }
+
+    /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. Those that further
+    /// poses drop are dropped from it, too. The best by a ranking, and more of the best than a search that does not count was
+    /// asked for, take a search of their own.
+    #[must_use]
+    pub fn list_unless<'o>(
+        &'o self,
+        list: List,
+        seed: u64,
+        cancelled: ShouldCancel<'o>,
+    ) -> Variants<'o> {
+        self.listed((list, self.request.distinct), seed, cancelled)
+    }
+
+    /// A list, of ideas or of all variants.
+    fn listed<'o>(
+        &'o self,
+        (list, distinct): (List, bool),
+        seed: u64,
+        cancelled: ShouldCancel<'o>,
+    ) -> Variants<'o> {
+        let request = &self.request;
+        let wanted = match list {
+            List::Top(k) => k,
+            List::All | List::Sample(_) => usize::MAX / 4,
+            List::Nothing => 0,
+        };
+        let mut ideas = Vec::new();
+        let unranked = |v: Assignment| (v, None);
+        let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
+            if let Some(numeric) = &self.numeric {
+                if let (List::Top(k), true) = (list, distinct) {
+                    let sure = numeric.list(&self.search);
+                    ideas = ideas::ideas_among(&self.search, sure, k);
+                }
+                let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
+                match list {
+                    List::Nothing => Box::new(std::iter::empty()),
+                    List::Top(_) if distinct => Box::new(firsts.into_iter().map(unranked)),
+                    List::Top(_) | List::All => Box::new(numeric.list(&self.search).map(unranked)),
+                    List::Sample(n) => {
+                        let drawn = numeric.drawn(&self.search, seed);
+                        Box::new(drawn.take(n).map(unranked))
+                    }
+                }
+            } else {
+                match (&self.diagrams, &self.ranking, list) {
+                    (Some(d), ranking, List::Top(k)) if distinct => {
+                        let found = match ranking {
+                            Some(r) => {
+                                let list = r.list.iter().map(|r| &r.variant);
+                                let first = ideas::first_of_each(&self.search, list, d).into_iter();
+                                first
+                                    .map(|(at, idea)| (Some(at), idea))
+                                    .take(k)
+                                    .collect_vec()
+                            }
+                            None => {
+                                let all = self.search.ideas(d, k).into_iter();
+                                all.map(|idea| (None, idea)).collect_vec()
+                            }
+                        };
+                        let (places, found): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+                        ideas = found;
+                        let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
+                        Box::new(firsts.into_iter().zip(places))
+                    }
+                    (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
+                    (Some(d), _, List::Sample(n)) => {
+                        let drawn = self.search.sample(d, seed);
+                        Box::new(drawn.take(n).map(unranked))
+                    }
+                    (_, Some(ranked), List::Top(_)) => {
+                        let list = ranked.list.iter().enumerate();
+                        Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
+                    }
+                    (Some(d), ..) => {
+                        let enough = request.listed(wanted);
+                        Box::new(self.search.cheapest(d, enough).map(unranked))
+                    }
+                }
+            };
+        // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
+        let by_cost = match list {
+            _ if self.numeric.is_some() => false,
+            List::Top(_) | List::Nothing => self.ranking.is_none() && !distinct,
+            List::All => true,
+            List::Sample(_) => false,
+        };
+        let summary = Summary {
+            proven: (by_cost && !self.is_exact()).then_some(0),
+            ..Summary::default()
+        };
+        Variants {
+            outcome: self,
+            list,
+            cancelled,
+            source,
+            opinions: request.check == Check::Full,
+            stroke: self.stroke.as_ref(),
+            ready: Vec::new().into_iter(),
+            ideas,
+            distinct,
+            room: wanted,
+            summary,
+            interrupted: false,
+            short: false,
+        }
+    }
+}
+
+/// The variants of an outcome, one by one.
+pub struct Variants<'o> {
+    outcome: &'o Outcome,
+    list: List,
+    cancelled: ShouldCancel<'o>,
+    /// Variants, with their places in the ranking where there is one.
+    source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
+    /// Whether second opinions are wanted of those to come.
+    opinions: bool,
+    /// The poses that those to come are looked at in.
+    stroke: Option<&'o Stroke>,
+    /// Looked at, and not given yet.
+    ready: std::vec::IntoIter<(Certified, Option<usize>)>,
+    /// What each stands for, where only the first of each idea is given.
+    ideas: Vec<Idea>,
+    distinct: bool,
+    /// How many more may be given.
+    room: usize,
+    summary: Summary,
+    interrupted: bool,
+    short: bool,
+}
+
+impl fmt::Debug for Variants<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Variants")
+            .field("summary", &self.summary)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Variants<'_> {
+    /// What second opinions and other poses say of those given so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        self.summary
+    }
+
+    /// Whether the giving was cancelled.
+    #[must_use]
+    pub fn interrupted(&self) -> bool {
+        self.interrupted
+    }
+
+    /// Why the giving ended early, so far as it goes: it or the ranking was interrupted, or it would have taken more than the
+    /// memory there is.
+    #[must_use]
+    pub fn cut_short(&self) -> Option<Stop> {
+        let ranking = self.outcome.ranking.as_ref();
+        if self.interrupted || ranking.is_some_and(|r| r.interrupted) {
+            return Some(Stop::Interrupted);
+        }
+        self.short.then_some(Stop::Memory)
+    }
+
+    /// Why this is not all that was asked for: the giving, or else the search.
+    #[must_use]
+    pub fn stop(&self) -> Stop {
+        self.cut_short().unwrap_or(self.outcome.stop)
+    }
+
+    /// Whether fewer came than there are, though none was left out on purpose.
+    fn is_short(&self) -> bool {
+        let (o, given) = (self.outcome, self.summary.given);
+        let due = match self.list {
+            List::Sample(n) if !o.admissible.total.is_zero() => n.into(),
+            List::Top(k) if o.ranking.is_none() => o.admissible.total.clone().min(k.into()),
+            List::All => o.admissible.total.clone(),
+            _ => return false,
+        };
+        // Brute force gives none, and orbits of a list cut short are not counted one by one.
+        let counted =
+            o.diagrams.is_some() && (o.is_counted() || o.request.symmetry != Symmetry::OnePerOrbit);
+        let some = o.request.generic_only || self.distinct;
+        counted && !some && due > given.into()
+    }
+
+    /// What a variant stands for, where only the first of each idea is given.
+    fn idea(&self, of: &Certified) -> Option<Idea> {
+        self.ideas.iter().find(|i| i.first == of.variant).cloned()
+    }
+
+    /// The next with its opinions: variants are gathered first, so that they are analysed in parallel.
+    fn certified(&mut self) -> Option<(Certified, Option<usize>)> {
+        if let Some(next) = self.ready.next() {
+            return Some(next);
+        }
+        if !self.opinions && self.stroke.is_none() {
+            let (variant, place) = self.source.next()?;
+            return Some((Certified::unasked(variant), place));
+        }
+        let search = &self.outcome.search;
+        let generic = self.outcome.request.generic_only;
+        let size = if generic {
+            self.room.clamp(16, CHECKED)
+        } else {
+            singular_values::affordable(search)
+        };
+        let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
+        let certified =
+            singular_values::certify(search, block, self.opinions, self.stroke, self.cancelled);
+        self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
+        // Nothing is left out unseen, so a list of generic variants is looked at to its end.
+        if !generic {
+            (self.opinions, self.stroke) = (false, None);
+        }
+        self.ready.next()
+    }
+}
+
+impl<'o> Iterator for Variants<'o> {
+    type Item = Variant<'o>;
+
+    fn next(&mut self) -> Option<Variant<'o>> {
+        while self.room > 0 {
+            if (self.cancelled)() {
+                self.interrupted = true;
+                return None;
+            }
+            let Some((certified, place)) = self.certified() else {
+                self.interrupted = (self.cancelled)();
+                self.short = self.is_short();
+                return None;
+            };
+            if self.outcome.request.generic_only && certified.lucky() {
+                self.summary.dropped += 1;
+                continue;
+            }
+            self.room -= 1;
+            self.summary.add(&certified);
+            let cost = self
+                .outcome
+                .search
+                .steps
+                .milli(certified.variant.key.cost());
+            if let Some(n) = &mut self.summary.proven
+                && self
+                    .outcome
+                    .known_up_to()
+                    .is_some_and(|known| cost <= known)
+            {
+                *n += 1;
+            }
+            return Some(Variant {
+                outcome: self.outcome,
+                position: self.summary.given,
+                idea: self.idea(&certified),
+                certified,
+                place,
+            });
+        }
+        None
+    }
+}

@@ -1,0 +1,58 @@
+//! The cheapest variants of a search, scored and put in order.
+
+use crate::model::ranking::Ranking;
+use crate::score::evaluation::evaluate::{Evaluator, ScoreError};
+use crate::score::outcome::ranking::{Ranked, RankedPool, Ranker};
+use crate::score::request::{List, Request};
+use crate::search::Search;
+use crate::search::answer::counts;
+use crate::search::build::Diagrams;
+use crate::search::diagram::Stop;
+
+/// Scores the cheapest variants and puts the best in order, where that was asked for.
+///
+/// # Errors
+/// Where the loads of the ranking cannot be borne by the mechanism as it is.
+pub(in crate::score) fn ranked(
+    search: &Search,
+    diagrams: &Diagrams,
+    (request, ranking): (&Request, &Ranking),
+    should_cancel: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<RankedPool>, ScoreError> {
+    let List::Top(top) = request.list else {
+        return Ok(None);
+    };
+    // Further poses may drop some of the best, so that others must stand by.
+    let standing = if request.generic_only {
+        request.pool
+    } else {
+        top
+    };
+    let evaluator = Evaluator::in_states(search, ranking.clearance, &ranking.states)?;
+    // What may be kept of a variant: its scores, and its choices beside an allocation's own.
+    let each = size_of::<Ranked>() + 32 + size_of::<usize>() * search.space.variables.len();
+    let pool = request.pool.min(search.conditions.memory / 4 / each).max(1);
+    let mut ranker = Ranker::new(&evaluator, ranking, pool, standing.min(pool));
+    let known = diagrams.known_up_to();
+    let (mut given, mut doubtful) = (0, known.is_none());
+    for v in search.cheapest(diagrams, pool + 1) {
+        given += 1;
+        doubtful |= known.is_none_or(|k| search.steps.milli(v.key.cost()) > k);
+        if should_cancel() || ranker.take(v).is_break() {
+            break;
+        }
+    }
+    let interrupted = should_cancel();
+    let exhausted = diagrams.stop() == Stop::Exhausted && !interrupted;
+    let mut out = ranker.finish(exhausted && given <= pool);
+    if interrupted && !out.proven {
+        (out.interrupted, out.proof, out.missing) = (true, "the ranking was interrupted", None);
+    } else if doubtful {
+        (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
+    }
+    if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
+        let by_cost = counts::counts_by_cost(search, &diagrams.admissible);
+        missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
+    }
+    Ok(Some(out))
+}

@@ -1,0 +1,416 @@
+//! The order of a pool of variants, why it is what it is, and whether a variant outside of the pool could win.
+
+use crate::format::number::brief;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::ranking::{Order, Ranking, Term};
+use crate::score::evaluation::elimination::Scratch;
+use crate::score::evaluation::evaluate::Evaluator;
+use crate::score::evaluation::load_cases::Gripped;
+use crate::score::evaluation::terms::Scores;
+use crate::score::outcome::pareto::fronts;
+use crate::search::answer::k_best::Assignment;
+use crate::statics::reactions::Unsolved;
+use num_bigint::BigUint;
+use rayon::prelude::*;
+use std::cmp::Ordering;
+use std::ops::ControlFlow;
+
+/// Variants scored between two looks at the proof.
+const BLOCK: usize = 4096;
+
+/// A variant with its place in both orders.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranked {
+    /// The variant.
+    pub variant: Assignment,
+    /// Its place by cost, from 1.
+    pub by_cost: usize,
+    /// Its scores.
+    pub scores: Scores,
+    /// The weighted sum, where that is the order.
+    pub total: Option<f64>,
+    /// Its front from 1, where the order is Pareto's.
+    pub front: Option<usize>,
+}
+
+/// A ranked pool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankedPool {
+    /// The best, in order.
+    pub list: Vec<Ranked>,
+    /// What is ranked by.
+    pub ranking: Ranking,
+    /// Most variants allowed in the pool.
+    pub pool: usize,
+    /// Variants scored.
+    pub scored: usize,
+    /// Those whose loads have no equilibrium.
+    pub unheld: usize,
+    /// Those beyond a limit.
+    pub limited: usize,
+    /// Those that redundant constraints leave open, scored by reactions of minimum norm.
+    pub open: usize,
+    /// Whether no variant outside of the pool can be among the list.
+    pub proven: bool,
+    /// Why it is proven, or is not.
+    pub proof: &'static str,
+    /// Whether scoring was cancelled.
+    pub interrupted: bool,
+    /// What is missing to a proof, where the order is by a weighted sum in which cost counts.
+    pub missing: Option<Missing>,
+    /// The cheapest that could be scored, as a measure for the others.
+    pub cheapest: Option<Ranked>,
+    /// Poses looked at.
+    pub poses: usize,
+    /// The parts whose contact forces are among the loads.
+    pub gripped: Vec<Gripped>,
+    /// Whether the stroke ended early.
+    pub stroke_stopped: Option<f64>,
+}
+
+/// What is missing to the proof that a pool holds the best.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Missing {
+    /// No variant that was not scored has a lower sum.
+    pub least: f64,
+    /// The sum of the last of the list.
+    pub last: f64,
+    /// Variants of this cost and dearer ones `[1/1000]` cannot be among the list.
+    pub settled_at: i64,
+    /// Variants cheaper than that, with those scored; `None` where they were not counted.
+    pub cheaper: Option<BigUint>,
+}
+
+impl Missing {
+    /// The cost from which on no variant can be among the list.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    pub fn settled_at_cost(&self) -> f64 {
+        self.settled_at as f64 / 1000.0
+    }
+}
+
+fn within(ranking: &Ranking, s: &Scores) -> bool {
+    ranking.limits.iter().all(|l| {
+        let x = s.value(l.term);
+        l.min.is_none_or(|min| x >= min) && l.max.is_none_or(|max| x <= max)
+    })
+}
+
+/// Σ weight · loss.
+#[must_use]
+pub fn weighted(ranking: &Ranking, s: &Scores) -> f64 {
+    ranking.terms.iter().map(|(t, w)| w * s.loss(*t)).sum()
+}
+
+/// Which of two comes first, the cheaper one where the order does not say.
+#[must_use]
+pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
+    let by_order = match ranking.order {
+        Order::Weighted => weighted(ranking, &a.scores).total_cmp(&weighted(ranking, &b.scores)),
+        Order::Lexicographic => ranking
+            .terms
+            .iter()
+            .map(|(t, _)| a.scores.loss(*t).total_cmp(&b.scores.loss(*t)))
+            .find(|o| o.is_ne())
+            .unwrap_or(Ordering::Equal),
+        Order::Pareto => a
+            .front
+            .unwrap_or(usize::MAX)
+            .cmp(&b.front.unwrap_or(usize::MAX)),
+    };
+    by_order.then(a.by_cost.cmp(&b.by_cost))
+}
+
+/// Whether a variant of at least this cost, and with the other terms at least `floor`, could still come before the last of
+/// `list`: the proof where it could not.
+fn settled(
+    ranking: &Ranking,
+    list: &[Ranked],
+    least_milli: i64,
+    floor: f64,
+) -> Option<&'static str> {
+    let last = list.last()?;
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    let least = least_milli as f64 / 1000.0;
+    match ranking.order {
+        Order::Weighted => {
+            let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
+            let behind = weight * least + floor >= weighted(ranking, &last.scores);
+            (weight > 0.0 && behind).then_some(
+                "cost puts every later variant behind, with the least the other terms can be",
+            )
+        }
+        Order::Lexicographic => {
+            let (first, _) = ranking.terms.first()?;
+            (*first == Term::Cost && least > last.scores.value(Term::Cost))
+                .then_some("cost comes first and every later variant costs more")
+        }
+        Order::Pareto => None,
+    }
+}
+
+/// Scores a pool in parallel, in its order: the same for any number of threads.
+fn score_all(evaluator: &Evaluator<'_>, pool: &[Assignment]) -> Vec<Result<Scores, Unsolved>> {
+    pool.par_iter()
+        .map_init(Scratch::default, |scratch, v| evaluator.scores(v, scratch))
+        .collect()
+}
+
+/// Ranks variants given one by one in order of cost, and keeps the best: no more of them are held than a block, and in
+/// Pareto's order all.
+#[derive(Debug)]
+pub struct Ranker<'e, 's> {
+    evaluator: &'e Evaluator<'s>,
+    /// Least weighted sum of the terms but cost.
+    floor: f64,
+    /// Cost of the last variant scored, in thousandths.
+    reached: i64,
+    top: usize,
+    block: Vec<Assignment>,
+    kept: Vec<Ranked>,
+    out: RankedPool,
+}
+
+impl<'e, 's> Ranker<'e, 's> {
+    /// For a pool of at most `limit` variants, of which the best `top` are wanted.
+    #[must_use]
+    pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {
+        let floor = match ranking.order {
+            Order::Weighted => evaluator.floor().weighted(ranking),
+            Order::Lexicographic | Order::Pareto => 0.0,
+        };
+        Ranker {
+            evaluator,
+            floor,
+            reached: 0,
+            top,
+            block: Vec::new(),
+            kept: Vec::new(),
+            out: RankedPool {
+                list: Vec::new(),
+                ranking: ranking.clone(),
+                pool: limit,
+                scored: 0,
+                unheld: 0,
+                limited: 0,
+                open: 0,
+                proven: false,
+                proof: "dearer variants were not looked at",
+                interrupted: false,
+                missing: None,
+                cheapest: None,
+                poses: evaluator.cases.list.len(),
+                gripped: evaluator.cases.gripped.clone(),
+                stroke_stopped: evaluator.cases.stopped,
+            },
+        }
+    }
+
+    /// Takes the next variant; breaks once no later one can be among the best, or the pool is full.
+    pub fn take(&mut self, variant: Assignment) -> ControlFlow<()> {
+        if self.out.proven || self.out.scored + self.block.len() >= self.out.pool {
+            return ControlFlow::Break(());
+        }
+        self.block.push(variant);
+        if self.block.len() == BLOCK {
+            self.score();
+        }
+        if self.out.proven {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Scores the block in parallel and keeps what may be among the best.
+    fn score(&mut self) {
+        let block = std::mem::take(&mut self.block);
+        let ranking = &self.out.ranking;
+        for (variant, scores) in block.iter().zip(score_all(self.evaluator, &block)) {
+            self.out.scored += 1;
+            let Ok(scores) = scores else {
+                self.out.unheld += 1;
+                continue;
+            };
+            self.out.open += usize::from(scores.minimum_norm);
+            let ranked = Ranked {
+                variant: variant.clone(),
+                by_cost: self.out.scored,
+                scores,
+                total: (ranking.order == Order::Weighted).then(|| weighted(ranking, &scores)),
+                front: None,
+            };
+            if self.out.cheapest.is_none() {
+                self.out.cheapest = Some(ranked.clone());
+            }
+            if within(ranking, &scores) {
+                self.kept.push(ranked);
+            } else {
+                self.out.limited += 1;
+            }
+        }
+        if ranking.order == Order::Pareto {
+            return;
+        }
+        let top = self.top.max(1);
+        self.kept.sort_by(|a, b| compare(ranking, a, b));
+        if let Some(last) = block.last() {
+            self.reached = self.evaluator.search.steps.milli(last.key.cost());
+        }
+        if self.kept.len() >= top
+            && let Some(proof) = settled(ranking, &self.kept[..top], self.reached, self.floor)
+        {
+            (self.out.proven, self.out.proof) = (true, proof);
+        }
+        // What is behind the best so far stays behind.
+        self.kept.truncate(top);
+    }
+
+    /// What is missing to a proof.
+    fn missing(&self) -> Option<Missing> {
+        let ranking = &self.out.ranking;
+        let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
+        let last = self.kept.get(self.top.max(1) - 1)?;
+        if ranking.order != Order::Weighted || weight <= 0.0 {
+            return None;
+        }
+        let last = weighted(ranking, &last.scores);
+        #[allow(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            reason = "costs are small"
+        )]
+        let (reached, settled_at) = (
+            self.reached as f64 / 1000.0,
+            (1000.0 * (last - self.floor) / weight).ceil() as i64,
+        );
+        Some(Missing {
+            least: weight * reached + self.floor,
+            last,
+            settled_at,
+            cheaper: None,
+        })
+    }
+
+    /// The ranked pool. `all` says that every admissible variant was given.
+    ///
+    /// # Complexity
+    /// One scoring a variant, in parallel, and a sort a block; for Pareto's order O(pool · front).
+    #[must_use]
+    pub fn finish(mut self, all: bool) -> RankedPool {
+        if !self.block.is_empty() {
+            self.score();
+        }
+        if all && !self.out.proven {
+            (self.out.proven, self.out.proof) = (true, "every admissible variant was scored");
+        }
+        if !self.out.proven {
+            self.out.missing = self.missing();
+        }
+        let ranking = &self.out.ranking;
+        if ranking.order == Order::Pareto {
+            let point = |r: &Ranked| -> Vec<f64> {
+                let terms = ranking.terms.iter();
+                terms.map(|(t, _)| r.scores.loss(*t)).collect()
+            };
+            let points: Vec<Vec<f64>> = self.kept.iter().map(point).collect();
+            for (r, front) in self.kept.iter_mut().zip(fronts(&points, self.top)) {
+                r.front = front.map(|f| f + 1);
+            }
+            self.kept.sort_by(|a, b| compare(ranking, a, b));
+        }
+        self.kept.truncate(self.top);
+        self.out.list = self.kept;
+        self.out
+    }
+}
+
+/// 1st, 2nd, 3rd, 4th.
+fn ordinal(n: usize) -> String {
+    let end = match (n % 100, n % 10) {
+        (11..=13, _) => "th",
+        (_, 1) => "st",
+        (_, 2) => "nd",
+        (_, 3) => "rd",
+        _ => "th",
+    };
+    format!("{n}{end}")
+}
+
+/// What a term came from and went to, in words.
+fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
+    let joint = |j: JointId| m.joints.get(j.index()).map_or("", |j| j.id.as_str());
+    match term {
+        Term::PeakForce => format!(
+            "peak force {} N ({} of capacity, joint {}) instead of {} N ({}, joint {})",
+            brief(to.force.value),
+            brief(to.force.utilisation),
+            joint(to.force.joint),
+            brief(from.force.value),
+            brief(from.force.utilisation),
+            joint(from.force.joint)
+        ),
+        Term::PeakMoment => format!(
+            "peak moment {} N·m ({} of capacity, joint {}) instead of {} N·m ({}, joint {})",
+            brief(to.moment.value),
+            brief(to.moment.utilisation),
+            joint(to.moment.joint),
+            brief(from.moment.value),
+            brief(from.moment.utilisation),
+            joint(from.moment.joint)
+        ),
+        Term::OutputError => format!(
+            "output error {} mm instead of {} mm",
+            brief(1e3 * to.output_error),
+            brief(1e3 * from.output_error)
+        ),
+        _ => format!(
+            "{} {} instead of {}",
+            term.name(),
+            brief(to.value(term)),
+            brief(from.value(term))
+        ),
+    }
+}
+
+impl RankedPool {
+    /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
+    /// where its place is that by cost.
+    #[must_use]
+    pub fn reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
+        let (here, cheapest) = (
+            self.list.get(rank.checked_sub(1)?)?,
+            self.cheapest.as_ref()?,
+        );
+        if here.by_cost == rank || here.by_cost == cheapest.by_cost {
+            return None;
+        }
+        let gain = |(t, w): &(Term, f64)| {
+            let weight = if self.ranking.order == Order::Weighted {
+                *w
+            } else {
+                1.0
+            };
+            let (from, to) = (cheapest.scores.loss(*t), here.scores.loss(*t));
+            match self.ranking.order {
+                Order::Weighted => weight * (from - to),
+                _ => (from - to) / from.abs().max(to.abs()).max(1e-300),
+            }
+        };
+        let better = |tw: &&(Term, f64)| gain(tw) > 0.0;
+        let term = match self.ranking.order {
+            Order::Lexicographic => self.ranking.terms.iter().find(better),
+            _ => self
+                .ranking
+                .terms
+                .iter()
+                .filter(better)
+                .max_by(|a, b| gain(a).total_cmp(&gain(b))),
+        }?;
+        Some(format!(
+            "rank {rank} was {} by cost: {}",
+            ordinal(here.by_cost),
+            change(m, term.0, &cheapest.scores, &here.scores)
+        ))
+    }
+}

@@ -1,0 +1,316 @@
+//! A variant: its place, figures, changes, opinions and scores, and the mechanism that it is.
+
+use crate::closure::matrix::Closure;
+use crate::file::read::resolve::contains;
+use crate::geom::exact::ExactError;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
+use crate::redundancy::contour_shares::{ContourShare, shares};
+use crate::score::evaluation::terms::Scores;
+use crate::score::outcome::Outcome;
+use crate::score::outcome::ranking::Ranked;
+use crate::score::request::{IDEA, VARIANT};
+use crate::search::Search;
+use crate::search::answer::ideas::Idea;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::other_poses::OverStroke;
+use crate::search::check::singular_values::{Certified, Second};
+use crate::search::check::variant_mechanism;
+use crate::search::question::space::choice_name;
+use itertools::Itertools;
+use std::fmt;
+
+/// A joint that a variant changes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// The joint.
+    pub joint: JointId,
+    /// The present option, by name.
+    pub from: String,
+    /// What is put there.
+    pub to: String,
+}
+
+/// A variant of a mechanism.
+#[derive(Debug, Clone)]
+pub struct Variant<'o> {
+    pub(in crate::score) outcome: &'o Outcome,
+    pub(in crate::score) position: usize,
+    pub(in crate::score) certified: Certified,
+    pub(in crate::score) idea: Option<Idea>,
+    /// Place in the ranking, from 0.
+    pub(in crate::score) place: Option<usize>,
+}
+
+impl<'o> Variant<'o> {
+    /// The outcome it is of.
+    #[must_use]
+    pub fn outcome(&self) -> &'o Outcome {
+        self.outcome
+    }
+
+    /// Its place in the list, from 1.
+    #[must_use]
+    pub fn position(&self) -> usize {
+        self.position
+    }
+
+    /// What it chooses: an option for each variable of the space, and its properties as the diagram counts them.
+    #[must_use]
+    pub fn assignment(&self) -> &Assignment {
+        &self.certified.variant
+    }
+
+    /// What it stands for, where only the first variant of each idea is given.
+    #[must_use]
+    pub fn idea(&self) -> Option<&Idea> {
+        self.idea.as_ref()
+    }
+
+    /// Its cost above the present mechanism's, in thousandths.
+    #[must_use]
+    pub fn cost_milli(&self) -> i64 {
+        self.outcome
+            .search
+            .steps
+            .milli(self.assignment().key.cost())
+    }
+
+    /// Its cost above the present mechanism's.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    pub fn cost(&self) -> f64 {
+        self.cost_milli() as f64 / 1000.0
+    }
+
+    /// Mobility W in the free state.
+    #[must_use]
+    pub fn mobility(&self) -> i64 {
+        self.outcome.search.mobility(self.assignment().key)
+    }
+
+    /// Redundant constraints σ in the free state.
+    #[must_use]
+    pub fn redundant(&self) -> u32 {
+        self.assignment().key.internal()
+    }
+
+    /// Redundant constraints that the searched state adds; `None` where none was searched.
+    #[must_use]
+    pub fn external_redundant(&self) -> Option<i32> {
+        let searched = self.outcome.search.conditions.state;
+        searched.map(|_| self.assignment().key.external())
+    }
+
+    /// Harmful ones among them: self-stresses that load the joints the state adds with more than friction.
+    #[must_use]
+    pub fn external_harmful(&self) -> Option<u32> {
+        let searched = self.outcome.search.conditions.state;
+        searched.map(|_| self.assignment().key.harmful())
+    }
+
+    /// Number of changed joints and inserted unloading joints.
+    #[must_use]
+    pub fn change_count(&self) -> u32 {
+        self.assignment().key.changes()
+    }
+
+    /// The joints it changes, in file order.
+    #[must_use]
+    pub fn changes(&self) -> Vec<Change> {
+        changes(&self.outcome.search, self.assignment())
+    }
+
+    /// What singular values say of it.
+    #[must_use]
+    pub fn second(&self) -> &Second {
+        &self.certified.second
+    }
+
+    /// What other poses say of it, where that was asked.
+    #[must_use]
+    pub fn over_stroke(&self) -> Option<&OverStroke> {
+        self.certified.stroke.as_ref()
+    }
+
+    /// Whether other poses were looked at and give other figures.
+    #[must_use]
+    pub fn lucky(&self) -> bool {
+        self.certified.lucky()
+    }
+
+    /// What the ranking knows of it, where there is one.
+    #[must_use]
+    pub fn ranked(&self) -> Option<&'o Ranked> {
+        self.outcome.ranking.as_ref()?.list.get(self.place?)
+    }
+
+    /// Its scores under the workload, where it was ranked.
+    #[must_use]
+    pub fn scores(&self) -> Option<&'o Scores> {
+        self.ranked().map(|r| &r.scores)
+    }
+
+    /// Why its place in the ranking is not that by cost.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        let pool = self.outcome.ranking.as_ref()?;
+        pool.reason(&self.outcome.search.mechanism, self.place? + 1)
+    }
+
+    /// Its name: "idea 3" in a list of ideas, "variant 3" in one of all variants.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let one = if self.idea.is_some() { IDEA } else { VARIANT };
+        format!("{one} {}", self.position)
+    }
+
+    /// The variant as a mechanism of its own, named for its place in the list.
+    #[must_use]
+    pub fn mechanism(&self) -> Mechanism {
+        mechanism(&self.outcome.search, self.assignment(), &self.name())
+    }
+
+    /// σ of each of its contours when they are added in this order, with the range over all orders of these: of the searched state,
+    /// whose own contours come last, or of the free one. Nothing where no contour has any.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field of the search.
+    ///
+    /// # Complexity
+    /// Some eliminations of J for each call.
+    pub fn redundant_by_contour(&self) -> Result<Vec<(String, ContourShare)>, ExactError> {
+        let (search, key) = (&self.outcome.search, self.assignment().key);
+        // Exact arithmetic does not know of a mechanism that is judged by singular values.
+        if key.internal() == 0 && key.external() == 0 || self.outcome.numeric.is_some() {
+            return Ok(Vec::new());
+        }
+        let state = search.conditions.state.map_or(StateId::FREE, |s| s.state);
+        let realized = variant_mechanism::realize(search, &self.assignment().choices);
+        let closure = Closure::new(search.field(), &realized, state)?;
+        let shares = shares(search.field(), &closure).into_iter();
+        Ok(shares.map(|s| (s.contour.name(&realized), s)).collect())
+    }
+}
+
+/// A line such as `1. cost 11, W = 1, σ = 0: 1-2, 1-5 -> spherical; 2-4 -> cylindrical`.
+impl fmt::Display for Variant<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (w, sigma) = (self.mobility(), self.redundant());
+        write!(
+            f,
+            "{}. cost {}, W = {w}, σ = {sigma}",
+            self.position,
+            self.cost()
+        )?;
+        if let Some(e) = self.external_redundant() {
+            write!(f, " + {e}")?;
+        }
+        if let Some(n) = self.external_harmful() {
+            write!(f, " ({n} harmful)")?;
+        }
+        let changes = in_words(&self.outcome.search, &self.changes());
+        write!(f, ": {changes}")
+    }
+}
+
+/// A choice of options as a mechanism of its own, named for its place in a list: "variant 3".
+#[must_use]
+pub fn mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
+    let mut out = variant_mechanism::realize(search, &assignment.choices);
+    out.description = format!(
+        "{} of {}: {}",
+        capital(name),
+        out.name,
+        in_words(search, &changes(search, assignment))
+    );
+    out.name = format!("{}-{}", out.name, name.replace(' ', "-"));
+    offer_again(search, assignment, &mut out);
+    out
+}
+
+/// The same beginning a sentence.
+fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
+}
+
+/// Puts back what a search may still choose, so that a variant can be searched again: what was offered at a joint and allows
+/// what that joint does now, its costs and mirror images, under the same names.
+fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
+    let old = &search.mechanism;
+    let mut chosen = vec![(0, None); old.joints.len()];
+    for (v, &choice) in search.space.variables.iter().zip(&assignment.choices) {
+        let Some(c) = v.choices.get(choice) else {
+            continue;
+        };
+        for &j in &v.joints {
+            chosen[j] = (c.option, c.unloading);
+        }
+    }
+    for (j, joint) in old.joints_with_ids() {
+        let (option, unloading) = chosen[j.index()];
+        let Some(present) = joint.options.get(option) else {
+            continue;
+        };
+        let more = joint
+            .options
+            .iter()
+            .skip(1)
+            .filter(|o| o.name != present.name && contains(o, present) == Some(true));
+        out.joints[j].options = std::iter::once(present).chain(more).cloned().collect();
+        if unloading.is_none() {
+            out.joints[j].unloading.clone_from(&joint.unloading);
+        }
+    }
+    let offered = |name: &str| {
+        let mut all = out.joints.iter().flat_map(Joint::offered);
+        JointType::from_name(name).is_some() || all.any(|o| o.name == name)
+    };
+    let mut spec = old.search.clone();
+    spec.costs.by_type_milli.retain(|(name, _)| offered(name));
+    let images = |&(a, b): &(JointId, JointId)| chosen[a.index()] == chosen[b.index()];
+    spec.mirror.retain(images);
+    spec.turn
+        .retain(|g| g.iter().map(|j| chosen[j.index()]).all_equal());
+    out.joint_types
+        .retain(|t| t.name == "custom" || offered(&t.name));
+    out.search = spec;
+}
+
+/// The joints that a choice of options changes, in file order.
+#[must_use]
+pub fn changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
+    let mut out = Vec::new();
+    let variables = search.space.variables.iter().zip(&assignment.choices);
+    for (v, &choice) in variables.filter(|(_, c)| **c != 0) {
+        out.extend(v.joints.iter().map(|&joint| Change {
+            joint,
+            from: choice_name(&search.mechanism, joint, &v.choices[0]),
+            to: choice_name(&search.mechanism, joint, &v.choices[choice]),
+        }));
+    }
+    out.sort_by_key(|c| c.joint);
+    out
+}
+
+/// Changes in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
+#[must_use]
+pub fn in_words(search: &Search, changes: &[Change]) -> String {
+    let mut alike: Vec<(&str, Vec<&str>)> = Vec::new();
+    for c in changes {
+        let joint = search.mechanism.joints[c.joint].id.as_str();
+        match alike.iter_mut().find(|(to, _)| *to == c.to) {
+            Some((_, joints)) => joints.push(joint),
+            None => alike.push((&c.to, vec![joint])),
+        }
+    }
+    if alike.is_empty() {
+        return "none: the mechanism as it is".to_owned();
+    }
+    alike
+        .iter()
+        .map(|(to, joints)| format!("{} -> {to}", joints.join(", ")))
+        .join("; ")
+}

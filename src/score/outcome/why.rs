@@ -1,0 +1,220 @@
+//! Why a redesign helps, and what it costs in stiffness: what each change lets go, what was redundant there, what is still
+//! held, what stays as it is, and what joints bear.
+
+use crate::closure::matrix::Closure;
+use crate::geom::expr::Expr;
+use crate::geom::vector::{Vector, cross, length, real, unit};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::loads::ExternalForce;
+use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, Role, StateId};
+use crate::model::ranking::ClearanceSum;
+use crate::redundancy::contour_shares::shares;
+use crate::redundancy::release::added;
+use crate::score::evaluation::elimination::Scratch;
+use crate::score::evaluation::evaluate::Evaluator;
+use crate::score::evaluation::load_cases::is_loaded;
+use crate::score::evaluation::terms::Peak;
+use crate::score::outcome::Outcome;
+use crate::search::Search;
+use crate::search::answer::k_best::Assignment;
+use crate::search::question::preference::is_rod;
+use std::sync::Arc;
+
+/// The side load where a file has none. `[N]`
+pub const SIDE_LOAD: f64 = 10.0;
+
+/// What one change lets go.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LetGo {
+    /// The joint.
+    pub joint: JointId,
+    /// The part that may move: the rod, where one ends here.
+    pub part: LinkId,
+    /// Whether that is a rod.
+    pub is_rod: bool,
+    /// Turns across the joint's present axis.
+    pub tilts: usize,
+    /// Whether it may turn about that axis, and could not.
+    pub turns: bool,
+    /// Whether it may shift along that axis, and could not.
+    pub floats: bool,
+    /// Slides across that axis.
+    pub shifts: usize,
+    /// The type put there; none where one is put in series besides, or it has freedoms of its own choice.
+    pub to: Option<JointType>,
+    /// In how many directions forces and moments are still held.
+    pub holds: (usize, usize),
+    /// The contours it is on that had redundant constraints: their joints, and how many.
+    pub contours: Vec<(Vec<JointId>, usize)>,
+}
+
+/// Why a redesign helps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Why {
+    /// What each change lets go, in file order.
+    pub lets: Vec<LetGo>,
+    /// Driven joints that stay as they are.
+    pub drives: Vec<JointId>,
+    /// Pivots in the frame that stay as they are, drives aside.
+    pub pivots: Vec<JointId>,
+    /// The joints that bear most of what they may, by force and by moment; `None` where the loads have no equilibrium, or nothing is
+    /// known of them.
+    pub peaks: Option<[Peak; 2]>,
+}
+
+/// What is needed to say why, for the redesigns of one search.
+#[derive(Debug)]
+pub struct Whys<'o> {
+    outcome: &'o Outcome,
+    contours: Vec<(Vec<JointId>, usize)>,
+    /// The same search under the side load, where the file has no load.
+    side: Option<Search>,
+}
+
+impl<'o> Whys<'o> {
+    /// Of an outcome.
+    #[must_use]
+    pub fn new(outcome: &'o Outcome) -> Whys<'o> {
+        let (search, m) = (&outcome.search, &outcome.search.mechanism);
+        let closure = Closure::new(search.field(), m, StateId::FREE);
+        let all = closure.map_or(Vec::new(), |c| shares(search.field(), &c));
+        let redundant = all.into_iter().filter(|s| s.redundant > 0).map(|s| {
+            let joints = s.contour.joints.iter().map(|(j, _)| *j);
+            (joints.collect(), s.redundant)
+        });
+        let side = (!is_loaded(m)).then(|| {
+            let loaded = Arc::new(pressed_aside(m));
+            Search::new(search.field().clone(), loaded, search.conditions.clone()).ok()
+        });
+        Whys {
+            outcome,
+            contours: redundant.collect(),
+            side: side.flatten(),
+        }
+    }
+
+    /// Whether peaks are those of the side load of [`SIDE_LOAD`] on each output, along its hinges.
+    #[must_use]
+    pub fn is_side_load(&self) -> bool {
+        self.side.is_some()
+    }
+
+    /// What says why redesigns help, one after another.
+    ///
+    /// # Complexity
+    /// That of analysing a stroke under the loads, once; then O((6k)²·f) for each redesign and pose.
+    pub fn teller(&self) -> impl FnMut(&Assignment) -> Why + '_ {
+        let search = self.side.as_ref().unwrap_or(&self.outcome.search);
+        let evaluator = Evaluator::new(search, ClearanceSum::default()).ok();
+        let mut scratch = Scratch::default();
+        move |v| {
+            let scores = evaluator.as_ref().map(|e| e.scores(v, &mut scratch));
+            let known = scores.and_then(Result::ok).filter(|s| !s.minimum_norm);
+            let peaks = known.map(|s| [s.force, s.moment]);
+            Why {
+                peaks,
+                ..self.unloaded(v)
+            }
+        }
+    }
+
+    /// All but what joints bear.
+    fn unloaded(&self, v: &Assignment) -> Why {
+        let search = &self.outcome.search;
+        let m = &*search.mechanism;
+        let chosen = || search.space.variables.iter().zip(&v.choices);
+        let mut lets = Vec::new();
+        for (variable, &choice) in chosen().filter(|(_, c)| **c != 0) {
+            let c = &variable.choices[choice];
+            lets.extend(variable.joints.iter().map(|&j| {
+                let series = c.unloading.map(|u| &m.joints[j].unloading[u]);
+                self.let_go(j, &m.joints[j].options[c.option], series)
+            }));
+        }
+        lets.sort_by_key(|l: &LetGo| l.joint);
+        let kept = chosen().filter(|(v, c)| **c == 0 && !v.external);
+        let kept: Vec<JointId> = kept.flat_map(|(v, _)| v.joints.clone()).collect();
+        let of = |wanted: &dyn Fn(JointId) -> bool| {
+            let mut some: Vec<JointId> = kept.iter().copied().filter(|&j| wanted(j)).collect();
+            some.sort_unstable();
+            some
+        };
+        let is_driven = |j: JointId| m.joints[j].drive;
+        Why {
+            lets,
+            drives: of(&is_driven),
+            pivots: of(&|j| !is_driven(j) && m.joints[j].links.contains(&m.frame())),
+            peaks: None,
+        }
+    }
+
+    fn let_go(&self, joint: JointId, to: &JointOption, series: Option<&JointOption>) -> LetGo {
+        let m = &self.outcome.search.mechanism;
+        let here = &m.joints[joint];
+        let now = (&here.frame, &here.joint_type);
+        let mut more = added(now, (&to.frame, &to.joint_type)).unwrap_or_default();
+        if let Some(s) = series {
+            let nothing = JointType::Custom(Vec::new());
+            more.extend(added((&s.frame, &nothing), (&s.frame, &s.joint_type)).unwrap_or_default());
+        }
+        let axis = unit(real(&here.frame.axis));
+        let along = |d: &Vector| length(cross(*d, axis)) < 1e-6;
+        let count = |slides: bool, is_along: bool| {
+            let some = more
+                .iter()
+                .filter(|(s, d)| *s == slides && along(d) == is_along);
+            some.count()
+        };
+        let [a, b] = here.links;
+        let rod = [a, b].into_iter().find(|&l| is_rod(m, l));
+        let free = to.joint_type.freedoms().iter();
+        let slides = free.clone().filter(|f| f.slides()).count();
+        let turns = free.filter(|f| f.turns() || **f == Freedom::Screw).count();
+        LetGo {
+            joint,
+            part: rod.unwrap_or(if b == m.frame() { a } else { b }),
+            is_rod: rod.is_some(),
+            tilts: count(false, false),
+            turns: count(false, true) > 0,
+            floats: count(true, true) > 0,
+            shifts: count(true, false),
+            to: (series.is_none() && JointType::NAMED.contains(&to.joint_type))
+                .then(|| to.joint_type.clone()),
+            holds: (3 - slides.min(3), 3 - turns.min(3)),
+            contours: self
+                .contours
+                .iter()
+                .filter(|(c, _)| c.contains(&joint))
+                .cloned()
+                .collect(),
+        }
+    }
+}
+
+/// A mechanism with a force on each output at the middle of its joints, along the hinges it turns on.
+fn pressed_aside(m: &Mechanism) -> Mechanism {
+    let mut out = m.clone();
+    let joints: Vec<_> = m.joints_in(StateId::FREE).map(|j| &m.joints[j]).collect();
+    for (l, link) in m.link_ids().zip(&m.links) {
+        let own: Vec<_> = joints.iter().filter(|j| j.links.contains(&l)).collect();
+        if link.role != Role::Output || own.is_empty() {
+            continue;
+        }
+        let mut hinges = own.iter().copied().chain(&joints);
+        let hinge = hinges.find(|j| j.joint_type == JointType::Revolute);
+        let across = hinge.map_or([0.0, 0.0, 1.0], |j| unit(real(&j.frame.axis)));
+        #[allow(clippy::cast_precision_loss, reason = "a few joints")]
+        let many = own.len() as f64;
+        let points = own.iter().map(|j| real(&j.frame.point));
+        let sum = points.fold([0.0; 3], |s, p| [0, 1, 2].map(|i| s[i] + p[i] / many));
+        let expr = |x: f64| Expr::from_f64(x).unwrap_or_else(|_| Expr::from(0));
+        out.loads.forces.push(ExternalForce {
+            link: l,
+            point: sum.map(expr),
+            force: across.map(|x| expr(x * SIDE_LOAD)),
+            range: None,
+            states: None,
+        });
+    }
+    out
+}

@@ -1,0 +1,140 @@
+//! What can be wrong with a request about a mechanism.
+
+use crate::file::problem::ImportError;
+use crate::geom::exact::ExactError;
+use crate::rank::method::NoAnswer;
+use crate::score::request::prepare::CURE;
+use thiserror::Error;
+
+/// What is wrong with a request about a mechanism.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RequestError {
+    /// A tolerance that is none.
+    #[error("--snap must be between 0 and 1")]
+    Snap,
+    /// A pool that is none, or too large.
+    #[error("--pool must be from 1 to {most}")]
+    Pool {
+        /// The largest pool.
+        most: usize,
+    },
+    /// No such link.
+    #[error("--hold: {mechanism} has no link {link}")]
+    NoLink {
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The link asked for.
+        link: String,
+    },
+    /// No such joint.
+    #[error("{flag}: {mechanism} has no joint {joint}")]
+    NoJoint {
+        /// Which part of the request.
+        flag: &'static str,
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The joint asked for.
+        joint: String,
+    },
+    /// No such option.
+    #[error("{flag}: no joint of {mechanism} has an option named {option}, and no joint type is named so; there are: {}", known.join(", "))]
+    NoOption {
+        /// Which part of the request.
+        flag: &'static str,
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The option asked for.
+        option: String,
+        /// The options that there are.
+        known: Vec<String>,
+    },
+    /// A type that no joint can take.
+    #[error(
+        "{flag}: {option} does not allow the present motion of a joint of {mechanism} that it is meant for; name another type, or joints that it suits"
+    )]
+    LosesMotion {
+        /// Which part of the request.
+        flag: &'static str,
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The type.
+        option: String,
+    },
+    /// A joint to which nothing is allowed.
+    #[error("--allow needs names of options: --allow {joint}=revolute,spherical")]
+    NoNames {
+        /// The joint.
+        joint: String,
+    },
+    /// A type that cannot be put in series.
+    #[error(
+        "--unloading: {word} is no joint type to put in series at {joint}; there are: {}", known.join(", ")
+    )]
+    NoUnloading {
+        /// The joint.
+        joint: String,
+        /// The word given.
+        word: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// Unloading joints for a state that is not searched.
+    #[error(
+        "--unloading {names} is meant for the joints that a state adds; search one with --state, or name joints: --unloading {names}=JOINT"
+    )]
+    NoPlace {
+        /// The names given.
+        names: String,
+    },
+    /// A joint or link that takes no part.
+    #[error("{flag}: {item} of {mechanism} takes no part in this search, it is there in state {} alone; add --state {}", states.join(", "), states[0])]
+    Absent {
+        /// Which part of the request.
+        flag: &'static str,
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The joint or link, such as "link a".
+        item: String,
+        /// The states it is in.
+        states: Vec<String>,
+    },
+    /// Ranking by what only a state shows.
+    #[error(
+        "ranking by harmful constraints needs the state that they are in; add --state, such as --state {state}"
+    )]
+    HarmfulWhere {
+        /// A state that there is.
+        state: String,
+    },
+    /// No state to take joints from.
+    #[error("{mechanism} has no state besides free")]
+    OnlyFree {
+        /// Name of the mechanism.
+        mechanism: String,
+    },
+    /// No such state.
+    #[error("{mechanism} has no state {state}; it has: {}", known.join(", "))]
+    NoState {
+        /// Name of the mechanism.
+        mechanism: String,
+        /// The state asked for.
+        state: String,
+        /// The states that there are.
+        known: Vec<String>,
+    },
+    /// A file of costs that cannot be used.
+    #[error("{0}")]
+    Costs(#[from] ImportError),
+    /// Orbits of variants that are judged by singular values.
+    #[error(
+        "--one-per-orbit needs exact geometry, and what is meant by these coordinates is not there exactly; {CURE}"
+    )]
+    NumericOrbits,
+    /// The geometry has no image in a prime field.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// Whether rounding matters could not be found.
+    #[error(transparent)]
+    Verdict(#[from] NoAnswer),
+}

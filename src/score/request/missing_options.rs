@@ -1,0 +1,120 @@
+//! Where no choice of the options can do: joint types with which one could.
+
+use crate::file::read::resolve::contains;
+use crate::geom::vector::{Vector, across, cross, dot, length, real, scale, sub, unit};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism};
+use crate::redundancy::duplicate_constraints::held_twice;
+use crate::redundancy::release::Release;
+use crate::score::outcome::Outcome;
+use crate::score::request::unlisted::types;
+use crate::score::request::{Check, JointOptions, List, Request};
+use crate::score::run::run;
+use itertools::Itertools;
+
+/// Nodes that the look at whether they help may take.
+const NODES: usize = 100_000;
+/// A direction further than this from a span is outside.
+const OUTSIDE: f64 = 1e-6;
+
+impl Outcome {
+    /// The request with joint types at some joints besides, where nothing was found and a search of these finds something: the
+    /// cheapest freedoms that remove what is redundant and let nothing move, each in the cheapest type that has it.
+    #[must_use]
+    pub fn would_help(&self) -> Option<Request> {
+        let m = &self.search.mechanism;
+        // What no type has could not be named.
+        let free = |r: &Release| match *r {
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => !m.joints[joint].drive && one(m, joint, &[(slides, direction)]).is_some(),
+            Release::Coupling(_) => false,
+        };
+        let held = held_twice(m, &|_| false, &free, None).ok()?;
+        if held.cheapest.is_empty() || held.cheapest.len() < held.range().1 {
+            return None;
+        }
+        let releases = held.cheapest.iter().map(|&i| held.releases[i].1);
+        let of = releases.filter_map(|r| match r {
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => Some((joint, (slides, direction))),
+            Release::Coupling(_) => None,
+        });
+        let allow: Option<Vec<JointOptions>> = of
+            .into_group_map()
+            .into_iter()
+            .sorted_by_key(|(joint, _)| *joint)
+            .map(|(joint, freed)| one(m, joint, &freed))
+            .collect();
+        let allow = allow?;
+        let mut wider = self.request.clone();
+        if !wider.options.is_empty() {
+            let names = allow.iter().flat_map(|a| &a.names).cloned();
+            wider.options.extend(names.collect_vec());
+        }
+        wider.allow.extend(allow);
+        // What is prepared already is not prepared again.
+        let trial = Request {
+            hold: Vec::new(),
+            unloading: Vec::new(),
+            costs: None,
+            snap: None,
+            as_written: true,
+            rank: Vec::new(),
+            list: List::Top(1),
+            check: Check::None,
+            poses: 0,
+            generic_only: false,
+            nodes: NODES.min(wider.nodes),
+            ..wider.clone()
+        };
+        let mut unranked = Mechanism::clone(m);
+        unranked.ranking = None;
+        let found = run(unranked, &trial, &|| false, &mut |_| {}).ok()?;
+        (found.variants().next().is_some()).then_some(wider)
+    }
+}
+
+/// The cheapest type that has what a joint is to be given.
+fn one(m: &Mechanism, joint: JointId, freed: &[(bool, Vector)]) -> Option<JointOptions> {
+    let here = &m.joints[joint];
+    // A contact at a point or a line has to be pressed together.
+    let pressed =
+        |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
+    let cheap = types().sorted_by_key(|t| (pressed(t), t.default_cost_milli()));
+    let mut fits = cheap.filter(|t| {
+        let option = |of: &JointType| JointOption {
+            name: of.name().to_owned(),
+            joint_type: of.clone(),
+            frame: here.frame.clone(),
+            cost_milli: None,
+            state: None,
+        };
+        freed.iter().all(|&f| has(here, t, f))
+            && contains(&option(t), &option(&here.joint_type)) == Some(true)
+    });
+    Some(JointOptions {
+        joint: here.id.clone(),
+        names: vec![fits.next()?.name().to_owned()],
+    })
+}
+
+/// Whether a type in a joint's frame turns about, or slides along, a direction.
+fn has(joint: &Joint, of: &JointType, (slides, direction): (bool, Vector)) -> bool {
+    let z = unit(real(&joint.frame.axis));
+    let x = unit(across(real(&joint.frame.reference), z));
+    let y = cross(z, x);
+    let axes = of.freedoms().iter().filter_map(|f| match (f, slides) {
+        (Freedom::Rx, false) | (Freedom::Tx, true) => Some(x),
+        (Freedom::Ry, false) | (Freedom::Ty, true) => Some(y),
+        (Freedom::Rz, false) | (Freedom::Tz, true) => Some(z),
+        _ => None,
+    });
+    let rest = axes.fold(direction, |rest, a| sub(rest, scale(a, dot(rest, a))));
+    length(rest) < OUTSIDE
+}

@@ -1,0 +1,168 @@
+//! What a request holds, offers, allows and forbids at single links and joints.
+
+use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
+use crate::score::request::unlisted::types;
+use crate::score::request::{Inserts, JointOptions, Request, RequestError};
+use itertools::Itertools;
+
+impl Request {
+    /// Holds links, and leaves the options that are allowed.
+    pub(in crate::score) fn restrict(&self, mechanism: &mut Mechanism) -> Result<(), RequestError> {
+        let name = || mechanism.name.clone();
+        let mut held = Vec::with_capacity(self.hold.len());
+        for link in &self.hold {
+            held.push(mechanism.link(link).ok_or_else(|| RequestError::NoLink {
+                mechanism: name(),
+                link: link.clone(),
+            })?);
+        }
+        let offered = mechanism.joints.iter().flat_map(|j| &j.options);
+        let mut known: Vec<&str> = offered.map(|o| o.name.as_str()).collect();
+        known.sort_unstable();
+        known.dedup();
+        let check = |names: &[String], flag: &'static str| match names
+            .iter()
+            .find(|n| !known.contains(&n.as_str()))
+        {
+            None => Ok(()),
+            Some(option) => Err(RequestError::NoOption {
+                flag,
+                mechanism: name(),
+                option: option.clone(),
+                known: (known.iter().map(|k| (*k).to_owned()))
+                    .chain(types().map(|t| t.name().to_owned()))
+                    .unique()
+                    .collect(),
+            }),
+        };
+        check(&self.options, "--options")?;
+        let mut rules: Vec<(JointId, &[String], bool)> = Vec::new();
+        for (list, flag) in [(&self.allow, "--allow"), (&self.forbid, "--forbid")] {
+            for JointOptions { joint, names } in list {
+                let id = mechanism
+                    .joint(joint)
+                    .ok_or_else(|| RequestError::NoJoint {
+                        flag,
+                        mechanism: name(),
+                        joint: joint.clone(),
+                    })?;
+                if flag == "--allow" && names.is_empty() {
+                    return Err(RequestError::NoNames {
+                        joint: joint.clone(),
+                    });
+                }
+                check(names, flag)?;
+                rules.push((id, names, flag == "--allow"));
+            }
+        }
+        for &l in &held {
+            let joints = mechanism.joint_ids();
+            let joints = joints.filter(|&j| mechanism.joints[j].links.contains(&l));
+            let item = || format!("link {}", mechanism.links[l].id);
+            self.takes_part(mechanism, "--hold", &joints.collect_vec(), item)?;
+        }
+        mechanism.search.hold.extend(held);
+        for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.joints) {
+            let kept = |name: &String| {
+                let mut own = rules.iter().filter(|(j, ..)| *j == id);
+                (self.options.is_empty() || self.options.contains(name))
+                    && own.all(|(_, names, allow)| {
+                        !names.is_empty() && names.contains(name) == *allow
+                    })
+            };
+            let mut place = 0;
+            joint.options.retain(|o| {
+                place += 1;
+                // The present joint stays.
+                place == 1 || kept(&o.name)
+            });
+        }
+        Ok(())
+    }
+
+    /// Refuses what is in none of the states that are searched: all of whose `joints` are in others.
+    fn takes_part(
+        &self,
+        mechanism: &Mechanism,
+        flag: &'static str,
+        joints: &[JointId],
+        item: impl Fn() -> String,
+    ) -> Result<(), RequestError> {
+        let searched = self.state(mechanism)?.map(|s| s.state);
+        let there = |s: StateId| mechanism.joints_in(s).any(|j| joints.contains(&j));
+        if there(StateId::FREE) || searched.is_some_and(there) {
+            return Ok(());
+        }
+        let states = mechanism.states_with_ids().filter(|(s, _)| there(*s));
+        let states = states.map(|(_, name)| name.clone()).collect_vec();
+        if states.is_empty() {
+            return Ok(());
+        }
+        Err(RequestError::Absent {
+            flag,
+            mechanism: mechanism.name.clone(),
+            item: item(),
+            states,
+        })
+    }
+
+    /// Adds the unloading joints that are asked for to those of the file.
+    pub(in crate::score) fn insert(&self, mechanism: &mut Mechanism) -> Result<(), RequestError> {
+        let searched = self.state(mechanism)?.map(|s| s.state);
+        for Inserts { names, joints } in &self.unloading {
+            let places: Vec<JointId> = match (joints.as_slice(), searched) {
+                ([], None) => {
+                    return Err(RequestError::NoPlace {
+                        names: names.join(","),
+                    });
+                }
+                ([], Some(state)) => mechanism.joints_added_in(state).collect(),
+                (named, _) => {
+                    let id = |joint: &String| {
+                        let id = mechanism.joint(joint);
+                        let id = id.ok_or_else(|| RequestError::NoJoint {
+                            flag: "--unloading",
+                            mechanism: mechanism.name.clone(),
+                            joint: joint.clone(),
+                        })?;
+                        let item = || format!("joint {joint}");
+                        self.takes_part(mechanism, "--unloading", &[id], item)?;
+                        Ok(id)
+                    };
+                    named.iter().map(id).collect::<Result<_, RequestError>>()?
+                }
+            };
+            for j in places {
+                for name in names {
+                    offer(mechanism, j, name)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Offers an unloading joint by name: one that the file has there, now in every state, or a type in the joint's own frame.
+fn offer(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), RequestError> {
+    let joint = &mut mechanism.joints[at];
+    if let Some(known) = joint.unloading.iter_mut().find(|u| u.name == name) {
+        known.state = None;
+        return Ok(());
+    }
+    let Some(joint_type) = types().find(|t| t.name() == name).cloned() else {
+        let named = joint.unloading.iter().map(|u| u.name.clone());
+        return Err(RequestError::NoUnloading {
+            joint: joint.id.clone(),
+            word: name.to_owned(),
+            known: named.chain(types().map(|t| t.name().to_owned())).collect(),
+        });
+    };
+    joint.unloading.push(JointOption {
+        name: name.to_owned(),
+        joint_type,
+        frame: joint.frame.clone(),
+        cost_milli: None,
+        state: None,
+    });
+    Ok(())
+}

@@ -1,0 +1,184 @@
+//! A mechanism made ready for a search: the one that is meant, and what is said where its coordinates are rounded.
+
+use crate::file::read::resolve::contains;
+use crate::model::mechanism::{Joint, JointOption, Mechanism};
+use crate::model::rounded::Rounded;
+use crate::rank::numeric::DEFAULT_TOLERANCE;
+use crate::rank::rounded::intended::Settled;
+use crate::rank::rounded::verdict::{Meant, Verdict};
+use crate::search::question::as_written::Written;
+use crate::search::question::rounded_rank::Digits;
+use std::sync::Arc;
+
+/// What to do about rounded coordinates.
+pub(in crate::score) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
+
+/// Why a geometry looks rounded, with the verdicts on its states.
+pub type LooksRounded = (Rounded, Vec<Verdict>);
+
+/// A mechanism made ready for a search.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The one that is searched: as meant, and with the options that the request leaves.
+    pub mechanism: Mechanism,
+    pub(in crate::score) settled: Settled,
+    /// Where exact arithmetic does not have the mechanism that is meant: what its digits tell of ranks.
+    pub(in crate::score) numeric: Option<Digits>,
+    /// Where coordinates look rounded and exact arithmetic searches all the same: the mechanism as the file writes it.
+    pub(in crate::score) written: Option<Written>,
+}
+
+/// A mechanism made ready for a search, in the places where `file` has its joints and options.
+pub(in crate::score) fn as_in_file(
+    ready: &Mechanism,
+    file: &Mechanism,
+    settled: &Settled,
+) -> Written {
+    let adds = |j: &Joint| {
+        let present = j.options.first();
+        let wider = |p: &JointOption| j.options.iter().all(|o| contains(o, p) == Some(true));
+        present.is_none_or(wider)
+    };
+    let others = settled.others.iter().map(|o| Arc::new(in_places(ready, o)));
+    Written {
+        only_adds: ready.joints.iter().all(adds),
+        mechanism: Arc::new(in_places(ready, file)),
+        others: others.collect(),
+        digits: digits(&settled.verdicts),
+    }
+}
+
+/// A mechanism made ready for a search, its joints and options in the places where another has them.
+fn in_places(ready: &Mechanism, file: &Mechanism) -> Mechanism {
+    let mut out = ready.clone();
+    for (joint, there) in out.joints.iter_mut().zip(&file.joints) {
+        joint.frame = there.frame.clone();
+        let offered = |options: &mut [JointOption], named: &[JointOption]| {
+            for option in options {
+                let own = named.iter().find(|o| o.name == option.name);
+                let pitch = option.frame.pitch.clone();
+                // What the file does not list is offered in the joint's own frame.
+                option.frame = own.map_or(&there.frame, |o| &o.frame).clone();
+                if own.is_none() {
+                    option.frame.pitch = pitch;
+                }
+            }
+        };
+        offered(&mut joint.options, &there.options);
+        offered(&mut joint.unloading, &there.unloading);
+    }
+    out
+}
+
+/// Tells what was moved, and what was not.
+pub(in crate::score) fn tell_moved(m: &Mechanism, settled: &Settled, tell: &mut dyn FnMut(String)) {
+    if let Some(all) = &settled.understood {
+        return tell(format!("snapped: {all}"));
+    }
+    for moved in &settled.moved {
+        tell(format!("snapped: {}", moved.words(m)));
+    }
+    for one in &settled.refused {
+        let (id, far) = (&m.joints[one.joint].id, one.far(m));
+        tell(format!(
+            "not snapped: joint {id} would have to move by {far}"
+        ));
+    }
+}
+
+/// What the digits of a mechanism tell of ranks, by the verdicts on it.
+pub(in crate::score) fn digits(verdicts: &[Verdict]) -> Digits {
+    let tolerance = |a: f64, v: &Verdict| a.max(v.tolerance);
+    Digits {
+        tolerance: verdicts.iter().fold(DEFAULT_TOLERANCE, tolerance),
+        undecided: verdicts.iter().any(|v| !v.is_decided()),
+    }
+}
+
+/// The mechanism nearest to the one that is written that has the rank meant, where a verdict found one; options that shared a
+/// joint's frame share it still.
+pub(in crate::score) fn nearest(m: &Mechanism, verdicts: &[Verdict]) -> Option<Mechanism> {
+    let near = |v: &Verdict| match &v.meant {
+        Meant::Near { mechanism, .. } => Some(mechanism.as_ref().clone()),
+        _ => None,
+    };
+    let mut out = verdicts.iter().find_map(near)?;
+    for (joint, before) in out.joints.iter_mut().zip(&m.joints) {
+        let offered = joint.options.iter_mut().chain(&mut joint.unloading);
+        for option in offered.filter(|o| o.frame.is_same(&before.frame)) {
+            let pitch = option.frame.pitch.clone();
+            option.frame = joint.frame.clone();
+            option.frame.pitch = pitch;
+        }
+    }
+    Some(out)
+}
+
+impl Prepared {
+    /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written, and snapped, is
+    /// asked.
+    pub(in crate::score) fn rounded(
+        &self,
+        (as_written, snapped): (bool, bool),
+        tell: &mut dyn FnMut(String),
+    ) -> Option<LooksRounded> {
+        let Prepared {
+            mechanism, settled, ..
+        } = self;
+        let name = &mechanism.name;
+        let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
+        let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
+        let Some((v, has)) = settled.open.map(|(i, has)| (&settled.verdicts[i], has)) else {
+            let measured = |w: &Rounded| w.digits.is_some();
+            let meant = settled.verdicts.iter().all(Verdict::is_as_written);
+            if let (Some(w), true, false) = (why.as_ref().filter(|w| measured(w)), meant, snapped) {
+                tell(if w.pi {
+                    format!(
+                        "note: pi is no exact number ({w}); its digits are taken at their word, and no rounding of them changes a figure"
+                    )
+                } else {
+                    format!(
+                        "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
+                     is, but the search takes every digit at its word; {CURE}"
+                    )
+                });
+            }
+            return told(why.filter(|w| measured(w) || !meant));
+        };
+        let looks = why.as_ref().map_or_else(
+            || {
+                format!(
+                    "the mechanism {name} is not the same to within {:.0e}",
+                    v.tolerance
+                )
+            },
+            |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
+        );
+        let [of, near] = [has, v.at_least()].map(|rank| v.figures(rank));
+        let n = v.numeric.unwrap_or_default();
+        let written = if snapped && has != v.as_written {
+            "snapped"
+        } else {
+            "as written"
+        };
+        let likely = if v.is_decided() {
+            "is meant to have"
+        } else {
+            "may be meant to have"
+        };
+        let differ = format!(
+            "{looks}: {written}, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
+             value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
+            v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
+        );
+        if as_written {
+            tell(format!("warning: {differ}; {CURE}"));
+        } else {
+            tell(format!(
+                "warning: {differ}. What is meant is not there for exact arithmetic, so variants are judged by singular values, \
+                 and no figure is exact; {CURE}"
+            ));
+        }
+        told(why)
+    }
+}

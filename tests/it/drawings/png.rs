@@ -1,0 +1,286 @@
+//! Drawings as PNG. Most of it needs the feature `png`: `cargo test --features png --test integration png`.
+
+use crate::common::ozols;
+
+fn refused(args: &[&str], what: &str) {
+    let done = ozols(args).output().unwrap();
+    let said = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
+    assert!(said.contains(what), "{args:?}: {said}");
+    assert!(done.stdout.is_empty());
+}
+
+#[test]
+fn sizes_are_for_png() {
+    refused(&["draw", "bennett", "--scale", "2"], "--scale and --width");
+    refused(&["draw", "bennett", "--width", "90"], "--scale and --width");
+}
+
+#[cfg(not(feature = "png"))]
+#[test]
+fn a_build_without_png_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("x.PNG");
+    let path = path.to_str().unwrap();
+    refused(&["draw", "bennett", "--png"], "--features png");
+    // the name asks for it
+    refused(&["draw", "bennett", "-o", path], "--features png");
+    refused(&["explain", "spherical", "-o", path], "--features png");
+    assert_eq!(dir.path().read_dir().unwrap().count(), 0);
+}
+
+#[cfg(feature = "png")]
+mod with_png {
+    use super::refused;
+    use crate::common::{built_in, ozols};
+    use ozols::draw::png::png;
+    use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
+    use ozols::file::text::mechanism_from_str;
+    use ozols::model::joint_type::JointType;
+    use ozols::model::mechanism::{Mechanism, StateId};
+    use ozols::redundancy::analysis::{Method, analyse};
+    use resvg::tiny_skia::{self, Pixmap};
+
+    fn drawings(name: &str) -> [Drawing; 2] {
+        let text = ozols::builtin::text(name).unwrap();
+        let m = mechanism_from_str(name, text).unwrap();
+        let subject = Subject {
+            mechanism: &m,
+            state: StateId::FREE,
+            analysis: None,
+            marks: None,
+        };
+        [scheme(&subject), kinematic(&subject)]
+    }
+
+    /// Whether something dark is in a rectangle of a picture.
+    fn ink(picture: &Pixmap, rect: &Rect, scale: f64) -> bool {
+        let range = |a: f64, b: f64| (a * scale) as u32..(b * scale) as u32;
+        let dark = |x, y| picture.pixel(x, y).is_some_and(|p| p.red() < 150);
+        range(rect.top, rect.bottom).any(|y| range(rect.left, rect.right).any(|x| dark(x, y)))
+    }
+
+    #[test]
+    fn every_label_is_there() {
+        for name in ["gripper-10", "stewart-gough", "y-star"] {
+            for d in drawings(name) {
+                let made = png(&d, Size::Scale(1.5)).unwrap();
+                assert!(made.missing.is_empty(), "{:?}", made.missing);
+                let picture = Pixmap::decode_png(&made.png).unwrap();
+                assert_eq!(f64::from(picture.width()), (1.5 * d.width).round());
+                for label in &d.labels {
+                    assert!(ink(&picture, &label.rect, 1.5), "{name}: {:?}", label.text);
+                }
+                for symbol in &d.symbols {
+                    assert!(ink(&picture, symbol, 1.5), "{name}: {symbol:?}");
+                }
+                // white behind
+                assert_eq!(picture.pixel(0, 0).unwrap().red(), 255);
+            }
+        }
+    }
+
+    /// A mechanism of two links with one joint of a type.
+    fn single(joint_type: &str) -> Mechanism {
+        let pitch = if joint_type == "helical" {
+            "pitch = 1"
+        } else {
+            ""
+        };
+        let text = format!(
+            "name = \"one\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\nrole = \"output\"\n[[joint]]\nid = \"0-1\"\n\
+             links = [\"0\", \"1\"]\ntype = \"{joint_type}\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{pitch}\n"
+        );
+        mechanism_from_str("one.toml", &text).unwrap()
+    }
+
+    /// The symbol of a drawing's only joint in so many pixels, in black and white.
+    fn symbol(d: &Drawing, pixels: u32) -> Vec<u8> {
+        let doc = roxmltree::Document::parse(&d.svg).unwrap();
+        let group = doc
+            .descendants()
+            .find(|n| n.has_attribute("data-joint"))
+            .unwrap();
+        let inside = group.children().filter(|c| c.is_element());
+        let inside: String = inside.map(|c| &d.svg[c.range()]).collect();
+        let svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"34\" height=\"34\" viewBox=\"-17 -17 34 34\"><style>.joint{{fill:#fff;\
+             stroke:#000;stroke-width:1.4}}.line{{fill:none;stroke:#000;stroke-width:1.2}}.fine{{fill:none;stroke:#000;\
+             stroke-width:.9}}.ink{{fill:#000}}.blank{{fill:#fff}}</style>{inside}</svg>"
+        );
+        let alone = Drawing {
+            svg,
+            width: 34.0,
+            height: 34.0,
+            labels: Vec::new(),
+            symbols: Vec::new(),
+        };
+        let made = png(&alone, Size::Width(pixels)).unwrap();
+        let picture = Pixmap::decode_png(&made.png).unwrap();
+        picture.pixels().iter().map(|p| p.red()).collect()
+    }
+
+    #[test]
+    fn joint_types_are_told_apart_by_shape_in_24_pixels() {
+        for toward in [[0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 0.0]] {
+            let sight = Sight {
+                toward: Some(toward),
+                up: None,
+            };
+            let seen: Vec<Vec<u8>> = JointType::NAMED
+                .iter()
+                .map(|t| {
+                    let m = single(t.name());
+                    let subject = Subject {
+                        mechanism: &m,
+                        state: StateId::FREE,
+                        analysis: None,
+                        marks: None,
+                    };
+                    symbol(&kinematic_seen(&subject, &sight), 24)
+                })
+                .collect();
+            for (i, a) in seen.iter().enumerate() {
+                assert!(
+                    a.iter().any(|&p| p < 128),
+                    "{} is seen",
+                    JointType::NAMED[i]
+                );
+                for (j, b) in seen[..i].iter().enumerate() {
+                    let other = a
+                        .iter()
+                        .zip(b)
+                        .filter(|(a, b)| a.abs_diff(**b) > 90)
+                        .count();
+                    let (a, b) = (&JointType::NAMED[i], &JointType::NAMED[j]);
+                    assert!(
+                        other >= 8,
+                        "{a} and {b} differ in {other} pixels from {toward:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// A double wishbone: each arm hangs on two hinges of the chassis.
+    const WISHBONE: &str = r#"
+name = "double wishbone"
+link = [
+    { id = "chassis", role = "frame" }, { id = "upper" }, { id = "lower" }, { id = "upright", role = "output" }, { id = "rod" },
+]
+joint = [
+    { id = "uf", links = ["chassis", "upper"], type = "revolute", point = [1, 0, 3], axis = [1, 0, 0] },
+    { id = "ur", links = ["chassis", "upper"], type = "revolute", point = [-1, 0, 3], axis = [1, 0, 0] },
+    { id = "lf", links = ["chassis", "lower"], type = "revolute", point = [2, 0, 0], axis = [1, 0, 0] },
+    { id = "lr", links = ["chassis", "lower"], type = "revolute", point = [-2, 0, 0], axis = [1, 0, 0] },
+    { id = "ub", links = ["upper", "upright"], type = "spherical", point = [0, 3, 3], axis = [0, 0, 1] },
+    { id = "lb", links = ["lower", "upright"], type = "spherical", point = [0, 4, 0], axis = [0, 0, 1] },
+    { id = "ri", links = ["chassis", "rod"], type = "spherical", point = [1, 0, 1], axis = [0, 0, 1] },
+    { id = "ro", links = ["rod", "upright"], type = "spherical", point = [1, 4, 1], axis = [0, 0, 1] },
+]
+"#;
+
+    #[test]
+    fn every_contour_is_seen_in_its_tint() {
+        let read = |name: &str| built_in(name);
+        let wishbone = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
+        let built_in = [
+            "door-two-hinges",
+            "twin-rail-slide",
+            "shaft-two-bearings",
+            "gripper-10",
+            "bennett",
+        ];
+        for m in built_in.map(read).into_iter().chain([wishbone]) {
+            let found = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+            let mut d = scheme(&Subject {
+                mechanism: &m,
+                state: StateId::FREE,
+                analysis: found.first(),
+                marks: None,
+            });
+            let plain = d.svg.clone();
+            for c in 1..=found[0].contours {
+                let rule =
+                    format!("[data-contour=\"{c}\"] path{{fill:#ff00ff !important}}</style>");
+                d.svg = plain.replacen("</style>", &rule, 1);
+                let made = png(&d, Size::Scale(1.0)).unwrap();
+                let picture = Pixmap::decode_png(&made.png).unwrap();
+                let tinted = |p: &&tiny_skia::PremultipliedColorU8| {
+                    p.red() > 240 && p.green() < 15 && p.blue() > 240
+                };
+                let seen = picture.pixels().iter().filter(tinted).count();
+                assert!(seen > 100, "{}: {seen} pixels of contour {c}", m.name);
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_bytes_each_time() {
+        let [d, _] = drawings("four-bar");
+        let once = png(&d, Size::Scale(2.0)).unwrap().png;
+        assert_eq!(once, png(&d, Size::Scale(2.0)).unwrap().png);
+    }
+
+    #[test]
+    fn too_large_is_an_error() {
+        let [d, _] = drawings("four-bar");
+        for size in [
+            Size::Scale(1e9),
+            Size::Scale(f64::NAN),
+            Size::Width(u32::MAX),
+        ] {
+            assert!(png(&d, size).is_err(), "{size:?}");
+        }
+    }
+
+    #[test]
+    fn joint_types_are_explained_in_a_picture() {
+        let dir = tempfile::tempdir().unwrap();
+        for t in JointType::NAMED {
+            let path = dir.path().join(format!("{t}.png"));
+            let done = ozols(&["explain", t.name(), "-o", path.to_str().unwrap()])
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&done.stderr);
+            assert!(done.status.success(), "{t}: {said}");
+            let picture = Pixmap::decode_png(&std::fs::read(&path).unwrap()).unwrap();
+            // what is of the one link is yellowish, of the other bluish
+            let count = |of: fn(i32) -> bool| {
+                let all = picture.pixels().iter();
+                all.filter(|p| of(i32::from(p.red()) - i32::from(p.blue())))
+                    .count()
+            };
+            let (one, other) = (count(|d| d > 50), count(|d| (-60..-20).contains(&d)));
+            assert!(one > 1500 && other > 1500, "{t}: {one}, {other}");
+        }
+    }
+
+    #[test]
+    fn command_line() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("x.png");
+        let path = path.to_str().unwrap();
+        let done = ozols(&["draw", "four-bar", "-o", path, "--width", "321"])
+            .output()
+            .unwrap();
+        assert!(
+            done.status.success(),
+            "{}",
+            String::from_utf8_lossy(&done.stderr)
+        );
+        let file = std::fs::read(path).unwrap();
+        let picture = Pixmap::decode_png(&file).unwrap();
+        assert_eq!(picture.width(), 321);
+        let piped = ozols(&["draw", "four-bar", "--png", "--width", "321"])
+            .output()
+            .unwrap();
+        assert_eq!(piped.stdout, file);
+        refused(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
+        refused(&["draw", "four-bar", "--png", "--width", "0"], "--width");
+        refused(
+            &["draw", "four-bar", "--png", "--width", "99999"],
+            "too large",
+        );
+    }
+}

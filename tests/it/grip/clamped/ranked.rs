@@ -1,0 +1,104 @@
+//! Variants ranked under the loads of the clamped states.
+
+use super::refused::run;
+use super::{built_in, text};
+use crate::common::{json, out};
+use ozols::builtin;
+use ozols::model::mechanism::StateId;
+use ozols::model::ranking::{ClearanceSum, Term};
+use ozols::redundancy::analysis::exact_field;
+use ozols::score::evaluation::elimination::Scratch;
+use ozols::score::evaluation::evaluate::Evaluator;
+use ozols::search::Search;
+use ozols::search::answer::k_best::Assignment;
+use ozols::search::question::conditions::Conditions;
+use serde_json::Value;
+
+fn pool(s: &Search, n: usize) -> Vec<Assignment> {
+    let d = s.build(&|| false, &mut |_| {});
+    s.cheapest(&d, n).collect()
+}
+
+/// The slow twin builds each variant as a mechanism, follows it to every part and takes singular values.
+#[test]
+fn variants_are_scored_by_the_worst_part() {
+    let m = built_in();
+    for redundant in [0, 1] {
+        let request = Conditions {
+            max_redundant: redundant,
+            ..Conditions::default()
+        };
+        let s = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
+        let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
+        assert_eq!((e.cases.list.len(), e.cases.free), (5, 0));
+        let mut scratch = Scratch::default();
+        let mut greatest = 0.0f64;
+        for v in pool(&s, 40) {
+            let (fast, slow) = (e.scores(&v, &mut scratch), e.slowly(&v));
+            let (Ok(fast), Ok(slow)) = (fast, slow) else {
+                continue;
+            };
+            greatest = greatest.max(fast.force.value);
+            for t in Term::ALL {
+                let (a, b) = (fast.value(t), slow.value(t));
+                let near = (a - b).abs() <= 1e-7 * a.abs().max(b.abs()).max(1e-12);
+                assert!(near, "{}: {fast:?} {slow:?}", t.name());
+            }
+        }
+        assert!(greatest > 100.0, "{greatest}");
+        // The free state has no loads.
+        let free = Evaluator::in_states(&s, ClearanceSum::Worst, &[StateId::FREE]).unwrap();
+        for v in pool(&s, 3) {
+            assert_eq!(free.scores(&v, &mut scratch).unwrap().force.value, 0.0);
+        }
+        let both = Evaluator::in_states(
+            &s,
+            ClearanceSum::Worst,
+            &[StateId::new(1), StateId::FREE, StateId::new(1)],
+        )
+        .unwrap();
+        assert_eq!((both.cases.list.len(), both.cases.free), (6, 1));
+    }
+}
+
+#[test]
+fn the_ranking_states_its_states() {
+    let v = json(&["search", "lever-gripper", "--format", "json"]);
+    assert_eq!(v["ranking"]["grip"][0]["state"], "clamped");
+    assert_eq!(v["ranking"]["grip"][0]["held"].as_array().unwrap().len(), 5);
+    assert!(v["variants"][0]["scores"]["by_cost"].as_u64().unwrap() > 1);
+    let said = out(&["search", "lever-gripper"]);
+    assert!(
+        said.contains("Loads of state clamped from the grip: contact forces of the worst case of 5 parts, D = 30 to 50 mm"),
+        "{said}"
+    );
+    let with = |states: &str| {
+        text().replace(
+            "order = \"weighted\"",
+            &format!("order = \"weighted\"\nstates = {states}"),
+        )
+    };
+    let (code, said, _) = run(&with("[\"free\"]"), &["search", "FILE", "--format", "json"]);
+    assert_eq!(code, Some(0));
+    let said: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(said["ranking"]["grip"].as_array().unwrap().len(), 0);
+    assert_eq!(said["variants"][0]["scores"]["peak-force"], 0.0);
+    let (code, _, errors) = run(&with("[\"clampt\"]"), &["search", "FILE"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        errors.contains("clampt") && errors.contains("known: free, clamped"),
+        "{errors}"
+    );
+    // Not a state of the grip.
+    let loaded = builtin::text("gripper-10-loaded").unwrap();
+    let loaded = loaded.replace(
+        "order = \"weighted\"",
+        "order = \"weighted\"\nstates = [\"clamped\"]",
+    );
+    let (code, _, errors) = run(&loaded, &["check", "FILE"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        errors.contains("with the contacts of [workload.grip]"),
+        "{errors}"
+    );
+}

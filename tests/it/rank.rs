@@ -1,0 +1,11 @@
+//! How far mechanisms move, and how that is known.
+
+mod certificates;
+mod finite_traps;
+mod least_rows;
+mod mobility;
+pub(crate) mod rounded;
+mod screws;
+mod stroke;
+mod stroke_ends;
+mod stroke_poses;

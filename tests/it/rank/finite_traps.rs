@@ -1,0 +1,150 @@
+//! Finite mobility where it is hard to tell: right or undecided, never wrong and sure.
+
+#[path = "traps/all.rs"]
+pub(crate) mod all;
+#[path = "traps/beyond_doubles.rs"]
+mod beyond_doubles;
+
+use crate::common::{built_in, run_on};
+use ozols::builtin;
+use ozols::closure::matrix::Closure;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::exact::field::field_of;
+use ozols::rank::exact::modular;
+use ozols::rank::finite::{Finite, How, finite};
+
+pub(crate) fn judged(m: &Mechanism) -> (usize, Finite) {
+    judged_in(m, StateId::FREE)
+}
+
+pub(crate) fn judged_in(m: &Mechanism, state: StateId) -> (usize, Finite) {
+    let exact = field_of(m, state, 0).unwrap();
+    let closure = Closure::new(&exact, m, state).unwrap();
+    let rank = modular::rank(&exact, &closure);
+    let found = finite(&exact, m, &closure, rank).unwrap();
+    (closure.columns.len() - rank, found)
+}
+
+fn judge(text: &str) -> (usize, Finite) {
+    judged(&mechanism_from_str("x.toml", text).unwrap())
+}
+
+/// The traps that stay open; all others must be decided.
+const UNDECIDED: &[&str] = &[];
+
+#[test]
+fn no_trap_is_answered_wrong_and_sure() {
+    let traps = all::all();
+    assert!(traps.len() >= 30, "{}", traps.len());
+    let mut wrong = Vec::new();
+    for t in &traps {
+        assert!(!t.source.is_empty(), "{}", t.name);
+        let (instantaneous, found) = judge(&t.text);
+        let inside = (found.mobility..=found.at_most()).contains(&t.truth);
+        let decided = found.mobility == found.at_most();
+        if !inside
+            || found.at_most() > instantaneous
+            || (!decided && !UNDECIDED.contains(&t.name.as_str()))
+        {
+            wrong.push(format!(
+                "{}: truth {}, W {instantaneous}, found {}: {}",
+                t.name,
+                t.truth,
+                found.figure(),
+                found.describe()
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Shakiness of any order up to 64 is proven, in space and in the plane, whatever hangs on it.
+#[test]
+fn shakiness_of_higher_order_is_proven() {
+    for t in all::all() {
+        let order = match t.name.as_str() {
+            n if n.starts_with("cascade-order-") => n.split('-').nth(2).unwrap().parse().unwrap(),
+            n if n.starts_with("watt-guided") => 5,
+            _ => continue,
+        };
+        let (_, found) = judge(&t.text);
+        assert!(found.is_proven(), "{}: {found:?}", t.name);
+        assert!(
+            matches!(found.how, How::Stopped { order: o, .. } if o == order),
+            "{}: {found:?}",
+            t.name
+        );
+    }
+}
+
+/// The spins of rods between balls are motions whatever else is found.
+#[test]
+fn idle_spins_are_finite_motions() {
+    for name in ["wren-platform", "stewart-turned-locked", "delta", "rssr"] {
+        let m = built_in(name);
+        let (_, found) = judged(&m);
+        let mut part = m.clone();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let idle =
+            ozols::rank::finite::independent_parts::lock_idle(&exact, &mut part, StateId::FREE)
+                .unwrap();
+        assert!(found.mobility >= idle, "{name}: {found:?}, {idle} idle");
+    }
+}
+
+/// Rods between two balls spin whatever the rest does: the finite mobility is never less than there are idle spins. Once it
+/// was found to be 0 after 24 seconds, beside six of them.
+#[test]
+fn idle_spins_stay_beside_what_else_moves() {
+    let text = builtin::text("wren-platform").unwrap();
+    for (point, flipped) in [
+        ("[150, 0, 180]", "[150, 0, -180]"),
+        ("[90, 120, 180]", "[90, 120, -180]"),
+        ("[90, 120, 0]", "[90, -120, 0]"),
+        ("[120, -90, 180]", "[-120, -90, 180]"),
+    ] {
+        let m = mechanism_from_str("x.toml", &text.replacen(point, flipped, 1)).unwrap();
+        let state = &ozols::analyze(&m).unwrap()[0];
+        assert_eq!(state.idle.len(), 6, "{flipped}");
+        assert!(
+            state.finite.mobility >= 6,
+            "{flipped}: {}",
+            state.finite.figure()
+        );
+    }
+}
+
+/// A triangle of bars stands with one more across it, and a pendulum hangs beside it.
+#[test]
+fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
+    let mut text = String::from("name = \"beside\"\n");
+    for (link, role) in [
+        ("f", "role = \"frame\""),
+        ("a", ""),
+        ("b", "role = \"output\""),
+        ("c", ""),
+        ("p", "role = \"output\""),
+    ] {
+        text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
+    }
+    for (id, ends, point) in [
+        ("fa", ["f", "a"], [0, 0, 0]),
+        ("ab", ["a", "b"], [1, 2, 0]),
+        ("bf", ["b", "f"], [3, 0, 0]),
+        ("ac", ["a", "c"], [1, 1, 0]),
+        ("cb", ["c", "b"], [2, -1, 0]),
+        ("hang", ["f", "p"], [7, 0, 0]),
+    ] {
+        text += &format!(
+            "[[joint]]\nid = \"{id}\"\nlinks = {ends:?}\ntype = \"revolute\"\npoint = {point:?}\naxis = [0, 0, 1]\n"
+        );
+    }
+    let (code, said, _) = run_on("analyze", "beside.toml", &text, &[]);
+    assert_eq!(code, Some(0));
+    assert!(
+        said.contains("finite mobility 1: joints in no contour"),
+        "{said}"
+    );
+    assert!(!said.contains("1: nothing moves"), "{said}");
+}

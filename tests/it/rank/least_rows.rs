@@ -1,0 +1,333 @@
+//! The rows that are enough for the rank of J: against all rows written out, by other primes, and by what is known of mechanisms.
+
+use crate::common::{built_in, json, out};
+use crate::search::twin;
+use ozols::builtin;
+use ozols::closure::matrix::Closure;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::exact::modular;
+use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
+use ozols::redundancy::analysis::exact_field;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// The least rows, by the first prime, have the rank of all rows by the second, and no part has more rank than rows.
+fn check(m: &Mechanism, state: StateId) -> LeastRows {
+    let [one, other] = [0, 1].map(|i| exact_field(m, i).unwrap());
+    let closure = Closure::new(&one, m, state).unwrap();
+    let found = LeastRows::new(&one, m, &closure).unwrap();
+    let whole = Closure::new(&other, m, state).unwrap();
+    let what = format!("{} {}: {found:?}", m.name, m.states[state]);
+    assert_eq!(found.rank(), modular::rank_dense(&other, &whole), "{what}");
+    assert!(
+        found.rows() <= found.of && found.of == whole.rows(),
+        "{what}"
+    );
+    let mut contours: Vec<usize> = found
+        .blocks
+        .iter()
+        .flat_map(|b| b.contours.clone())
+        .collect();
+    contours.sort_unstable();
+    assert!(contours.into_iter().eq(0..whole.contours.len()), "{what}");
+    for part in found.blocks.iter().flat_map(|b| &b.parts) {
+        assert!(part.rank <= part.rows && part.rows <= part.of, "{what}");
+    }
+    found
+}
+
+#[test]
+fn built_in_mechanisms_need_no_more() {
+    let (mut fewer, mut apart, mut grouped) = (0, 0, 0);
+    for name in builtin::names() {
+        let m = built_in(name);
+        for state in m.state_ids() {
+            let found = check(&m, state);
+            fewer += usize::from(found.rows() < found.of);
+            let mut all = found.blocks.iter().flat_map(|b| &b.parts);
+            apart += usize::from(
+                all.clone()
+                    .any(|p| matches!(p.motions, Motions::InPlane(_))),
+            );
+            grouped += usize::from(all.any(|p| matches!(p.motions, Motions::Group(_))));
+        }
+    }
+    assert!(
+        fewer > 50 && apart > 15 && grouped > 40,
+        "{fewer} {apart} {grouped}"
+    );
+}
+
+/// The gripper's drive turns in its guide: its parallelograms need three rows each in their plane, where nothing is redundant,
+/// and out of it one, for that turn; every redundant constraint is out of the plane.
+#[test]
+fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
+    let found = json(&[
+        "analyze",
+        "gripper-10",
+        "--state",
+        "free",
+        "--format",
+        "json",
+    ]);
+    let parts = found["states"][0]["least_rows"].as_array().unwrap();
+    let figures = |i: usize| {
+        let p = &parts[i];
+        let of = ["rows", "rows_in_all", "rank", "redundant"].map(|k| p[k].as_u64().unwrap());
+        (
+            p["motions"].as_str().unwrap(),
+            p["of"].as_str().unwrap(),
+            of,
+        )
+    };
+    assert_eq!(figures(0), ("in plane", "z", [12, 12, 12, 0]));
+    assert_eq!(figures(1), ("out of plane", "z", [4, 12, 1, 11]));
+    let text = out(&["analyze", "gripper-10", "--state", "free"]);
+    assert!(
+        text.contains(
+            "; all joints move in a plane with normal z (12 of 12 rows, rank 12, σ = 0) or out of it (4 of 12 rows, rank 1, \
+             σ = 11); left out: 8 of 24 rows, redundant whatever the rest"
+        ),
+        "{text}"
+    );
+}
+
+/// Loops that share no joint are judged each for itself: a four-bar in a plane and a spherical one of three rows each, and a
+/// general loop of six.
+#[test]
+fn blocks_are_judged_one_by_one() {
+    let mut text = "name = \"three\"\n".to_owned();
+    let loops: [&[[[i64; 3]; 2]]; 3] = [
+        &[
+            [[0, 0, 0], [0, 0, 1]],
+            [[1, 5, 0], [0, 0, 1]],
+            [[7, 6, 0], [0, 0, 1]],
+            [[8, 1, 0], [0, 0, 1]],
+        ],
+        &[
+            [[0, 0, 0], [1, 0, 0]],
+            [[0, 0, 0], [1, 2, 0]],
+            [[0, 0, 0], [1, 3, 4]],
+            [[0, 0, 0], [0, 1, 5]],
+        ],
+        &[
+            [[0, 0, 0], [1, 0, 0]],
+            [[1, 3, 2], [1, 2, 0]],
+            [[5, 1, 1], [1, 3, 4]],
+            [[2, 2, 7], [0, 1, 5]],
+            [[1, 8, 3], [2, 1, 1]],
+            [[4, 4, 9], [3, 1, 2]],
+            [[3, 4, 8], [3, 1, 7]],
+        ],
+    ];
+    let mut joints = String::new();
+    writeln!(text, "[[link]]\nid = \"f\"\nrole = \"frame\"").unwrap();
+    for (l, hinges) in loops.iter().enumerate() {
+        for i in 1..hinges.len() {
+            writeln!(text, "[[link]]\nid = \"{l}-{i}\"\nrole = \"output\"").unwrap();
+        }
+        let link = |i: usize| match i % hinges.len() {
+            0 => "f".to_owned(),
+            i => format!("{l}-{i}"),
+        };
+        for (i, [point, axis]) in hinges.iter().enumerate() {
+            let (a, b) = (link(i), link(i + 1));
+            writeln!(
+                joints,
+                "[[joint]]\nid = \"{l}{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {point:?}\naxis = {axis:?}"
+            )
+            .unwrap();
+        }
+    }
+    let m = mechanism_from_str("three.toml", &(text + &joints)).unwrap();
+    let found = check(&m, StateId::FREE);
+    let rows: Vec<usize> = found.blocks.iter().map(|b| b.parts[0].rows).collect();
+    assert_eq!(rows, [3, 3, 6]);
+    let words = found.words(&m, |c| c.to_string());
+    assert_eq!(
+        words,
+        "; the joints of contour 0 move in one plane (3), so 3 rows per contour do; the joints of contour 1 move in the turns \
+         about one point (3), so 3 rows per contour do; the joints of contour 2 take all 6 rows per contour; left out: 6 of 18 \
+         rows, redundant whatever the rest"
+    );
+}
+
+/// Hinges along lines of one plane move nothing in it, though their group is of six dimensions.
+#[test]
+fn hinges_on_a_flat_sheet_move_out_of_it_alone() {
+    let mut text = "name = \"sheet\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
+    let creases = [
+        [[0, 0], [1, 0]],
+        [[3, 1], [1, 2]],
+        [[1, 4], [3, -1]],
+        [[2, 7], [1, 5]],
+    ];
+    for i in 1..4 {
+        writeln!(text, "[[link]]\nid = \"{i}\"\nrole = \"output\"").unwrap();
+    }
+    for (i, [[x, y], [a, b]]) in creases.iter().enumerate() {
+        let next = (i + 1) % 4;
+        writeln!(
+            text,
+            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{i}\", \"{next}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [{a}, {b}, 0]"
+        )
+        .unwrap();
+    }
+    let m = mechanism_from_str("sheet.toml", &text).unwrap();
+    let found = check(&m, StateId::FREE);
+    assert_eq!(found.rows(), 3);
+    let words = found.words(&m, |c| c.to_string());
+    assert!(
+        words.contains("all joints move out of a plane with normal z alone"),
+        "{words}"
+    );
+}
+
+/// What self-stresses leave open in the reactions is what rows say: where nothing is redundant in the plane, the forces across
+/// its hinges are those of every reaction of the family.
+#[test]
+fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
+    let mut seen = 0;
+    for name in [
+        "gripper-10-loaded",
+        "four-bar",
+        "jansen-leg",
+        "watt-six-bar",
+        "slider-crank-spatial",
+        "scissor-lift-3",
+    ] {
+        let analysis = json(&["analyze", name, "--state", "free", "--format", "json"]);
+        let parts = analysis["states"][0]["least_rows"].as_array().unwrap();
+        let args = [
+            "statics",
+            name,
+            "--state",
+            "free",
+            "--spatial",
+            "--format",
+            "json",
+        ];
+        let reactions = json(&args);
+        assert_eq!(reactions["unique"], false, "{name}");
+        assert_eq!(
+            parts.len() % 2,
+            parts.iter().filter(|p| p["motions"] == "group").count(),
+            "{name}"
+        );
+        for r in reactions["reactions"].as_array().unwrap() {
+            let open: Vec<&str> = r["open"]
+                .as_array()
+                .into_iter()
+                .flatten()
+                .map(|o| o.as_str().unwrap())
+                .collect();
+            if r["type"] == "revolute" {
+                seen += 1;
+                assert_eq!(open, ["Fz", "Mx", "My"], "{name} {r}");
+            }
+        }
+    }
+    assert!(seen > 40, "{seen}");
+    let text = out(&["statics", "four-bar", "--spatial"]);
+    assert!(
+        text.contains("Left open by the self-stresses: Fz, Mx and My of "),
+        "{text}"
+    );
+    assert!(
+        text.contains("; all else is the same in the whole family"),
+        "{text}"
+    );
+    // A third rod is redundant in the plane.
+    let rods = json(&[
+        "statics",
+        "parallelogram-3-rods",
+        "--spatial",
+        "--format",
+        "json",
+    ]);
+    let mut by_count: BTreeMap<usize, usize> = BTreeMap::new();
+    for r in rods["reactions"].as_array().unwrap() {
+        *by_count
+            .entry(r["open"].as_array().map_or(0, Vec::len))
+            .or_default() += 1;
+    }
+    assert!(by_count.keys().all(|&n| n > 3), "{by_count:?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+    #[test]
+    fn random_mechanisms_need_no_more(text in twin::random()) {
+        let m = mechanism_from_str("random.toml", &text).unwrap();
+        for state in m.state_ids() {
+            check(&m, state);
+        }
+    }
+}
+
+/// Screws of one pitch about one direction make a group of three dimensions that is no plane, and coaxial ones are no turns.
+#[test]
+fn screws_are_not_called_turns() {
+    let words = |joints: &[[i64; 2]]| {
+        let mut text = "name = \"screws\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
+        for i in 1..joints.len() {
+            writeln!(text, "[[link]]\nid = \"{i}\"\nrole = \"output\"").unwrap();
+        }
+        for (i, [x, y]) in joints.iter().enumerate() {
+            let next = (i + 1) % joints.len();
+            writeln!(
+                text,
+                "[[joint]]\nid = \"j{i}\"\nlinks = [\"{i}\", \"{next}\"]\ntype = \"helical\"\npitch = 1\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]"
+            )
+            .unwrap();
+        }
+        let m = mechanism_from_str("screws.toml", &text).unwrap();
+        check(&m, StateId::FREE).words(&m, |c| c.to_string())
+    };
+    let parallel = words(&[[0, 0], [3, 0], [4, 4], [0, 5]]);
+    assert!(
+        parallel.contains("screws of one pitch and slides across them (3)"),
+        "{parallel}"
+    );
+    let coaxial = words(&[[2, 1], [2, 1]]);
+    assert!(
+        coaxial.contains("one screw (1), so 1 row per contour does"),
+        "{coaxial}"
+    );
+}
+
+/// What is said of all joints is true of all: an arm on the coupler of a four-bar is in no contour, and in no plane with it.
+#[test]
+fn joints_outside_contours_are_not_spoken_for() {
+    let four_bar = builtin::text("four-bar").unwrap();
+    let arm = "[[link]]\nid = \"arm\"\n[[joint]]\nid = \"shoulder\"\nlinks = [\"2\", \"arm\"]\ntype = \"revolute\"\n\
+               point = [1, 2, 3]\naxis = [1, 2, 3]\n";
+    let without_figures = four_bar.split("[[expected]]").next().unwrap();
+    let m = mechanism_from_str("arm.toml", &format!("{without_figures}\n{arm}")).unwrap();
+    let words = check(&m, StateId::FREE).words(&m, |c| c.to_string());
+    assert!(
+        words.starts_with(
+            "; all joints of contours move in one plane (3), so 3 rows per contour do"
+        ),
+        "{words}"
+    );
+    let whole = built_in("four-bar");
+    let words = check(&whole, StateId::FREE).words(&whole, |c| c.to_string());
+    assert!(
+        words.starts_with("; all joints move in one plane (3)"),
+        "{words}"
+    );
+}
+
+/// Geared arms have no contour to tell rows of.
+#[test]
+fn couplings_without_contours_are_not_told_of() {
+    let text = "name = \"geared arms\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"a\"\nrole = \"output\"\n[[link]]\n\
+                id = \"b\"\n[[joint]]\nid = \"A\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n\
+                [[joint]]\nid = \"B\"\nlinks = [\"0\", \"b\"]\ntype = \"revolute\"\npoint = [3, 0, 0]\naxis = [0, 0, 1]\n\
+                [[coupling]]\njoints = [\"A\", \"B\"]\nratio = -2\n";
+    let m = mechanism_from_str("arms.toml", text).unwrap();
+    assert_eq!(check(&m, StateId::FREE).words(&m, |c| c.to_string()), "");
+}

@@ -1,0 +1,447 @@
+//! Motions that are proven: which, by what, and that following them never says otherwise.
+
+use super::built_in;
+use crate::rank::finite_traps::{all::all as traps, judged, judged_in};
+use crate::rank::rounded::cases::cases;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use itertools::Itertools;
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mode, StateId};
+use ozols::rank::exact::field::field_of;
+use ozols::rank::finite::displacement_group::{Kind, whole_group};
+use ozols::rank::finite::independent_parts::lock_idle;
+use ozols::rank::finite::{Finite, How, Proof, followed};
+use std::fmt::Write;
+
+fn proof(name: &str) -> Option<Proof> {
+    match judged(&built_in(name)).1 {
+        Finite {
+            how: How::Submersion { by, .. },
+            numeric: false,
+            ..
+        } => Some(by),
+        _ => None,
+    }
+}
+
+/// A slider that could turn about its guide, and does not, leaves a planar mechanism.
+#[test]
+fn what_rests_is_locked_and_the_rest_is_a_group() {
+    for name in ["gripper-10", "gripper-10-loaded", "slider-crank-spatial"] {
+        assert!(
+            proof(name) <= Some(Proof::Resting) && proof(name).is_some(),
+            "{name}"
+        );
+    }
+    assert_eq!(proof("gripper-10"), Some(Proof::Resting));
+}
+
+/// Legs that move in whole groups, and what those have in common [Hervé 1978].
+#[test]
+fn legs_are_groups_and_platforms_move_in_what_they_share() {
+    for name in ["sarrus", "sarrus-three-legs", "3-crr", "tripteron"] {
+        assert_eq!(proof(name), Some(Proof::Bonds), "{name}");
+    }
+}
+
+/// Legs that could do more than the platform asks of them are held to what it does [Hervé 1999; Kong & Gosselin 2007].
+#[test]
+fn legs_are_held_to_the_subgroup_that_they_use() {
+    for name in ["4-upu", "quadrupteron"] {
+        assert_eq!(proof(name), Some(Proof::Bonds), "{name}");
+    }
+}
+
+/// Bars of a parallelogram slide on a circle, within the group of a leg.
+#[test]
+fn parallelograms_in_legs_are_circles_of_slides() {
+    for name in ["orthoglide", "delta-parallelograms", "y-star"] {
+        assert_eq!(proof(name), Some(Proof::Bonds), "{name}");
+    }
+}
+
+/// Contours that hold nothing twice between them, each proven for itself.
+#[test]
+fn contours_are_judged_one_by_one() {
+    assert_eq!(proof("exechon"), Some(Proof::Contours));
+}
+
+/// Where branches cross, or turn back in a cusp.
+#[test]
+fn motions_through_singular_poses_are_proven() {
+    for (name, order) in [
+        ("parallelogram-flat", 2),
+        ("origami-vertex-flat", 2),
+        ("3-upu-snu", 2),
+        ("double-watt-cusp", 5),
+    ] {
+        let (instantaneous, found) = judged(&built_in(name));
+        assert_eq!(found.how, How::Singular { order }, "{name}");
+        assert!(
+            found.is_proven() && found.mobility < instantaneous,
+            "{name}"
+        );
+    }
+}
+
+/// A chain pulled taut: its self-stress is a tension, whose work is definite.
+#[test]
+fn a_taut_chain_is_proven_to_rest() {
+    let taut = traps()
+        .into_iter()
+        .filter(|t| t.name.starts_with("taut-chain"));
+    let all: Vec<_> = taut
+        .map(|t| judged(&mechanism_from_str("x.toml", &t.text).unwrap()).1)
+        .collect();
+    assert!(
+        all.len() > 4 && all.iter().all(Finite::is_proven),
+        "{all:?}"
+    );
+}
+
+/// A platform on six rods: a quadric each.
+#[test]
+fn platforms_on_rods_are_proven_by_their_multiplicity() {
+    let (_, found) = judged(&built_in("griffis-duffy"));
+    assert!(found.is_proven() && found.mobility == 7, "{found:?}");
+}
+
+/// Single contours of up to six hinges that counting gives no motion: not stopped up to the order beyond which nothing can.
+#[test]
+fn overconstrained_contours_are_proven_by_their_multiplicity() {
+    for name in [
+        "bennett",
+        "goldberg-5r",
+        "goldberg-6r",
+        "myard-5r",
+        "bricard-box",
+        "bricard-line-symmetric",
+        "bricard-plane-symmetric",
+        "bricard-trihedral",
+        "schatz-turbula",
+        "altmann",
+        "two-bennetts",
+    ] {
+        assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
+    }
+    assert_eq!(proof("bennett-perturbed"), None);
+}
+
+/// Pins in a plane beyond need, whose equal lengths no group knows of.
+#[test]
+fn redundant_rods_in_a_plane_are_proven_by_their_multiplicity() {
+    for name in [
+        "parallelogram-3-rods",
+        "parallelogram-3-rods-planar",
+        "kempe-translator",
+        "roberts-cognates",
+        "dixon-k33",
+        "dixon-k44",
+        "hoberman-ring-6",
+    ] {
+        assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
+    }
+}
+
+/// Folded plates, whose vertices are spherical contours, each of which holds some of what the others hold.
+#[test]
+fn plates_are_proven_by_their_multiplicity() {
+    for name in ["miura-ori", "bricard-octahedron"] {
+        assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
+    }
+}
+
+/// Planar and spherical built-ins, in every state.
+#[test]
+fn most_built_ins_of_one_group_are_proven() {
+    let (mut all, mut open) = (0, Vec::new());
+    for name in builtin::names() {
+        let m = built_in(name);
+        for state in m.state_ids() {
+            let exact = field_of(&m, state, 0).unwrap();
+            let kind = whole_group(&exact, &m, state).unwrap().kind();
+            let planar = matches!(m.mode, Mode::Planar { .. }) || kind == Kind::Planar;
+            if planar || kind == Kind::Spherical {
+                all += 1;
+                if !judged_in(&m, state).1.is_proven() {
+                    open.push(format!("{name}, {}", m.states[state]));
+                }
+            }
+        }
+    }
+    assert!(all > 35, "{all}");
+    assert_eq!(open, [""; 0]);
+}
+
+/// A part that touches two jaws hinged together, each by a round edge on a flat face: on which side the faces are, where the edges
+/// lie and which way.
+fn between(part_has_faces: bool, edges: [(i32, [i32; 3]); 2]) -> String {
+    let mut text = String::from(
+        r#"name = "between"
+[[link]]
+id = "f"
+role = "frame"
+[[link]]
+id = "g"
+[[link]]
+id = "p"
+role = "output"
+[[joint]]
+id = "hinge"
+links = ["f", "g"]
+type = "revolute"
+point = [0, -30, 0]
+axis = [1, 0, 0]
+"#,
+    );
+    for ((y, along), (jaw, z)) in edges.into_iter().zip([("f", 10), ("g", -10)]) {
+        let [first, second] = if part_has_faces {
+            ["p", jaw]
+        } else {
+            [jaw, "p"]
+        };
+        writeln!(
+            text,
+            "[[joint]]\nid = \"{jaw}-p\"\nlinks = [\"{first}\", \"{second}\"]\ntype = \"cylinder-on-plane\"\n\
+             point = [0, {y}, {z}]\naxis = [0, 0, 1]\nreference = {along:?}"
+        )
+        .unwrap();
+    }
+    text
+}
+
+/// By hand: a part with two edges along x slides along them whatever the jaws do; one with crossed edges does not, for rolling
+/// about one tips the other. A plate between two edges moves in all ways of its plane.
+#[test]
+fn ways_of_a_part_are_split_off_where_its_faces_let_it_go() {
+    let (x, y) = ([1, 0, 0], [0, 1, 0]);
+    for (faces, second, idle) in [(false, x, 1), (false, y, 0), (true, x, 3), (true, y, 3)] {
+        let text = between(faces, [(0, x), (7, second)]);
+        let m = mechanism_from_str("x.toml", &text).unwrap();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let mut locked = m.clone();
+        let found = lock_idle(&exact, &mut locked, StateId::FREE).unwrap();
+        assert_eq!(found, idle, "{text}");
+        assert_eq!(judged(&locked).0 + idle, judged(&m).0, "{text}");
+    }
+}
+
+/// The round part of the gripper slides along itself, and what is left with the slide split off is stopped: "the turn about z is
+/// stopped by fifth order; the slide is there", as its file says.
+#[test]
+fn a_clamped_part_that_slides_is_proven_to_do_no_more() {
+    let m = built_in("lever-gripper");
+    let state = m.state("clamped").unwrap();
+    let (instantaneous, found) = judged_in(&m, state);
+    assert_eq!((instantaneous, found.mobility), (2, 1), "{found:?}");
+    assert!(found.is_proven(), "{found:?}");
+}
+
+/// Of all built-ins four are followed alone: a parallelogram of screws, which no polynomial describes; two bananas, of which one
+/// turns against the other as a whole; and two Wren platforms, whose motion ends in that of more freedoms.
+#[test]
+fn nearly_all_built_ins_are_proven() {
+    let followed = builtin::names()
+        .into_iter()
+        .filter(|name| !judged(&built_in(name)).1.is_proven());
+    assert_eq!(
+        followed.sorted().collect::<Vec<_>>(),
+        [
+            "delassus-parallelogram",
+            "double-banana",
+            "wren-platform",
+            "wren-platform-leaning",
+        ]
+    );
+}
+
+/// Mechanisms of known mobility that are not built in: those of mobility.json and the traps.
+#[test]
+fn most_further_mechanisms_are_proven() {
+    let known = cases()
+        .into_iter()
+        .filter(|c| {
+            !builtin::names()
+                .iter()
+                .any(|name| c.name.starts_with(&format!("{name},")))
+        })
+        // Those whose figures need more digits than the file has are no exact geometry.
+        .filter(|c| judged(&c.mechanism).0 == usize::try_from(c.mobility).unwrap())
+        .map(|c| (c.name, c.mechanism, c.finite));
+    let traps = traps().into_iter().map(|t| {
+        let mechanism = mechanism_from_str("x.toml", &t.text).unwrap();
+        (t.name, mechanism, i64::try_from(t.truth).unwrap())
+    });
+    let (mut all, mut open) = (0, Vec::new());
+    for (name, mechanism, truth) in known.chain(traps) {
+        all += 1;
+        let (_, found) = judged(&mechanism);
+        assert!(found.could_be(truth), "{name}: {found:?}");
+        if !found.is_proven() {
+            open.push(format!("{name}: {}", found.describe()));
+        }
+    }
+    assert!(all >= 90, "{all}");
+    assert!(
+        all - open.len() >= 85,
+        "{} of {all}: {open:#?}",
+        all - open.len()
+    );
+}
+
+/// A closed chain of hinges and slides with small whole coordinates: many are special by chance.
+fn chain(random: &mut ChaCha8Rng) -> String {
+    let mut below = |n: u32| random.next_u32() % n;
+    let joints = 4 + below(3) as usize;
+    let flat = below(2) == 0;
+    let mut text = String::from("name = \"chain\"\n");
+    for l in 0..joints {
+        let role = ["role = \"frame\"\n", "role = \"output\"\n"]
+            .get(l)
+            .unwrap_or(&"");
+        write!(text, "[[link]]\nid = \"{l}\"\n{role}").unwrap();
+    }
+    let directions = [
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+        [0, 1, 1],
+        [1, 1, 0],
+        [1, 2, 2],
+    ];
+    for j in 0..joints {
+        let kind = if below(6) == 0 {
+            "prismatic"
+        } else {
+            "revolute"
+        };
+        let point = [(); 3].map(|()| below(4));
+        let axis = directions[below(if flat { 2 } else { 6 }) as usize];
+        write!(
+            text,
+            "[[joint]]\nid = \"j{j}\"\nlinks = [\"{j}\", \"{}\"]\ntype = \"{kind}\"\npoint = {point:?}\naxis = {axis:?}\n",
+            (j + 1) % joints
+        )
+        .unwrap();
+    }
+    text
+}
+
+/// Proof and pursuit share nothing but the file: on chains at random they never contradict each other.
+#[test]
+fn proofs_of_random_chains_are_not_contradicted_by_following_them() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let (mut moving, mut stopped, mut orders) = (0, 0, 0);
+    for case in 0..1500 {
+        let text = chain(&mut random);
+        let m = mechanism_from_str("x.toml", &text).unwrap();
+        let (instantaneous, found) = judged(&m);
+        if instantaneous == 0 || !found.is_proven() {
+            continue;
+        }
+        let by_motion = followed(&m, StateId::FREE, instantaneous, 0.0).unwrap();
+        assert!(
+            by_motion.could_be(i64::try_from(found.mobility).unwrap()),
+            "{case}: {found:?} {by_motion:?}\n{text}"
+        );
+        match found.how {
+            How::Submersion { by, .. } => {
+                moving += 1;
+                orders += usize::from(by == Proof::Multiplicity);
+            }
+            How::Stopped { .. } => stopped += 1,
+            _ => {}
+        }
+    }
+    assert!(
+        moving > 60 && stopped > 20 && orders > 3,
+        "{moving} {stopped} {orders}"
+    );
+}
+
+/// Two contours of hinges and slides in a plane, about a point or along the axes, with small whole coordinates; every other leg is
+/// the one before, shifted.
+fn two_contours(random: &mut ChaCha8Rng) -> String {
+    let mut below = |n: u32| random.next_u32() % n;
+    let kind = below(3);
+    let mut text = String::from(
+        "name = \"two-contours\"\n[[link]]\nid = \"a\"\nrole = \"frame\"\n[[link]]\nid = \"b\"\nrole = \"output\"\n",
+    );
+    let mut joints: Vec<(&str, [u32; 3], [u32; 3])> = Vec::new();
+    for leg in 0..3 {
+        if leg > 0 && below(2) == 0 {
+            let shift = [below(4), below(4), below(4)];
+            for (_, point, _) in &mut joints {
+                (0..3).for_each(|i| point[i] += [shift[i], 0][usize::from(kind == 1)]);
+            }
+        } else {
+            joints = (0..2 + below(2))
+                .map(|_| {
+                    let slides = kind != 1 && below(8) == 0;
+                    let of = ["revolute", "prismatic"][usize::from(slides)];
+                    let any = [(); 3].map(|()| below(4));
+                    let along = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0]][below(4) as usize];
+                    match (kind, of) {
+                        (0, "revolute") => (of, [any[0], any[1], 0], [0, 0, 1]),
+                        (0, _) => (of, [0; 3], [any[0] + 1, any[1], 0]),
+                        (1, _) => (of, [0; 3], [any[0] + 1, any[1], any[2]]),
+                        _ => (of, any, along),
+                    }
+                })
+                .collect();
+        }
+        let link = |k: usize| match k {
+            0 => "a".to_owned(),
+            k if k == joints.len() => "b".to_owned(),
+            k => format!("{leg}-{k}"),
+        };
+        for (j, (of, point, axis)) in joints.iter().enumerate() {
+            if j > 0 {
+                write!(text, "[[link]]\nid = \"{}\"\n", link(j)).unwrap();
+            }
+            write!(
+                text,
+                "[[joint]]\nid = \"{leg}.{j}\"\nlinks = [\"{}\", \"{}\"]\ntype = \"{of}\"\npoint = {point:?}\naxis = {axis:?}\n",
+                link(j),
+                link(j + 1)
+            )
+            .unwrap();
+        }
+    }
+    text
+}
+
+/// The same of two contours, of which most hold something twice or are at singular poses.
+#[test]
+fn proofs_of_random_contours_are_not_contradicted_by_following_them() {
+    let cases = std::env::var("OZOLS_FUZZ").map_or(600, |n| n.parse().unwrap());
+    let seed = std::env::var("OZOLS_SEED").map_or(11, |n| n.parse().unwrap());
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut found_by = std::collections::BTreeMap::new();
+    for case in 0..cases {
+        let text = two_contours(&mut random);
+        let m = mechanism_from_str("x.toml", &text).unwrap();
+        let (instantaneous, found) = judged(&m);
+        if instantaneous == 0 {
+            continue;
+        }
+        *found_by.entry(found.word()).or_insert(0) += 1;
+        if !found.is_proven() {
+            continue;
+        }
+        let by_motion = followed(&m, StateId::FREE, instantaneous, 0.0).unwrap();
+        assert!(
+            by_motion.could_be(i64::try_from(found.mobility).unwrap()),
+            "{case}: {found:?} {by_motion:?}\n{text}"
+        );
+    }
+
+    for word in ["submersion", "multiplicity", "singular", "second-order"] {
+        assert!(
+            found_by.get(word).is_some_and(|&n| n >= 3),
+            "{word}: {found_by:?}"
+        );
+    }
+}

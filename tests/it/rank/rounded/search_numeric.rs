@@ -1,0 +1,311 @@
+//! Searches of mechanisms that exact arithmetic does not have as they are meant: by singular values, and said so.
+
+use crate::common::{built_in, run_on};
+use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
+use ozols::builtin;
+use ozols::model::mechanism::{JointOption, Mechanism};
+use ozols::rank::exact::field::exact_field;
+use ozols::score::outcome::Outcome;
+use ozols::score::request::{Check, JointOptions, List, Request};
+use ozols::search::Search;
+use ozols::search::answer::counts::Counts;
+use ozols::search::answer::k_best::Assignment;
+use ozols::search::numeric::at_tolerance::WHOLE;
+use ozols::search::question::rounded_rank::Digits;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+/// Options that every joint may take.
+pub(super) fn request() -> Request {
+    Request {
+        options: ["revolute", "cylindrical", "spherical"]
+            .map(str::to_owned)
+            .to_vec(),
+        list: List::Nothing,
+        check: Check::None,
+        ..Request::default()
+    }
+}
+
+/// The same mechanism with its present joints as the only options.
+pub(super) fn bare(mut m: Mechanism) -> Mechanism {
+    for joint in &mut m.joints {
+        joint.unloading.clear();
+        joint.options = vec![JointOption {
+            name: joint.joint_type.name().to_owned(),
+            joint_type: joint.joint_type.clone(),
+            frame: joint.frame.clone(),
+            cost_milli: None,
+            state: None,
+        }];
+    }
+    m
+}
+
+/// A built-in mechanism without options of its own.
+pub(super) fn plain(name: &str) -> Mechanism {
+    bare(built_in(name))
+}
+
+/// It turned and rounded.
+pub(super) fn turned(m: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
+    bare(turned_and_rounded(m, decimals, noise))
+}
+
+/// What a search of a turned mechanism says against what one of the exact one does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Said {
+    /// Exact, and the same.
+    Exact,
+    /// Numeric, without doubts, and the same.
+    Numeric,
+    /// Numeric, with the truth between its bounds.
+    Bracket,
+    /// No answer.
+    Refused,
+    /// Not exact, and the truth is not in it.
+    Beside,
+    /// Exact, and wrong.
+    WrongAndSure,
+}
+
+fn said(name: &str, m: &Mechanism, truth: &Outcome) -> (Said, String) {
+    let found = match ozols::search(m, &request()) {
+        Ok(found) => found,
+        Err(e) => return (Said::Refused, format!("{name}: {e}")),
+    };
+    let figures = |o: &Outcome| (o.determinate.clone(), o.admissible.clone());
+    let same = figures(&found) == figures(truth);
+    let Some(numeric) = &found.numeric else {
+        let words = format!("{name}: {} for {}", found.admissible, truth.admissible);
+        return match (same, found.is_exact()) {
+            (true, _) => (Said::Exact, words),
+            (false, true) => (Said::WrongAndSure, words),
+            (false, false) => (Said::Beside, words),
+        };
+    };
+    assert!(!found.is_exact() && !found.is_determinate_exact());
+    let within = [
+        (&numeric.determinate, &truth.determinate),
+        (&numeric.admissible, &truth.admissible),
+    ];
+    let holds = within
+        .iter()
+        .all(|(b, t)| b.sure.total <= t.total && t.total <= b.most);
+    let narrow = within.iter().all(|(b, _)| b.is_narrow());
+    let words = format!(
+        "{name}: {} to {} for {}, determinate {} to {} for {}, {:?}, base {:?}",
+        numeric.admissible.sure,
+        numeric.admissible.most,
+        truth.admissible,
+        numeric.determinate.sure,
+        numeric.determinate.most,
+        truth.determinate,
+        numeric.digits,
+        numeric.present
+    );
+    let worth = match (same && narrow, holds && !narrow) {
+        (true, _) => Said::Numeric,
+        (_, true) => Said::Bracket,
+        _ => Said::Beside,
+    };
+    (worth, words)
+}
+
+/// Those built in whose meant geometry is not there exactly, in small spaces, and some whose is.
+const SOME: [&str; 6] = [
+    "bennett",
+    "goldberg-5r",
+    "myard-5r",
+    "four-bar",
+    "hart-inversor",
+    "sarrus",
+];
+
+/// Turns never looked at before, of all that are built in: `OZOLS_ROUNDED=7 OZOLS_DECIMALS=6,12 cargo test --test integration
+/// rounded::search_numeric -- --nocapture`.
+#[test]
+#[allow(clippy::print_stdout, reason = "the table is what it is run for")]
+fn no_turned_mechanism_has_a_false_count_that_is_called_exact() {
+    let turn = std::env::var("OZOLS_ROUNDED").ok();
+    let decimals = std::env::var("OZOLS_DECIMALS").unwrap_or_else(|_| "6".to_owned());
+    let seed: u64 = turn.as_ref().and_then(|t| t.parse().ok()).unwrap_or(1);
+    let all = builtin::names();
+    let names: Vec<&str> = match turn {
+        Some(_) => all,
+        None => SOME.to_vec(),
+    };
+    // Spaces that a debug build looks at whole in a second.
+    let small = |o: &Outcome| o.search.size() <= 3000u32.into();
+    for decimals in decimals.split(',').map(|d| d.parse::<usize>().unwrap()) {
+        let one = |(n, name): (usize, &&str)| {
+            let m = plain(name);
+            let few = m.joints.len() <= 8;
+            let truth = few.then(|| ozols::search(&m, &request()).ok())?;
+            let truth = truth.filter(small)?;
+            let turned = turned(&m, decimals, &mut Noise::new(seed, n));
+            Some(said(name, &turned, &truth))
+        };
+        let mut all: Vec<(Said, String)> = names.par_iter().enumerate().filter_map(one).collect();
+        all.sort();
+        let how_many = |of: Said| all.iter().filter(|(s, _)| *s == of).count();
+        for (_, words) in all.iter().filter(|(s, _)| *s != Said::Exact) {
+            println!("{words}");
+        }
+        println!(
+            "{decimals} decimals: {} exact, {} numeric and the same, {} between bounds, {} refused, {} beside, {} wrong and sure",
+            how_many(Said::Exact),
+            how_many(Said::Numeric),
+            how_many(Said::Bracket),
+            how_many(Said::Refused),
+            how_many(Said::Beside),
+            how_many(Said::WrongAndSure)
+        );
+        let wrong: Vec<_> = all.iter().filter(|(s, _)| *s >= Said::Beside).collect();
+        assert!(wrong.is_empty(), "{wrong:#?}");
+    }
+}
+
+#[test]
+fn a_bennett_linkage_from_cad_has_the_counts_of_the_exact_one() {
+    let m = turned(&plain("bennett"), 6, &mut Noise::new(11, 0));
+    let file = ozols::export(&m, "toml").unwrap();
+    let options = ["--options", "revolute,cylindrical,spherical"];
+    let on = |more: &[&str]| {
+        let (code, stdout, stderr) =
+            run_on("search", "it.toml", &file, &[&options[..], more].concat());
+        assert_eq!(code, Some(0), "{stderr}");
+        stdout
+    };
+    let v: Value = serde_json::from_str(&on(&["--format", "json"])).unwrap();
+    let eight = json!({"from": "8", "to": "8", "doubtful": "0"});
+    assert_eq!(
+        (
+            &v["numeric"]["admissible"],
+            &v["admissible"],
+            &v["determinate"]
+        ),
+        (&eight, &"8".into(), &"17".into())
+    );
+    assert_eq!(
+        (&v["exact"], &v["determinate_exact"], &v["certainty"]),
+        (&false.into(), &false.into(), &"numeric".into())
+    );
+    assert!(v["variants_proven"].is_null() || v["variants_proven"] == 0);
+    assert_eq!(v["variants"].as_array().unwrap().len(), 8);
+    let text = on(&[]);
+    assert!(text.contains("numeric: 8 of 27 variants"), "{text}");
+    for word in ["Checked", "Proven", "proven"] {
+        assert!(!text.contains(word), "{word} in {text}");
+    }
+    let csv = on(&["--format", "csv", "--comment"]);
+    assert!(
+        csv.lines().last().unwrap().starts_with("# numeric: 8 "),
+        "{csv}"
+    );
+    assert!(on(&["--format", "jsonl"]).contains("\"certainty\":\"numeric\""));
+}
+
+/// A search ready to be made, of exact geometry.
+fn ready(name: &str, request: &Request) -> (Search, Outcome) {
+    let m = built_in(name);
+    let truth = ozols::search(&m, request).unwrap();
+    let prepared = request.prepare(m, &mut |_| {}).unwrap();
+    let (conditions, _) = request.conditions(&prepared, &mut |_| {}).unwrap();
+    let field = exact_field(&prepared.mechanism, 0).unwrap();
+    let search = Search::new(field, prepared.mechanism, conditions).unwrap();
+    (search, truth)
+}
+
+const FINE: Digits = Digits {
+    tolerance: 1e-9,
+    undecided: false,
+};
+
+#[test]
+fn every_condition_means_the_same_by_singular_values() {
+    let names = |all: &str| all.split(',').map(str::to_owned).collect::<Vec<_>>();
+    // Of the twelve joints seven may change: 128 variants.
+    let forbid = |joint: &str| JointOptions {
+        joint: joint.to_owned(),
+        names: Vec::new(),
+    };
+    let plain = Request {
+        options: names("revolute,spherical"),
+        forbid: ["2-4", "4-5", "6-8", "8-9", "9-1"].map(forbid).to_vec(),
+        max_redundant: 5,
+        list: List::Nothing,
+        check: Check::None,
+        ..Request::default()
+    };
+    let asked = [
+        Request {
+            max_mobility: Some(2),
+            max_changes: Some(4),
+            ..plain.clone()
+        },
+        Request {
+            allow_output_change: true,
+            hold: names("5"),
+            ..plain.clone()
+        },
+        Request {
+            max_external: Some(3),
+            ..plain.clone()
+        },
+        Request {
+            max_harmful: Some(1),
+            ..plain.clone()
+        },
+    ];
+    for request in asked {
+        let (mut search, truth) = ready("gripper-10", &request);
+        let found = search.at_tolerance(FINE, (0, 1), &|| false).unwrap();
+        assert_eq!(found.determinate.sure, truth.determinate, "{request:?}");
+        assert_eq!(found.admissible.sure, truth.admissible, "{request:?}");
+        assert!(found.is_whole() && found.admissible.is_narrow());
+        assert_eq!(
+            found.list(&search).count().to_string(),
+            truth.admissible.to_string()
+        );
+    }
+}
+
+#[test]
+fn a_large_space_is_sampled_and_its_cheapest_are_found() {
+    let request = Request {
+        options: "revolute,cylindrical,universal,spherical,sphere-in-cylinder,planar,slotted,cylindrical-universal,cylinder-on-plane"
+            .split(',')
+            .map(str::to_owned)
+            .collect(),
+        max_redundant: 1,
+        list: List::Top(5),
+        check: Check::None,
+        ..Request::default()
+    };
+    let (mut search, truth) = ready("two-bennetts", &request);
+    assert!(search.size() > WHOLE.into(), "{}", search.size());
+    let found = search.at_tolerance(FINE, (5, 1), &|| false).unwrap();
+    let sampled = found.sampled.clone().unwrap();
+    let size: f64 = search.size().to_string().parse().unwrap();
+    let share = |n: &Counts| n.to_string().parse::<f64>().unwrap() / size;
+    for (bracket, exact, sample) in [
+        (&found.determinate, &truth.determinate, sampled.determinate),
+        (&found.admissible, &truth.admissible, sampled.admissible),
+    ] {
+        assert!(bracket.sure.total <= exact.total && exact.total <= bracket.most);
+        let share = share(exact);
+        assert!(
+            sample.low <= share && share <= sample.high,
+            "{share} {sample:?}"
+        );
+    }
+    let cost = |v: &Assignment| search.steps.milli(v.key.cost());
+    let cheapest: Vec<i64> = found.list(&search).take(5).map(|v| cost(&v)).collect();
+    let exact: Vec<i64> = truth.variants().map(|v| v.cost_milli()).collect();
+    assert_eq!(cheapest, exact);
+    assert!(sampled.all_below.unwrap() >= cheapest[4]);
+    // Ended at once, nothing is known.
+    let none = search.at_tolerance(FINE, (5, 1), &|| true).unwrap();
+    assert_eq!((none.looked, &none.admissible.most), (0, &search.size()));
+}

@@ -1,0 +1,115 @@
+//! Symmetry that a file states holds in the turned and rounded one, too: variants that are their own images, and one of each pair
+//! of images, are counted as in the exact file.
+
+use super::search_numeric::{bare, request, turned};
+use crate::common::built_in;
+use ozols::accuracy::stability::change::Noise;
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::Mechanism;
+use ozols::score::request::Request;
+use ozols::search::question::conditions::Symmetry;
+
+const BOTH: [Symmetry; 2] = [Symmetry::SymmetricOnly, Symmetry::OnePerOrbit];
+
+fn asked(symmetry: Symmetry) -> Request {
+    Request {
+        symmetry,
+        ..request()
+    }
+}
+
+/// A shaft and two rods to two rockers, by half a turn each other's images.
+fn two_rockers() -> Mechanism {
+    let mut file = "name = \"two-rockers\"\n".to_owned();
+    for (id, role) in [
+        ("0", "role = \"frame\""),
+        ("shaft", "role = \"output\""),
+        ("rod", ""),
+        ("rod2", ""),
+        ("rocker", ""),
+        ("rocker2", ""),
+    ] {
+        file += &format!("[[link]]\nid = \"{id}\"\n{role}\n");
+    }
+    file += "[[joint]]\nid = \"o\"\nlinks = [\"0\", \"shaft\"]\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [0, 0, 0]\n";
+    for (of, sign) in [("", ""), ("2", "-")] {
+        for (id, links, [x, y]) in [
+            ("a", ["shaft".to_owned(), format!("rod{of}")], [2, 0]),
+            ("b", [format!("rod{of}"), format!("rocker{of}")], [3, 4]),
+            ("c", [format!("rocker{of}"), "0".to_owned()], [7, 1]),
+        ] {
+            file += &format!(
+                "[[joint]]\nid = \"{id}{of}\"\nlinks = {links:?}\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [{sign}{x}, {sign}{y}, 0]\n"
+            );
+        }
+    }
+    file += "[search]\noptions = [\"revolute\"]\nturn = [[\"a\", \"a2\"], [\"b\", \"b2\"], [\"c\", \"c2\"]]\n";
+    mechanism_from_str("x.toml", &file).unwrap()
+}
+
+/// Turned files that have the counts of the exact one, of all at these decimals; none has others and calls them exact.
+fn same(name: &str, exact: &Mechanism, decimals: &[usize]) -> [usize; 2] {
+    let (mut same, mut all) = (0, 0);
+    for symmetry in BOTH {
+        let truth = ozols::search(exact, &asked(symmetry)).unwrap();
+        for (n, &d) in decimals.iter().enumerate() {
+            let m = turned(exact, d, &mut Noise::new(n as u64, d));
+            all += 1;
+            let Ok(found) = ozols::search(&m, &asked(symmetry)) else {
+                continue;
+            };
+            let counts = (&found.determinate, &found.admissible);
+            let alike = counts == (&truth.determinate, &truth.admissible);
+            assert!(alike || !found.is_exact(), "{name} at {d} decimals");
+            same += usize::from(alike);
+        }
+    }
+    [same, all]
+}
+
+#[test]
+fn mirror_pairs_of_built_in_grippers_hold_in_turned_files() {
+    let mut sum = [0, 0];
+    for name in [
+        "lever-gripper",
+        "gripper-slider-two-fingers",
+        "gripper-slider-two-fingers-balls",
+        "lever-slot-gripper",
+        "gripper-10-redesign",
+        "parallelogram-gripper",
+    ] {
+        let exact = bare(built_in(name));
+        let [same, all] = same(name, &exact, &[4, 6, 9, 12]);
+        sum = [sum[0] + same, sum[1] + all];
+    }
+    assert!(sum[0] * 10 >= sum[1] * 9, "{sum:?}");
+}
+
+#[test]
+fn joints_that_become_each_other_by_half_a_turn_do_so_in_turned_files() {
+    let exact = bare(two_rockers());
+    let found = ozols::search(&exact, &asked(Symmetry::OnePerOrbit)).unwrap();
+    assert!(found.is_exact() && found.admissible.total > 0u32.into());
+    assert_eq!(same("two rockers", &exact, &[4, 6, 9, 12, 15]), [10, 10]);
+}
+
+#[test]
+fn a_stated_image_that_is_off_by_more_than_the_digits_is_refused() {
+    let text = builtin::text("gripper-slider-two-fingers").unwrap();
+    let exact = bare(mechanism_from_str("x.toml", text).unwrap());
+    for (seed, symmetry) in [1, 2].into_iter().zip(BOTH) {
+        let mut m = turned(&exact, 6, &mut Noise::new(seed, 0));
+        let joint = m.search.mirror[1].0;
+        for axis in 0..3 {
+            let x = &mut m.joints[joint].frame.point[axis];
+            // Eight units of the last digit.
+            *x = format!("{:.6}", x.to_f64() + 8e-6).parse().unwrap();
+        }
+        let error = ozols::search(&m, &asked(symmetry)).unwrap_err().to_string();
+        assert!(
+            error.contains("counts of images need exact ones"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,443 @@
+//! Poses over a stroke: against closed forms, against the planar motion by Assur groups, and as the command shows them.
+
+use crate::common::{built_in, json, out, ozols};
+use crate::statics::{file, mechanism, r};
+use ozols::builtin;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::motion::follow::{Followed, Why, follow, slides};
+use ozols::motion::pose::Pose;
+use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
+use ozols::statics::assur::decompose;
+use ozols::statics::planar::PlanarMechanism;
+use ozols::statics::planar_motion::Motion;
+use ozols::statics::pose::Linkage;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Columns of the file's drives in the free state.
+fn drives(m: &Mechanism, pose: &Pose) -> Vec<usize> {
+    (0..pose.columns.len())
+        .filter(|&c| m.joints[pose.columns[c].joint].drive)
+        .collect()
+}
+
+fn figures(m: &Mechanism, range: [f64; 2], steps: usize) -> StrokeFigures {
+    let pose = Pose::of_file(m, StateId::FREE).unwrap();
+    let drives = drives(m, &pose);
+    let request = StrokeRequest {
+        mechanism: m,
+        state: StateId::FREE,
+        drive: drives[0],
+        held: &drives[1..],
+        range,
+        steps,
+        tolerance: None,
+    };
+    stroke(&request, &pose)
+}
+
+fn followed(m: &Mechanism, range: [f64; 2], steps: usize) -> (Pose, Followed) {
+    let pose = Pose::of_file(m, StateId::FREE).unwrap();
+    let drives = drives(m, &pose);
+    let found = follow(&pose, drives[0], &drives[1..], range, steps);
+    (pose, found)
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let sum: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+    sum.sqrt()
+}
+
+/// Where rods of lengths `b` and `c` from two points meet, to the left of the way from the first to the second.
+fn meet(p: [f64; 2], b: f64, q: [f64; 2], c: f64) -> [f64; 2] {
+    let d = distance(&p, &q);
+    let along = (b * b - c * c + d * d) / (2.0 * d);
+    let across = (b * b - along * along).sqrt();
+    let u = [(q[0] - p[0]) / d, (q[1] - p[1]) / d];
+    [
+        p[0] + along * u[0] - across * u[1],
+        p[1] + along * u[1] + across * u[0],
+    ]
+}
+
+#[test]
+fn slider_crank_over_a_turn() {
+    let found = figures(&built_in("slider-crank-spatial"), [0.0, TAU], 36);
+    assert_eq!(
+        (found.poses.len(), found.stop, found.undriven),
+        (37, None, 0)
+    );
+    assert_eq!(found.changes, []);
+    for (i, p) in found.poses.iter().enumerate() {
+        assert!((p.at - TAU * i as f64 / 36.0).abs() < 1e-14);
+        let angle = 40f64.atan2(30.0) + p.at;
+        let x = 50.0 * angle.cos() + (104f64.powi(2) - (50.0 * angle.sin()).powi(2)).sqrt();
+        assert!(distance(&p.outputs[0].point, &[x, 0.0, 0.0]) < 1e-10);
+        assert!(p.outputs[0].turn < 1e-12 && p.gap < 1e-12);
+        assert_eq!((p.rank.rank, p.mobility, p.redundant), (3, 1, 3));
+    }
+}
+
+#[test]
+fn four_bar_over_a_turn() {
+    let found = figures(&built_in("four-bar"), [-PI, PI], 40);
+    assert_eq!((found.poses.len(), found.stop), (41, None));
+    let rocker = distance(&[80.0, 90.0], &[120.0, 0.0]);
+    for p in &found.poses {
+        let angle = FRAC_PI_2 + p.at;
+        let pin = [30.0 * angle.cos(), 30.0 * angle.sin()];
+        let c = meet(pin, 100.0, [120.0, 0.0], rocker);
+        let middle = [(c[0] + 120.0) / 2.0, c[1] / 2.0, 0.0];
+        assert!(distance(&p.outputs[0].point, &middle) < 1e-10, "{}", p.at);
+        let turn = c[1].atan2(c[0] - 120.0) - 90f64.atan2(-40.0);
+        assert!((p.outputs[0].turn - turn.abs()).abs() < 1e-12);
+        assert_eq!(p.redundant, 3);
+    }
+}
+
+/// 3 + 4 > 3 + √10: no link turns fully. The crank stops where coupler and rocker come to lie in line.
+#[test]
+fn a_four_bar_that_does_not_turn_stops_at_its_dead_points() {
+    let text = file(
+        &[
+            r("0", "1", 0.0, 0.0),
+            r("1", "2", 0.0, 3.0),
+            r("2", "3", 3.0, 3.0),
+            r("3", "0", 4.0, 0.0),
+        ],
+        "",
+    );
+    let m = mechanism(&text);
+    let reach = 3.0 + 10f64.sqrt();
+    let limit = ((16.0 + 9.0 - reach * reach) / 24.0).acos();
+    for (to, at) in [(TAU, limit - FRAC_PI_2), (-TAU, -limit - FRAC_PI_2)] {
+        for steps in [1, 37] {
+            let found = figures(&m, [0.0, to], steps);
+            let stop = found.stop.unwrap();
+            assert_eq!(stop.why, Why::DeadPoint);
+            assert!((stop.at - at).abs() < 1e-7, "{} {at}", stop.at);
+            assert!(found.poses.len() < 38);
+            let last = found.poses.last().unwrap();
+            assert!(last.at.abs() <= at.abs());
+        }
+    }
+}
+
+/// tan(θ1/2)·tan(θ2/2) is the same in all poses [Bennett 1903].
+#[test]
+fn bennett_half_angles() {
+    let m = built_in("bennett");
+    let (pose, found) = followed(&m, [-3.0, 3.0], 30);
+    assert!(found.stop.is_none());
+    let points: Vec<[f64; 3]> = m
+        .joints
+        .iter()
+        .map(|j| j.frame.point.each_ref().map(|c| c.to_f64()))
+        .collect();
+    let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| a[i] - b[i]);
+    let dot = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|i| a[i] * b[i]).sum() };
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
+    };
+    let mut products = Vec::new();
+    for f in &found.reached {
+        let now = f.pose();
+        // The pin of joint i, carried by its first link.
+        let at = |i: usize| {
+            let local = minus(points[i], pose.middle).map(|x| x / pose.length);
+            now.links[m.joints[i].links[0]].point(local)
+        };
+        let tan = |i: usize| {
+            let before = minus(at(i), at((i + 3) % 4));
+            let after = minus(at((i + 1) % 4), at(i));
+            let t = now.columns[i].twist;
+            let sine = dot([t[0], t[1], t[2]], cross(before, after));
+            (sine.atan2(dot(before, after)) / 2.0).tan()
+        };
+        products.push(tan(0) * tan(1));
+        assert!((tan(0) * tan(1)).is_finite() && f.gap() < 1e-12);
+    }
+    for p in &products {
+        assert!((p / products[0] - 1.0).abs() < 1e-9, "{products:?}");
+    }
+}
+
+/// Shafts at an angle with cosine 3/5, the first pin across their plane: tan ψ = 3/5 tan φ.
+#[test]
+fn hooke_joint_angles() {
+    let (_, found) = followed(&built_in("hooke-joint"), [0.0, TAU], 48);
+    assert_eq!((found.reached.len(), found.stop), (49, None));
+    for f in &found.reached {
+        let (sine, cosine) = f.at().sin_cos();
+        let turn = -f.pose().columns[3].moved;
+        let (s, c) = turn.sin_cos();
+        let wanted = (0.6 * sine).atan2(cosine);
+        assert!(distance(&[s, c], &[wanted.sin(), wanted.cos()]) < 1e-12);
+    }
+    // Once round, not back.
+    assert!((found.reached[48].pose().columns[3].moved.abs() - TAU).abs() < 1e-12);
+}
+
+/// Flat at 180° - 63.43° and 360° - 63.43°; it comes out a parallelogram each time.
+#[test]
+fn parallelogram_through_its_flat_poses() {
+    let m = built_in("parallelogram");
+    let first = PI - 2f64.atan();
+    for (range, steps) in [([0.0, TAU], 24), ([0.0, TAU], 7), ([0.0, 2.0 * first], 2)] {
+        let found = figures(&m, range, steps);
+        assert_eq!((found.poses.len(), found.stop), (steps + 1, None));
+        for p in &found.poses {
+            // The coupler does not turn.
+            assert!(p.outputs[0].turn < 1e-7, "{p:?}");
+            let angle = 2f64.atan() + p.at;
+            let pin = 4500f64.sqrt();
+            let middle = [60.0 + pin * angle.cos(), pin * angle.sin(), 0.0];
+            assert!(distance(&p.outputs[0].point, &middle) < 1e-5);
+        }
+        let flat: Vec<f64> = [first, first + PI]
+            .into_iter()
+            .filter(|x| *x < range[1])
+            .collect();
+        assert_eq!(found.changes.len(), flat.len(), "{:?}", found.changes);
+        for (c, at) in found.changes.iter().zip(flat) {
+            assert_eq!(c.ranks, [3, 2, 3]);
+            let width = c.between[1] - c.between[0];
+            assert!(c.between[0] <= at && at <= c.between[1], "{c:?} {at}");
+            assert!(width < 2.1e-6 * range[1], "{c:?}");
+        }
+    }
+    // On the flat pose itself.
+    let found = figures(&m, [0.0, 2.0 * first], 2);
+    assert_eq!((found.poses[1].rank.rank, found.poses[1].redundant), (2, 4));
+}
+
+/// A truss that is only shaky moves nowhere.
+#[test]
+fn shaky_poses_do_not_move() {
+    for name in [
+        "jessen-icosahedron",
+        "octahedron-twisted",
+        "three-parallel-bars",
+    ] {
+        let found = figures(&built_in(name), [0.0, 1.0], 4);
+        let stop = found.stop.unwrap();
+        assert_eq!(stop.why, Why::Instantaneous, "{name}");
+        assert!(stop.at.abs() < 1e-5, "{name}");
+    }
+    let found = figures(&built_in("6r-general"), [0.0, 1.0], 4);
+    assert_eq!(found.stop.unwrap().why, Why::Locked);
+}
+
+/// In the flat pose itself two branches cross, and the drive says nothing about which to take.
+#[test]
+fn a_flat_parallelogram_does_not_guess() {
+    let found = figures(&built_in("parallelogram-flat"), [0.0, 1.0], 4);
+    let stop = found.stop.unwrap();
+    assert_eq!(stop.why, Why::Singular);
+    assert!(stop.at < 1e-6);
+    assert_eq!(found.poses.len(), 1);
+}
+
+#[test]
+fn the_gripper_keeps_its_redundancy() {
+    let v = json(&[
+        "analyze",
+        "gripper-10",
+        "--stroke",
+        "-0.5:0.5:20",
+        "--format",
+        "json",
+    ]);
+    let stroke = &v["stroke"];
+    assert_eq!(
+        (&stroke["stop"], &stroke["unit"]),
+        (&serde_json::Value::Null, &"cm".into())
+    );
+    let poses = stroke["poses"].as_array().unwrap();
+    assert_eq!(poses.len(), 21);
+    for p in poses {
+        assert_eq!(p["redundant"], 11);
+        assert!(p["gap"].as_f64().unwrap() < 1e-10);
+        assert!(p["conditioning"].as_f64().unwrap() > 1e-4);
+        assert!(p["largest_dropped"].as_f64().unwrap() < 1e-10);
+        // The parallelogram keeps the attitude of the jaws.
+        for o in p["outputs"].as_array().unwrap() {
+            assert!(o["turn"].as_f64().unwrap() < 1e-10);
+        }
+    }
+}
+
+#[test]
+fn the_number_of_steps_does_not_matter() {
+    for (name, to) in [
+        ("four-bar", 2.0),
+        ("bennett", 2.0),
+        ("slider-crank-determinate", 4.0),
+        ("rssr", 0.6),
+        ("parallel-shears", TAU),
+        ("gripper-10", 0.4),
+        ("five-bar", 0.5),
+    ] {
+        let m = built_in(name);
+        let [a, b] = [1, 50].map(|n| figures(&m, [0.0, to], n));
+        assert_eq!((a.stop, b.stop), (None, None), "{name}");
+        let [a, b] = [a, b].map(|f| f.poses.last().unwrap().clone());
+        for (x, y) in a.outputs.iter().zip(&b.outputs) {
+            assert!(distance(&x.point, &y.point) < 1e-9, "{name}: {a:?} {b:?}");
+            assert!((x.turn - y.turn).abs() < 1e-9);
+        }
+        assert_eq!(a.rank.rank, b.rank.rank);
+        assert!((a.rank.kept / b.rank.kept - 1.0).abs() < 1e-3, "{name}");
+    }
+}
+
+/// The same poses as by Assur groups, in every planar file that those can move.
+#[test]
+fn as_by_assur_groups() {
+    let mut compared = 0;
+    for name in builtin::names() {
+        let m = built_in(name);
+        let Ok(planar) = PlanarMechanism::new(&m, StateId::FREE) else {
+            continue;
+        };
+        let pairs = planar.drives();
+        let Ok(d) = decompose(&planar, &pairs) else {
+            continue;
+        };
+        let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+        let columns = drives(&m, &pose);
+        if columns.len() != pairs.len()
+            || pairs.is_empty()
+            || m.joints[pose.columns[columns[0]].joint].id != planar.pairs[pairs[0]].name
+        {
+            continue;
+        }
+        let unit = if slides(&pose, columns[0]) {
+            pose.length
+        } else {
+            1.0
+        };
+        let linkage = Linkage::new(planar);
+        let metres = if unit == 1.0 {
+            1.0
+        } else {
+            linkage.mechanism.metres
+        };
+        let far = if unit == 1.0 { 1.2 } else { 0.1 * unit };
+        let positions: Vec<f64> = (0..=6).map(|i| far * f64::from(i) / 6.0).collect();
+        let found = follow(&pose, columns[0], &columns[1..], [0.0, far / unit], 6);
+        let si: Vec<f64> = positions.iter().map(|x| x * metres).collect();
+        let (instants, dead) = Motion::new(&linkage, &d, &[1.0]).follow(&si);
+        // A cusp in the pose of the file: no speeds there.
+        if instants.is_empty() {
+            assert!(found.reached.len() < 2, "{name}");
+            continue;
+        }
+        let stops = (
+            dead.map(|d| d.drive / metres),
+            found.stop.map(|s| s.at * unit),
+        );
+        match stops {
+            (None, None) => {}
+            (Some(a), Some(b)) if (a - b).abs() < 1e-6 * unit => {}
+            other => panic!("{name}: {other:?}"),
+        }
+        assert_eq!(instants.len(), found.reached.len(), "{name}");
+        for (now, f) in instants.iter().zip(&found.reached) {
+            let here = f.pose();
+            for j in &m.joints {
+                let p = j.frame.point.each_ref().map(|c| c.to_f64());
+                for l in j.links {
+                    let Some(b) = linkage.mechanism.body_of(l) else {
+                        continue;
+                    };
+                    let local = [0, 1, 2].map(|i| (p[i] - pose.middle[i]) / pose.length);
+                    let moved = here.links[l].point(local);
+                    let to = [0, 1, 2].map(|i| moved[i] * pose.length + pose.middle[i]);
+                    let other = linkage.point(&now.pose, b, linkage.mechanism.flat(p));
+                    let gap = distance(&linkage.mechanism.flat(to), &other) / linkage.size;
+                    assert!(
+                        gap < 1e-9,
+                        "{name}: link {} at {}: {gap:e}",
+                        m.links[l].id,
+                        f.at()
+                    );
+                }
+            }
+        }
+        compared += 1;
+    }
+    assert!(compared >= 8, "{compared}");
+}
+
+#[test]
+fn the_command() {
+    let text = out(&["analyze", "parallelogram", "--stroke", "0:180deg:6"]);
+    for part in [
+        "116.565",
+        "alone the rank is 2 instead of 3",
+        "over a stroke of 0-1",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("c.svg");
+    let v = json(&[
+        "analyze",
+        "four-bar",
+        "--stroke",
+        "0:-10deg:9",
+        "--drive",
+        "3-0",
+        "--format",
+        "json",
+        "--svg",
+        svg.to_str().unwrap(),
+    ]);
+    assert_eq!(v["stroke"]["drive"], "3-0");
+    assert!((v["stroke"]["to"].as_f64().unwrap() + 10f64.to_radians()).abs() < 1e-15);
+    assert!(std::fs::read_to_string(svg).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn a_stroke_that_stops_is_no_success() {
+    let o = ozols(&[
+        "analyze",
+        "four-bar",
+        "--stroke",
+        "0:180deg:9",
+        "--drive",
+        "3-0",
+        "--format",
+        "json",
+    ])
+    .output()
+    .unwrap();
+    assert_eq!(o.status.code(), Some(1));
+    let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    assert_eq!(v["stroke"]["stop"]["why"], "dead-point");
+}
+
+#[test]
+fn bad_strokes_are_refused() {
+    for (args, part) in [
+        (&["four-bar", "--stroke", "0:1"][..], "FROM:TO:STEPS"),
+        (&["four-bar", "--stroke", "0:1:0"], "FROM:TO:STEPS"),
+        (&["four-bar", "--stroke", "0:1:20000"], "10000 steps"),
+        (
+            &["four-bar", "--stroke", "0:1:2", "--drive", "9-9"],
+            "these can move: 0-1, 1-2",
+        ),
+        (&["gripper-10", "--stroke", "0:10deg:2"], "slides"),
+        (&["door-two-hinges", "--stroke", "0:1:2"], "--drive"),
+        (
+            &["four-bar", "--stroke", "0:1:2", "--method", "count"],
+            "auto or svd",
+        ),
+        (&["four-bar", "--drive", "0-1"], "--stroke"),
+    ] {
+        let o = ozols(&[&["analyze"], args].concat()).output().unwrap();
+        let err = String::from_utf8(o.stderr).unwrap();
+        assert_eq!(o.status.code(), Some(2), "{args:?}");
+        assert!(err.contains(part), "{args:?}: {err}");
+    }
+}

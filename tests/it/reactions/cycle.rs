@@ -1,0 +1,312 @@
+//! Reactions over a stroke with inertia forces: against the planar solver, and against differences of energy.
+
+use crate::common::{built_in, json, out, ozols};
+use ozols::geom::expr::Expr;
+use ozols::model::joint_type::Freedom;
+use ozols::model::loads::{Inertia, MassProperties, Stroke};
+use ozols::model::mechanism::{Mechanism, Mode, Role, StateId};
+use ozols::motion::pose::Pose;
+use ozols::statics::cycle::statics;
+use ozols::statics::reactions::cycle::{Cycle, cycle};
+use ozols::statics::reactions::follow::follow_to;
+use ozols::statics::reactions::geometry::{cross, dot};
+use ozols::statics::reactions::{Choice, JointReaction, Unsolved};
+
+fn expr(x: f64) -> Expr {
+    format!("{x:.9}").parse().unwrap()
+}
+
+fn real(v: &[Expr; 3]) -> [f64; 3] {
+    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
+}
+
+/// A built-in mechanism with masses beside its joints, gravity, and a drive at a speed.
+fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism {
+    let mut m = built_in(name);
+    let mut draw = (1..).map(|i| (f64::from(i) * 0.618_034).fract());
+    for l in m.link_ids() {
+        if matches!(m.links[l].role, Role::Frame | Role::Object) {
+            continue;
+        }
+        let at = m.joints.iter().find(|j| j.links.contains(&l)).unwrap();
+        let p = real(&at.frame.point);
+        let flat = matches!(m.mode, Mode::Planar { .. });
+        let near = [0, 1, 2].map(|i| {
+            let off = draw.next().unwrap() - 0.5;
+            p[i] + if flat && i == 2 { 0.0 } else { off }
+        });
+        m.links[l].mass = Some(MassProperties {
+            mass: 0.2 + draw.next().unwrap(),
+            centre: near.map(expr),
+            inertia: Some(inertia(0.1 + draw.next().unwrap())),
+        });
+    }
+    m.loads.gravity = Some([0.0, -9.81, 0.0].map(expr));
+    m.loads.drive_speeds = vec![speed];
+    m
+}
+
+fn solved(c: &Cycle) -> Vec<(f64, &ozols::statics::reactions::Solution)> {
+    c.positions
+        .iter()
+        .map(|(at, s)| (*at, s.as_ref().unwrap()))
+        .collect()
+}
+
+fn effort(list: &[JointReaction]) -> f64 {
+    list.iter().find_map(|r| r.effort).unwrap().1
+}
+
+const STROKE: Stroke = Stroke {
+    from: -0.2,
+    to: 0.3,
+    steps: 5,
+};
+
+/// The planar solver places bodies by group and takes derivatives of its own equations.
+#[test]
+fn inertia_is_that_of_the_planar_solver() {
+    for name in [
+        "four-bar-planar",
+        "watt-six-bar",
+        "stephenson-six-bar",
+        "gripper-10-planar",
+    ] {
+        let slides = name == "gripper-10-planar";
+        let mut m = moving(name, if slides { 30.0 } else { 3.0 }, Inertia::Plane);
+        m.mode = Mode::Planar {
+            normal: [0, 0, 1].map(Expr::from),
+        };
+        for l in &mut m.links {
+            if let Some(mass) = &mut l.mass {
+                mass.centre[2] = Expr::from(0);
+            }
+        }
+        let c = cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
+        assert!(c.stopped.is_none(), "{name}");
+        let planar = statics(&m, StateId::FREE, Some(STROKE)).unwrap();
+        assert!(planar.dead.is_none());
+        assert_eq!(planar.moments.len(), c.positions.len());
+        let mut still = m.clone();
+        still.loads.drive_speeds.clear();
+        let at_rest = cycle(&still, StateId::FREE, Some(STROKE)).unwrap();
+        let mut differs = 0.0f64;
+        for (((_, s), moment), (_, rest)) in solved(&c)
+            .into_iter()
+            .zip(&planar.moments)
+            .zip(solved(&at_rest))
+        {
+            assert_eq!(s.choice, Choice::Unique);
+            let whole = moment.whole.as_ref().unwrap();
+            let greatest = s
+                .reactions
+                .iter()
+                .map(JointReaction::force_size)
+                .fold(0.0, f64::max);
+            let linkage = &planar.linkage.mechanism;
+            for r in &whole.reactions {
+                let pair = &linkage.pairs[r.pair];
+                let Some(own) = s.reactions.iter().find(|x| x.joint == pair.joint) else {
+                    panic!("{}", pair.name);
+                };
+                let second = pair.bodies.map(|b| linkage.bodies[b].link)[1];
+                let same = second == Some(m.joints[own.joint].links[1]);
+                let sign = if same { 1.0 } else { -1.0 };
+                let f = own.global_force();
+                for k in 0..3 {
+                    let other =
+                        sign * (r.force[0] * linkage.axes[0][k] + r.force[1] * linkage.axes[1][k]);
+                    assert!(
+                        (f[k] - other).abs() < 1e-8 * greatest,
+                        "{name} {}: {f:?} {r:?}",
+                        pair.name
+                    );
+                }
+            }
+            differs =
+                differs.max((effort(&s.reactions) - effort(&rest.reactions)).abs() / greatest);
+        }
+        assert!(differs > 1e-3, "{name}: {differs}");
+        // Redundant in space, and the drive bears the same.
+        m.mode = Mode::Spatial;
+        let spatial = cycle(&m, StateId::FREE, Some(STROKE)).unwrap();
+        for ((_, s), (_, t)) in solved(&c).into_iter().zip(solved(&spatial)) {
+            let (a, b) = (effort(&s.reactions), effort(&t.reactions));
+            assert!((a - b).abs() < 1e-8 * a.abs().max(1.0), "{name}: {a} {b}");
+        }
+    }
+}
+
+/// Energy at a position, from places alone: kinetic by differences of places, less what the loads have done.
+fn energies(m: &Mechanism, c: &Cycle, at: f64, speed: f64) -> f64 {
+    let h = 2e-3;
+    let steps = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| at + k * h);
+    let poses = follow_to(m, StateId::FREE, &c.drives, &steps)
+        .unwrap()
+        .poses;
+    assert_eq!(poses.len(), 5);
+    let metres = m.length_unit.metres;
+    let diff = |x: [f64; 5]| (8.0 * (x[3] - x[1]) - (x[4] - x[0])) / (12.0 * h) * speed;
+    let mut energy = 0.0;
+    for (l, link) in m.links_with_ids() {
+        let Some(mass) = &link.mass else { continue };
+        let file = real(&mass.centre);
+        let place = |pose: &Pose| {
+            let p = [0, 1, 2].map(|i| (file[i] - pose.middle[i]) / pose.length);
+            let to = pose.links[l].point(p);
+            [0, 1, 2].map(|i| (pose.middle[i] + pose.length * to[i]) * metres)
+        };
+        let axis = |pose: &Pose, i: usize| {
+            pose.links[l].direction([0, 1, 2].map(|k| f64::from(u8::from(k == i))))
+        };
+        let five = |f: &dyn Fn(&Pose) -> f64| diff([0, 1, 2, 3, 4].map(|n: usize| f(&poses[n].1)));
+        let v = [0, 1, 2].map(|i| five(&|p| place(p)[i]));
+        let now = &poses[2].1;
+        // ω = ½ Σ e × ė over the link's axes.
+        let mut w = [0.0; 3];
+        for i in 0..3 {
+            let e = axis(now, i);
+            let rate = [0, 1, 2].map(|k| five(&|p| axis(p, i)[k]));
+            let c = cross(e, rate);
+            (0..3).for_each(|k| w[k] += c[k] / 2.0);
+        }
+        let own = [0, 1, 2].map(|i| dot(axis(now, i), w));
+        let spin = match mass.inertia.unwrap() {
+            Inertia::Plane(i) => i * dot(own, own),
+            Inertia::Principal(i) => (0..3).map(|k| i[k] * own[k] * own[k]).sum(),
+            Inertia::Tensor([xx, yy, zz, xy, yz, zx]) => {
+                let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+                dot(own, rows.map(|r| dot(r, own)))
+            }
+        };
+        energy += 0.5 * mass.mass * dot(v, v) + 0.5 * spin;
+        energy -= mass.mass * dot(real(m.loads.gravity.as_ref().unwrap()), place(now));
+    }
+    energy
+}
+
+/// The drive's power is what energy gains, in space, with whole tensors of inertia.
+#[test]
+fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
+    let mut tried = 0;
+    for (name, speed) in [
+        ("rsur", 2.0),
+        ("slider-crank-spatial", 2.0),
+        ("bennett", 3.0),
+        ("slider-crank-determinate", 2.0),
+    ] {
+        let m = moving(name, speed, |x| {
+            Inertia::Tensor([x, 1.3 * x, 0.8 * x, 0.1 * x, -0.05 * x, 0.07 * x])
+        });
+        let stroke = Stroke {
+            from: 0.0,
+            to: 0.3,
+            steps: 2,
+        };
+        let c = cycle(&m, StateId::FREE, Some(stroke)).unwrap();
+        let slides = matches!(c.drives[0].1, Freedom::Tx | Freedom::Ty | Freedom::Tz);
+        let unit = if slides { m.length_unit.metres } else { 1.0 };
+        for (at, s) in solved(&c) {
+            let h = 1e-2;
+            let e = [-2.0, -1.0, 1.0, 2.0].map(|k| energies(&m, &c, at + k * h, speed));
+            let gain = (8.0 * (e[2] - e[1]) - (e[3] - e[0])) / (12.0 * h) * speed;
+            let power = effort(&s.reactions) * speed * unit;
+            let greatest = s
+                .reactions
+                .iter()
+                .map(JointReaction::force_size)
+                .fold(0.0, f64::max);
+            assert!(
+                (power - gain).abs() < 1e-5 * (power.abs() + greatest * s.size),
+                "{name} at {at}: {power} {gain}"
+            );
+            tried += 1;
+        }
+    }
+    assert_eq!(tried, 12);
+}
+
+/// Inertia forces grow with the square of the speed.
+#[test]
+fn inertia_is_quadratic_in_the_speed() {
+    let at = |speed: f64| {
+        let mut m = moving("rsur", speed, |x| Inertia::Principal([x, 2.0 * x, 1.5 * x]));
+        m.loads.gravity = None;
+        effort(
+            &cycle(&m, StateId::FREE, None).unwrap().positions[0]
+                .1
+                .as_ref()
+                .unwrap()
+                .reactions,
+        )
+    };
+    let (one, two) = (at(1.0), at(-2.0));
+    assert!(one.abs() > 1e-6);
+    assert!((two - 4.0 * one).abs() < 1e-9 * two.abs(), "{one} {two}");
+}
+
+#[test]
+fn an_inertia_for_a_plane_is_refused_in_space() {
+    let m = moving("rsur", 1.0, Inertia::Plane);
+    match cycle(&m, StateId::FREE, None) {
+        Err(e @ Unsolved::PlaneInertia { .. }) => {
+            assert!(e.to_string().contains("3 about the axes"))
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn the_command_goes_over_the_stroke() {
+    let args = [
+        "statics",
+        "gripper-10-loaded",
+        "--spatial",
+        "--stroke",
+        "-0.3:0.3:4",
+    ];
+    let said = out(&args);
+    assert!(
+        said.contains("greatest joint reactions over 5 poses"),
+        "{said}"
+    );
+    assert!(said.contains("Drive 0-1 holds tz: from "), "{said}");
+    let with = |more: &[&'static str]| args.iter().chain(more).copied().collect::<Vec<_>>();
+    let v = json(&with(&["--format", "json"]));
+    assert_eq!(v["positions"].as_array().unwrap().len(), 5);
+    assert_eq!(v["positions"][4]["drive"], 0.3);
+    let csv = out(&with(&["--format", "csv"]));
+    assert_eq!(csv.lines().count(), 1 + 5 * 13);
+    // The middle is the pose of the file.
+    let one = json(&[
+        "statics",
+        "gripper-10-loaded",
+        "--spatial",
+        "--format",
+        "json",
+    ]);
+    let pairs = one["reactions"].as_array().unwrap().iter();
+    for (a, b) in pairs.zip(v["positions"][2]["reactions"].as_array().unwrap()) {
+        let (x, y) = (
+            a["force_magnitude"].as_f64().unwrap(),
+            b["force_magnitude"].as_f64().unwrap(),
+        );
+        assert!((x - y).abs() < 1e-9 * x.max(1.0));
+    }
+    // Farther than it goes.
+    let o = ozols(&[
+        "statics",
+        "gripper-10-loaded",
+        "--spatial",
+        "--stroke",
+        "0:1000:4",
+    ])
+    .output()
+    .unwrap();
+    assert_eq!(o.status.code(), Some(1));
+    let said = String::from_utf8(o.stdout).unwrap();
+    assert!(
+        said.contains("The stroke could not be followed to"),
+        "{said}"
+    );
+}

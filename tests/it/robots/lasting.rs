@@ -1,0 +1,121 @@
+//! Robots: only what is redundant over the motion is let go; what is so at one pose passes by itself.
+
+use crate::common::run_on;
+use crate::robots::mjcf::mjcf;
+use serde_json::Value;
+
+/// A four-bar of lengths 1, 2, 1.5 and 1.5 with all pins in a line, its second joint of a kind. On a ball it has nothing
+/// redundant but there, where the force along the line is held twice; on a hinge the force across its plane besides, wherever
+/// it is.
+fn in_line(elbow: &str, range: &str) -> String {
+    mjcf(&format!(
+        "<worldbody>
+        <body name='a'><joint name='j1' {range}/><body name='b' pos='1 0 0'><joint name='j2' {elbow}/></body></body>
+        <body name='c' pos='1.5 0 0'><joint name='j3'/></body></worldbody>
+        <equality><connect name='e' body1='b' body2='c' anchor='2 0 0'/></equality>"
+    ))
+}
+
+fn json(text: &str) -> (Option<i32>, Value) {
+    let (code, out, err) = run_on("lint", "m.xml", text, &["--format", "json"]);
+    let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
+    (code, v["files"][0].clone())
+}
+
+// Once taken for a fault, and the arm "mended" where it was stretched out.
+#[test]
+fn what_is_redundant_at_one_pose_only_is_a_note() {
+    let text = in_line("type='ball'", "");
+    let (code, found) = json(&text);
+    assert_eq!(code, Some(0), "{found}");
+    assert_eq!(
+        (&found["redundant"], &found["redundant_over_motion"]),
+        (&1.into(), &0.into())
+    );
+    assert_eq!(found["findings"][0]["row"], "x");
+    assert_eq!(found["findings"][0]["lasts"], false);
+    assert_eq!(found["cheapest"], serde_json::json!([]));
+    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
+    assert_eq!(code, Some(0));
+    for part in [
+        "nothing is redundant over the motion; 1 redundant constraint",
+        "elsewhere on the motion 0, by 20 closed poses inside the limits",
+        "note: e, row x duplicates",
+        "at this pose only",
+    ] {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    assert!(!out.contains("ozols fix"), "{out}");
+    let (_, out, _) = run_on("lint", "m.xml", &text, &["--format", "sarif"]);
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["runs"][0]["results"][0]["level"], "note");
+    let (code, out, told) = run_on("fix", "m.xml", &text, &[]);
+    assert_eq!((code, out.as_str()), (Some(0), text.as_str()), "{told}");
+    assert!(told.contains("at this pose only"), "{told}");
+}
+
+#[test]
+fn only_what_lasts_is_let_go() {
+    let text = in_line("", "");
+    let (code, found) = json(&text);
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        (&found["redundant"], &found["redundant_over_motion"]),
+        (&2.into(), &1.into())
+    );
+    let lasts: Vec<bool> = (found["findings"].as_array().unwrap().iter())
+        .map(|f| f["lasts"].as_bool().unwrap())
+        .collect();
+    assert_eq!(lasts, [true, false]);
+    let (code, out, told) = run_on("fix", "m.xml", &text, &[]);
+    assert_eq!(code, Some(0), "{told}");
+    assert!(told.contains("1 release\n"), "{told}");
+    assert!(told.contains("slide along z"), "{told}");
+    assert!(told.contains("1 redundant at this pose only"), "{told}");
+    let (code, found) = json(&out);
+    assert_eq!(code, Some(0), "{found}");
+}
+
+// Within narrow limits shorter steps are taken, and a pose outside the limits has none to keep.
+#[test]
+fn poses_are_inside_the_limits() {
+    for range in [
+        "range='-2 2' limited='true'",
+        "range='40 50' limited='true'",
+    ] {
+        let (code, found) = json(&in_line("type='ball'", range));
+        assert_eq!(code, Some(0), "{range}: {found}");
+        assert_eq!(found["redundant_over_motion"], 0, "{range}");
+        let over = found["over_motion"].as_str().unwrap();
+        assert!(over.contains("20 closed poses"), "{range}: {over}");
+    }
+}
+
+// An arm of six hinges led by the hand: the mocap body was a part of the frame, and the arm rigid, in line with itself.
+#[test]
+fn mocap_bodies_are_drives() {
+    let arm: String = ["0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"]
+        .iter()
+        .enumerate()
+        .map(|(i, axis)| {
+            format!(
+                "<body name='l{i}' pos='{} 0 0'><joint name='j{i}' axis='{axis}'/>",
+                i32::from(i > 0)
+            )
+        })
+        .collect();
+    let text = mjcf(&format!(
+        "<worldbody>{arm}{}<body name='hand' mocap='true' pos='5 0 0'/></worldbody>
+        <equality><weld name='grasp' body1='hand' body2='l5'/></equality>",
+        "</body>".repeat(6)
+    ));
+    let (code, found) = json(&text);
+    assert_eq!(code, Some(0), "{found}");
+    assert_eq!(
+        (&found["redundant"], &found["mobility"]),
+        (&0.into(), &6.into())
+    );
+    let (_, out, told) = run_on("import", "m.xml", &text, &[]);
+    assert!(told.contains("1 mocap body, as a drive"), "{told}");
+    assert!(out.contains("drive = true"), "{out}");
+}

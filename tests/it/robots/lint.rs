@@ -1,0 +1,322 @@
+//! `ozols lint`: what a description holds twice, by line, where on its motion, and how sure that is.
+
+use crate::common::{run_on, text};
+use crate::robots::fix::{gripper, run};
+use crate::robots::mjcf::mjcf;
+use crate::robots::{folder, legs};
+use serde_json::Value;
+
+// Each connect of the gripper closes a planar loop of three hinges: its row across the plane is held twice.
+#[test]
+fn lint_names_each_redundant_row_with_its_line() {
+    let (code, out, _) = run(&["lint", &gripper(), "--format", "json"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    let file = &v["files"][0];
+    let found: Vec<(&str, &str, u64)> = file["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|f| {
+            (
+                f["constraint"].as_str().unwrap(),
+                f["row"].as_str().unwrap(),
+                f["line"].as_u64().unwrap(),
+            )
+        })
+        .collect();
+    assert_eq!(found, [("connect-1", "y", 65), ("connect-2", "y", 66)]);
+    assert_eq!(
+        file["findings"][0]["duplicates"],
+        serde_json::json!([
+            "right_crank_joint",
+            "right_rocker_joint",
+            "right_finger_joint"
+        ])
+    );
+    assert_eq!(file["findings"][0]["assembly"], "force along y");
+    // Its coordinates are decimals: what is proven over the motion is so of the geometry that is meant.
+    assert_eq!(file["over_motion_kind"], "proven");
+    let remedies = file["findings"][0]["remedies"].as_array().unwrap();
+    assert!(
+        remedies[0]
+            .as_str()
+            .unwrap()
+            .contains("slide along y: revolute -> cylindrical")
+    );
+}
+
+#[test]
+fn lint_is_for_machines_too() {
+    let (code, out, _) = run(&["lint", &gripper(), "--format", "sarif"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["version"], "2.1.0");
+    let result = &v["runs"][0]["results"][0];
+    assert_eq!(result["level"], "warning");
+    let place = &result["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], gripper());
+    assert_eq!(place["region"]["startLine"], 65);
+    // Nothing redundant: 0, and nothing is searched. Not readable: 2.
+    let urdf = folder().join("mimic_gripper.urdf");
+    let (code, out, _) = run(&["lint", urdf.to_str().unwrap()]);
+    assert_eq!(code, Some(0));
+    assert!(out.contains("nothing is redundant (σ = 0, W = 1)"), "{out}");
+    assert_eq!(run(&["lint", "nowhere.xml"]).0, Some(2));
+    // Mechanism files have names, too.
+    let (code, out, _) = run(&["lint", "gripper-10"]);
+    assert_eq!(code, Some(1));
+    assert!(out.contains("11 redundant constraints"), "{out}");
+}
+
+/// A four-bar of hinges at these places, closed by a connect at an anchor of its second link.
+fn four_bar(ends: [&str; 3], anchor: &str) -> String {
+    let [elbow, other, axis] = ends;
+    mjcf(&format!(
+        "<worldbody>
+        <body name='a'><joint name='j1'/><body name='b' pos='{elbow}'><joint name='j2'/></body></body>
+        <body name='c' pos='{other}'><joint name='j3' axis='{axis}'/></body></worldbody>
+        <equality><connect name='e' body1='b' body2='c' anchor='{anchor}'/></equality>"
+    ))
+}
+
+// Of lengths 1, 2, 1.5 and 1.5, with all pins in a line: there the row along the line is held twice, and no further on.
+#[test]
+fn lint_tells_a_special_pose_from_the_motion() {
+    let text = four_bar(["1 0 0", "1.5 0 0", "0 0 1"], "2 0 0");
+    let (code, out, _) = run_on("lint", "m.xml", &text, &["--format", "json"]);
+    assert_eq!(code, Some(1));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    let file = &v["files"][0];
+    assert_eq!(
+        (&file["redundant"], &file["over_motion_kind"]),
+        (&2.into(), &"pose".into())
+    );
+    let rows = file["findings"].as_array().unwrap().iter();
+    let rows: Vec<&str> = rows.map(|f| f["row"].as_str().unwrap()).collect();
+    assert_eq!(rows, ["z", "x"]);
+    let (_, out, _) = run_on("lint", "m.xml", &text, &[]);
+    assert!(out.contains("elsewhere on the motion 1"), "{out}");
+}
+
+// Axes that are parallel but for their last digits: nobody can say whether they are meant to be. No command is offered that
+// would be refused.
+#[test]
+fn lint_does_not_decide_what_digits_leave_open() {
+    let text = four_bar(
+        ["0 1 0", "2.00003 0 0", "0 0.00002 1"],
+        "1.70002 0.3 0.00001",
+    );
+    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
+    assert_eq!(code, Some(1));
+    assert!(
+        out.contains("0 to 1 redundant constraints (undecided"),
+        "{out}"
+    );
+    assert!(
+        out.contains("what is redundant is so at this pose"),
+        "{out}"
+    );
+    assert!(!out.contains("ozols fix"), "{out}");
+    let (code, _, told) = run_on("fix", "m.xml", &text, &[]);
+    assert_eq!(code, Some(2));
+    assert!(
+        told.contains("not decided") && told.contains("--pose"),
+        "{told}"
+    );
+}
+
+// Four legs with a loop each, nothing redundant: lint says so, and a search of millions of variants has its answer, the
+// mechanism as it is, within a few thousand nodes.
+#[test]
+fn nothing_redundant_is_said_at_once() {
+    let text = legs(4);
+    let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
+    assert_eq!(code, Some(0), "{out}");
+    assert!(
+        out.contains("nothing is redundant (σ = 0, W = 12)"),
+        "{out}"
+    );
+    let more = ["--nodes", "20000", "--top", "3", "--allow-output-change"];
+    let (code, out, told) = run_on("search", "m.xml", &text, &more);
+    assert_eq!(code, Some(0), "{told}");
+    assert!(out.contains("none: the mechanism as it is"), "{out}");
+    assert!(
+        out.contains("16,777,216 of 16,777,216 variants have σ = 0"),
+        "{out}"
+    );
+}
+
+/// A welded pair: nothing can move, and there is no loop.
+const WELDED: &str = "<robot name='w'><link name='a'/><link name='b'/><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>";
+
+// Once lost: one file that could not be read took the findings of all the others with it, and the SARIF.
+#[test]
+fn lint_goes_on_over_files_that_cannot_be_looked_at() {
+    let at = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| {
+        let path = at.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (bad, welded) = (put("bad.urdf", "<robot"), put("welded.urdf", WELDED));
+    let all = ["lint", &bad, "nowhere.xml", &gripper(), &welded];
+    let (code, out, err) = run(&all);
+    assert_eq!(code, Some(2));
+    // A colon or a gap of the line that named the file once stood alone before the reason.
+    let reason = |file: &str| {
+        let before = format!("{file}: not looked at: ");
+        let line = out.lines().find_map(|l| l.strip_prefix(&before)).unwrap();
+        line.to_owned()
+    };
+    assert!(reason(&bad).starts_with("1:1: syntax error"), "{out}");
+    assert!(
+        reason("nowhere.xml").starts_with("neither a file nor a built-in mechanism"),
+        "{out}"
+    );
+    assert!(
+        out.contains(&format!("{welded}: nothing is redundant: nothing can move")),
+        "{out}"
+    );
+    assert!(out.contains("2 redundant constraints"), "{out}");
+    assert!(
+        err.contains("bad.urdf") && err.contains("nowhere.xml"),
+        "{err}"
+    );
+    assert!(!err.contains("welded"), "{err}");
+    let (code, out, _) = run(&[&all[..], &["--format", "sarif"]].concat());
+    assert_eq!(code, Some(2));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    let run_of = &v["runs"][0];
+    assert_eq!(run_of["results"].as_array().unwrap().len(), 2);
+    let told = &run_of["invocations"][0];
+    assert_eq!(told["executionSuccessful"], false);
+    let told = told["toolExecutionNotifications"].as_array().unwrap();
+    let levels: Vec<&str> = told.iter().map(|n| n["level"].as_str().unwrap()).collect();
+    assert_eq!(levels, ["error", "error", "note"]);
+    let place = &told[0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"];
+    assert_eq!(place, &Value::from(bad.as_str()));
+    let (_, out, _) = run(&[&all[..], &["--format", "json"]].concat());
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["files"].as_array().unwrap().len(), 1);
+    assert_eq!(v["passed_over"].as_array().unwrap().len(), 3);
+}
+
+// Once refused.
+#[test]
+fn what_cannot_move_has_nothing_redundant() {
+    let (code, out, err) = run_on("lint", "w.urdf", WELDED, &[]);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    assert!(
+        out.contains("nothing is redundant: nothing can move: all 2 links"),
+        "{out}"
+    );
+    let (code, out, _) = run_on("lint", "w.urdf", WELDED, &["--format", "sarif"]);
+    assert_eq!(code, Some(0));
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["runs"][0]["invocations"][0]["executionSuccessful"], true);
+    // Where nothing is passed over, there is no word of it.
+    let (_, out, _) = run(&["lint", &gripper(), "--format", "sarif"]);
+    assert!(!out.contains("invocations"));
+}
+
+// Every command over many files reports each, and does the rest.
+#[test]
+fn many_files_are_each_reported() {
+    let at = tempfile::tempdir().unwrap();
+    let file = at.path().join("some.db");
+    let file = file.to_str().unwrap();
+    let words = [
+        "catalog",
+        "search",
+        "nosuch",
+        "four-bar",
+        "nowhere.toml",
+        "--ideas",
+        "1",
+        "-o",
+        file,
+    ];
+    let (code, out, err) = run(&words);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("nosuch is neither") && err.contains("nowhere.toml is neither"),
+        "{err}"
+    );
+    assert!(out.contains("1 mechanisms added"), "{out}");
+    let words = [
+        "bench",
+        "nosuch",
+        "four-bar-planar",
+        "--quick",
+        "--format",
+        "csv",
+    ];
+    let (code, out, err) = run(&words);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("nosuch is neither") && out.contains("four-bar-planar"),
+        "{out}{err}"
+    );
+    let merged = at.path().join("merged.db");
+    let words = [
+        "catalog",
+        "merge",
+        "nowhere.db",
+        file,
+        "-o",
+        merged.to_str().unwrap(),
+    ];
+    let (code, out, err) = run(&words);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("nowhere.db") && out.contains("1 structures added"),
+        "{out}{err}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn names_of_files_may_be_no_text() {
+    use std::ffi::{OsStr, OsString};
+    use std::os::unix::ffi::OsStrExt;
+    let at = tempfile::tempdir().unwrap();
+    let name = |bytes: &[u8]| OsStr::from_bytes(bytes).to_owned();
+    let (toml, urdf) = (name(b"caf\xe9.toml"), name(b"\xff.urdf"));
+    let made = name(b"x\xff.toml");
+    let four_bar = text(&run_bytes(&["show".into(), "four-bar".into()], at.path()).stdout);
+    std::fs::write(at.path().join(&toml), four_bar).unwrap();
+    std::fs::copy(folder().join("mimic_gripper.urdf"), at.path().join(&urdf)).unwrap();
+    let words = |line: &str, file: &OsString| -> Vec<OsString> {
+        let words = line
+            .split(' ')
+            .map(|w| if w == "FILE" { file.clone() } else { w.into() });
+        words.collect()
+    };
+    for (line, file) in [
+        ("new FILE", &made),
+        ("check FILE", &made),
+        ("check FILE", &toml),
+        ("analyze FILE", &toml),
+        ("search FILE --top 2", &toml),
+        ("draw FILE -o x.svg", &toml),
+        ("report FILE -o x.html", &toml),
+        ("export FILE --to json", &toml),
+        ("catalog search FILE --ideas 1 -o x.db", &toml),
+        ("analyze FILE", &urdf),
+        ("lint FILE", &urdf),
+        ("import FILE", &urdf),
+        ("fix FILE", &urdf),
+        ("analyze four-bar -o FILE", &toml),
+    ] {
+        let o = run_bytes(&words(line, file), at.path());
+        assert!(o.status.success(), "{line}: {}", text(&o.stderr));
+    }
+}
+
+/// Runs the program with words of any bytes.
+#[cfg(unix)]
+fn run_bytes(words: &[std::ffi::OsString], at: &std::path::Path) -> std::process::Output {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_ozols"));
+    command.args(words).current_dir(at).output().unwrap()
+}

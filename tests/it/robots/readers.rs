@@ -1,0 +1,391 @@
+//! What robot descriptions are read: kinds of files that were refused, or read wrongly, and bad ones of their kind that still
+//! are refused with the place and the reason.
+
+use crate::common::{ozols, run_on};
+use crate::robots::mjcf::{mjcf, toml_of};
+use crate::robots::{figures, folder, none, refused};
+use ozols::robots::{Imported, Options, import};
+
+fn read(name: &str, text: &str) -> Imported {
+    import(name, text.as_bytes(), &none, &Options::default())
+        .unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// W and σ.
+fn w_sigma(name: &str, text: &str) -> (i64, i64) {
+    let [.., w, sigma] = figures(&read(name, text), 1e-9);
+    (w, sigma)
+}
+
+// joint_name and joint_type of robot.yaml: balls, universal joints and rigid ones that URDF has no words for.
+#[test]
+fn types_of_joints_beside_the_description() {
+    // The leg's ankle and rods turn about two axes: by hand W = 4, two motors of the leg and two of the foot. As hinges they
+    // hold the foot but for its pitch, and most of it twice.
+    let leg = |side: &str| {
+        let options = Options {
+            loops: Some(("leg.yaml".to_owned(), side.as_bytes().to_vec())),
+            ..Options::default()
+        };
+        let bytes = std::fs::read(folder().join("leg.urdf")).unwrap();
+        import("leg.urdf", &bytes, &none, &options).unwrap()
+    };
+    let side = std::fs::read_to_string(folder().join("leg.yaml")).unwrap();
+    let typed = leg(&side);
+    assert_eq!(typed.report.mapped["joint type"], 3);
+    assert_eq!(figures(&typed, 1e-9)[4..], [4, 0]);
+    let plain = leg(side.split("joint_name").next().unwrap());
+    assert_eq!(figures(&plain, 1e-9)[4..], [3, 2]);
+    let urdf = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>
+      <joint name='p' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint>
+      <joint name='q' type='revolute'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/></joint></robot>";
+    let with = |names: &str, types: &str| {
+        let side = format!("closed_loop: []\njoint_name: {names}\njoint_type: {types}\n");
+        let options = Options {
+            loops: Some(("robot.yaml".to_owned(), side.into_bytes())),
+            ..Options::default()
+        };
+        import("r.urdf", urdf.as_bytes(), &none, &options)
+            .map(|i| i.toml().unwrap())
+            .map_err(|e| e.to_string())
+    };
+    let t = with("[p, q]", "[SPHERICAL, UJOINT_ZY]").unwrap();
+    assert!(t.contains("type = \"spherical\""), "{t}");
+    // First about z, then about y.
+    let universal =
+        "type = \"universal\"\npoint = [1, 0, 0]\naxis = [0, 0, 1]\nreference = [0, 1, 0]";
+    assert!(t.contains(universal), "{t}");
+    assert!(!with("[q]", "[FIXED]").unwrap().contains("id = \"q\""));
+    for (names, types, words) in [
+        ("[nowhere]", "[SPHERICAL]", "\"nowhere\""),
+        ("[p]", "[UJOINT_XX]", "\"UJOINT_XX\""),
+        ("[p]", "[]", "joint_name has 1 entries and joint_type 0"),
+        ("p", "[]", "joint_name is not a list"),
+    ] {
+        let e = with(names, types).unwrap_err();
+        assert!(e.contains("robot.yaml") && e.contains(words), "{e}");
+    }
+}
+
+#[test]
+fn sdf_includes_of_models() {
+    let dir = tempfile::tempdir().unwrap();
+    let put = |name: &str, text: &str| {
+        let path = dir.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    // Axes of files before 1.5 are in the model's frame: those of this one file alone.
+    let arm = "<sdf version='1.4'><model name='arm'><pose>0 0 9 0 0 0</pose><link name='a'><pose>1 0 0 0 0 1.5707963267948966</pose></link>
+      <joint name='j' type='revolute'><parent>world</parent><child>a</child><axis><xyz>1 0 0</xyz></axis></joint></model></sdf>";
+    put("models/arm/model.sdf", arm);
+    put(
+        "models/self/model.sdf",
+        "<sdf version='1.7'><model name='s'><include><uri>model://self</uri></include></model></sdf>",
+    );
+    put(
+        "models/two/model.sdf",
+        "<sdf version='1.7'><model name='a'/><model name='b'/></sdf>",
+    );
+    put("secret/model.sdf", arm);
+    let models = dir.path().join("models").display().to_string();
+    let world = |include: &str| {
+        let text = format!(
+            "<sdf version='1.7'>\n<world name='w'>\n<include>{include}</include></world></sdf>"
+        );
+        let file = put("main/world.sdf", &text);
+        let o = ozols(&["import", &file, "--models", &models])
+            .output()
+            .unwrap();
+        (
+            o.status.code(),
+            String::from_utf8(o.stdout).unwrap(),
+            String::from_utf8(o.stderr).unwrap(),
+        )
+    };
+    let (code, toml, told) =
+        world("<uri>model://arm</uri><name>left</name><pose>0 0 2 0 0 0</pose>");
+    assert_eq!(code, Some(0), "{told}");
+    assert!(
+        toml.contains("point = [1, 0, 2]\naxis = [1, 0, 0]"),
+        "{toml}"
+    );
+    for (include, words) in [
+        ("<uri>model://none</uri>", "cannot be read"),
+        ("<uri>model://../secret</uri>", "outside the folder"),
+        ("<uri>../secret/model.sdf</uri>", "outside the folder"),
+        (
+            "<uri>https://fuel.gazebosim.org/x</uri>",
+            "https:// is not read",
+        ),
+        ("<uri>model://self</uri>", "includes itself"),
+        ("<uri>model://two</uri>", "has not one <model>"),
+        (
+            "<uri>model://arm</uri><placement_frame>a</placement_frame>",
+            "placed by a frame\nplaces them by a frame",
+        ),
+        ("<name>x</name>", "<uri>"),
+    ] {
+        let (code, _, told) = world(include);
+        let found = words.split('\n').any(|w| told.contains(w));
+        let place = ["world.sdf:3:1", "model.sdf", "model://self"];
+        let placed = place.iter().any(|p| told.contains(p));
+        assert!(code == Some(2) && found && placed, "{include}: {told}");
+    }
+}
+
+// Parts that no joint holds float in the world of an SDF; in a URDF they are a mistake.
+#[test]
+fn parts_that_nothing_holds() {
+    let links = "<link name='a'/><link name='b'/><link name='c'/>";
+    let joint = "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>";
+    let sdf = format!("<sdf version='1.9'><model name='m'>{links}{joint}</model></sdf>");
+    let i = read("m.sdf", &sdf);
+    assert_eq!(figures(&i, 1e-9)[4], 13);
+    assert!(
+        i.report.pose[0].contains("float in the world"),
+        "{:?}",
+        i.report.pose
+    );
+    let urdf = format!(
+        "<robot name='m'>{links}<joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>"
+    );
+    assert!(refused("m.urdf", &urdf).contains("no joint connects link \"c\""));
+}
+
+// A weld whose turns nothing holds is a ball. Three parallel hinges and one across, at the weld: it holds all four, and two
+// rows twice; a ball there leaves the plane's one freedom, its own turn about the fourth hinge, and one row twice.
+#[test]
+fn a_weld_without_torque_is_a_ball() {
+    let loops = |weld: &str| {
+        mjcf(&format!(
+            "<worldbody><body name='a'><joint axis='0 0 1'/></body><body name='b' pos='1 0 0'><joint axis='0 0 1'/>
+             <body name='c' pos='0 1 0'><joint axis='0 0 1'/><body name='d'><joint axis='1 0 0'/></body></body></body></worldbody>
+             <equality><weld body1='a' body2='d' {weld}/></equality>"
+        ))
+    };
+    // A ball closes the planar chain with one freedom of its own left, the turn about x.
+    assert_eq!(w_sigma("m.xml", &loops("torquescale='0'")), (2, 1));
+    assert_eq!(w_sigma("m.xml", &loops("torquescale='0.1'")), (0, 2));
+    let t = toml_of("m.xml", &loops("torquescale='0' anchor='0 2 0'"));
+    assert!(t.contains("type = \"spherical\"\npoint = [1, 3, 0]"), "{t}");
+}
+
+#[test]
+fn joints_in_frames_and_copies() {
+    // The frame turns z to -y and shifts by (0, 0, 1).
+    let t = toml_of(
+        "m.xml",
+        &mjcf(
+            "<worldbody><body name='a'><frame pos='0 0 1' euler='90 0 0'><joint name='j' pos='0 0 2'/></frame></body></worldbody>",
+        ),
+    );
+    assert!(t.contains("point = [0, -2, 1]\naxis = [0, -1, 0]"), "{t}");
+    let e = refused(
+        "m.xml",
+        &mjcf("<worldbody><frame><joint/></frame></worldbody>"),
+    );
+    assert!(e.contains("the world cannot move"), "{e}");
+    // Each copy a quarter further on, and 1 along the axes of the one before.
+    let t = toml_of(
+        "m.xml",
+        &mjcf(
+            "<worldbody><replicate count='3' offset='1 0 0' euler='0 0 90' sep='-'><body name='b' pos='0 0 1'><joint name='j' axis='1 0 0'/></body></replicate></worldbody>",
+        ),
+    );
+    for part in [
+        "id = \"j-0\"\nlinks = [\"world\", \"b-0\"]\ntype = \"revolute\"\npoint = [0, 0, 1]\naxis = [1, 0, 0]",
+        "id = \"j-1\"\nlinks = [\"world\", \"b-1\"]\ntype = \"revolute\"\npoint = [1, 0, 1]\naxis = [0, 1, 0]",
+        "id = \"j-2\"\nlinks = [\"world\", \"b-2\"]\ntype = \"revolute\"\npoint = [1, 1, 1]\naxis = [-1, 0, 0]",
+    ] {
+        assert!(t.contains(part), "{part}\n{t}");
+    }
+    for (count, words) in [
+        ("0", "count is 0"),
+        ("1.5", "count is 1.5"),
+        ("99999", "count is 99999"),
+        ("x", "count"),
+    ] {
+        let text = mjcf(&format!(
+            "<worldbody>\n<replicate count='{count}'><body/></replicate></worldbody>"
+        ));
+        let e = refused("m.xml", &text);
+        assert!(e.contains(words) && e.contains("m.xml:2:"), "{e}");
+    }
+    let bomb = (0..8).fold("<body><joint/></body>".to_owned(), |inner, _| {
+        format!("<replicate count='100'>{inner}</replicate>")
+    });
+    let e = refused("m.xml", &mjcf(&format!("<worldbody>{bomb}</worldbody>")));
+    assert!(e.contains("elements"), "{e}");
+}
+
+// An equality of one joint holds it at a constant: it is rigid there.
+#[test]
+fn joints_held_at_a_constant() {
+    let text = |equality: &str| {
+        mjcf(&format!(
+            "<worldbody><body name='a'><joint name='j'/><body name='b' pos='1 0 0'><joint name='k'/></body></body></worldbody><equality>{equality}</equality>"
+        ))
+    };
+    let i = read(
+        "m.xml",
+        &text("<joint joint1='j' polycoef='1.5707963267948966'/>"),
+    );
+    assert_eq!((figures(&i, 1e-9)[4], i.report.coupling_rows), (1, 0));
+    assert!(
+        i.toml().unwrap().contains("point = [0, 1, 0]"),
+        "{}",
+        i.toml().unwrap()
+    );
+}
+
+// Numbers beyond all that are read are no limits; others are still wrong.
+#[test]
+fn limits_without_end() {
+    let urdf = |upper: &str| {
+        format!("<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>
+          <limit lower='-1e16' upper='{upper}' effort='1' velocity='1'/></joint></robot>")
+    };
+    assert_eq!(w_sigma("r.urdf", &urdf("1e+16")), (1, 0));
+    assert_eq!(w_sigma("r.urdf", &urdf("inf")), (1, 0));
+    assert!(refused("r.urdf", &urdf("far")).contains("upper"));
+}
+
+// A root of the name world is the ground: a robot that floats is one that it does not hold. In SDF a link of the name is the
+// world itself.
+#[test]
+fn links_named_world() {
+    let urdf = "<robot name='r'><link name='world'/><link name='b'/><joint name='j' type='continuous'><parent link='world'/><child link='b'/></joint></robot>";
+    let floating = Options {
+        floating: true,
+        ..Options::default()
+    };
+    let i = import("r.urdf", urdf.as_bytes(), &none, &floating).unwrap();
+    assert_eq!(figures(&i, 1e-9)[4], 1);
+    let sdf = |pose: &str| {
+        format!(
+            "<sdf version='1.7'><model name='m'><link name='world'>{pose}</link><link name='b'/><joint name='j' type='revolute'><parent>world</parent><child>b</child><axis/></joint></model></sdf>"
+        )
+    };
+    assert_eq!(w_sigma("m.sdf", &sdf("")), (1, 0));
+    assert!(refused("m.sdf", &sdf("<pose>1 0 0 0 0 0</pose>")).contains("not in its place"));
+}
+
+// MJCF includes lead out of the file's folder only into a folder that is named.
+#[test]
+fn includes_within_a_named_root() {
+    let dir = tempfile::tempdir().unwrap();
+    let part = "<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>";
+    for (name, text) in [
+        ("root/part.xml", part.to_owned()),
+        ("secret.xml", part.to_owned()),
+        ("root/arm/main.xml", mjcf("<include file='../part.xml'/>")),
+        (
+            "root/arm/bad.xml",
+            mjcf("<include file='../../secret.xml'/>"),
+        ),
+    ] {
+        let path = dir.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+    let root = dir.path().join("root").display().to_string();
+    for (file, models, code) in [
+        ("root/arm/main.xml", true, 0),
+        ("root/arm/main.xml", false, 2),
+        ("root/arm/bad.xml", true, 2),
+    ] {
+        let file = dir.path().join(file).display().to_string();
+        let mut words = vec!["import", &file];
+        if models {
+            words.extend(["--models", &root]);
+        }
+        let o = ozols(&words).output().unwrap();
+        assert_eq!(o.status.code(), Some(code), "{file}");
+    }
+}
+
+// What a user means by the outputs: end effectors by name, ends of chains that have a shape, a base that floats; not each rod.
+#[test]
+fn outputs_are_what_users_mean() {
+    let outputs = |body: &str| {
+        read("m.xml", &mjcf(&format!("<worldbody>{body}</worldbody>")))
+            .report
+            .outputs
+            .0
+    };
+    // A leg as of a walking robot: its rod is as far from the base as its foot.
+    let leg = "<body name='base'><freejoint/><body name='shin'><joint/><body name='left-foot'><joint axis='0 1 0'/></body>
+      <body name='crank'><joint axis='0 1 0'/><body name='rod'><joint axis='1 0 0'/></body></body></body></body>";
+    assert_eq!(outputs(leg), ["base", "left-foot"]);
+    let shapes = "<body name='a'><joint/><body name='b'><joint axis='0 1 0'/><geom size='1'/></body><body name='c'><joint axis='1 0 0'/></body></body>";
+    assert_eq!(outputs(shapes), ["b"]);
+    assert_eq!(outputs(&shapes.replace("<geom size='1'/>", "")), ["b", "c"]);
+}
+
+// Joints in series are what they are, and nothing approximate; -q leaves out all but errors.
+#[test]
+fn nothing_is_said_that_need_not_be() {
+    let i = read(
+        "m.xml",
+        &mjcf("<worldbody><body name='a'><joint/><joint type='slide'/></body></worldbody>"),
+    );
+    assert_eq!(
+        (i.report.approximated.len(), i.report.doubts().as_str()),
+        (0, "")
+    );
+    // A loop that is open as drawn and a coupling that is a polynomial: both are told, and not told.
+    let doubtful = mjcf(
+        "<worldbody><body name='a'><joint name='j'/><body name='b' pos='0 1 0'><joint name='k'/></body></body>
+         <body name='c' pos='2 0 0'><joint name='l' ref='0.2'/></body></worldbody><equality>
+         <connect body1='b' body2='c' anchor='2 0.5 0'/><joint joint1='j' joint2='l' polycoef='0.5 -1 0.1 0 0'/></equality>",
+    );
+    for command in ["analyze", "check", "import", "lint", "search"] {
+        let said = |more: &[&str]| run_on(command, "m.xml", &doubtful, more).2;
+        assert_eq!(said(&["-q"]), "", "{command}");
+    }
+    assert!(
+        run_on("import", "m.xml", &doubtful, &[])
+            .2
+            .contains("is a polynomial of l")
+    );
+}
+
+// A four-bar in an oblique plane, written with five decimals: its sites miss each other across the plane, where no joint moves.
+// One that is open by more than digits explain is refused.
+#[test]
+fn loops_that_rounding_leaves_open() {
+    let text = |slip: f64| {
+        let (u, v) = ([0.48, 0.6, 0.64], [-0.8, 0.6, 0.037_5]);
+        let axis = [
+            u[1] * v[2] - u[2] * v[1],
+            u[2] * v[0] - u[0] * v[2],
+            u[0] * v[1] - u[1] * v[0],
+        ];
+        let at = |x: f64, y: f64| {
+            let c = |i: usize| format!("{:.5}", x * u[i] + y * v[i] + slip * axis[i]);
+            format!("{} {} {}", c(0), c(1), c(2))
+        };
+        let plain = |x: f64, y: f64| {
+            let c = |i: usize| format!("{:.5}", x * u[i] + y * v[i]);
+            format!("{} {} {}", c(0), c(1), c(2))
+        };
+        let z = axis.map(|a| format!("{a:.5}")).join(" ");
+        format!(
+            "<mujoco><default><joint axis='{z}'/></default><worldbody>
+              <body name='a'><joint/><body name='b' pos='{}'><joint/><site name='s' pos='{}'/></body></body>
+              <body name='c' pos='{}'><joint/><site name='t' pos='{}'/></body></worldbody>
+              <equality><connect site1='s' site2='t'/></equality></mujoco>",
+            plain(0.217, 0.913),
+            at(2.113, 0.5371),
+            plain(2.031, 0.0),
+            plain(0.299, 1.4501),
+        )
+    };
+    let rounded = import("m.xml", text(3e-5).as_bytes(), &none, &Options::default()).unwrap();
+    assert_eq!(figures(&rounded, 1e-3)[4..], [1, 1]);
+    let doubts = rounded.report.doubts();
+    assert!(doubts.contains("1 loop: open by"), "{doubts}");
+    assert!(refused("m.xml", &text(5e-3)).contains("the loops do not close"));
+}

@@ -1,0 +1,16 @@
+//! The search: what it counts, lists and leaves out.
+
+pub(crate) mod beyond_budget;
+mod blocks;
+mod both_ends;
+mod certify;
+mod costs;
+mod held;
+pub(crate) mod ideas;
+mod least_model;
+mod order;
+mod self_stresses;
+mod suggest;
+pub(crate) mod twin;
+mod variants;
+pub(crate) mod varied;

@@ -1,0 +1,188 @@
+//! Diagrams built from both ends, where one end does not fit the budget: the same counts and the same best as from one end.
+
+use crate::search::beyond_budget::{ladder, search};
+use crate::search::twin::look;
+use num_bigint::BigUint;
+use ozols::search::Search;
+use ozols::search::answer::counts::Counts;
+use ozols::search::answer::k_best::Assignment;
+use ozols::search::build::Diagrams;
+use ozols::search::diagram::{Diagram, Stop};
+use ozols::search::question::conditions::Conditions;
+use proptest::prelude::*;
+use std::fmt::Write;
+
+/// What a search says of all its variants.
+fn said((s, d): &(Search, Diagrams)) -> (Counts, Counts, Vec<Assignment>) {
+    (
+        s.counts(&d.determinate, false),
+        s.counts(&d.admissible, true),
+        s.cheapest(d, 30).collect(),
+    )
+}
+
+/// Conditions within so many nodes.
+fn within(nodes: usize, keep_output: bool) -> Conditions {
+    Conditions {
+        nodes,
+        keep_output,
+        ..Conditions::default()
+    }
+}
+
+/// Whether a diagram has no two nodes that lead on alike.
+fn is_minimal(d: &Diagram) -> bool {
+    d.layers.iter().all(|l| {
+        let mut rows: Vec<&[u32]> = l.edges.chunks(l.choices).collect();
+        rows.sort_unstable();
+        rows.windows(2).all(|w| w[0] != w[1])
+    })
+}
+
+/// A ladder whose first joint turns as another one does, in a ratio.
+fn coupled(text: &str, other: usize, ratio: i64) -> String {
+    let mut out = text.to_owned();
+    write!(
+        out,
+        "[[coupling]]\njoints = [\"j0\", \"j{other}\"]\nratio = {ratio}\n"
+    )
+    .unwrap();
+    out
+}
+
+proptest! {
+    #![proptest_config(crate::fuzz::runs(6))]
+    #[test]
+    fn from_both_ends_is_said_what_is_said_from_one(
+        spatial in any::<bool>(),
+        seed in any::<u64>(),
+        keep_output in any::<bool>(),
+        max_mobility in prop::option::of(1i64..4),
+        gears in prop::option::of((1usize..8, 1i64..20)),
+    ) {
+        let mut text = ladder(if spatial { 3 } else { 4 }, seed, spatial);
+        if let Some((other, ratio)) = gears {
+            text = coupled(&text, other, ratio);
+        }
+        let of = |nodes| search(&text, Conditions { max_mobility, ..within(nodes, keep_output) });
+        let one = of(200_000);
+        prop_assert_eq!(one.1.stop(), Stop::Exhausted);
+        let both = of(one.1.determinate.nodes.min(one.1.admissible.nodes) * 3 / 4);
+        if both.1.stop() == Stop::Exhausted {
+            prop_assert_eq!(said(&both), said(&one));
+        }
+    }
+}
+
+/// From one end it takes 32,423 and 32,693 nodes.
+#[test]
+fn coupled_contours_in_space_are_few_nodes() {
+    let text = ladder(3, 1, true);
+    let one = search(&text, within(100_000, true));
+    let both = search(&text, within(20_000, true));
+    assert_eq!(both.1.stop(), Stop::Exhausted);
+    let nodes = [&both.1.determinate, &both.1.admissible].map(|d| d.nodes);
+    assert_eq!(nodes, [55, 59]);
+    assert!(is_minimal(&both.1.determinate) && is_minimal(&both.1.admissible));
+    assert_eq!(said(&both), said(&one));
+}
+
+/// Variants drawn at random, each judged by rational elimination.
+#[test]
+fn the_twin_says_the_same_of_single_variants() {
+    let (s, d) = search(&ladder(3, 1, true), within(20_000, true));
+    let m = &s.mechanism;
+    let options: Vec<usize> = m.joints.iter().map(|j| j.options.len()).collect();
+    let present = look(m, false, &vec![(0, None); options.len()]).motion;
+    let mut met = [0; 3];
+    let mut state = 1u64;
+    for _ in 0..150 {
+        let choices: Vec<usize> = options
+            .iter()
+            .map(|n| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1);
+                (state >> 33) as usize % n
+            })
+            .collect();
+        let of_joints: Vec<(usize, Option<usize>)> = choices.iter().map(|&c| (c, None)).collect();
+        let twin = look(m, false, &of_joints);
+        let determinate = twin.internal == 0;
+        let admissible = determinate && twin.motion == present;
+        assert_eq!(
+            d.determinate.end(&choices).is_some(),
+            determinate,
+            "{choices:?}"
+        );
+        assert_eq!(
+            d.admissible.end(&choices).is_some(),
+            admissible,
+            "{choices:?}"
+        );
+        met[usize::from(determinate) + usize::from(admissible)] += 1;
+    }
+    assert!(met.iter().all(|&n| n > 5), "{met:?}");
+}
+
+/// Counts that were only estimated: from one end four contours take more than two million nodes.
+#[test]
+fn four_coupled_contours_in_space_are_counted() {
+    let (s, d) = search(&ladder(4, 1, true), within(100_000, false));
+    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 76));
+    let counted = s.counts(&d.determinate, false).total;
+    assert_eq!(counted, BigUint::from(49_513_456u32));
+}
+
+/// The joints of a ladder once more, between links of their own and the same frame.
+fn doubled(text: &str) -> String {
+    let mut out = text.to_owned();
+    for table in text.split("[[").skip(1) {
+        if !table.contains("role = \"frame\"") {
+            let mut table = table
+                .replace("id = \"", "id = \"k")
+                .replace("role = \"output\"\n", "");
+            for i in 1..10 {
+                table = table.replace(&format!("\"{i}\""), &format!("\"k{i}\""));
+            }
+            out += "[[";
+            out += &table;
+        }
+    }
+    out
+}
+
+#[test]
+fn blocks_are_built_from_both_ends_one_after_another() {
+    let text = ladder(3, 1, true);
+    for keep_output in [false, true] {
+        let [one, two] = [&text, &doubled(&text)].map(|t| search(t, within(20_000, keep_output)));
+        assert_eq!(
+            (one.1.stop(), two.1.stop()),
+            (Stop::Exhausted, Stop::Exhausted)
+        );
+        let total = |(s, d): &(Search, Diagrams), d_of: fn(&Diagrams) -> &Diagram| {
+            s.counts(d_of(d), false).total
+        };
+        let free = total(&one, |d| &d.determinate);
+        assert_eq!(total(&two, |d| &d.determinate), &free * &free);
+        assert_eq!(
+            total(&two, |d| &d.admissible),
+            total(&one, |d| &d.admissible) * free
+        );
+        assert!(two.1.admissible.nodes < 120, "{}", two.1.admissible.nodes);
+    }
+}
+
+#[test]
+fn a_search_of_halves_stops_when_it_is_told_to() {
+    let m = ozols::file::text::mechanism_from_str("ladder.toml", &ladder(4, 1, true)).unwrap();
+    let exact = ozols::redundancy::analysis::exact_field(&m, 0).unwrap();
+    let search = Search::new(exact, m, within(20_000, true)).unwrap();
+    for after in [40, 60, 100] {
+        let asked = std::sync::atomic::AtomicUsize::new(0);
+        let cancelled = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) > after;
+        let d = search.build(&cancelled, &mut |_| {});
+        assert_eq!(d.stop(), Stop::Interrupted);
+    }
+}

@@ -1,0 +1,298 @@
+//! The checks of the search: a second prime, and singular values.
+
+use crate::common::{built_in, json, out, ozols};
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
+use ozols::search::check::second_prime::{Verdict, build_both, compare, compare_counts, primes};
+use ozols::search::check::singular_values;
+use ozols::search::question::Question;
+use ozols::search::question::conditions::{Conditions, InState};
+use serde_json::Value;
+use std::fs;
+
+/// The four-bar with one axis tilted out of parallel by a number that the first prime divides: modulo that prime it is
+/// parallel.
+fn trap() -> String {
+    let text = out(&["show", "four-bar"]);
+    let at = text.find("id = \"2-3\"").unwrap();
+    let axis = "axis = [\"2305843009213693973/30000000\", 0, 1]";
+    format!(
+        "{}{}",
+        &text[..at],
+        text[at..].replacen("axis = [0, 0, 1]", axis, 1)
+    )
+}
+
+/// The four-bar with one axis tilted by next to nothing: not parallel exactly, parallel to double precision.
+fn shaky() -> String {
+    trap().replace("\"2305843009213693973/30000000\"", "1e-11")
+}
+
+fn both(text: &str) -> Result<(Verdict, [u64; 2]), String> {
+    let m = mechanism_from_str("it.toml", text).unwrap();
+    let over = |nth| Search::new(exact_field(&m, nth).unwrap(), &m, Conditions::default()).unwrap();
+    let (first, second) = (over(0), over(1));
+    let searches: [&Question; 2] = [&first, &second];
+    let (a, b) = build_both(searches, &|| false, &mut |_| {});
+    let counts = |s: &Search, d: &ozols::search::build::Diagrams| {
+        (
+            s.counts(&d.determinate, false),
+            s.counts(&d.admissible, true),
+        )
+    };
+    let by_counts = compare_counts(searches, [&counts(&first, &a), &counts(&second, &b)]);
+    let whole = compare(searches, [&a, &b], 10);
+    assert_eq!(by_counts.is_ok(), whole.is_ok());
+    match whole {
+        Ok(v) => Ok((v, primes(searches))),
+        Err(e) => Err(e.to_string()),
+    }
+}
+
+#[test]
+fn two_primes_agree_on_every_built_in_mechanism() {
+    for name in ozols::builtin::names() {
+        let (verdict, [p, q]) = both(ozols::builtin::text(name).unwrap()).unwrap();
+        assert!(verdict == Verdict::Agree && p != q, "{name}");
+    }
+}
+
+#[test]
+fn a_prime_that_divides_a_coordinate_is_found_out() {
+    let said = both(&trap()).unwrap_err();
+    for part in [
+        "primes disagree",
+        "34 determinate",
+        "36 determinate",
+        "W = 0",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("trap.toml");
+    fs::write(&path, trap()).unwrap();
+    let path = path.to_str().unwrap();
+    for check in ["prime", "full"] {
+        let o = ozols(&["search", path, "--check", check]).output().unwrap();
+        let text = String::from_utf8(o.stderr).unwrap();
+        assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0));
+        assert!(text.contains("primes disagree"), "{text}");
+    }
+}
+
+#[test]
+fn the_check_is_reported() {
+    let v = json(&["search", "four-bar", "--format", "json"]);
+    assert_eq!(v["check"]["agree"], true);
+    assert_eq!(v["check"]["primes"].as_array().unwrap().len(), 2);
+    let v = json(&["search", "four-bar", "--format", "json", "--check", "none"]);
+    assert_eq!(v["check"], Value::Null);
+    let says = |check| out(&["search", "four-bar", "--check", check]).contains("Checked: modulo");
+    assert!(says("prime") && says("full") && !says("none"));
+    let mirror = ["search", "gripper-10", "--one-per-orbit", "--count"];
+    assert!(out(&mirror).contains("Checked: modulo"));
+}
+
+#[test]
+fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
+    for name in ozols::builtin::names() {
+        let m = built_in(name);
+        let clamped = m.states.len() > 1;
+        for (keep_output, max_redundant) in [(true, 0), (false, 100)] {
+            let request = Conditions {
+                keep_output,
+                max_redundant,
+                state: clamped.then_some(InState {
+                    hold_objects: false,
+                    ..InState::holding(StateId::new(1))
+                }),
+                ..Conditions::default()
+            };
+            let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
+            if max_redundant > 0 && search.size() > 1500u32.into() {
+                continue;
+            }
+            let diagrams = search.build(&|| false, &mut |_| {});
+            let mut list: Vec<_> = search.sample(&diagrams, 1).take(10).collect();
+            list.extend(search.cheapest(&diagrams, 10));
+            for c in singular_values::certify(&search, list, true, None, &|| false) {
+                let o = *c.second.opinion().unwrap();
+                assert!(o.agree, "{name}: {c:?}");
+                assert!(o.dropped < 1e-12 && o.conditioning > 1e-6, "{name}: {o:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_variant_that_two_methods_see_differently_is_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("shaky.toml");
+    fs::write(&path, shaky()).unwrap();
+    let path = path.to_str().unwrap();
+    let v = json(&["search", path, "--format", "json", "--all"]);
+    assert_eq!(v["check"]["agree"], true, "the primes see the same");
+    let variants = v["variants"].as_array().unwrap();
+    let wrong: Vec<&Value> = variants.iter().filter(|x| x["agree"] == false).collect();
+    assert!(!wrong.is_empty() && v["variants_disagreeing"] == wrong.len());
+    for x in wrong {
+        let gap = (&x["svd"]["smallest_kept"], &x["svd"]["largest_dropped"]);
+        assert!(gap.0.as_f64().unwrap() > 1e-9 && gap.1.as_f64().unwrap() < 1e-9);
+        assert!(x["svd"]["redundant"] != x["redundant"] || x["svd"]["mobility"] != x["mobility"]);
+    }
+    let text = out(&["search", path]);
+    for part in [
+        "Singular values disagree",
+        " *  ",
+        "  * 1: by singular values W = ",
+    ] {
+        assert!(text.contains(part), "no {part:?} in {text}");
+    }
+    let csv = out(&["search", path, "--format", "csv"]);
+    let column = |name: &str| {
+        csv.lines()
+            .next()
+            .unwrap()
+            .split(',')
+            .position(|h| h == name)
+    };
+    let first: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
+    assert_eq!(first[column("agree").unwrap()], "false");
+}
+
+#[test]
+fn nearly_singular_variants_are_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("near.toml");
+    fs::write(&path, shaky().replace("1e-11", "1e-6")).unwrap();
+    let text = out(&["search", path.to_str().unwrap()]);
+    assert!(text.contains("nearly singular"), "{text}");
+    assert!(text.contains("Singular values agree"), "{text}");
+}
+
+#[test]
+fn a_long_list_says_where_the_checking_ends() {
+    let options = ["search", "gripper-10", "--options", "revolute,spherical"];
+    let wide = ["--allow-output-change", "--top", "1034"];
+    let text = out(&[&options[..], &wide].concat());
+    assert!(text.contains("agree on the first 1,000; the rest was not asked"));
+    let v = json(&[&options[..], &wide, &["--format", "json"]].concat());
+    let variants = v["variants"].as_array().unwrap();
+    assert_eq!(
+        (variants.len(), &v["variants_checked"]),
+        (1034, &1000.into())
+    );
+    assert!(variants[999]["agree"] == true && variants[1000]["agree"].is_null());
+}
+
+/// Writes a variant of the trap and searches it: (exit code, standard output, standard error).
+fn search(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("it.toml");
+    fs::write(&path, text).unwrap();
+    let args = [&["search", path.to_str().unwrap()], more].concat();
+    let o = ozols(&args).output().unwrap();
+    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
+    (o.status.code(), text(o.stdout), text(o.stderr))
+}
+
+/// The four-bar turned by 30 degrees about x, in floating point.
+fn turned(axis: &str) -> String {
+    let (c, s) = (3f64.sqrt() / 2.0, 0.5);
+    let mut text = out(&["show", "four-bar"]);
+    for (x, y) in [(0, 0), (0, 30), (80, 90), (120, 0)] {
+        let (u, v) = (f64::from(y) * c, f64::from(y) * s);
+        text = text.replace(
+            &format!("point = [{x}, {y}, 0]"),
+            &format!("point = [{x}, {u:?}, {v:?}]"),
+        );
+    }
+    text.replace("axis = [0, 0, 1]", axis)
+}
+
+#[test]
+fn measured_coordinates_that_do_no_harm_are_warned_about() {
+    // One axis for all: parallel whatever its digits are.
+    let (code, stdout, stderr) = search(
+        &turned("axis = [0, -0.5, 0.8660254037844386]"),
+        &["--format", "json"],
+    );
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(stderr.contains("snapped: 4 axes parallel"), "{stderr}");
+    let v: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!(v["measured"]["agree"], true);
+    assert_eq!(v["measured"]["states"][0]["exact"]["redundant"], 3);
+    assert_eq!(v["determinate"], "34");
+    let exact = json(&["search", "four-bar", "--format", "json"]);
+    assert_eq!(exact["measured"], Value::Null);
+    assert_eq!(exact["determinate"], v["determinate"]);
+}
+
+#[test]
+fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
+    let mut text = turned("axis = [0, -0.5, 0.8660254037844386]");
+    let at = text.find("id = \"2-3\"").unwrap();
+    let last = text[at..].replacen("0.8660254037844386", "0.8660254037844387", 1);
+    text.replace_range(at.., &last);
+    let (code, stdout, stderr) = search(&text, &["--format", "json"]);
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(stderr.contains("snapped: 4 axes parallel"), "{stderr}");
+    let v: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!(v["determinate"], "34");
+    assert_eq!(v["measured"]["states"][0]["exact"]["redundant"], 2);
+    assert_eq!(v["measured"]["states"][0]["svd"]["redundant"], 3);
+    assert_eq!(v["variants"][0]["agree"], true);
+    let (code, stdout, stderr) = search(&text, &["--as-written", "--format", "json"]);
+    assert!(
+        code == Some(0) && stderr.starts_with("warning: "),
+        "{stderr}"
+    );
+    for part in ["W = 0, σ = 2", "W = 1, σ = 3", "--snap"] {
+        assert!(stderr.contains(part), "no {part:?} in {stderr}");
+    }
+    let v: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!(v["measured"]["agree"], false);
+    assert_eq!(v["measured"]["states"][0]["svd"]["redundant"], 3);
+    assert_eq!(v["variants"][0]["agree"], false);
+    // Nine digits, measured to nine digits: the tolerance follows.
+    let nine = text.replace("0.8660254037844386", "0.866025404");
+    let nine = nine.replace("0.8660254037844387", "0.866025403");
+    let (code, _, stderr) = search(&nine, &["--as-written"]);
+    assert_eq!(code, Some(0));
+    assert!(
+        stderr.contains("to within 2e-9 it is meant to have W = 1, σ = 3"),
+        "{stderr}"
+    );
+}
+
+#[test]
+fn singular_values_see_a_tilted_plane_as_the_exact_ranks_do() {
+    let mut text = out(&["show", "four-bar-planar"]);
+    // Any plane will do, as long as all points are in it: here z = x + 2 y - 3 y = x - y with decimals that round.
+    text = text.replace("axis = [0, 0, 1]", "axis = [\"1/7\", \"-1/7\", \"-1/7\"]");
+    for (i, p) in [
+        "[0.1, 0.3, -0.2]",
+        "[0.7, 0.2, 0.5]",
+        "[1.9, 0.6, 1.3]",
+        "[2.3, 0.1, 2.2]",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let at = text.match_indices("point = ").nth(i).unwrap().0;
+        let end = at + text[at..].find('\n').unwrap();
+        text.replace_range(at..end, &format!("point = {p}"));
+    }
+    let normal = "plane_normal = [\"1/7\", \"-1/7\", \"-1/7\"]";
+    text = text.replace("plane_normal = [0, 0, 1]", normal);
+    let m = mechanism_from_str("it.toml", &text).unwrap();
+    let search = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let list: Vec<_> = search.sample(&diagrams, 1).take(20).collect();
+    assert!(!list.is_empty());
+    for c in singular_values::certify(&search, list, true, None, &|| false) {
+        assert!(c.second.opinion().unwrap().agree, "{c:?}");
+    }
+}

@@ -1,0 +1,221 @@
+//! Costs in a file of their own: printed, changed, taken, and refused where they are none.
+
+use crate::common::{built_in, changed, json, out, run, text};
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
+use ozols::search::question::conditions::{Conditions, InState};
+use std::fs;
+
+/// A folder with the table of costs, changed, and the path to it.
+fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("costs.toml");
+    fs::write(&path, changed(&out(&["show", "costs"]), from, to)).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+#[test]
+fn the_table_that_is_printed_changes_nothing() {
+    let (_folder, path) = table("change = 1\n", "change = 1.0\n");
+    let with = out(&["search", "gripper-10", "--format", "csv", "--costs", &path]);
+    assert_eq!(with, out(&["search", "gripper-10", "--format", "csv"]));
+    assert!(!out(&["list"]).contains("\n costs "));
+}
+
+#[test]
+fn a_type_that_is_dear_is_chosen_no_more() {
+    let first = |more: &[&str]| {
+        let args = ["search", "gripper-10", "--top", "1", "--format", "json"];
+        json(&[&args, more].concat())["variants"][0].clone()
+    };
+    let has = |v: &serde_json::Value, t: &str| v["changes"].to_string().contains(t);
+    let before = first(&[]);
+    let (_folder, path) = table("\nspherical = 2\n", "\nspherical = 90\n");
+    let after = first(&["--costs", &path]);
+    assert!(has(&before, "spherical") && !has(&after, "spherical"));
+    assert_ne!(before["cost"], after["cost"]);
+    // the page says how it was made
+    let page = out(&["report", "four-bar", "--costs", &path]);
+    assert!(page.contains(&format!("--costs {path}")));
+}
+
+#[test]
+fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let own = out(&["show", "gripper-10"]) + "\n[search.costs]\nlink = 7\nspherical = 3\n";
+    fs::write(at("own.toml"), own).unwrap();
+    fs::write(at("costs.toml"), "spherical = 2\n").unwrap();
+    let cost = |more: &[&str]| {
+        let allow = ["--options", "spherical", "--top", "1", "--format", "json"];
+        let file = at("own.toml");
+        json(&[&["search", file.as_str()], &allow[..], more].concat())["variants"][0]["cost"]
+            .clone()
+    };
+    let costs = at("costs.toml");
+    let (with, without) = (cost(&["--costs", &costs]), cost(&[]));
+    assert!(
+        with.as_f64().unwrap() < without.as_f64().unwrap(),
+        "{with} {without}"
+    );
+}
+
+#[test]
+fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
+    for (from, to, said) in [
+        (
+            "spherical = 2\n",
+            "sphericle = 2\n",
+            "unknown cost \"sphericle\"",
+        ),
+        (
+            "spherical = 2\n",
+            "spherical = -2\n",
+            "cost -2 must be a finite number from 0 to 1e6",
+        ),
+        ("spherical = 2\n", "spherical = nan\n", "cost NaN must be"),
+        (
+            "spherical = 2\n",
+            "spherical = \"2\"\n",
+            "each line is a name and a number",
+        ),
+        (
+            "spherical = 2\n",
+            "spherical 2\n",
+            "each line is a name and a number",
+        ),
+    ] {
+        let (_folder, path) = table(from, to);
+        let o = run(&["search", "gripper-10", "--costs", &path]);
+        let err = text(&o.stderr);
+        assert_eq!(o.status.code(), Some(2), "{to}");
+        let words = err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(said), "{to}: {err}");
+        let printed = fs::read_to_string(&path).unwrap();
+        let line = printed
+            .lines()
+            .position(|l| l.starts_with(to.trim_end()))
+            .unwrap()
+            + 1;
+        assert!(err.contains(&format!("costs.toml:{line}:")), "{to}: {err}");
+    }
+    let o = run(&["search", "gripper-10", "--costs", "no/such.toml"]);
+    assert_eq!(o.status.code(), Some(2));
+    assert!(text(&o.stderr).contains("`ozols show costs > no/such.toml` writes one"));
+}
+
+/// A joint that the file describes by its freedoms is a hinge with more of them: what it costs above a hinge does not depend on
+/// what a hinge costs.
+#[test]
+fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = |price: &str| {
+        let text = out(&["show", "four-bar"]);
+        let cut = text.find("[search]").unwrap();
+        let text = format!(
+            "{}[search]\noptions = [\"revolute\", {{ freedoms = [\"rz\", \"rx\", \"ry\"], name = \"loose\" }}]\n[search.costs]\n\
+             revolute = {price}\n",
+            &text[..cut]
+        );
+        let path = folder.path().join(format!("{price}.toml"));
+        fs::write(&path, text).unwrap();
+        let v = json(&["search", path.to_str().unwrap(), "--format", "json"]);
+        let all = v["variants"].as_array().unwrap().iter();
+        all.map(|v| v["cost"].as_f64().unwrap()).collect::<Vec<_>>()
+    };
+    let default = list("1");
+    assert!(!default.is_empty() && default.iter().all(|c| *c > 1.0));
+    for price in ["0", "0.5", "7.25"] {
+        assert_eq!(list(price), default, "{price}");
+    }
+}
+
+/// Costs are whole steps of what all of them have in common; the price of harm is one of them.
+#[test]
+fn harm_costs_what_the_file_says_to_the_thousandth() {
+    for (name, price) in [("tongs", 1730), ("tongs-pad", 1), ("tongs", 333)] {
+        let mut m = built_in(name);
+        m.search.costs.harmful_milli = Some(price);
+        let conditions = Conditions {
+            state: Some(InState::holding(StateId::new(1))),
+            max_redundant: 9,
+            ..Conditions::default()
+        };
+        let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
+        let diagrams = s.build(&|| false, &mut |_| {});
+        let mut harms = 0;
+        for v in s.cheapest(&diagrams, 300) {
+            let choices = s.space.variables.iter().zip(&v.choices);
+            let chosen: i64 = choices.map(|(x, &c)| x.choices[c].cost_milli).sum();
+            let harmful = i64::from(v.key.harmful());
+            assert_eq!(
+                s.steps.milli(v.key.cost()),
+                chosen + price * harmful,
+                "{name}"
+            );
+            harms += harmful;
+        }
+        assert!(harms > 0 || name == "tongs-pad", "{name}");
+    }
+}
+
+/// A changed joint costs what the new one costs above the present one, and the change; one in series its own cost, its link and a
+/// change. Prices are the file's where it states them.
+#[test]
+fn choices_cost_what_the_formula_says() {
+    let prices = [("revolute", 1500), ("spherical", 2250), ("universal", 4000)];
+    let mut m = built_in("gripper-10");
+    let costs = &mut m.search.costs;
+    (costs.change_milli, costs.link_milli) = (Some(1300), Some(700));
+    costs.by_type_milli = prices.map(|(name, p)| (name.to_owned(), p)).to_vec();
+    let ball = m.joints.iter().flat_map(|j| &j.options);
+    let ball = ball
+        .clone()
+        .find(|o| o.name == "spherical")
+        .unwrap()
+        .clone();
+    for j in m.joints.iter_mut().filter(|j| !j.drive) {
+        j.unloading = vec![ball.clone()];
+    }
+    let conditions = Conditions::default();
+    let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
+    let mut seen = 0;
+    for variable in &s.space.variables {
+        let joint = &m.joints[variable.joints[0]];
+        for choice in &variable.choices {
+            let price = |o: &ozols::model::mechanism::JointOption| {
+                let stated = prices.iter().find(|(name, _)| *name == o.joint_type.name());
+                stated.map_or(o.joint_type.default_cost_milli(), |p| p.1)
+            };
+            let mut wanted = 0;
+            if choice.option != 0 {
+                wanted += price(&joint.options[choice.option]) - price(&joint.options[0]) + 1300;
+            }
+            if let Some(u) = choice.unloading {
+                wanted += price(&joint.unloading[u]) + 700 + 1300;
+            }
+            assert_eq!(choice.cost_milli, wanted, "{} {choice:?}", joint.id);
+            seen += 1;
+        }
+    }
+    assert!(seen > 100, "{seen}");
+}
+
+/// Where what a file asks for its own joints makes changes pay, the cheapest variant costs less than nothing; a bound in
+/// thousandths is the last whole step that is within it.
+#[test]
+fn bounds_are_whole_steps_above_the_cheapest() {
+    let mut m = built_in("gripper-10");
+    m.search.costs.by_type_milli = vec![("revolute".to_owned(), 9000)];
+    let s = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
+    assert!(s.steps.base_milli < 0 && s.steps.unit_milli > 1);
+    for step in [0, 1, 2, 17, 400] {
+        let milli = s.steps.base_milli + i64::from(step) * s.steps.unit_milli;
+        for within in [0, 1, s.steps.unit_milli - 1] {
+            assert_eq!(s.steps.above(milli + within), u64::try_from(step).unwrap());
+        }
+        assert_eq!(s.steps.milli(u64::try_from(step).unwrap()), milli);
+    }
+}

@@ -1,0 +1,219 @@
+//! Searches of a clamped state: what is held, what harms, what relieves, and what is said where nothing is found.
+
+mod mirrored;
+mod relieved;
+
+use crate::common::{changed, count, json, out, run};
+use ozols::builtin;
+use serde_json::Value;
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+/// A file that is gone with its folder.
+pub(crate) fn file(text: &str) -> (TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path: PathBuf = folder.path().join("m.toml");
+    std::fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+/// The ten-link gripper that offers nothing but a ball pivot at each pad and four options of its hinges.
+pub(crate) fn pads() -> String {
+    let text = builtin::text("gripper-10").unwrap();
+    let lines = text.lines().filter(|l| !l.contains("name = \"cross\""));
+    let text = lines.collect::<Vec<_>>().join("\n");
+    let text = changed(&text, "    \"universal\",\n", "");
+    let text = changed(
+        &text,
+        "    { type = \"universal\", reference = [0, 1, 0], name = \"universal-y\" },\n",
+        "",
+    );
+    changed(&text, "    \"cylindrical-universal\",\n", "")
+}
+
+/// Output, as data, of a search that may find nothing.
+pub(crate) fn searched(path: &str, more: &[&str]) -> Value {
+    let args = [&["search", path, "--format", "json", "-q"][..], more].concat();
+    let o = run(&args);
+    assert!(matches!(o.status.code(), Some(0 | 1)), "{args:?}: {o:?}");
+    serde_json::from_slice(&o.stdout).unwrap()
+}
+
+fn said(path: &str, more: &[&str]) -> String {
+    let o = run(&[&["search", path, "-q"][..], more].concat());
+    String::from_utf8(o.stdout).unwrap()
+}
+
+/// Between two ball pivots the part turns about the line through their centres: no redundant constraint, and no grip.
+#[test]
+fn a_part_that_spins_between_two_pads_is_not_held() {
+    let (_folder, path) = file(&pads());
+    let zero = ["--max-external", "0", "--count"];
+    assert_eq!(count(&searched(&path, &zero)["admissible"]), 0);
+    let loose = [&zero[..], &["--allow-loose-object"]].concat();
+    assert!(count(&searched(&path, &loose)["admissible"]) > 0);
+    // Every one of them has both pads, and none with one pad is lost.
+    let list = searched(
+        &path,
+        &["--max-external", "0", "--allow-loose-object", "--top", "20"],
+    );
+    for v in list["variants"].as_array().unwrap() {
+        let changes = v["changes"].as_array().unwrap();
+        for pad in ["4-a", "a-8"] {
+            assert!(changes.iter().any(|c| c["joint"] == pad), "{v}");
+        }
+    }
+    let one = ["--max-external", "2", "--forbid", "4-a", "--count"];
+    let without = [&one[..], &["--allow-loose-object"]].concat();
+    assert_eq!(
+        searched(&path, &["--max-external", "2", "--count"])["admissible"]
+            .as_str()
+            .map(|n| n != "0"),
+        Some(true)
+    );
+    assert!(
+        count(&searched(&path, &without)["admissible"])
+            > count(&searched(&path, &one)["admissible"])
+    );
+}
+
+/// What the question asks for is in its first line.
+#[test]
+fn the_conditions_in_a_state_are_said() {
+    let text = said("gripper-10", &["--state", "clamped", "--count"]);
+    assert!(text.contains("and hold a in state clamped"), "{text}");
+    assert!(!text.contains("4294967295"), "{text}");
+    let text = said(
+        "gripper-10",
+        &["--state", "clamped", "--count", "--allow-loose-object"],
+    );
+    assert!(
+        text.contains("have any external σ in state clamped"),
+        "{text}"
+    );
+    let limits = ["--max-external", "2", "--max-harmful", "0", "--top", "1"];
+    let text = said("gripper-10", &limits);
+    assert!(
+        text.contains("hold a in state clamped and have external σ ≤ 2, harmful ≤ 0 in it"),
+        "{text}"
+    );
+    assert!(
+        text.contains("ozols draw gripper-10 --max-external 2 --max-harmful 0 --idea 1"),
+        "{text}"
+    );
+}
+
+/// The part is no link of the free mechanism; with one pad it is held all the same.
+#[test]
+fn an_object_is_held_by_name() {
+    let (_folder, path) = file(&pads());
+    let count_of = |more: &[&str]| {
+        let args = [&["--max-external", "2", "--count"][..], more].concat();
+        count(&searched(&path, &args)["admissible"])
+    };
+    let held = count_of(&[]);
+    assert!(held > 0);
+    assert_eq!(count_of(&["--hold", "a"]), held);
+    assert_eq!(count_of(&["--hold", "a", "--allow-loose-object"]), held);
+    assert!(count_of(&["--allow-loose-object"]) > held);
+    let o = run(&["search", &path, "--hold", "a"]);
+    let text = String::from_utf8(o.stderr).unwrap();
+    assert_eq!(o.status.code(), Some(2));
+    assert!(
+        text.contains("link a") && text.contains("in state clamped alone; add --state clamped"),
+        "{text}"
+    );
+}
+
+/// [Pogrebnyak 2018]: of the five external constraints three are friction that both jaws supply and two demand parallel
+/// faces; with the pad two are left, and they only share the load.
+#[test]
+fn harmful_constraints_are_counted() {
+    let present = [
+        "--max-redundant",
+        "11",
+        "--max-changes",
+        "1",
+        "--state",
+        "clamped",
+    ];
+    let allowed = ["--options", "revolute", "--top", "20"];
+    let v = searched("gripper-10", &[&present[..], &allowed].concat());
+    let list = v["variants"].as_array().unwrap();
+    let of = |joint: Option<&str>| {
+        list.iter()
+            .find(
+                |v| match (v["changes"].as_array().unwrap().as_slice(), joint) {
+                    ([], None) => true,
+                    ([one], Some(j)) => one["joint"] == j,
+                    _ => false,
+                },
+            )
+            .unwrap()
+    };
+    assert_eq!(
+        (
+            of(None)["external_redundant"].as_i64(),
+            of(None)["external_harmful"].as_i64()
+        ),
+        (Some(5), Some(2))
+    );
+    for pad in ["4-a", "a-8"] {
+        let v = of(Some(pad));
+        assert_eq!(v["external_redundant"], 2, "{v}");
+        assert_eq!(v["external_harmful"], 0, "{v}");
+    }
+    // The same count as that of the analysis of the variant.
+    let few = ["--max-harmful", "0", "--top", "3"];
+    let found = json(&[&["search", "gripper-10", "--format", "json"][..], &few].concat());
+    for v in found["variants"].as_array().unwrap() {
+        assert_eq!(v["external_harmful"], 0);
+    }
+    let without = count(&searched("gripper-10", &["--state", "clamped", "--count"])["admissible"]);
+    assert!(count(&found["admissible"]) < without);
+    let text = out(&[&["search", "gripper-10"][..], &few].concat());
+    assert!(text.contains("harmful"), "{text}");
+    let csv = out(&[&["search", "gripper-10", "--format", "csv"][..], &few].concat());
+    let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let at = head.iter().position(|h| *h == "external_harmful").unwrap();
+    assert!(
+        csv.lines()
+            .skip(1)
+            .all(|l| l.split(',').nth(at) == Some("0")),
+        "{csv}"
+    );
+}
+
+/// A price on harm puts variants with a pad first, and a ranking may count it.
+#[test]
+fn harm_has_a_price_and_a_term() {
+    let question = ["--state", "clamped", "--top", "1"];
+    let first = |path: &str| searched(path, &question)["variants"][0].clone();
+    let (_folder, path) = file(&pads());
+    assert_eq!(first(&path)["external_harmful"], 2);
+    let priced = changed(&pads(), "[search]\n", "[search]\ncosts = { harmful = 3 }\n");
+    let (_priced, priced) = file(&priced);
+    let v = first(&priced);
+    assert_eq!(v["external_harmful"], 0, "{v}");
+    // Two harmful ones at 3 each cost more than a pad at 4.
+    assert_eq!(
+        v["cost"].as_f64().unwrap() - 4.0,
+        first(&path)["cost"].as_f64().unwrap()
+    );
+    let ranked = [
+        "--rank",
+        "harmful,cost=0.01",
+        "--options",
+        "revolute,sphere-in-cylinder",
+    ];
+    let v = searched("gripper-10-loaded", &[&question[..], &ranked].concat());
+    assert_eq!(v["variants"][0]["scores"]["harmful"], 0, "{v}");
+    let o = run(&["search", "gripper-10-loaded", "--rank", "harmful"]);
+    assert_eq!(o.status.code(), Some(2));
+    let text = String::from_utf8(o.stderr).unwrap();
+    assert!(
+        text.contains("add --state, such as --state clamped"),
+        "{text}"
+    );
+}

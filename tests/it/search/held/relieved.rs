@@ -1,0 +1,266 @@
+//! Unloading joints anywhere, σ by contour, joints of the free state alone, and what to do where nothing is found.
+
+use super::{file, pads, searched};
+use crate::common::{built_in, changed, count, out, run};
+use ozols::file::text::mechanism_from_str;
+use ozols::geom::expr::Expr;
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::search::check::variant_mechanism::realize;
+
+fn refused(args: &[&str]) -> String {
+    let o = run(args);
+    assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0), "{args:?}");
+    String::from_utf8(o.stderr).unwrap()
+}
+
+#[test]
+fn unloading_joints_are_offered_by_name() {
+    let (_folder, path) = file(&pads());
+    let space = |more: &[&str]| {
+        let args = [&["--state", "clamped", "--count"][..], more].concat();
+        count(&searched(&path, &args)["space"])
+    };
+    let four = 4u64.pow(12);
+    assert_eq!(space(&[]), four * 2 * 2);
+    let both = ["--unloading", "spherical,planar=4-a,a-8"];
+    assert_eq!(space(&both), four * 3 * 3);
+    assert_eq!(space(&["--unloading", "planar"]), four * 3 * 3);
+    let two = ["--unloading", "planar=a-8", "--unloading", "universal=1-2"];
+    assert_eq!(space(&two), four * 2 * 2 * 3);
+    // In the free mechanism, too.
+    let free = searched(&path, &["--unloading", "prismatic=2-4", "--count"]);
+    assert_eq!(count(&free["space"]), 2 * four);
+    for (rule, parts) in [
+        ("planar=4-a", &["joint 4-a", "add --state clamped"][..]),
+        ("planar", &["search one with --state"]),
+        ("rope=2-4", &["rope is no joint type", "spherical"]),
+        ("helical=2-4", &["helical is no joint type"]),
+        ("fixed=2-4", &["fixed is no joint type"]),
+        ("planar=zz", &["no joint zz"]),
+    ] {
+        let text = refused(&["search", "gripper-10", "--unloading", rule]);
+        assert!(parts.iter().all(|p| text.contains(p)), "{rule}: {text}");
+    }
+}
+
+/// The gripper of the catalogue offers both pads and crosses in the jaws' hinges, and the latter to clamped searches alone.
+#[test]
+fn the_gripper_offers_both_pads_and_the_jaws_joints() {
+    let space = |more: &[&str]| {
+        let args = [&["--count"][..], more].concat();
+        count(&searched("gripper-10", &args)["space"])
+    };
+    assert_eq!(space(&[]), 7u64.pow(12));
+    let clamped = 7u64.pow(8) * 14u64.pow(4) * 4;
+    assert_eq!(space(&["--state", "clamped"]), clamped);
+    assert_eq!(space(&["--unloading", "cross=2-4"]), 2 * 7u64.pow(12));
+}
+
+/// A ball pivot elsewhere on the jaw than at its face.
+#[test]
+fn an_unloading_joint_has_a_place_of_its_own() {
+    let place = "point = [6, -2, 0], axis = [1, 0, 0]";
+    let list = format!("unloading = [{{ type = \"planar\", {place} }}]\n\n[[contour]]");
+    let text = changed(&pads(), "unloading = true\n\n[[contour]]", &list);
+    let text = changed(&text, "unloading = true", "unloading = false");
+    let m = mechanism_from_str("m.toml", &text).unwrap();
+    let pad = &m.joints[m.joint("a-8").unwrap()].unloading[0];
+    let point = pad.frame.point.each_ref().map(Expr::to_f64);
+    assert_eq!(point, [6.0, -2.0, 0.0]);
+    // Written and read again it stays where it is.
+    let (_folder, path) = file(&text);
+    let read = |name: &str| {
+        let written = out(&["export", name, "--to", "toml"]);
+        mechanism_from_str("m.toml", &written).unwrap()
+    };
+    let again = read(&path);
+    let again = &again.joints[again.joint("a-8").unwrap()].unloading[0];
+    assert_eq!(format!("{:?}", again.frame), format!("{:?}", pad.frame));
+    // So does the state that an option is for.
+    let again = read("gripper-10");
+    let cross = &again.joints[again.joint("2-4").unwrap()].unloading[0];
+    let offered = (cross.name.as_str(), cross.state);
+    assert_eq!(offered, ("cross", Some(StateId::new(1))));
+    // The variant is the mechanism with the joint there.
+    let to = ["--to", "toml", "--variant", "1", "--state", "clamped"];
+    let more = [
+        "--max-external",
+        "3",
+        "--options",
+        "revolute",
+        "--max-redundant",
+        "11",
+    ];
+    let written = out(&[&["export", path.as_str()][..], &to, &more].concat());
+    let v = mechanism_from_str("v.toml", &written).unwrap();
+    let series = &v.joints[v.joint("a-8 unloading").unwrap()];
+    assert_eq!(series.frame.point.each_ref().map(Expr::to_f64), point);
+}
+
+#[test]
+fn variants_say_where_their_redundant_constraints_are() {
+    let question = [
+        "--max-redundant",
+        "2",
+        "--max-external",
+        "5",
+        "--max-changes",
+        "5",
+        "--top",
+        "3",
+    ];
+    let found = searched("gripper-10", &question);
+    for v in found["variants"].as_array().unwrap() {
+        let shares = v["per_contour"].as_array().unwrap();
+        let number = |c: &serde_json::Value, key: &str| c[key].as_i64().unwrap();
+        let sum: i64 = shares.iter().map(|c| number(c, "redundant")).sum();
+        assert_eq!(
+            sum,
+            number(v, "redundant") + number(v, "external_redundant")
+        );
+        for c in shares {
+            assert!(number(c, "least") <= number(c, "redundant"));
+            assert!(number(c, "redundant") <= number(c, "greatest"));
+            assert!(c["contour"].as_str().unwrap().contains('-'));
+        }
+    }
+    let as_written = |format: &str| {
+        let head = ["search", "gripper-10", "--format", format];
+        out(&[&head[..], &question].concat())
+    };
+    let text = as_written("text");
+    let head = "σ by contour, added in this order (range over all orders of these):";
+    assert!(text.contains(head), "{text}");
+    let csv = as_written("csv");
+    let mut lines = csv.lines();
+    assert!(
+        lines.next().unwrap().ends_with(",redundant_by_contour"),
+        "{csv}"
+    );
+    assert!(lines.next().unwrap().contains(" to "), "{csv}");
+    let none = out(&["search", "gripper-10", "--top", "2"]);
+    assert!(none.contains("σ by contour: none in any"), "{none}");
+}
+
+/// A rest that the gripper leaves as it clamps: σ_a is σ clamped less σ free.
+#[test]
+fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
+    let rest = "[[joint]]\nid = \"rest\"\nlinks = [\"0\", \"5\"]\ntype = \"planar\"\npoint = [2, 4, 0]\n\
+                axis = [0, 0, 1]\nstate = \"free\"\n\n[[contour]]  # 0-1-2-3\n";
+    let text = changed(&pads(), "[[contour]]  # 0-1-2-3\n", rest);
+    let text = &text[..text.find("[[expected]]").unwrap()];
+    let m = mechanism_from_str("m.toml", text).unwrap();
+    let states = [StateId::FREE, StateId::new(1)];
+    let found = analyse(&m, &states, Method::Modular).unwrap();
+    let e = found[1].external.unwrap();
+    let sigma = |i: usize| i64::try_from(found[i].redundant).unwrap();
+    let difference = sigma(1) - sigma(0);
+    assert_eq!((e.redundant, e.by_rank), (difference, difference));
+    let (_folder, path) = file(text);
+    let present = [
+        "--options",
+        "revolute",
+        "--max-redundant",
+        "30",
+        "--state",
+        "clamped",
+        "--max-changes",
+        "0",
+    ];
+    let v = searched(&path, &present)["variants"][0].clone();
+    assert_eq!(v["external_redundant"].as_i64(), Some(difference));
+    assert_eq!(v["agree"], true);
+    // The diagram, and every variant looked at.
+    let small = [
+        "--options",
+        "revolute,spherical",
+        "--max-redundant",
+        "6",
+        "--max-external",
+        "1",
+        "--forbid",
+        "1-2",
+        "--forbid",
+        "2-3",
+        "--forbid",
+        "6-7",
+        "--forbid",
+        "3-0",
+        "--forbid",
+        "5-1",
+        "--count",
+    ];
+    let brute = [&small[..], &["--method", "brute"]].concat();
+    let (a, b) = (searched(&path, &small), searched(&path, &brute));
+    for key in [
+        "determinate",
+        "admissible",
+        "admissible_by_mobility_and_changes",
+    ] {
+        assert_eq!(a[key], b[key], "{key}");
+    }
+    assert!(count(&a["admissible"]) > 0, "{a}");
+}
+
+/// The clamped search has advice as any other.
+#[test]
+fn what_helps_a_clamped_search_is_said() {
+    let few = ["--max-external", "0", "--max-mobility", "4", "-q"];
+    let o = run(&[&["search", "gripper-10"][..], &few].concat());
+    let text = String::from_utf8(o.stdout).unwrap();
+    assert_eq!(o.status.code(), Some(1));
+    assert!(text.contains("--max-external 2\n"), "{text}");
+    // What balls alone hold turns between them, in the mechanism as it is and in every variant.
+    let loose = pads().replace("type = \"fixed\"", "type = \"spherical\"");
+    let loose = &loose[..loose.find("[[expected]]").unwrap()];
+    let (_folder, path) = file(loose);
+    let o = run(&["search", &path, "--state", "clamped"]);
+    let [text, notes] = [o.stdout, o.stderr].map(|b| String::from_utf8(b).unwrap());
+    assert_eq!(o.status.code(), Some(1));
+    assert!(notes.contains("a is loose in state"), "{notes}");
+    assert!(text.contains("--allow-loose-object\n"), "{text}");
+}
+
+/// Where no choice of the options offered is enough, that is said, with the drive that stays as it is.
+#[test]
+fn where_no_option_can_help_that_is_said() {
+    let o = run(&["search", "four-bar", "--options", "revolute", "-q"]);
+    let said = String::from_utf8(o.stdout).unwrap();
+    assert_eq!(o.status.code(), Some(1));
+    let part = "Every joint at the freest of its options leaves σ = 3: no choice of them can do";
+    assert!(said.contains(part), "{said}");
+    assert!(said.contains("stays as it is for it is driven"), "{said}");
+}
+
+/// The tongs with a ball pivot put at their contact are the tongs with a pad: 1 + 3 motions while nothing is held, for the pad stays
+/// on its jaw, and 2 redundant constraints round a part [Pogrebnyak 2018, by the external formula 12 - (4 - 0) - 6].
+#[test]
+fn pads_stay_on_their_jaws_when_the_part_is_gone() {
+    use ozols::model::mechanism::StateId;
+    use ozols::redundancy::analysis::{Method, analyse, exact_field};
+    use ozols::search::Search;
+    use ozols::search::question::conditions::{Conditions, InState};
+    let m = built_in("tongs");
+    let state = StateId::new(1);
+    let conditions = Conditions {
+        state: Some(InState::holding(state)),
+        ..Conditions::default()
+    };
+    let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
+    let diagrams = s.build(&|| false, &mut |_| {});
+    let mut padded = 0;
+    for v in s.cheapest(&diagrams, 100) {
+        let variant = realize(&s, &v.choices);
+        let found = analyse(&variant, &[StateId::FREE, state], Method::Modular).unwrap();
+        let external = found[1].external.unwrap();
+        assert_eq!(found[0].mobility as i64, s.mobility(v.key));
+        assert_eq!(external.by_rank, i64::from(v.key.external()));
+        assert_eq!(external.redundant, external.by_rank);
+        if v.key.changes() == 1 {
+            assert_eq!((found[0].mobility, external.redundant), (4, 2));
+            padded += 1;
+        }
+    }
+    assert_eq!(padded, 1);
+}

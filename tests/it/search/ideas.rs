@@ -1,0 +1,404 @@
+//! Ideas against a slow twin: every variant listed, its pattern made of cycles found by walking.
+
+mod minimal;
+mod named;
+mod textbook;
+mod toggle;
+mod why;
+
+use crate::common::{built_in, count, json, out, run, text};
+use itertools::Itertools;
+use num_bigint::BigUint;
+use ozols::geom::vector::{cross, real, unit};
+use ozols::model::joint_type::Freedom;
+use ozols::model::mechanism::{JointId, JointOption, Mechanism, Role, StateId};
+use ozols::search::answer::ideas::Idea;
+use ozols::search::answer::k_best::Assignment;
+use ozols::{Outcome, Request, search};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Every simple cycle of the mechanism's graph, as the set of its joints.
+fn cycles(m: &Mechanism) -> BTreeSet<BTreeSet<JointId>> {
+    fn walk(
+        m: &Mechanism,
+        start: usize,
+        path: &mut Vec<(JointId, usize)>,
+        out: &mut BTreeSet<BTreeSet<JointId>>,
+    ) {
+        let here = path.last().map_or(start, |p| p.1);
+        for j in m.joints_in(StateId::FREE) {
+            let [a, b] = m.joints[j].links.map(|l| l.index());
+            let to = match here {
+                h if h == a => b,
+                h if h == b => a,
+                _ => continue,
+            };
+            if path.iter().any(|p| p.0 == j) {
+                continue;
+            }
+            if to == start {
+                out.insert(path.iter().map(|p| p.0).chain([j]).collect());
+            } else if !path.iter().any(|p| p.1 == to) {
+                path.push((j, to));
+                walk(m, start, path, out);
+                path.pop();
+            }
+        }
+    }
+    let mut out = BTreeSet::new();
+    for start in 0..m.links.len() {
+        walk(m, start, &mut Vec::new(), &mut out);
+    }
+    out
+}
+
+/// The freedoms of an option by what they are and where they point, either way.
+fn freedoms(o: &JointOption) -> Vec<(bool, [i64; 3])> {
+    let z = unit(real(&o.frame.axis));
+    let r = real(&o.frame.reference);
+    let along = z.iter().zip(&r).map(|(a, b)| a * b).sum::<f64>();
+    let x = unit([0, 1, 2].map(|i| r[i] - along * z[i]));
+    let y = cross(z, x);
+    o.joint_type
+        .freedoms()
+        .iter()
+        .map(|f| {
+            let axis = match f {
+                Freedom::Rx | Freedom::Tx => x,
+                Freedom::Ry | Freedom::Ty => y,
+                _ => z,
+            };
+            #[allow(clippy::cast_possible_truncation, reason = "a unit vector")]
+            let d = axis.map(|c| (c * 1e5).round() as i64);
+            let back = d.iter().find(|c| **c != 0).is_some_and(|c| *c < 0);
+            (f.turns(), if back { d.map(|c| -c) } else { d })
+        })
+        .collect()
+}
+
+type Pattern = BTreeMap<(BTreeSet<JointId>, (bool, [i64; 3])), usize>;
+
+struct Twin<'o> {
+    outcome: &'o Outcome,
+    series: BTreeMap<JointId, BTreeSet<JointId>>,
+}
+
+impl<'o> Twin<'o> {
+    fn new(outcome: &'o Outcome) -> Twin<'o> {
+        let m = &outcome.search.mechanism;
+        let cycles = cycles(m);
+        let on = |j: JointId| cycles.iter().map(|c| c.contains(&j)).collect_vec();
+        let series = |j: JointId| {
+            m.joints_in(StateId::FREE)
+                .filter(|&k| on(k) == on(j))
+                .collect()
+        };
+        let series = m.joints_in(StateId::FREE).map(|j| (j, series(j))).collect();
+        Twin { outcome, series }
+    }
+
+    /// The pattern, with each joint become its image; freedoms point the same way after these mirrors.
+    fn pattern(&self, v: &Assignment, images: &[(&str, &str)]) -> Pattern {
+        let m = &self.outcome.search.mechanism;
+        let image = |j: JointId| {
+            let id = m.joints[j].id.as_str();
+            let pair = images.iter().find(|p| p.0 == id || p.1 == id);
+            let to = pair.map(|&(a, b)| if a == id { b } else { a });
+            m.joint(to.unwrap_or(id)).unwrap()
+        };
+        let mut out = Pattern::new();
+        for (variable, &choice) in self.outcome.search.space.variables.iter().zip(&v.choices) {
+            let [j] = variable.joints[..] else { panic!() };
+            let joint = &m.joints[j];
+            let mut added = freedoms(&joint.options[variable.choices[choice].option]);
+            for f in freedoms(&joint.options[0]) {
+                let at = added.iter().position(|a| *a == f).unwrap();
+                added.remove(at);
+            }
+            let series: BTreeSet<JointId> = self.series[&j].iter().map(|&k| image(k)).collect();
+            for f in added {
+                *out.entry((series.clone(), f)).or_default() += 1;
+            }
+        }
+        out
+    }
+}
+
+/// Whether a variant has all the freedoms of another, at joints that cost and change no less, and more of them.
+fn is_beyond(outcome: &Outcome, a: &Assignment, b: &Assignment) -> bool {
+    let space = &outcome.search.space;
+    let (mut within, mut less) = (true, false);
+    for (v, (&x, &y)) in space.variables.iter().zip(a.choices.iter().zip(&b.choices)) {
+        let joint = &outcome.search.mechanism.joints[v.joints[0]];
+        let [x, y] = [x, y].map(|c| &v.choices[c]);
+        let of = |c: &ozols::search::question::space::Choice| -> BTreeSet<_> {
+            freedoms(&joint.options[c.option]).into_iter().collect()
+        };
+        let (p, q) = (of(x), of(y));
+        within &= q.is_subset(&p) && y.cost_milli <= x.cost_milli && y.changes <= x.changes;
+        less |= p != q;
+    }
+    within && less
+}
+
+/// What an engineer leaves as it is, if he can: the drive, pivots in the frame, what is no rod's end.
+fn weight(m: &Mechanism, outcome: &Outcome, v: &Assignment) -> u64 {
+    let joints_at = |l| m.joints.iter().filter(move |j| j.links.contains(&l));
+    let frame = m.frame();
+    let rod = |l| {
+        let ends = joints_at(l).collect_vec();
+        let inner = m.links[l].role == Role::Inner;
+        inner && ends.len() == 2 && ends.iter().all(|j| !j.links.contains(&frame))
+    };
+    let variables = outcome.search.space.variables.iter().zip(&v.choices);
+    let changed = variables
+        .filter(|(_, c)| **c != 0)
+        .map(|(v, _)| &m.joints[v.joints[0]]);
+    changed
+        .map(|j| {
+            let place = match j.links {
+                [a, b] if a == frame || b == frame => 2,
+                [a, b] if rod(a) || rod(b) => 0,
+                _ => 1,
+            };
+            place + 4 * u64::from(j.drive)
+        })
+        .sum()
+}
+
+/// How many joints are not changed as their images are.
+fn unlike(outcome: &Outcome, v: &Assignment, images: &[(&str, &str)]) -> usize {
+    let m = &outcome.search.mechanism;
+    let choice = |id: &str| {
+        let j = m.joint(id).unwrap();
+        let at = outcome
+            .search
+            .space
+            .variables
+            .iter()
+            .position(|x| x.joints == [j]);
+        v.choices[at.unwrap()]
+    };
+    2 * images
+        .iter()
+        .filter(|(a, b)| choice(a) != choice(b))
+        .count()
+}
+
+fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
+    let outcome = search(m, request).unwrap();
+    let diagrams = outcome.diagrams.as_ref().unwrap();
+    let twin = Twin::new(&outcome);
+    let all = outcome.search.cheapest(diagrams, usize::MAX).collect_vec();
+    assert_eq!(outcome.admissible.total, BigUint::from(all.len()));
+    let minimal = all
+        .iter()
+        .filter(|v| !all.iter().any(|w| is_beyond(&outcome, v, w)));
+    let mut classes: BTreeMap<Pattern, (Vec<&Assignment>, bool)> = BTreeMap::new();
+    for v in minimal {
+        let (own, image) = (twin.pattern(v, &[]), twin.pattern(v, images));
+        let alike = own == image;
+        let class = classes.entry(own.min(image)).or_insert((Vec::new(), alike));
+        class.0.push(v);
+    }
+    let rank = |v: &Assignment| {
+        let weight = weight(m, &outcome, v);
+        let (w, changes) = (outcome.search.mobility(v.key), v.key.changes());
+        (
+            v.key.cost(),
+            unlike(&outcome, v, images),
+            weight,
+            w,
+            changes,
+        )
+    };
+    let ideas = outcome.search.ideas(diagrams, classes.len() + 3);
+    assert_eq!(ideas.len(), classes.len());
+    let mut before = None;
+    for idea in &ideas {
+        let (own, image) = (
+            twin.pattern(&idea.first, &[]),
+            twin.pattern(&idea.first, images),
+        );
+        let (members, alike) = classes.remove(&own.min(image)).unwrap();
+        assert!(members.contains(&&idea.first));
+        assert_eq!(idea.variants, BigUint::from(members.len()));
+        // What an image makes of a variant is as good.
+        let best = members.iter().map(|v| rank(v)).min().unwrap();
+        assert_eq!(rank(&idea.first), best);
+        let cheap = members.iter().filter(|v| v.key.cost() == best.0);
+        let least = cheap.map(|v| weight(m, &outcome, v)).min().unwrap();
+        let place = Some((best.0, !alike, least));
+        assert!(before <= place, "{before:?} {place:?}");
+        before = place;
+    }
+    for top in [1, 7] {
+        let few = outcome.search.ideas(diagrams, top);
+        let firsts = |list: &[Idea]| list.iter().map(|i| i.first.clone()).collect_vec();
+        assert_eq!(firsts(&few), firsts(&ideas[..top.min(ideas.len())]));
+    }
+}
+
+#[test]
+fn ideas_are_those_of_a_list_of_all_variants() {
+    let names = |n: &[&str]| n.iter().map(|&s| s.to_owned()).collect();
+    for (name, options, max_mobility, images) in [
+        ("four-bar", &[][..], None, &[][..]),
+        ("four-bar", &[], Some(1), &[]),
+        (
+            "parallelogram-3-rods",
+            &["spherical", "cylindrical"],
+            Some(1),
+            &[],
+        ),
+        ("slider-crank-spatial", &[], None, &[]),
+        (
+            "stephenson-six-bar",
+            &["spherical", "cylindrical"],
+            None,
+            &[],
+        ),
+    ] {
+        let m = built_in(name);
+        let request = Request {
+            options: names(options),
+            max_mobility,
+            ..Request::default()
+        };
+        agrees(&m, &request, images);
+    }
+    let gripper = built_in("gripper-10");
+    let request = Request {
+        options: names(&["spherical", "sphere-in-cylinder"]),
+        max_mobility: Some(1),
+        ..Request::default()
+    };
+    let id = |j: JointId| gripper.joints[j].id.as_str();
+    let free = gripper.joints_in(StateId::FREE).collect_vec();
+    let pairs = gripper.search.mirror.iter().filter(|p| free.contains(&p.0));
+    let pairs = pairs.map(|&(a, b)| (id(a), id(b))).collect_vec();
+    agrees(&gripper, &request, &pairs);
+}
+
+/// Of what a small budget leaves out some may be cheaper, and less than what it finds: an idea then stands for all that is known,
+/// minimal or not.
+#[test]
+fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
+    let args = ["search", "gripper-10", "--distinct", "--top", "3"];
+    let with = |more: &[&'static str]| [&args[..], more].concat();
+    let short = out(&with(&["--nodes", "60"]));
+    assert!(
+        short.contains("variants are valid but may not be the cheapest"),
+        "{short}"
+    );
+    assert!(
+        !short.contains("Proven the cheapest") && !short.contains(" minimal"),
+        "{short}"
+    );
+    let whole = json(&with(&["--format", "json"]));
+    let cut = json(&with(&["--nodes", "60", "--format", "json"]));
+    assert!(
+        cut["variants_proven"].is_null(),
+        "{}",
+        cut["variants_proven"]
+    );
+    for (data, exact) in [(&whole, true), (&cut, false)] {
+        let ideas = data["variants"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|v| &v["idea"]);
+        assert!(ideas.clone().all(|i| i["exact"] == exact));
+        assert_eq!(ideas.count(), 3);
+    }
+    assert_eq!(count(&whole["variants"][2]["idea"]["variants"]), 840);
+    let known = cut["variants"].as_array().unwrap().iter();
+    let known = known.map(|v| count(&v["idea"]["variants"]));
+    assert!(
+        known.clone().all(|n| n > 0 && short.contains("at least")),
+        "{short}"
+    );
+}
+
+/// The ways of sharing out the freedoms of the cheapest redesign of the gripper: each half alike.
+#[test]
+fn an_idea_says_what_is_added_where() {
+    let gripper = built_in("gripper-10");
+    let request = Request {
+        max_mobility: Some(1),
+        ..Request::default()
+    };
+    let outcome = search(&gripper, &request).unwrap();
+    let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 20);
+    // 11 redundant constraints, one of which is the turn of the slider that the rods share: 11 freedoms are added.
+    for idea in &ideas {
+        let added: u32 = idea.added.iter().map(|a| u32::from(a.times)).sum();
+        assert_eq!(added, 11);
+        assert!(idea.variants > BigUint::from(1u8));
+        assert!(idea.added.iter().all(|a| {
+            ["turn about x", "turn about y", "slide along z"].contains(&a.freedom.as_str())
+        }));
+    }
+    // The joints of the outer rod's contour are in series; the slider's joint is in series with none.
+    let series = |id: &str| {
+        let j = gripper.joint(id).unwrap();
+        let groups = ideas.iter().flat_map(|i| &i.added);
+        groups
+            .filter(|a| a.joints.contains(&j))
+            .map(|a| a.joints.clone())
+            .next()
+            .unwrap_or_default()
+    };
+    let ids = |joints: Vec<JointId>| {
+        joints
+            .into_iter()
+            .map(|j| gripper.joints[j].id.clone())
+            .collect_vec()
+    };
+    assert_eq!(ids(series("2-4")), ["2-4", "4-5", "5-1"]);
+}
+
+/// The text gives ideas where all variants are counted and the list is a short one, and says how to go on with them.
+#[test]
+fn people_are_told_ideas_and_programs_variants() {
+    let search = |more: &[&str]| {
+        let args = ["search", "four-bar", "--quiet"];
+        let o = run(&[&args, more].concat());
+        assert_eq!(o.status.code(), Some(0), "{more:?}");
+        text(&o.stdout)
+    };
+    let plain = search(&[]);
+    assert_eq!(plain, search(&["--distinct"]));
+    assert!(
+        plain.contains("stands for") && plain.contains("--idea 1"),
+        "{plain}"
+    );
+    let every = search(&["--no-distinct"]);
+    assert!(
+        !every.contains("stands for") && every.contains("--variant 1"),
+        "{every}"
+    );
+    let idea = |more: &[&str]| -> serde_json::Value {
+        let said = search(&[&["--format", "json"], more].concat());
+        let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+        found["variants"][0]["idea"].clone()
+    };
+    assert!(idea(&[]).is_null());
+    assert!(idea(&["--distinct"]).is_object());
+    // A long list is not for reading, and one cut short proves nothing of ideas.
+    assert!(!search(&["--top", "101"]).contains("stands for"));
+    let cut = run(&["search", "gripper-10", "--nodes", "60", "--top", "3"]);
+    assert!(!text(&cut.stdout).contains("stands for"));
+    let exported = |which: &[&str]| {
+        let o = run(&[&["export", "four-bar", "--to", "toml"], which].concat());
+        assert_eq!(o.status.code(), Some(0), "{which:?}");
+        text(&o.stdout)
+    };
+    assert_eq!(
+        exported(&["--idea", "2"]),
+        exported(&["--distinct", "--variant", "2"])
+    );
+    assert_ne!(exported(&["--idea", "2"]), exported(&["--variant", "2"]));
+    let both = run(&["draw", "four-bar", "--idea", "2", "--variant", "2"]);
+    assert_eq!(both.status.code(), Some(2));
+}

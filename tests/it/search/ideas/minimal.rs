@@ -1,0 +1,118 @@
+//! How many variants are minimal, against every pair of variants looked at in rational arithmetic.
+
+use crate::common::{built_in, count, json, out};
+use crate::fuzz::runs;
+use crate::search::twin::less::does_with_less;
+use crate::search::twin::{look, random, suits, variants};
+use num_bigint::BigUint;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
+use ozols::search::question::conditions::{Conditions, InState};
+use proptest::prelude::*;
+
+/// What the search counts, and what a look at each pair does.
+fn both(m: &Mechanism, conditions: Conditions) -> (Option<BigUint>, usize) {
+    let state = conditions.state;
+    let clamped = state.is_some();
+    let all = variants(m, clamped);
+    let present = look(m, clamped, &vec![(0, None); m.joints.len()]);
+    let (most, keep, w) = (
+        conditions.max_redundant,
+        conditions.keep_output,
+        conditions.max_mobility,
+    );
+    let admissible: Vec<_> = all
+        .iter()
+        .filter(|c| {
+            let t = look(m, clamped, c);
+            let moves = !keep || t.motion == present.motion;
+            t.internal <= most && suits(state, &t) && moves && w.is_none_or(|w| t.mobility <= w)
+        })
+        .collect();
+    let beyond = |v| admissible.iter().any(|less| does_with_less(m, less, v));
+    let minimal = admissible.iter().filter(|v| !beyond(v)).count();
+    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    (search.minimal(&diagrams), minimal)
+}
+
+proptest! {
+    #![proptest_config(runs(64))]
+    #[test]
+    fn minimal_variants_are_counted_as_by_a_look_at_each_pair(
+        text in random(), most in 0u32..3, keep in any::<bool>(), w in 0i64..5,
+    ) {
+        let m = mechanism_from_str("random.toml", &text).unwrap();
+        let clamped = m.states.len() > 1;
+        prop_assume!(variants(&m, clamped).len() <= if clamped { 24 } else { 64 });
+        let conditions = Conditions {
+            max_redundant: most,
+            keep_output: keep,
+            max_mobility: (w > 1).then_some(w),
+            state: clamped.then_some(InState {
+                state: StateId::new(1),
+                max_external: (most != 1).then_some(most * 2),
+                max_harmful: (most != 2).then_some(most),
+                hold_objects: keep,
+            }),
+            ..Conditions::default()
+        };
+        let (counted, seen) = both(&m, conditions);
+        prop_assert_eq!(counted, Some(seen.into()));
+    }
+}
+
+#[test]
+fn minimal_variants_of_built_in_mechanisms() {
+    for (name, options, most, w) in [
+        ("four-bar", &[][..], 0, None),
+        ("four-bar", &[], 1, None),
+        ("four-bar", &[], 0, Some(1)),
+        ("slider-crank-spatial", &[], 0, None),
+        ("door-two-hinges", &[], 0, None),
+        ("oldham", &[], 1, None),
+        ("watt-six-bar", &["spherical"], 0, None),
+    ] {
+        let mut m = built_in(name);
+        if !options.is_empty() {
+            for joint in &mut m.joints {
+                let offered = |n: &str| n == "revolute" || options.contains(&n);
+                joint.options.retain(|o| offered(&o.name));
+            }
+        }
+        let conditions = Conditions {
+            max_redundant: most,
+            max_mobility: w,
+            ..Conditions::default()
+        };
+        let (counted, seen) = both(&m, conditions);
+        assert_eq!(counted, Some(seen.into()), "{name}");
+    }
+}
+
+/// Without a redundant constraint a freedom more is a motion more, so that what moves as the present mechanism does, in one way,
+/// is minimal; that some of the rest are, too, is seen where a ball has nothing smaller in its place.
+#[test]
+fn what_moves_in_one_way_without_redundancy_is_minimal() {
+    let whole = json(&["search", "gripper-10", "--format", "json"]);
+    assert_eq!(whole["admissible_by_mobility"]["1"], whole["minimal"]);
+    assert_eq!(count(&whole["minimal"]), 7_150_020);
+    let balls = ["--options", "spherical", "--format", "json"];
+    let balls = json(&[&["search", "gripper-10"][..], &balls].concat());
+    assert!(balls["admissible_by_mobility"]["1"].is_null());
+    assert!(count(&balls["minimal"]) > 0);
+    let text = out(&["search", "gripper-10", "--count"]);
+    assert!(
+        text.contains(
+            "7,150,020 minimal; the other 18,611,416 only add idle motion to one of these"
+        ),
+        "{text}"
+    );
+    // Of what is cut short nothing is minimal for certain, and orbits are not counted so.
+    for more in [&["--nodes", "60"][..], &["--one-per-orbit"]] {
+        let args = [&["search", "gripper-10", "--format", "json"][..], more].concat();
+        assert!(json(&args)["minimal"].is_null(), "{more:?}");
+    }
+}

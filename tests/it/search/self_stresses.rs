@@ -1,0 +1,326 @@
+//! What self-stresses do to each joint: directions, moments, shares, harm, in the plane and in space.
+
+use crate::common::{built_in, json, near, out, run_on};
+use serde_json::Value;
+
+/// A bar on two slides along x, at x = 0 and x = 2: size ℓ = 1, the root mean square distance of the joints.
+const SLIDES: &str = r#"
+name = "two-slides"
+mode = "planar"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+[[joint]]
+id = "left"
+links = ["0", "1"]
+type = "prismatic"
+point = [0, 0, 0]
+axis = [1, 0, 0]
+[[joint]]
+id = "right"
+links = ["0", "1"]
+type = "prismatic"
+point = [2, 0, 0]
+axis = [1, 0, 0]
+"#;
+
+fn analysed(content: &str, more: &[&str]) -> Value {
+    let (code, said, errors) = run_on(
+        "analyze",
+        "m.toml",
+        content,
+        &[more, &["--format", "json"]].concat(),
+    );
+    assert_eq!(code, Some(0), "{errors}");
+    serde_json::from_str(&said).unwrap()
+}
+
+fn joint<'a>(stress: &'a Value, name: &str) -> &'a Value {
+    let all = stress["joints"].as_array().unwrap();
+    all.iter().find(|j| j["joint"] == name).unwrap()
+}
+
+/// By hand: slides along x press across it; the force that is no moment at the left is one of 2 at the right.
+#[test]
+fn a_plane_has_its_directions_and_moments_at_the_joints() {
+    let found = analysed(SLIDES, &[]);
+    let stresses = found["states"][0]["self_stresses"].as_array().unwrap();
+    assert_eq!(stresses.len(), 2);
+    let across: Vec<&Value> = stresses
+        .iter()
+        .filter(|s| joint(s, "left")["forces"] == serde_json::json!(["y"]))
+        .collect();
+    let couple: Vec<&Value> = stresses
+        .iter()
+        .filter(|s| joint(s, "left")["forces"] == serde_json::json!([]))
+        .collect();
+    let ([across], [couple]) = (&across[..], &couple[..]) else {
+        panic!("{stresses:?}")
+    };
+    assert_eq!(joint(across, "left")["moments"], serde_json::json!([]));
+    assert_eq!(joint(across, "right")["moments"], serde_json::json!(["z"]));
+    assert_eq!(joint(across, "right")["forces"], serde_json::json!(["y"]));
+    assert_eq!(joint(couple, "right")["moments"], serde_json::json!(["z"]));
+    // |f|² + |m|²/ℓ²: 1 on the left, 1 + 4 on the right.
+    for (stress, left, right) in [(across, 1.0 / 6.0, 5.0 / 6.0), (couple, 0.5, 0.5)] {
+        near(
+            joint(stress, "left")["share"].as_f64().unwrap(),
+            left,
+            1e-12,
+        );
+        near(
+            joint(stress, "right")["share"].as_f64().unwrap(),
+            right,
+            1e-12,
+        );
+    }
+    let (_, text, _) = run_on("analyze", "m.toml", SLIDES, &[]);
+    assert!(text.contains("right 83 %, left 17 %"), "{text}");
+    assert!(!text.contains("force along x"), "{text}");
+}
+
+/// The same in the plane of x and z, and off the origin: names follow the plane, shares do not change.
+#[test]
+fn planes_may_lie_anywhere() {
+    let tilted = SLIDES
+        .replace(
+            "mode = \"planar\"",
+            "mode = \"planar\"\nplane_normal = [0, 1, 0]",
+        )
+        .replace("point = [0, 0, 0]", "point = [10, 3, 7]")
+        .replace("point = [2, 0, 0]", "point = [12, 3, 7]");
+    let found = analysed(&tilted, &[]);
+    for stress in found["states"][0]["self_stresses"].as_array().unwrap() {
+        for j in stress["joints"].as_array().unwrap() {
+            assert!(
+                j["forces"] == serde_json::json!(["z"]) || j["forces"] == serde_json::json!([]),
+                "{j}"
+            );
+            assert!(
+                j["moments"] == serde_json::json!(["y"]) || j["moments"] == serde_json::json!([]),
+                "{j}"
+            );
+        }
+    }
+}
+
+/// In its plane the clamped gripper has two external constraints: friction along the faces, which does no harm, and the
+/// parallel faces, which do.
+#[test]
+fn harm_is_judged_in_the_plane_too() {
+    let found = json(&[
+        "analyze",
+        "gripper-10",
+        "--planar",
+        "--state",
+        "clamped",
+        "--format",
+        "json",
+    ]);
+    let stresses = found["states"][0]["self_stresses"].as_array().unwrap();
+    let verdicts: Vec<&str> = stresses
+        .iter()
+        .map(|s| s["verdict"].as_str().unwrap())
+        .collect();
+    assert_eq!(verdicts, ["harmless", "harmful"], "{stresses:?}");
+    let at_pad = joint(&stresses[0], "4-a");
+    assert_eq!(
+        (&at_pad["forces"], &at_pad["moments"]),
+        (&serde_json::json!(["x"]), &serde_json::json!([]))
+    );
+    assert_eq!(
+        joint(&stresses[1], "4-a")["moments"],
+        serde_json::json!(["z"])
+    );
+}
+
+/// The plane leaves out the slider's turn about its axis, and so does the count in it.
+#[test]
+fn planar_counting_counts_what_moves_in_the_plane() {
+    let planar = [
+        "analyze",
+        "gripper-10",
+        "--planar",
+        "--state",
+        "free",
+        "--format",
+        "json",
+        "--method",
+    ];
+    let counted = json(&[&planar[..], &["count-planar"]].concat());
+    assert_eq!(counted["states"][0]["mobility"], 1, "{counted}");
+    let modular = json(&[&planar[..], &["modular"]].concat());
+    assert_eq!(modular["states"][0]["mobility"], 1);
+}
+
+/// Every joint of every self-stress is listed with its share, and the shares add up; the text lists the same joints.
+#[test]
+fn shares_of_a_self_stress_add_up() {
+    for name in [
+        "gripper-10",
+        "gripper-10-loaded",
+        "four-bar",
+        "bennett",
+        "delta-parallelograms",
+        "sarrus",
+    ] {
+        let found = json(&["analyze", name, "--format", "json"]);
+        let text = out(&["analyze", name]);
+        for state in found["states"].as_array().unwrap() {
+            for stress in state["self_stresses"].as_array().unwrap() {
+                let joints = stress["joints"].as_array().unwrap();
+                let sum: f64 = joints.iter().map(|j| j["share"].as_f64().unwrap()).sum();
+                near(sum, 1.0, 1e-9);
+            }
+        }
+        assert!(text.contains("borne by"), "{text}");
+        assert!(!text.contains("carried at"), "{text}");
+    }
+}
+
+/// Two coupled slides in a loop, and a part across it. The one self-stress that both couplings carry inside is the
+/// difference of two that also load the part: it must not be counted with those.
+const COUPLED: &str = r#"
+name = "random"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "1"
+role = "output"
+[[link]]
+id = "2"
+[[link]]
+id = "3"
+role = "output"
+[[joint]]
+id = "j0"
+links = ["0", "1"]
+type = "revolute"
+point = [0, 0, 0]
+axis = [0, 0, 1]
+[[joint]]
+id = "j1"
+links = ["1", "2"]
+type = "revolute"
+point = [0, 0, 0]
+axis = [0, 0, 1]
+[[joint]]
+id = "j2"
+links = ["2", "3"]
+type = "prismatic"
+point = [-2, 2, -3]
+axis = [0, 3, 0]
+options = ["cylindrical"]
+[[joint]]
+id = "j3"
+links = ["3", "1"]
+type = "slotted"
+point = [3, -2, -2]
+axis = [1, 0, 0]
+[[link]]
+id = "part"
+role = "object"
+[[joint]]
+id = "c0"
+links = ["0", "part"]
+type = "revolute"
+axis = [0, 2, 0]
+point = [4, 0, 1]
+state = "clamped"
+unloading = [{ type = "spherical", point = [4, 2, 0] }]
+[[joint]]
+id = "c1"
+links = ["3", "part"]
+type = "revolute"
+axis = [0, 2, 0]
+point = [4, 1, 1]
+state = "clamped"
+unloading = ["spherical"]
+[[coupling]]
+joints = ["j3:rz", "j2:tz"]
+ratio = 2
+[[coupling]]
+joints = ["j1:rz", "j3:tx"]
+ratio = "1/2"
+"#;
+
+#[test]
+fn what_a_state_adds_is_counted_without_what_is_there_already() {
+    let a = analysed(COUPLED, &[]);
+    let clamped = &a["states"][1];
+    let stresses = clamped["self_stresses"].as_array().unwrap();
+    let external = stresses.iter().filter(|s| s["external"] == true).count();
+    assert_eq!(clamped["external"]["redundant_by_rank"], 4);
+    assert_eq!((external, stresses.len()), (4, 8), "{stresses:#?}");
+    let said = out(&["analyze", "gripper-10", "--state", "clamped"]);
+    assert!(said.contains("External: σ = "), "{said}");
+}
+
+/// What joints bear of a self-stress: nothing along or about what they leave free, and every link is in equilibrium.
+#[test]
+fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
+    use ozols::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
+    use ozols::model::joint_type::Freedom;
+    use ozols::model::mechanism::Role;
+    use ozols::redundancy::analysis::{Method, analyse};
+    let mut seen = 0;
+    for name in ozols::builtin::names() {
+        let m = built_in(name);
+        if m.joints.len() > 30 {
+            continue;
+        }
+        let states: Vec<_> = m.state_ids().collect();
+        let found = analyse(&m, &states, Method::Modular).unwrap();
+        // What a coupling passes on is borne along a freedom.
+        let all = found.iter().flat_map(|s| &s.self_stresses);
+        for stress in all.filter(|s| s.couplings.is_empty()) {
+            let mut on_link = vec![([0.0; 3], [0.0; 3]); m.links.len()];
+            for at in &stress.joints {
+                let Some(borne) = at.borne else { continue };
+                let joint = &m.joints[at.joint];
+                let z = unit(real(&joint.frame.axis));
+                let reference = real(&joint.frame.reference);
+                let x = unit(add(reference, scale(z, -dot(reference, z))));
+                let axes = [x, cross(z, x), z];
+                let free = |f: &Freedom| match f {
+                    Freedom::Rx => dot(borne.moment, axes[0]),
+                    Freedom::Ry => dot(borne.moment, axes[1]),
+                    Freedom::Rz => dot(borne.moment, axes[2]),
+                    Freedom::Tx => dot(borne.force, axes[0]),
+                    Freedom::Ty => dot(borne.force, axes[1]),
+                    Freedom::Tz => dot(borne.force, axes[2]),
+                    Freedom::Screw => 0.0,
+                };
+                for f in joint.joint_type.freedoms() {
+                    assert!(free(f).abs() < 1e-7, "{name} {} {f:?}: {borne:?}", joint.id);
+                }
+                let named = |flags: [bool; 3], v: Vector| {
+                    (0..3).all(|i| flags[i] == (v[i].abs() > 1e-9) || v[i].abs() < 1e-7)
+                };
+                assert!(named(at.moments, borne.moment), "{name} {at:?}");
+                assert!(named(at.forces, borne.force), "{name} {at:?}");
+                let moment = scale(borne.moment, stress.size);
+                let moment = add(moment, cross(real(&joint.frame.point), borne.force));
+                for (link, sign) in [(joint.links[0], -1.0), (joint.links[1], 1.0)] {
+                    let (f, t) = &mut on_link[link];
+                    *f = add(*f, scale(borne.force, sign));
+                    *t = add(*t, scale(moment, sign));
+                }
+                seen += 1;
+            }
+            let far = m.joints.iter().map(|j| length(real(&j.frame.point)));
+            let far = far.fold(stress.size, f64::max);
+            for (l, (f, t)) in m.link_ids().zip(&on_link) {
+                if m.links[l].role != Role::Frame {
+                    let left = length(*f).max(length(*t) / far);
+                    assert!(left < 1e-7, "{name} {}: {left}", m.links[l].id);
+                }
+            }
+        }
+    }
+    assert!(seen > 500, "{seen}");
+}

@@ -1,0 +1,327 @@
+//! Single changes, against building each and analysing it.
+
+use crate::common::{json, out, ozols};
+use ozols::builtin;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::joint_type::JointType;
+use ozols::model::mechanism::{JointId, JointOption, Link, LinkId, Mechanism, Role, StateId};
+use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
+use ozols::search::answer::single_changes::{USUAL, USUAL_UNLOADING, single_changes};
+use ozols::view::analysis::Analysis;
+use ozols::view::analysis::suggestions::{Advice, concerned};
+use proptest::prelude::*;
+
+fn read(text: &str) -> Mechanism {
+    mechanism_from_str("x.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+fn built_in(name: &str) -> Mechanism {
+    read(builtin::text(name).unwrap())
+}
+
+fn look(m: &Mechanism, state: StateId) -> StateAnalysis {
+    analyse(m, &[state], Method::Modular).unwrap().remove(0)
+}
+
+/// The mechanism with one change made: the joint replaced, or a pad between it and its first link, or both.
+fn changed(
+    m: &Mechanism,
+    j: JointId,
+    to: Option<&JointOption>,
+    pad: Option<&JointOption>,
+) -> Mechanism {
+    let mut out = m.clone();
+    out.contours.clear();
+    if let Some(o) = to {
+        out.joints[j].joint_type = o.joint_type.clone();
+        out.joints[j].frame = o.frame.clone();
+    }
+    if let Some(u) = pad {
+        let link = LinkId::new(out.links.len());
+        out.links.push(Link {
+            id: "pad".to_owned(),
+            role: Role::Inner,
+            mass: None,
+        });
+        let mut series = out.joints[j].clone();
+        series.id = "series".to_owned();
+        series.drive = false;
+        series.joint_type = u.joint_type.clone();
+        series.frame = u.frame.clone();
+        series.links[1] = link;
+        out.joints[j].links[0] = link;
+        out.joints.push(series);
+    }
+    out
+}
+
+type Line = (String, Option<String>, Option<String>, usize);
+
+/// Every change that removes as much as it frees, the slow way.
+fn slowly(m: &Mechanism, state: StateId) -> Vec<Line> {
+    let before = look(m, state);
+    let free: Vec<JointId> = m.joints_in(StateId::FREE).collect();
+    let joints: Vec<JointId> = m
+        .joints_in(state)
+        .filter(|j| state == StateId::FREE || !free.contains(j))
+        .collect();
+    let plain = |j: JointId, t: &JointType| JointOption {
+        name: t.name().to_owned(),
+        joint_type: t.clone(),
+        frame: m.joints[j].frame.clone(),
+        cost_milli: None,
+        state: None,
+    };
+    let offered = joints
+        .iter()
+        .any(|&j| m.joints[j].options.len() > 1 || !m.joints[j].unloading.is_empty());
+    let mut found = Vec::new();
+    for j in joints {
+        let joint = &m.joints[j];
+        let (mut options, mut pads) = (joint.options[1..].to_vec(), joint.unloading.clone());
+        pads.retain(|p| p.state.is_none_or(|s| s == state));
+        if !offered && state != StateId::FREE {
+            pads = vec![plain(j, &USUAL_UNLOADING)];
+        } else if !offered && !joint.drive && joint.joint_type != JointType::Fixed {
+            let own = joint.joint_type.freedoms();
+            let others = USUAL.iter().filter(|t| {
+                **t != joint.joint_type && own.iter().all(|f| t.freedoms().contains(f))
+            });
+            options = others.map(|t| plain(j, t)).collect();
+        }
+        let kept = |list: &[JointOption]| -> Vec<Option<JointOption>> {
+            std::iter::once(None)
+                .chain(list.iter().cloned().map(Some))
+                .collect()
+        };
+        for to in kept(&options) {
+            for pad in kept(&pads) {
+                let after = look(&changed(m, j, to.as_ref(), pad.as_ref()), state);
+                let same = (after.mobility, after.working_mobility, after.local_mobility)
+                    == (
+                        before.mobility,
+                        before.working_mobility,
+                        before.local_mobility,
+                    );
+                if same && after.redundant < before.redundant {
+                    found.push((
+                        joint.id.clone(),
+                        to.as_ref().map(|o| o.name.clone()),
+                        pad.as_ref().map(|o| o.name.clone()),
+                        before.redundant - after.redundant,
+                    ));
+                }
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+fn quickly(m: &Mechanism, state: StateId) -> Vec<Line> {
+    let s = single_changes(m, state).unwrap();
+    let keys = s
+        .list
+        .iter()
+        .map(|x| (std::cmp::Reverse(x.removes), x.cost_milli));
+    assert!(keys.is_sorted());
+    let line = |x: &ozols::search::answer::single_changes::Suggestion| {
+        (
+            m.joints[x.joint].id.clone(),
+            x.to.as_ref().map(|o| o.name.clone()),
+            x.unloading.as_ref().map(|o| o.name.clone()),
+            x.removes,
+        )
+    };
+    let mut found: Vec<Line> = s.list.iter().map(line).collect();
+    found.sort();
+    found
+}
+
+#[test]
+fn single_changes_are_those_of_the_slow_way() {
+    let (mut with, mut usual) = (0, 0);
+    for name in [
+        "gripper-10",
+        "gripper-10-planar",
+        "four-bar",
+        "bennett",
+        "lever-gripper",
+        "parallelogram-3-rods",
+        "sarrus",
+        "door-two-hinges",
+        "double-banana",
+        "tongs",
+    ] {
+        let m = built_in(name);
+        for state in m.state_ids() {
+            let quick = quickly(&m, state);
+            assert_eq!(quick, slowly(&m, state), "{name}, state {state:?}");
+            with += usize::from(!quick.is_empty());
+            usual += usize::from(single_changes(&m, state).unwrap().usual);
+        }
+    }
+    assert!(with > 8 && usual > 0, "{with} {usual}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 24, ..Default::default() })]
+
+    #[test]
+    fn single_changes_of_random_mechanisms(text in crate::search::twin::random()) {
+        let m = read(&text);
+        for state in m.state_ids() {
+            prop_assert_eq!(quickly(&m, state), slowly(&m, state));
+        }
+    }
+}
+
+#[test]
+fn the_best_single_changes_of_the_gripper() {
+    let value = json(&["analyze", "gripper-10", "--format", "json"]);
+    let of = |state: usize| &value["states"][state]["suggestions"];
+    let texts = |state: usize| -> Vec<String> {
+        let all = of(state)["changes"].as_array().unwrap();
+        all.iter()
+            .map(|x| x["text"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    let free = texts(0);
+    assert_eq!(
+        (of(0)["of"].as_u64(), of(0)["options"].as_str()),
+        (Some(11), Some("file"))
+    );
+    assert!(
+        free[0].ends_with("revolute -> sphere-in-cylinder removes 3 of 11"),
+        "{free:?}"
+    );
+    assert!(
+        free.contains(&"2-3: revolute -> spherical removes 2 of 11".to_owned()),
+        "{free:?}"
+    );
+    let best = of(0)["changes"].as_array().unwrap();
+    assert_eq!(best.iter().filter(|x| x["removes"] == 3).count(), 12);
+    assert!(
+        best.iter()
+            .all(|x| x["removes"].as_u64().unwrap() + x["remaining"].as_u64().unwrap() == 11)
+    );
+    assert_eq!(
+        texts(1),
+        ["4-a", "a-8"].map(|j| format!(
+            "{j}: unloading joint in series: spherical (a ball pivot) removes 3 of 5 external"
+        ))
+    );
+    let text = out(&["analyze", "gripper-10"]);
+    assert!(text.starts_with("gripper-10, state free: 11 redundant constraints, mobility 1\n"));
+    for part in [
+        "3 of 11",
+        "3 of 5 external",
+        "\n    ozols search gripper-10\n",
+        "\n    ozols search gripper-10 --max-external 2\n",
+    ] {
+        assert!(text.contains(part), "no {part:?} in {text}");
+    }
+}
+
+// A slot at any hinge of a plane mechanism only lets it loose.
+#[test]
+fn where_no_single_change_helps_it_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("slots.toml");
+    let m = built_in("four-bar");
+    let mut copy = ozols::robots::formats::write(&m, "toml")
+        .unwrap()
+        .parse::<toml_edit::DocumentMut>()
+        .unwrap();
+    for j in copy["joint"].as_array_of_tables_mut().unwrap().iter_mut() {
+        j.remove("options");
+    }
+    let options = toml_edit::Array::from_iter(["revolute", "slotted"]);
+    copy["search"]["options"] = toml_edit::value(options);
+    std::fs::write(&file, copy.to_string()).unwrap();
+    let text = out(&["analyze", file.to_str().unwrap()]);
+    assert!(
+        text.contains("No single change of 3 tried (the file's options)"),
+        "{text}"
+    );
+    assert!(text.contains("ozols search "), "{text}");
+    let value = json(&["analyze", file.to_str().unwrap(), "--format", "json"]);
+    let s = &value["states"][0]["suggestions"];
+    assert_eq!(
+        (s["found"].as_u64(), s["tried"].as_u64()),
+        (Some(0), Some(3))
+    );
+}
+
+#[test]
+fn a_determinate_mechanism_needs_none() {
+    let value = json(&["analyze", "stewart-gough", "--format", "json"]);
+    assert!(value["states"][0]["suggestions"].is_null());
+    let text = out(&["analyze", "stewart-gough"]);
+    assert!(
+        !text.contains("Single changes") && !text.contains("No single change"),
+        "{text}"
+    );
+    assert!(
+        text.contains("\n    ozols draw stewart-gough -o stewart-gough.svg\n"),
+        "{text}"
+    );
+}
+
+// A file with a space in its name is quoted; standard input cannot be read again.
+#[test]
+fn commands_can_be_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("my gripper.toml");
+    std::fs::write(&file, builtin::text("gripper-10").unwrap()).unwrap();
+    let text = out(&["analyze", file.to_str().unwrap()]);
+    assert!(
+        text.contains(&format!("ozols search '{}'\n", file.display())),
+        "{text}"
+    );
+    let piped = ozols(&["analyze", "-"])
+        .write_stdin(builtin::text("gripper-10").unwrap())
+        .output()
+        .unwrap();
+    assert!(
+        String::from_utf8(piped.stdout)
+            .unwrap()
+            .contains("ozols search FILE\n")
+    );
+}
+
+#[test]
+fn analyses_fit_the_terminal() {
+    for name in [
+        "gripper-10",
+        "lever-gripper",
+        "stewart-gough",
+        "delta",
+        "bennett",
+    ] {
+        let m = built_in(name);
+        let states: Vec<StateId> = m.state_ids().collect();
+        let found = analyse(&m, &states, Method::Auto { tolerance: None }).unwrap();
+        let advice: Vec<Advice> = found
+            .iter()
+            .zip(m.state_ids())
+            .map(|(a, s)| match concerned(a) {
+                0 => Advice::Nothing,
+                _ => Advice::Changes(single_changes(&m, s).unwrap()),
+            })
+            .collect();
+        let analysis = Analysis::new(&m, &found, &advice);
+        let whole = analysis.text(None);
+        for width in [60, 80, 100] {
+            let text = analysis.text(Some(width));
+            for line in text.lines() {
+                let long = console::measure_text_width(line);
+                assert!(long <= usize::from(width), "{name} at {width}: {line:?}");
+            }
+            // Nothing is lost on the way: every number and name stands somewhere.
+            for word in whole.split_whitespace().filter(|w| !w.starts_with('-')) {
+                assert!(text.contains(word), "{name} at {width}: no {word}");
+            }
+        }
+    }
+}

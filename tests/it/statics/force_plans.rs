@@ -1,0 +1,182 @@
+//! What the kinetostatics of the shears goes through: accelerations, inertia forces, tangential reactions, force plans.
+
+use crate::common::{built_in, json, near, out};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap()
+}
+
+fn pair(v: &Value) -> [f64; 2] {
+    [number(&v[0]), number(&v[1])]
+}
+
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn link<'a>(position: &'a Value, name: &str) -> &'a Value {
+    let all = position["links"].as_array().unwrap();
+    all.iter().find(|l| l["link"] == name).unwrap()
+}
+
+fn point(position: &Value, joint: &str) -> [f64; 2] {
+    let all = position["reactions"].as_array().unwrap();
+    pair(&all.iter().find(|r| r["joint"] == joint).unwrap()["point"])
+}
+
+/// Accelerations are the second differences of the places by time; inertia forces and moments are by D'Alembert.
+#[test]
+fn accelerations_are_those_of_the_places() {
+    let found = json(&[
+        "statics",
+        "parallel-shears",
+        "--stroke",
+        "0.4:0.5:100",
+        "--format",
+        "json",
+    ]);
+    let positions = found["positions"].as_array().unwrap();
+    let shears = built_in("parallel-shears");
+    let step = 0.001 / shears.loads.drive_speeds[0];
+    for at in [1, 50, 99] {
+        for name in ["4", "6", "7", "10"] {
+            let centre = |k: usize| pair(&link(&positions[k], name)["centre"]);
+            let [before, now, after] = [centre(at - 1), centre(at), centre(at + 1)];
+            let of = link(&positions[at], name);
+            let told = pair(&of["acceleration"]);
+            let mass = shears
+                .links
+                .iter()
+                .find(|l| l.id == name)
+                .unwrap()
+                .mass
+                .as_ref()
+                .unwrap()
+                .mass;
+            for i in 0..2 {
+                let found = (after[i] - 2.0 * now[i] + before[i]) / (step * step);
+                near(told[i], found, 1e-3 * (1.0 + told[i].abs()));
+                near(
+                    pair(&of["inertia_force"])[i],
+                    -mass * told[i],
+                    1e-9 * (1.0 + mass),
+                );
+            }
+        }
+    }
+}
+
+/// [Bychkov, Dvornikov & Zhukov 2018]: R46τ = (F_и6 l + G6 l)/l_FM, R47τ alike, from the moments about the rods' far ends.
+#[test]
+fn tangential_reactions_are_the_moments_over_the_rods() {
+    let found = json(&[
+        "statics",
+        "parallel-shears",
+        "--stroke",
+        "0:360deg:8",
+        "--format",
+        "json",
+    ]);
+    let shears = built_in("parallel-shears");
+    let gravity = shears
+        .loads
+        .gravity
+        .as_ref()
+        .unwrap()
+        .clone()
+        .map(|x| x.to_f64());
+    for position in found["positions"].as_array().unwrap() {
+        let group = &position["contour_groups"][0];
+        for (rod, near_end, far_end, key) in [
+            ("6", "4-6", "6-10", "R46_tangential"),
+            ("7", "4-7", "7-10", "R47_tangential"),
+        ] {
+            let of = link(position, rod);
+            let mass = shears
+                .links
+                .iter()
+                .find(|l| l.id == rod)
+                .unwrap()
+                .mass
+                .as_ref()
+                .unwrap()
+                .mass;
+            let (at, far) = (point(position, near_end), point(position, far_end));
+            let arm = |p: [f64; 2]| [p[0] - far[0], p[1] - far[1]];
+            let inertia = pair(&of["inertia_force"]);
+            let load = [
+                inertia[0] + mass * gravity[0],
+                inertia[1] + mass * gravity[1],
+            ];
+            let moment = cross(arm(pair(&of["centre"])), load) + number(&of["inertia_moment"]);
+            let length = arm(at)[0].hypot(arm(at)[1]);
+            let told = number(&group[key]);
+            near(told, -moment / length, 1e-9 * (1.0 + told.abs()));
+        }
+    }
+    let text = out(&["statics", "parallel-shears", "--stroke", "0:360deg:2"]);
+    for part in ["R46τ", "R47τ", "R34τ", "inertia force, N", "ε, rad/s²"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+/// Whether a vector's name stands at its arrow, which it does where it is long enough.
+fn visible(svg: &str, name: &str) -> bool {
+    svg.contains(&format!("text-anchor=\"start\">{name}<"))
+        || svg.contains(&format!("text-anchor=\"end\">{name}<"))
+        || svg.contains(&format!("text-anchor=\"middle\">{name}<"))
+}
+
+/// Every plan closes, and those of the δ-point method add up as those of the full solve do.
+#[test]
+fn force_plans_close_beside_those_of_the_full_solve() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path().join("plans");
+    out(&[
+        "statics",
+        "parallel-shears",
+        "--stroke",
+        "0:360deg:36",
+        "--svg",
+        at.to_str().unwrap(),
+    ]);
+    for group in ["4-6-7-10", "5-8-9-11"] {
+        let svg = fs::read_to_string(at.join(format!("force-plan-{group}.svg"))).unwrap();
+        let names = [
+            "R34τ", "R34n", "R0/10", "R64τ", "R64n", "R46τ", "R47τ", "Fи4", "G4", "P10",
+        ];
+        for name in names {
+            assert!(svg.contains(name), "{group} {name}");
+        }
+        let table = fs::read_to_string(at.join(format!("force-plan-{group}.csv"))).unwrap();
+        let mut sums: BTreeMap<String, ([f64; 2], f64)> = BTreeMap::new();
+        for line in table.lines().skip(1) {
+            // The plan's title has a comma and stands in quotes.
+            let (title, rest) = line[1..].split_once('"').unwrap();
+            let cells: Vec<&str> = rest.trim_start_matches(',').split(',').collect();
+            let v = [
+                cells[1].parse::<f64>().unwrap(),
+                cells[2].parse::<f64>().unwrap(),
+            ];
+            let sum = sums.entry(title.to_owned()).or_default();
+            sum.0 = [sum.0[0] + v[0], sum.0[1] + v[1]];
+            sum.1 = sum.1.max(v[0].hypot(v[1]));
+        }
+        // Four plans by two methods, and the weights and the inertia forces on their own.
+        assert_eq!(sums.len(), 10, "{sums:?}");
+        assert!(visible(&svg, "Fи10") && visible(&svg, "G10"), "{group}");
+        for (title, (sum, longest)) in sums {
+            assert!(sum[0].hypot(sum[1]) <= 1e-9 * longest, "{title}: {sum:?}");
+        }
+    }
+    // A chart's sentence stands in the chart, and not a second time over it.
+    let page = fs::read_to_string(at.join("index.html")).unwrap();
+    assert!(page.contains("with its sign") && !page.contains("<p>D = 3-4"));
+    assert!(page.contains("force plans of group 4-6-7-10"));
+    for file in ["tangential-4-6-7-10", "accelerations", "inertia-forces"] {
+        assert!(at.join(format!("{file}.svg")).exists(), "{file}");
+    }
+}
