@@ -3,6 +3,7 @@
 pub(in crate::search) mod completions;
 pub mod count_tables;
 pub mod counts;
+pub(in crate::search) mod drawn;
 pub mod estimate;
 pub mod freedom_patterns;
 pub mod ideas;

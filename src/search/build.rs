@@ -114,8 +114,9 @@ pub fn build_in(
             return whole;
         }
         let build = &mut |limits: &Limits| {
-            let within = (staged, limits);
-            within_limits(question, model, within, admissible, cancelled, progress)
+            within_limits(
+                question, model, staged, limits, admissible, cancelled, progress,
+            )
         };
         let worth = |d: &Diagram| total(question, d, admissible);
         budget::best(&staged.limits, whole, build, &worth)
@@ -136,32 +137,43 @@ pub fn build_in(
         rows_per_contour: vec![model.space.dim],
     };
     let second = second.as_ref().unwrap_or(&first);
-    let kept = if question.conditions.keep_output {
-        question.least.whole.kept.len()
-    } else {
-        0
-    };
+    let kept = usize::from(question.conditions.keep_output) * model.kept.len();
     let build = &mut |ceiling: &mut Ceiling<'_>| {
-        let staged = (second.stages(), &second.limits);
-        one_end(question, model, staged, Some(ceiling), cancelled, progress)
+        let (stages, limits) = (second.stages(), &second.limits);
+        let ceiling = Some(ceiling);
+        one_end(
+            question, model, stages, limits, ceiling, cancelled, progress,
+        )
     };
     prove(question, &mut out, second, kept, build);
+    out.estimates = estimates(question, &out, [&first, second], kept, cancelled);
+    out
+}
+
+/// About how many variants there are, determinate and admissible ones, of diagrams that are cut; `kept` is the least dimension of the last
+/// nodes of the admissible one.
+fn estimates(
+    question: &Question,
+    built: &Diagrams,
+    [first, second]: [&Staged<'_>; 2],
+    kept: usize,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> [Option<Estimate>; 2] {
     let estimate = |staged, end, diagram: &Diagram, admissible, possible: Option<&BigUint>| {
         let seed = question
             .conditions
             .estimate
             .filter(|_| is_cut(diagram.stop))?;
-        let found = estimated(question, staged, end, (seed, admissible), cancelled)?;
+        let found = estimated(question, staged, end, seed, admissible, cancelled)?;
         Some(found.bounded(&total(question, diagram, admissible), possible))
     };
-    let determinate = estimate(&first, 0, &out.determinate, false, None);
+    let determinate = estimate(first, 0, &built.determinate, false, None);
     let possible = match &determinate {
         Some(e) => e.at_most.clone(),
-        None => is_whole(&out.determinate).then(|| total(question, &out.determinate, false)),
+        None => is_whole(&built.determinate).then(|| total(question, &built.determinate, false)),
     };
-    let admissible = estimate(second, kept, &out.admissible, true, possible.as_ref());
-    out.estimates = [determinate, admissible];
-    out
+    let admissible = estimate(second, kept, &built.admissible, true, possible.as_ref());
+    [determinate, admissible]
 }
 
 /// About how many variants there are, determinate or admissible ones: by samples of a larger set where there is no searched state and
@@ -170,7 +182,8 @@ fn estimated(
     question: &Question,
     staged: &Staged<'_>,
     end: usize,
-    (seed, admissible): (u64, bool),
+    seed: u64,
+    admissible: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Estimate> {
     let (model, limits) = (&question.least.whole, &staged.limits);
@@ -178,8 +191,7 @@ fn estimated(
         let keep_output = admissible && question.conditions.keep_output;
         let asked = (&staged.order[..], limits, keep_output);
         let of = at_most(question, model, asked, cancelled);
-        let found =
-            of.and_then(|of| samples::estimate(question, &of, (seed, admissible), cancelled));
+        let found = of.and_then(|of| samples::estimate(question, &of, seed, admissible, cancelled));
         if found.is_some() {
             return found;
         }
@@ -187,11 +199,7 @@ fn estimated(
     let stages = staged.stages();
     let missing = Missing::new(&model.space, stages, limits, end);
     random_cuts::estimate(
-        question,
-        (stages, limits),
-        &missing,
-        (seed, admissible),
-        cancelled,
+        question, stages, limits, &missing, seed, admissible, cancelled,
     )
 }
 
@@ -238,13 +246,14 @@ fn build_parts(
 fn one_end(
     question: &Question,
     model: &Model,
-    (stages, limits): (&[Stage], &Limits),
+    stages: &[Stage],
+    limits: &Limits,
     ceiling: Option<&mut Ceiling<'_>>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let (field, space) = (question.exact.field(), &model.space);
-    diagram::of_live_links(field, space, (stages, limits), ceiling, cancelled, progress)
+    diagram::of_live_links(field, space, stages, limits, ceiling, cancelled, progress)
 }
 
 /// Nodes of a diagram before it is asked whether there is any variant at all.
@@ -266,8 +275,9 @@ fn built(
         ..limits.clone()
     };
     let mut within = |limits| {
-        let within = (staged, limits);
-        within_limits(question, model, within, admissible, cancelled, progress)
+        within_limits(
+            question, model, staged, limits, admissible, cancelled, progress,
+        )
     };
     let built = within(&few);
     if !is_cut(built.stop) {
@@ -300,7 +310,8 @@ fn built(
 fn within_limits(
     question: &Question,
     model: &Model,
-    (staged, limits): (&Staged<'_>, &Limits),
+    staged: &Staged<'_>,
+    limits: &Limits,
     admissible: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
@@ -313,8 +324,8 @@ fn within_limits(
             return added;
         }
     }
-    let staged = (staged.stages(), limits);
-    one_end(question, model, staged, None, cancelled, progress)
+    let stages = staged.stages();
+    one_end(question, model, stages, limits, None, cancelled, progress)
 }
 
 /// The diagram of a question that is not to be counted.
@@ -329,8 +340,8 @@ fn uncounted(
         ..staged.limits.clone()
     };
     let model = &question.least.whole;
-    let staged = (staged.stages(), few);
-    let mut few = one_end(question, model, staged, None, cancelled, progress);
+    let stages = staged.stages();
+    let mut few = one_end(question, model, stages, few, None, cancelled, progress);
     if few.stop != Stop::Interrupted {
         few.stop = Stop::NotCounted;
     }

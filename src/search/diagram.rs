@@ -75,6 +75,18 @@ pub struct Diagram {
 }
 
 impl Diagram {
+    /// Of layers that nothing was left out of.
+    pub(in crate::search) fn whole(layers: Vec<Layer>, terminals: Vec<Redundancy>) -> Diagram {
+        let sizes = || layers.iter().map(|l| l.nodes).chain([terminals.len()]);
+        Diagram {
+            nodes: sizes().sum(),
+            largest_layer: sizes().max().unwrap_or(0),
+            stop: Stop::Exhausted,
+            layers,
+            terminals,
+        }
+    }
+
     /// Where the choices for the variables lead: the redundant constraints of a variant that the diagram has,
     /// `None` for one that it has not.
     #[must_use]
@@ -194,7 +206,8 @@ pub(super) fn build(
 pub(super) fn of_live_links(
     field: Field,
     space: &Space,
-    (stages, limits): (&[Stage], &Limits),
+    stages: &[Stage],
+    limits: &Limits,
     ceiling: Option<&mut Ceiling<'_>>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),

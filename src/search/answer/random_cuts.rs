@@ -39,9 +39,11 @@ const FEWEST: usize = 64;
 /// That of a diagram of half as many nodes as the limits allow.
 pub(in crate::search) fn estimate(
     question: &Question,
-    (stages, limits): (&[Stage], &Limits),
+    stages: &[Stage],
+    limits: &Limits,
     missing: &Missing,
-    (seed, filter): (u64, bool),
+    seed: u64,
+    filter: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Estimate> {
     let keep = (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST);

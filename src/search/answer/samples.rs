@@ -8,8 +8,8 @@
 //! Clopper & Pearson, "The use of confidence or fiducial limits illustrated in the case of the binomial", Biometrika 26 (1934).
 
 use crate::search::answer::counts::total;
+use crate::search::answer::drawn::sample_of;
 use crate::search::answer::estimate::{Drawn, Estimate};
-use crate::search::answer::variants_in_order::sample_of;
 use crate::search::build::at_most::AtMost;
 use crate::search::question::Question;
 use num_traits::ToPrimitive;
@@ -30,7 +30,8 @@ const TAIL: f64 = 0.025;
 pub(in crate::search) fn estimate(
     question: &Question,
     of: &AtMost,
-    (seed, filter): (u64, bool),
+    seed: u64,
+    filter: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Estimate> {
     let at_most = total(question, &of.diagram, filter);

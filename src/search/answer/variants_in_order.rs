@@ -1,9 +1,9 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::answer::count_tables::{Count, Key, Kinds, Steps, Tally};
+use crate::search::answer::count_tables::{Key, Steps};
 use crate::search::answer::counts::fits;
-use crate::search::answer::counts::limited;
-use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Reach, Sample};
+use crate::search::answer::drawn::sample_of;
+use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Reach};
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
@@ -143,37 +143,4 @@ pub fn sample<'a>(
     // Each orbit has one variant that comes first, and so the same chance.
     let all = sample_of(question, diagram, seed, true);
     Box::new(all.filter(move |v| is_first_image(question, diagram, v)))
-}
-
-/// Draws variants of a diagram without end, each with the same chance; `filter` applies the conditions on mobility and changes, too.
-/// None where what it takes to draw is more than the memory there is.
-pub(in crate::search) fn sample_of<'a>(
-    question: &'a Question,
-    diagram: &'a Diagram,
-    seed: u64,
-    filter: bool,
-) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    if fits(question) {
-        sample_with::<u128>(question, diagram, seed, filter)
-    } else {
-        sample_with::<BigUint>(question, diagram, seed, filter)
-    }
-}
-
-fn sample_with<'a, C: Count + 'a>(
-    question: &'a Question,
-    diagram: &'a Diagram,
-    seed: u64,
-    filter: bool,
-) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let kinds = if filter {
-        limited(question)
-    } else {
-        Kinds::default()
-    };
-    let keys = question.steps.only(kinds);
-    let tally = Tally::<C>::new(diagram, &keys, None, question.conditions.memory / 4);
-    let wanted = |k: Key| !filter || question.wanted(k);
-    let drawn = tally.map(|t| Sample::new(diagram, &question.steps, (keys, t), seed, wanted));
-    Box::new(drawn.into_iter().flatten())
 }

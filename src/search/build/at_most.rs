@@ -10,7 +10,7 @@ use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
 use crate::search::diagram::transition::{Children, Worker};
-use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
+use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
@@ -69,14 +69,14 @@ pub(in crate::search) fn at_most(
             return None;
         }
         let choices = choices(stage);
-        let over = Over {
+        let layered = Layered {
             field,
             limits,
             spent: &spent,
             passed: Passed { stage, bounds },
         };
         let before = nodes.len();
-        let (next, mut edges) = over.merged(&nodes, choices);
+        let (next, mut edges) = layered.merged(&nodes, choices);
         let to = narrowed(field, next, width);
         nodes = to.0;
         let alive = edges.iter_mut().filter(|e| **e != DEAD);
@@ -89,15 +89,8 @@ pub(in crate::search) fn at_most(
         });
     }
     let ends: Vec<Redundancy> = nodes.iter().map(|_| spent.redundancy()).collect();
-    let sizes = || layers.iter().map(|l| l.nodes).chain([nodes.len()]);
     Some(AtMost {
-        diagram: Diagram {
-            nodes: sizes().sum(),
-            largest_layer: sizes().max().unwrap_or(0),
-            stop: Stop::Exhausted,
-            terminals: ends,
-            layers,
-        },
+        diagram: Diagram::whole(layers, ends),
         field,
         order: order.to_vec(),
         space,
@@ -139,14 +132,14 @@ fn bounds(stages: &[Adding]) -> Vec<Vec<usize>> {
 type Weighed = Vec<(Between, f64)>;
 
 /// What nodes are carried over.
-struct Over<'a> {
+struct Layered<'a> {
     field: Field,
     limits: &'a Limits,
     spent: &'a Spent,
     passed: Passed<'a>,
 }
 
-impl Over<'_> {
+impl Layered<'_> {
     /// The children of some nodes, equal ones together, and the edges to them.
     fn merged(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
         let all: Vec<Vec<Option<(Vec<u64>, Between)>>> = nodes

@@ -102,7 +102,7 @@ pub(in crate::search) fn laid<'a>(
     let order = [&common[..], &alone, &added].concat();
     let stages = {
         let common = common.clone();
-        move || admissible(question, model, &common, free.len(), (&alone, &added))
+        move || admissible(question, model, &common, free.len(), &alone, &added)
     };
     Laid {
         determinate,
@@ -121,7 +121,8 @@ fn admissible(
     model: &Model,
     order: &[usize],
     free: usize,
-    (alone, added): (&[usize], &[usize]),
+    alone: &[usize],
+    added: &[usize],
 ) -> Vec<Stage> {
     let [_, blocks] = &question.blocks;
     let joined = joined(question, order, blocks);

@@ -4,7 +4,7 @@
 //! Bryant, "Graph-based algorithms for Boolean function manipulation", IEEE Trans. Comput. C-35 (1986), section 4.2.
 
 use crate::search::diagram::redundancy_so_far::Redundancy;
-use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
+use crate::search::diagram::{DEAD, Diagram, Layer};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -51,14 +51,7 @@ pub(in crate::search) fn minimal(
         layer.edges = kept;
     }
     number_from_the_root(&mut layers, &mut terminals);
-    let sizes = || layers.iter().map(|l| l.nodes).chain([terminals.len()]);
-    Diagram {
-        nodes: sizes().sum(),
-        largest_layer: sizes().max().unwrap_or(0),
-        stop: Stop::Exhausted,
-        layers,
-        terminals,
-    }
+    Diagram::whole(layers, terminals)
 }
 
 /// Numbers the nodes in the order in which they are met, and leaves out those that are not.

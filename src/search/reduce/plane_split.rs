@@ -134,7 +134,8 @@ impl Model {
         let path = diagram::of_live_links(
             exact.field(),
             space,
-            (&stages, &limits),
+            &stages,
+            &limits,
             None,
             &|| false,
             &mut |_| {},

@@ -93,12 +93,12 @@ pub(in crate::view) struct EstimateData {
     between: [f64; 2],
     at_most: Option<String>,
     cuts: Option<usize>,
-    samples: Option<Samples>,
+    samples: Option<SampleData>,
     seed: u64,
 }
 
 #[derive(Debug, Serialize)]
-struct Samples {
+struct SampleData {
     of: usize,
     found: usize,
 }
@@ -107,7 +107,7 @@ impl From<&Estimate> for EstimateData {
     fn from(e: &Estimate) -> Self {
         let (cuts, samples) = match e.drawn {
             Drawn::Cuts(n) => (Some(n), None),
-            Drawn::Samples { of, found } => (None, Some(Samples { of, found })),
+            Drawn::Samples { of, found } => (None, Some(SampleData { of, found })),
         };
         EstimateData {
             mean: e.mean,

@@ -1,0 +1,183 @@
+//! How many variants there are, as text: in a sentence, how that is known, and by mobility.
+
+use crate::format::number::grouped;
+use crate::format::phrase::{plural, plural_of};
+use crate::score::outcome::Outcome;
+use crate::search::check::second_prime::Verdict;
+use crate::view::search::conditions::in_state;
+use crate::view::search::{ideas, numeric, second_opinion, stopped_early};
+use crate::view::terminal::layout::{fit, table};
+use itertools::Itertools;
+use num_bigint::BigUint;
+use num_traits::Zero;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+/// Rows of mobilities told at most; JSON and the page have them all.
+const MOBILITIES: usize = 12;
+
+fn big(n: &BigUint) -> String {
+    grouped(&n.to_string())
+}
+
+/// The condition on redundant constraints.
+fn redundancy(most: u32) -> String {
+    match most {
+        0 => "σ = 0".to_owned(),
+        n => format!("σ ≤ {n}"),
+    }
+}
+
+/// The other conditions.
+fn beside(outcome: &Outcome) -> Vec<String> {
+    let conditions = &outcome.search.conditions;
+    let all = [
+        conditions
+            .keep_output
+            .then_some("keep the output motion".to_owned()),
+        conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
+        conditions
+            .max_changes
+            .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
+    ];
+    let told = in_state(&outcome.search, false);
+    all.into_iter().flatten().chain(told).collect()
+}
+
+/// The verdict, how it was checked, and the counts by mobility.
+pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
+    let mut out = String::new();
+    let least = if outcome.is_counted() {
+        ""
+    } else {
+        "at least "
+    };
+    let conditions = &outcome.search.conditions;
+    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
+    let condition = redundancy(conditions.max_redundant);
+    let more = beside(outcome);
+    let all = match more.split_last() {
+        None => format!("have {condition}"),
+        Some((last, rest)) => {
+            let head = std::iter::once(format!("have {condition}")).chain(rest.iter().cloned());
+            format!("{} and {last}", head.collect_vec().join(", "))
+        }
+    };
+    let good = if let Some(found) = &outcome.numeric {
+        format!("numeric: {}", numeric::from_to(&found.admissible))
+    } else if outcome.admissible.total.is_zero() && least.is_empty() {
+        "none".to_owned()
+    } else if !outcome.is_confirmed() {
+        format!("not exact: {least}{}", big(&outcome.admissible.total))
+    } else {
+        let [_, estimate] = outcome.estimates();
+        stopped_early::number(&outcome.admissible.total, outcome.is_counted(), estimate)
+    };
+    // Writing to a string cannot fail.
+    let of = plural_of(&big(&size), "variant");
+    let _ = writeln!(out, "{mechanism}: {good} of {of} {all}");
+    if size == BigUint::from(1u8) {
+        let _ = writeln!(
+            out,
+            "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
+             [\"cylindrical\", \"spherical\"]"
+        );
+    }
+    if !more.is_empty() {
+        let determinate = match &outcome.numeric {
+            Some(found) => numeric::from_to(&found.determinate),
+            None => {
+                let [estimate, _] = outcome.estimates();
+                let estimate = estimate.filter(|_| outcome.is_confirmed());
+                let exact = outcome.is_determinate_counted();
+                stopped_early::number(&outcome.determinate.total, exact, estimate)
+            }
+        };
+        let _ = writeln!(
+            out,
+            "  {determinate} with {condition}, whatever else they do"
+        );
+    }
+    let minimal = ideas::minimal(outcome).into_iter();
+    let lines = minimal.chain(numeric::lines(outcome));
+    for line in lines.chain(second_opinion::lines(outcome)) {
+        let _ = writeln!(out, "  {line}");
+    }
+    // Two primes that agree on rounded digits prove nothing.
+    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
+        let _ = match check.verdict {
+            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
+            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
+        };
+    }
+    let cut_short = outcome
+        .numeric
+        .is_none()
+        .then(|| stopped_early::stopped(outcome));
+    for line in cut_short
+        .flatten()
+        .into_iter()
+        .chain(stopped_early::estimated(outcome))
+    {
+        let _ = writeln!(out, "  {line}");
+    }
+    if let Some(table) = by_mobility(outcome, width) {
+        let _ = writeln!(out, "\n{table}");
+    }
+    fit(&out, width)
+}
+
+/// The counts by mobility.
+fn by_mobility(outcome: &Outcome, width: Option<u16>) -> Option<String> {
+    let exact = outcome.determinate.by_mobility.keys();
+    let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();
+    let mobilities: BTreeSet<i64> = match &outcome.numeric {
+        Some(found) => numeric::mobilities(found),
+        None => exact.collect(),
+    };
+    // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
+    let may = |w: &i64| {
+        let found = outcome.numeric.as_ref();
+        found.is_some_and(|f| f.admissible.doubtful.by_mobility.contains_key(w))
+    };
+    let (shown, rest): (Vec<i64>, Vec<i64>) = mobilities.iter().partition(|w| {
+        outcome.admissible.total.is_zero()
+            || outcome.admissible.by_mobility.contains_key(w)
+            || may(w)
+    });
+    let row = |name: String, of: &[i64]| {
+        let sum =
+            |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
+        let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
+        if let Some(found) = &outcome.numeric {
+            let of = |b| numeric::by_mobility(b, of);
+            return vec![name, of(&found.determinate), of(&found.admissible)];
+        }
+        vec![
+            name,
+            sum(&determinate.by_mobility),
+            sum(&admissible.by_mobility),
+        ]
+    };
+    // Long tables are of robots with many joints; the least mobilities are those that let the least move idly.
+    let told = if shown.len() > MOBILITIES {
+        MOBILITIES - 1
+    } else {
+        shown.len()
+    };
+    let (told, folded) = shown.split_at(told);
+    let each = told.iter().map(|w| row(w.to_string(), &[*w]));
+    let folded = match folded {
+        [least, .., most] => Some(row(format!("{least} to {most}"), folded)),
+        _ => None,
+    };
+    let left_out = match (rest.first(), rest.last()) {
+        (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
+        (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
+        _ => None,
+    };
+    let rows = each.chain(folded).chain(left_out);
+    let condition = redundancy(outcome.search.conditions.max_redundant);
+    let head = ["W", &condition, "admissible"];
+    (!mobilities.is_empty()).then(|| table(&head, rows.collect(), width))
+}
