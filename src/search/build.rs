@@ -20,6 +20,7 @@ use crate::search::build::self_stress::{in_self_stress_space, nothing};
 use crate::search::build::staging::{Laid, Staged, both_ends, laid};
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::{Ceiling, Missing};
+use crate::search::diagram::layer::CUT;
 use crate::search::diagram::product::product;
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
@@ -336,7 +337,7 @@ fn uncounted(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let few = &Limits {
-        nodes: 1,
+        nodes: CUT,
         ..staged.limits.clone()
     };
     let model = &question.least.whole;

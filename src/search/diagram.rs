@@ -121,9 +121,10 @@ pub(super) fn build(
     let mut layers = Vec::with_capacity(stages.len());
     let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
     let mut allowed = limits.bytes;
+    let fewest = CUT.min(limits.nodes);
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable()].choices;
-        let room = limits.nodes.saturating_sub(total).max(CUT);
+        let room = limits.nodes.saturating_sub(total).max(fewest);
         let bytes = allowed.saturating_sub(held + nodes.bytes());
         let merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
         let merge = next(
@@ -166,7 +167,7 @@ pub(super) fn build(
             Stop::Exhausted => usize::MAX,
             // Share what is left of the budget among the layers to come.
             Stop::NodeBudget | Stop::NotCounted => {
-                (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(CUT)
+                (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(fewest)
             }
             Stop::Memory => {
                 let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices.len();

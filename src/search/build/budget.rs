@@ -1,6 +1,6 @@
 //! What a search that comes to its bounds still counts: more with more nodes and more memory, never less.
 //!
-//! A diagram cut down to a budget keeps the cheapest nodes of each layer, and a larger budget, spent in the early layers, may
+//! A diagram cut down to a budget keeps a part of the nodes of each layer, and a larger budget, spent in the early layers, may
 //! keep others that lead to fewer variants. So the search is made again within each smaller round budget (1, 2 or 5 times a power of
 //! ten), and the best of them stands: a larger budget has all the searches of a smaller one, and more.
 

@@ -10,7 +10,7 @@ use std::collections::TryReserveError;
 /// A missing edge: the choice leads nowhere admissible.
 pub const DEAD: u32 = u32::MAX;
 
-/// Nodes a layer keeps at least, however small the budget, so that a search always reaches the end.
+/// Nodes a layer keeps at least where the budget is no smaller, so that a search reaches the end.
 pub(in crate::search) const CUT: usize = 256;
 
 /// Bytes of a node besides its matrix: what was spent, where the matrix starts, the least cost, and its place in the table.
