@@ -2,7 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::real;
 use crate::model::mechanism::{Mechanism, Mode};
 use chacha20::ChaCha8Rng;
@@ -105,7 +105,7 @@ pub fn turned_and_rounded(mechanism: &Mechanism, decimals: usize, noise: &mut No
         Mode::Spatial => [(); 3].map(|()| noise.uniform()),
         Mode::Planar { normal } => real(normal),
     };
-    let turn = Motion::turn(axis, angle);
+    let turn = RigidMotion::turn(axis, angle);
     let round = |x: f64| {
         let text = format!("{x:.decimals$}");
         text.parse().unwrap_or_else(|_| Expr::from(0))

@@ -10,7 +10,7 @@ use crate::cli::terminal::interrupt;
 use crate::cli::terminal::machine;
 use crate::cli::terminal::memory;
 use crate::cli::terminal::output;
-use crate::cli::terminal::progress::Watch;
+use crate::cli::terminal::progress::SearchWatch;
 use crate::format::number::{duration, grouped};
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Method, Request};
@@ -118,7 +118,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file.file)?;
     let request = a.request(args.seed)?;
-    let mut outcome = Watch::new(args.quiet).run(mechanism, &request)?;
+    let mut outcome = SearchWatch::new(args.quiet).run(mechanism, &request)?;
     outcome.request.distinct |= a.tells_ideas(&outcome);
     let (eased, why) = match a.format {
         SearchFormat::Text | SearchFormat::Json => (outcome.relaxations()?, outcome.hopeless()?),

@@ -1,7 +1,7 @@
 //! The group in one pose: points, guide and loads, and the reactions found there.
 
 use crate::statics::contour_group::letters::ContourGroup;
-use crate::statics::kinetostatics::{Load, Source};
+use crate::statics::kinetostatics::{Load, LoadSource};
 use crate::statics::planar::{BodyId, PairId};
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, quarter};
 
@@ -75,7 +75,7 @@ impl GroupPose {
     pub fn push(&mut self, link: usize, point: [f64; 2], force: [f64; 2]) {
         self.loads.push(Load {
             body: link,
-            source: Source::External,
+            source: LoadSource::External,
             point,
             force,
             moment: 0.0,

@@ -1,9 +1,9 @@
-//! Joint reactions in one pose for people.
+//! JointForces reactions in one pose for people.
 
 use crate::format::number::{figure, significant};
 use crate::format::phrase::{list, plural};
 use crate::statics::reactions::NEARLY_SINGULAR;
-use crate::view::reactions::{Contact, Joint, Reactions};
+use crate::view::reactions::{JointForces, ObjectContact, Reactions};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
 use std::fmt::Write;
@@ -14,7 +14,7 @@ const STRESSES: usize = 12;
 /// What a component is next to: below this fraction of the greatest it is rounding.
 pub(super) const NOTHING: f64 = 1e-12;
 
-fn joints(list: &[Joint<'_>], size: f64, rounding: f64, width: Option<u16>) -> String {
+fn joints(list: &[JointForces<'_>], size: f64, rounding: f64, width: Option<u16>) -> String {
     let greatest = list
         .iter()
         .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
@@ -42,7 +42,7 @@ fn joints(list: &[Joint<'_>], size: f64, rounding: f64, width: Option<u16>) -> S
 }
 
 /// What the faces on objects are asked to do.
-fn contacts(list: &[Contact<'_>], width: Option<u16>) -> String {
+fn contacts(list: &[ObjectContact<'_>], width: Option<u16>) -> String {
     let greatest = list.iter().map(|c| c.normal.abs().max(c.along_face));
     let greatest = greatest.fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
@@ -75,7 +75,7 @@ fn contacts(list: &[Contact<'_>], width: Option<u16>) -> String {
 
 /// Says first where contacts are asked for what faces cannot do.
 fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    let bad: Vec<&Contact> = s.contacts.iter().filter(|c| !c.holds()).collect();
+    let bad: Vec<&ObjectContact> = s.contacts.iter().filter(|c| !c.holds()).collect();
     for c in &bad {
         let (unit, prefix) = prefix(c.normal.abs().max(c.along_face));
         let force = |x: f64| format!("{} {prefix}N", significant(x / unit));
@@ -107,7 +107,7 @@ fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
 }
 
 /// Which components the choice within the family is about.
-fn left_open(reactions: &[Joint<'_>]) -> String {
+fn left_open(reactions: &[JointForces<'_>]) -> String {
     let mut alike: Vec<(&[&str], Vec<&str>)> = Vec::new();
     for r in reactions.iter().filter(|r| !r.open.is_empty()) {
         match alike.iter_mut().find(|(open, _)| *open == r.open) {

@@ -20,7 +20,7 @@ use crate::view::search::stopped_early;
 use crate::view::search::table::{contours, variants};
 use crate::view::search::why;
 use crate::view::terminal::layout::{fit, table};
-use crate::view::terminal::next_commands::{self, Step, file_name};
+use crate::view::terminal::next_commands::{self, NextCommand, file_name};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::Zero;
@@ -341,7 +341,7 @@ fn next(
     (given, changed): (usize, bool),
     (eased, helps): (&[(Relaxation, BigUint)], Option<Request>),
     file: &str,
-) -> Vec<Step> {
+) -> Vec<NextCommand> {
     // `--idea` says that ideas are meant.
     let request = Request {
         distinct: false,
@@ -356,20 +356,20 @@ fn next(
         let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
         // Whose first variant changes nothing has nothing to mend.
         let own = (changed && is_description(file)).then(|| {
-            Step::mend(
+            NextCommand::mend(
                 file,
                 &joined(&format!("--{number} 1")),
                 "the first of the list in your own file",
             )
         });
         let steps = [
-            Step::new(
+            NextCommand::new(
                 "draw",
                 file,
                 &joined(&format!("--{number} 1 -o {svg}")),
                 "the first of the list, its changes in colour",
             ),
-            Step::new(
+            NextCommand::new(
                 "export",
                 file,
                 &joined(&format!("--{number} 1 --to toml -o {toml}")),
@@ -379,7 +379,7 @@ fn next(
         return own.into_iter().chain(steps).collect();
     }
     if !outcome.admissible.total.is_zero() {
-        return vec![Step::new(
+        return vec![NextCommand::new(
             "search",
             file,
             &joined("--top 10"),
@@ -398,16 +398,16 @@ fn next(
         };
         // The flag replaces the one that was given.
         let kept = without(flags, &name);
-        Step::new("search", file, format!("{kept} {flag}").trim(), &least)
+        NextCommand::new("search", file, format!("{kept} {flag}").trim(), &least)
     });
     let options = match helps {
-        Some(wider) => Step::new(
+        Some(wider) => NextCommand::new(
             "search",
             file,
             &next_commands::flags(&outcome.search.mechanism, &wider),
             "Offer more options: with these joint types there are variants, and with others there may be",
         ),
-        None => Step {
+        None => NextCommand {
             command: "Offer more options under [search], or at the joints".to_owned(),
             gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
         },

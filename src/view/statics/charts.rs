@@ -3,12 +3,12 @@
 use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
-use crate::statics::contour_group::stability::{Failure, Sample};
+use crate::statics::contour_group::stability::{DistanceErrors, Failure};
 use crate::statics::cycle::Moment;
 use crate::statics::inertia::{LinkInertia, link_inertias};
-use crate::statics::kinetostatics::Source;
+use crate::statics::kinetostatics::LoadSource;
 use crate::statics::planar::PairId;
-use crate::view::statics::{Statics, magnitudes};
+use crate::view::statics::{StaticsData, magnitudes};
 use crate::view::terminal::si_prefix::prefix;
 use itertools::Itertools;
 
@@ -32,7 +32,7 @@ fn log(label: impl Into<String>) -> Axis {
     }
 }
 
-fn drive_axis(s: &Statics<'_>) -> Axis {
+fn drive_axis(s: &StaticsData<'_>) -> Axis {
     let name = s.drives.first().copied().unwrap_or("");
     let unit = if s.found.drive_slides() {
         "length units"
@@ -44,12 +44,12 @@ fn drive_axis(s: &Statics<'_>) -> Axis {
 
 /// How many forces from outside act.
 fn acting(x: &Moment) -> usize {
-    let outside = x.loads.iter().filter(|l| l.source == Source::External);
+    let outside = x.loads.iter().filter(|l| l.source == LoadSource::External);
     outside.count()
 }
 
 /// Values over the cycle, one series a name; where forces set in or end the lines are broken.
-fn over(s: &Statics<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
+fn over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
     let mut series: Vec<Series> = Vec::new();
     let mut before = s.found.moments.first().map_or(0, acting);
     for x in &s.found.moments {
@@ -84,7 +84,7 @@ fn scale(series: &mut [Series]) -> &'static str {
 
 /// Reactions of every group, where the guides' reactions act, the drives' effort, and how far the methods differ.
 #[must_use]
-pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
+pub fn cycle(s: &StaticsData<'_>) -> Vec<Named> {
     let (found, methods, name) = (s.found, s.methods, s.mechanism);
     let (m, d) = (&found.linkage.mechanism, &found.decomposition);
     let mut out = Vec::new();
@@ -288,7 +288,7 @@ fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
 
 /// Errors of the methods against the distance from a failure.
 #[must_use]
-pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
+pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
     // What is exact to the last bit is shown at the foot.
     let shown = |x: f64| {
         if x.is_finite() {
@@ -298,19 +298,19 @@ pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
         }
     };
     let arms = failure == Failure::NoGuideReaction;
-    let line = |name: &str, style, f: &dyn Fn(&Sample) -> f64| Series {
+    let line = |name: &str, style, f: &dyn Fn(&DistanceErrors) -> f64| Series {
         name: name.to_owned(),
         points: samples.iter().map(|s| (s.distance, shown(f(s)))).collect(),
         style,
     };
-    let of = |k: usize| move |s: &Sample| if arms { s.arm[k] } else { s.forces[k] };
+    let of = |k: usize| move |s: &DistanceErrors| if arms { s.arm[k] } else { s.forces[k] };
     let mut series = vec![
         line("δ-point", Style::Line, &of(0)),
         line("projective", Style::Line, &of(1)),
         line("equilibrium, LU", Style::Line, &of(2)),
     ];
     if arms {
-        let worst = |s: &Sample| s.forces.into_iter().fold(0.0, f64::max);
+        let worst = |s: &DistanceErrors| s.forces.into_iter().fold(0.0, f64::max);
         series.push(line("forces, worst of the three", Style::Dashed, &worst));
     } else {
         series.push(line(
@@ -332,10 +332,10 @@ pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
 
 /// Rows of a table: failure, figure, method, and the errors at distances 1, 1e-3, ... 1e-15.
 #[must_use]
-pub fn stability_rows(failure: Failure, samples: &[Sample]) -> Vec<Vec<String>> {
+pub fn stability_rows(failure: Failure, samples: &[DistanceErrors]) -> Vec<Vec<String>> {
     let at = |decade: i32| {
         let wanted = 10f64.powi(-decade);
-        let near = |s: &&Sample| (s.distance.log10() - wanted.log10()).abs();
+        let near = |s: &&DistanceErrors| (s.distance.log10() - wanted.log10()).abs();
         samples.iter().min_by(|a, b| near(a).total_cmp(&near(b)))
     };
     let figures: &[(&str, bool)] = match failure {

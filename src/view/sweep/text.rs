@@ -1,6 +1,6 @@
 //! A sweep for people.
 
-use super::{Change, Peak, State, Sweep, Told};
+use super::{NeighbouringSamples, Peak, StateOverSamples, SweepData, Told};
 use crate::format::number::{significant, tooltip};
 use crate::format::phrase::plural;
 use crate::view::terminal::layout::{fit, table};
@@ -42,7 +42,7 @@ fn list(of: &[Told<'_>]) -> String {
     some(of.iter().map(one).collect(), "; ")
 }
 
-impl Sweep<'_> {
+impl SweepData<'_> {
     /// What was found, fitted to a terminal of `width` columns where one is given.
     #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
@@ -188,7 +188,7 @@ fn place_of(s: &super::Special<'_>) -> String {
     s.at.iter().map(one).join(", ")
 }
 
-fn redundant(state: &State<'_>) -> String {
+fn redundant(state: &StateOverSamples<'_>) -> String {
     let one = |f: &super::Figure<'_>| {
         let sigma = match f.redundant_at_most {
             Some(most) => format!("{} to {most}", f.redundant),
@@ -199,7 +199,7 @@ fn redundant(state: &State<'_>) -> String {
     state.redundant.iter().map(one).join(", ")
 }
 
-fn change(c: &Change) -> String {
+fn change(c: &NeighbouringSamples) -> String {
     let [one, two] = c.redundant;
     let at = match place(&c.at) {
         at if at.is_empty() => at,
