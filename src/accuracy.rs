@@ -59,7 +59,7 @@ impl AnswerVerdict {
     /// Whether the answer is the one the method promises: the finite mobility, or the one at the pose where that is what
     /// it speaks of.
     #[must_use]
-    pub fn keeps_promise(answer: &Result<Answer, NoAnswer>, truth: Truth) -> bool {
+    pub(crate) fn keeps_promise(answer: &Result<Answer, NoAnswer>, truth: Truth) -> bool {
         answer.as_ref().is_ok_and(|a| match a.quantity {
             Quantity::Instantaneous => a.mobility == truth.instantaneous,
             Quantity::Count | Quantity::Finite => a.mobility == truth.finite,

@@ -72,7 +72,7 @@ pub fn tuned_name(tuned: &Tuned) -> Option<String> {
 /// Share of right answers against median time of an answer; floating-point methods at their default tolerance, and at
 /// their best where that is another. The tolerance does not change their time.
 #[must_use]
-pub fn share_time(survey: &Survey, machine: &Machine) -> Chart {
+pub(crate) fn share_time(survey: &Survey, machine: &Machine) -> Chart {
     let places = places(survey);
     let front = pareto(&places);
     let at = |p: &MethodPlace| (p.seconds, 100.0 * p.share);

@@ -8,7 +8,7 @@ use crate::model::drive::{Damping, DriveSpec};
 use serde::Serialize;
 
 /// Lengths of bars that are chosen are multiples of this. `[m]`
-pub const LENGTH_STEP: f64 = 1e-3;
+pub(crate) const LENGTH_STEP: f64 = 1e-3;
 
 /// Where the damping of a simulation comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

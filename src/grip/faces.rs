@@ -11,7 +11,7 @@ use crate::statics::reactions::geometry::{Geometry, Six, wrench};
 use std::f64::consts::TAU;
 
 /// Points that stand for the rim of a round face: the polygon lies within the face, 2 % at most inside its rim.
-pub const RIM: usize = 16;
+pub(crate) const RIM: usize = 16;
 
 /// Where the pressure of a face can be, lengths in the geometry's size.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -30,7 +30,7 @@ impl PartWrench {
     /// # Units
     /// `[kg]`, `[m/s²]`, offset from the part's centre `[m]`.
     #[must_use]
-    pub fn of_mass(
+    pub(crate) fn of_mass(
         mass: f64,
         gravity: Spatial,
         acceleration: Spatial,

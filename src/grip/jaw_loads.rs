@@ -209,7 +209,7 @@ impl Gripping {
     ///
     /// # Errors
     /// As [`Gripping::new`].
-    pub fn of_study(
+    pub(crate) fn of_study(
         m: &Mechanism,
         state: StateId,
         study: Study,

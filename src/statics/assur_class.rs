@@ -74,7 +74,7 @@ impl fmt::Display for AssurClass {
 /// # Sources
 /// I. I. Artobolevsky, "Theory of Mechanisms and Machines", 4th ed., 1988.
 #[must_use]
-pub fn classify(
+pub(crate) fn classify(
     m: &PlanarMechanism,
     blocks: &[Vec<BodyId>],
     inner: &[PairId],

@@ -42,7 +42,7 @@ pub struct Load {
 impl Load {
     /// Moment about a point `[N·m]`.
     #[must_use]
-    pub fn moment_about(&self, point: [f64; 2]) -> f64 {
+    pub(crate) fn moment_about(&self, point: [f64; 2]) -> f64 {
         self.moment + cross(minus(self.point, point), self.force)
     }
 }

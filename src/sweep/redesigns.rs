@@ -15,7 +15,7 @@ use crate::sweep::forces::{is_loaded, rounded};
 use serde::{Deserialize, Serialize};
 
 /// Most redesigns that share the first place and are all told.
-pub const TIED: usize = 100;
+pub(crate) const TIED: usize = 100;
 
 /// The redesigns of a sample.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

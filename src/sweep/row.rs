@@ -98,7 +98,7 @@ impl Sweep {
     ///
     /// # Errors
     /// Where its values make none; every problem with its place in the file.
-    pub fn mechanism_of(&self, sample: &Sample) -> Result<Mechanism, ImportError> {
+    pub(crate) fn mechanism_of(&self, sample: &Sample) -> Result<Mechanism, ImportError> {
         mechanism_at(&self.spec.file, &self.spec.text, &sample.values)
     }
 

@@ -13,7 +13,7 @@ pub(super) const VERSION: i64 = 5;
 pub(super) const OLDEST: i64 = 4;
 
 /// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
-pub const TABLES: &str = include_str!("../tables.sql");
+pub(crate) const TABLES: &str = include_str!("../tables.sql");
 
 /// What each version but the first has beside the one before it, as statements that make it of that one.
 const STEPS: [(i64, &str); 1] = [(

@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Pictures a second.
-pub const RATE: usize = 30;
+pub(crate) const RATE: usize = 30;
 
 /// A motion to be drawn.
 #[derive(Debug, Clone, Copy)]

@@ -61,7 +61,7 @@ pub(in crate::rank) fn spatial_twists(
 ///
 /// # Complexity
 /// At most 15 brackets of at most 6 independent twists.
-pub fn group_dimension(
+pub(crate) fn group_dimension(
     exact: &ExactField,
     mechanism: &Mechanism,
     contour: &Contour,

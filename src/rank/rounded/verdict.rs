@@ -177,7 +177,7 @@ impl RankVerdict {
 
     /// A tolerance for `--snap` in the gap below the rank that is likely meant.
     #[must_use]
-    pub fn suggested_tolerance(&self) -> Option<f64> {
+    pub(crate) fn suggested_tolerance(&self) -> Option<f64> {
         let n = self.numeric?;
         let power = |x: f64| 10f64.powf(x.log10().ceil());
         let wide = power(n.dropped.max(ROUND_OFF) * 10.0);

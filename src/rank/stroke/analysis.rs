@@ -14,7 +14,7 @@ use ozols_dense::{Matrix, singular_values};
 
 /// Changes of rank are bracketed to this fraction of the stroke, or to the stretch where singular values are below the
 /// tolerance where that is longer.
-pub const BRACKET: f64 = 1e-6;
+pub(crate) const BRACKET: f64 = 1e-6;
 /// The lowest point of a singular value is found to this fraction of the stroke.
 const LOWEST: f64 = 1e-9;
 /// Golden section.

@@ -100,7 +100,7 @@ pub fn is_loaded(m: &Mechanism) -> bool {
 /// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
 /// conditioned over or nothing else is loaded.
 #[must_use]
-pub fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
+pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
     let gripped = m.state_ids().skip(1).filter(|&s| grip_of(m, s).is_some());
     let gripped: Vec<StateId> = gripped.collect();
     let free = gripped.is_empty() || free_is_loaded(m) || m.loads.stroke.is_some();

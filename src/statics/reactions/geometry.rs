@@ -224,7 +224,7 @@ impl Geometry {
     }
 
     /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints.
-    pub fn add_round(&self, coefficients: &[f64], wrenches: &mut [Six]) {
+    pub(crate) fn add_round(&self, coefficients: &[f64], wrenches: &mut [Six]) {
         let dim = self.basis.len();
         for (k, contour) in self.contours.iter().enumerate() {
             let mut round = [0.0; 6];

@@ -182,7 +182,7 @@ fn times(pose: &Pose, link: LinkId, inertia: &Inertia, v: [f64; 3]) -> [f64; 3] 
 ///
 /// # Errors
 /// Where the drives cannot go at the stated speeds, and where a link that states its inertia for a plane turns in space.
-pub fn inertia_loads(
+pub(crate) fn inertia_loads(
     m: &Mechanism,
     loads: &Loads,
     geometry: &Geometry,
