@@ -132,17 +132,7 @@ pub fn answer(
         return numeric(search, (digits, measured), request, should_cancel, tell);
     }
     if request.method == Method::Brute {
-        let search = over(0)?;
-        if search.size() > BRUTE_LIMIT.into() {
-            return Err(RunError::TooMany(search.size()));
-        }
-        let counts = brute::brute(&search)?;
-        return Ok(Outcome::of_counts(
-            search,
-            request.clone(),
-            counts,
-            measured,
-        ));
+        return by_brute_force(over(0)?, request, measured);
     }
     let (search, twin) = match request.check {
         Check::None => (over(0)?, None),
@@ -154,87 +144,25 @@ pub fn answer(
     for note in search.already_loose()? {
         tell(Event::Note(note));
     }
-    let progress = &mut |p| tell(Event::Building(p));
-    let (diagrams, check) = match &twin {
-        None => (search.build(should_cancel, progress), None),
-        Some(twin) => {
-            let both: [&Question; 2] = [&search, twin];
-            let (first, second) = second_prime::build_both(both, should_cancel, progress);
-            let compared = match request.list {
-                List::Top(k) => k,
-                List::All | List::Sample(_) | List::Nothing => COMPARED,
-            };
-            let verdict = second_prime::compare(both, [&first, &second], compared)?;
-            let primes = second_prime::primes(both);
-            (first, Some(PrimeCheck { primes, verdict }))
-        }
-    };
+    let (diagrams, check) = built(&search, twin.as_ref(), request, should_cancel, tell)?;
     tell(Event::Built);
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-    let mut counts = (
-        search.counts(&diagrams.determinate, false),
-        search.counts(&diagrams.admissible, true),
-    );
-    // What is cut down elsewhere may have none of the cheapest.
-    if let Some(best) = &diagrams.cheapest {
-        let known = search.counts(&best.diagram, true);
-        for few in [&mut counts.0, &mut counts.1] {
-            if few.total < known.total {
-                few.clone_from(&known);
-            }
-        }
-    }
-    // Each is cut down by itself, and every admissible variant is determinate.
-    if stops[0] != Stop::Exhausted {
-        let (determinate, admissible) = &mut counts;
-        determinate.raise(admissible);
-    }
+    let mut counts = counted(&search, &diagrams);
     if counts.0.only_total || counts.1.only_total {
         tell(Event::Note(
             "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given"
                 .to_owned(),
         ));
     }
-    let counted = counts.0.clone();
+    let of_all = counts.0.clone();
     if request.symmetry == Symmetry::OnePerOrbit {
         (counts, stops) = orbits((&search, twin.as_ref()), counts, stops, should_cancel)?;
     }
-    let poses = match request.poses {
-        0 if request.generic_only => POSES,
-        n => n,
-    };
-    let stroke = (poses > 0)
-        .then(|| other_poses::stroke(&search, poses, request.seed, should_cancel))
-        .transpose()?;
-    if stroke.as_ref().is_some_and(|s| s.reached() == 0) && !should_cancel() {
-        tell(Event::Note(format!(
-            "warning: no other pose of {} could be reached: it has no motion to follow from this one",
-            search.mechanism.name
-        )));
-    }
-    let ranking = match request.ranking(&search.mechanism)? {
-        None => None,
-        Some(by) => ranked(&search, &diagrams, (request, &by), should_cancel).map_err(|why| {
-            let mechanism = search.mechanism.name.clone();
-            RunError::Score { mechanism, why }
-        })?,
-    };
-    if ranking.is_some()
-        && search
-            .mechanism
-            .loads
-            .drive_speeds
-            .iter()
-            .any(|s| *s != 0.0)
-    {
-        tell(Event::Note(
-            "note: variants are ranked at rest, without the inertia forces of drive_speed; `ozols statics --spatial` has them for one that is exported"
-                .to_owned(),
-        ));
-    }
-    let mut second = second_opinion((&search, &diagrams), &counted, ranking.as_ref(), request)?;
+    let stroke = in_other_poses(&search, request, should_cancel, tell)?;
+    let ranking = pool(&search, &diagrams, request, should_cancel, tell)?;
+    let mut second = second_opinion(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
     if let Some(second) = &mut second {
-        let all = (&counted, &search.counts(&diagrams.admissible, true));
+        let all = (&of_all, &search.counts(&diagrams.admissible, true));
         second.scenes = other_scenes(&search, all, should_cancel)?;
     }
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
@@ -262,9 +190,122 @@ pub fn answer(
     })
 }
 
+/// Every variant looked at.
+fn by_brute_force(
+    search: Search,
+    request: &Request,
+    measured: Option<LooksRounded>,
+) -> Result<Outcome, RunError> {
+    if search.size() > BRUTE_LIMIT.into() {
+        return Err(RunError::TooMany(search.size()));
+    }
+    let counts = brute::brute(&search)?;
+    Ok(Outcome::of_counts(
+        search,
+        request.clone(),
+        counts,
+        measured,
+    ))
+}
+
+/// The diagrams, built over one prime or over two that must agree.
+fn built(
+    search: &Search,
+    twin: Option<&Search>,
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<(Diagrams, Option<PrimeCheck>), RunError> {
+    let progress = &mut |p| tell(Event::Building(p));
+    let Some(twin) = twin else {
+        return Ok((search.build(should_cancel, progress), None));
+    };
+    let both: [&Question; 2] = [search, twin];
+    let (first, second) = second_prime::build_both(both, should_cancel, progress);
+    let compared = match request.list {
+        List::Top(k) => k,
+        List::All | List::Sample(_) | List::Nothing => COMPARED,
+    };
+    let verdict = second_prime::compare(both, [&first, &second], compared)?;
+    let primes = second_prime::primes(both);
+    Ok((first, Some(PrimeCheck { primes, verdict })))
+}
+
+/// How many variants are determinate, and how many admissible.
+fn counted(search: &Search, diagrams: &Diagrams) -> (Counts, Counts) {
+    let mut counts = (
+        search.counts(&diagrams.determinate, false),
+        search.counts(&diagrams.admissible, true),
+    );
+    // What is cut down elsewhere may have none of the cheapest.
+    if let Some(best) = &diagrams.cheapest {
+        let known = search.counts(&best.diagram, true);
+        for few in [&mut counts.0, &mut counts.1] {
+            if few.total < known.total {
+                few.clone_from(&known);
+            }
+        }
+    }
+    // Each is cut down by itself, and every admissible variant is determinate.
+    if diagrams.determinate.stop != Stop::Exhausted {
+        let (determinate, admissible) = &mut counts;
+        determinate.raise(admissible);
+    }
+    counts
+}
+
+/// Other poses to look at variants in, where that is asked for.
+fn in_other_poses(
+    search: &Search,
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Option<other_poses::Stroke>, RunError> {
+    let poses = match request.poses {
+        0 if request.generic_only => POSES,
+        n => n,
+    };
+    let stroke = (poses > 0)
+        .then(|| other_poses::stroke(search, poses, request.seed, should_cancel))
+        .transpose()?;
+    if stroke.as_ref().is_some_and(|s| s.reached() == 0) && !should_cancel() {
+        tell(Event::Note(format!(
+            "warning: no other pose of {} could be reached: it has no motion to follow from this one",
+            search.mechanism.name
+        )));
+    }
+    Ok(stroke)
+}
+
+/// The cheapest variants in the order of a ranking, where one is asked for.
+fn pool(
+    search: &Search,
+    diagrams: &Diagrams,
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Option<RankedPool>, RunError> {
+    let Some(by) = request.ranking(&search.mechanism)? else {
+        return Ok(None);
+    };
+    let pool = ranked(search, diagrams, (request, &by), should_cancel).map_err(|why| {
+        let mechanism = search.mechanism.name.clone();
+        RunError::Score { mechanism, why }
+    })?;
+    let mut speeds = search.mechanism.loads.drive_speeds.iter();
+    if pool.is_some() && speeds.any(|s| *s != 0.0) {
+        tell(Event::Note(
+            "note: variants are ranked at rest, without the inertia forces of drive_speed; `ozols statics --spatial` has them for one that is exported"
+                .to_owned(),
+        ));
+    }
+    Ok(pool)
+}
+
 /// What singular values say of the counts, of the variants that are listed and of a sample, where coordinates look rounded.
 fn second_opinion(
-    (search, diagrams): (&Search, &Diagrams),
+    search: &Search,
+    diagrams: &Diagrams,
     determinate: &Counts,
     ranking: Option<&RankedPool>,
     request: &Request,

@@ -3,6 +3,7 @@
 pub mod conditions;
 #[cfg(feature = "cli")]
 pub mod costs;
+mod counts;
 pub mod csv;
 pub mod data;
 pub(in crate::view) mod ideas;

@@ -3,38 +3,30 @@
 use crate::format::number::grouped;
 use crate::format::phrase::{plural, plural_of};
 use crate::robots::is_description;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
+use crate::score::outcome::{Outcome, WhyNone};
 use crate::score::request::{List, Request};
-use crate::search::answer::why_none::{Hopeless, Relaxation};
-use crate::search::check::second_prime::Verdict;
+use crate::search::answer::why_none::Relaxation;
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
-use crate::view::search::conditions::{hopeless, in_state};
+use crate::view::search::conditions::hopeless;
+use crate::view::search::counts::counts;
 use crate::view::search::data::condition;
 use crate::view::search::ideas;
-use crate::view::search::numeric;
 use crate::view::search::ranking;
-use crate::view::search::second_opinion;
 use crate::view::search::stopped_early;
 use crate::view::search::table::{contours, variants};
 use crate::view::search::why;
-use crate::view::terminal::layout::{fit, table};
+use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, NextCommand, file_name};
 use itertools::Itertools;
-use num_bigint::BigUint;
 use num_traits::Zero;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 use std::io;
 
-/// Rows of mobilities told at most; JSON and the page have them all.
-const MOBILITIES: usize = 12;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none, and why there can be none. `file` is
-/// the argument that named the mechanism.
+/// Writes an outcome with its variants as they come, and what to do next; `none` is told where there is none. `file` is the argument that named the mechanism.
 ///
 /// # Errors
 /// Those of the writer.
@@ -42,13 +34,12 @@ pub fn write(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
-    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
+    none: &WhyNone,
     file: &str,
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
-    let helps = why.least_redundant.and_then(|_| outcome.would_help());
-    let why = hopeless(&outcome.search.mechanism, why);
+    let why = hopeless(&outcome.search.mechanism, &none.hopeless);
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = match &outcome.ranking {
@@ -103,159 +94,14 @@ pub fn write(
     let steps = if outcome.request.generic_only || undecided {
         Vec::new()
     } else {
-        next(
-            outcome,
-            (if sample { 0 } else { summary.given }, changed),
-            (eased, helps),
-            file,
-        )
+        let given = if sample { 0 } else { summary.given };
+        if given > 0 {
+            next_of_some(outcome, changed, file)
+        } else {
+            next_of_none(outcome, none, file)
+        }
     };
     write!(out, "{}", next_commands::text(&steps, width))
-}
-
-/// The verdict, how it was checked, and the counts by mobility.
-#[must_use]
-fn counts(outcome: &Outcome, width: Option<u16>) -> String {
-    let mut out = String::new();
-    let big = |n: &BigUint| grouped(&n.to_string());
-    let at_least = |exact: bool| if exact { "" } else { "at least " };
-    let least = at_least(outcome.is_counted());
-    let conditions = &outcome.search.conditions;
-    let condition = if conditions.max_redundant == 0 {
-        "σ = 0".to_owned()
-    } else {
-        format!("σ ≤ {}", conditions.max_redundant)
-    };
-    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
-    let more = [
-        conditions
-            .keep_output
-            .then_some("keep the output motion".to_owned()),
-        conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
-        conditions
-            .max_changes
-            .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
-    ];
-    let told = in_state(&outcome.search, false);
-    let more = more.into_iter().flatten().chain(told).collect_vec();
-    let all = match more.split_last() {
-        None => format!("have {condition}"),
-        Some((last, rest)) => {
-            let head = std::iter::once(format!("have {condition}")).chain(rest.iter().cloned());
-            format!("{} and {last}", head.collect_vec().join(", "))
-        }
-    };
-    let good = if let Some(found) = &outcome.numeric {
-        format!("numeric: {}", numeric::from_to(&found.admissible))
-    } else if outcome.admissible.total.is_zero() && least.is_empty() {
-        "none".to_owned()
-    } else if !outcome.is_confirmed() {
-        format!("not exact: {least}{}", big(&outcome.admissible.total))
-    } else {
-        format!("{least}{}", big(&outcome.admissible.total))
-    };
-    // Writing to a string cannot fail.
-    let of = plural_of(&big(&size), "variant");
-    let _ = writeln!(out, "{mechanism}: {good} of {of} {all}");
-    if size == BigUint::from(1u8) {
-        let _ = writeln!(
-            out,
-            "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
-             [\"cylindrical\", \"spherical\"]"
-        );
-    }
-    if !more.is_empty() {
-        let determinate = match &outcome.numeric {
-            Some(found) => numeric::from_to(&found.determinate),
-            None => {
-                at_least(outcome.is_determinate_counted()).to_owned()
-                    + &big(&outcome.determinate.total)
-            }
-        };
-        let _ = writeln!(
-            out,
-            "  {determinate} with {condition}, whatever else they do"
-        );
-    }
-    let minimal = ideas::minimal(outcome).into_iter();
-    let lines = minimal.chain(numeric::lines(outcome));
-    for line in lines.chain(second_opinion::lines(outcome)) {
-        let _ = writeln!(out, "  {line}");
-    }
-    // Two primes that agree on rounded digits prove nothing.
-    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
-        let _ = match check.verdict {
-            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
-            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
-        };
-    }
-    let cut_short = outcome
-        .numeric
-        .is_none()
-        .then(|| stopped_early::stopped(outcome));
-    for line in cut_short
-        .flatten()
-        .into_iter()
-        .chain(stopped_early::estimated(outcome))
-    {
-        let _ = writeln!(out, "  {line}");
-    }
-    let exact = outcome.determinate.by_mobility.keys();
-    let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();
-    let mobilities: BTreeSet<i64> = match &outcome.numeric {
-        Some(found) => numeric::mobilities(found),
-        None => exact.collect(),
-    };
-    // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
-    let may = |w: &i64| {
-        let found = outcome.numeric.as_ref();
-        found.is_some_and(|f| f.admissible.doubtful.by_mobility.contains_key(w))
-    };
-    let (shown, rest): (Vec<i64>, Vec<i64>) = mobilities.iter().partition(|w| {
-        outcome.admissible.total.is_zero()
-            || outcome.admissible.by_mobility.contains_key(w)
-            || may(w)
-    });
-    let row = |name: String, of: &[i64]| {
-        let sum =
-            |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
-        let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
-        if let Some(found) = &outcome.numeric {
-            let of = |b| numeric::by_mobility(b, of);
-            return vec![name, of(&found.determinate), of(&found.admissible)];
-        }
-        vec![
-            name,
-            sum(&determinate.by_mobility),
-            sum(&admissible.by_mobility),
-        ]
-    };
-    // Long tables are of robots with many joints; the least mobilities are those that let the least move idly.
-    let told = if shown.len() > MOBILITIES {
-        MOBILITIES - 1
-    } else {
-        shown.len()
-    };
-    let (told, folded) = shown.split_at(told);
-    let each = told.iter().map(|w| row(w.to_string(), &[*w]));
-    let folded = match folded {
-        [least, .., most] => Some(row(format!("{least} to {most}"), folded)),
-        _ => None,
-    };
-    let left_out = match (rest.first(), rest.last()) {
-        (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
-        (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
-        _ => None,
-    };
-    let rows = each.chain(folded).chain(left_out);
-    if !mobilities.is_empty() {
-        let _ = writeln!(
-            out,
-            "\n{}",
-            table(&["W", &condition, "admissible"], rows.collect(), width)
-        );
-    }
-    fit(&out, width)
 }
 
 /// The footnote of a marked variant.
@@ -336,57 +182,59 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
-fn next(
-    outcome: &Outcome,
-    (given, changed): (usize, bool),
-    (eased, helps): (&[(Relaxation, BigUint)], Option<Request>),
-    file: &str,
-) -> Vec<NextCommand> {
-    // `--idea` says that ideas are meant.
+fn next_of_some(outcome: &Outcome, changed: bool, file: &str) -> Vec<NextCommand> {
+    let flags = &flags(outcome);
+    let number = outcome.request.one();
+    let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
+    let mechanism = &outcome.search.mechanism.name;
+    let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
+    let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
+    // Whose first variant changes nothing has nothing to mend.
+    let own = (changed && is_description(file)).then(|| {
+        NextCommand::mend(
+            file,
+            &joined(&format!("--{number} 1")),
+            "the first of the list in your own file",
+        )
+    });
+    let steps = [
+        NextCommand::new(
+            "draw",
+            file,
+            &joined(&format!("--{number} 1 -o {svg}")),
+            "the first of the list, its changes in colour",
+        ),
+        NextCommand::new(
+            "export",
+            file,
+            &joined(&format!("--{number} 1 --to toml -o {toml}")),
+            "the first of the list as a mechanism file of its own",
+        ),
+    ];
+    own.into_iter().chain(steps).collect()
+}
+
+/// The options that a search was asked with. `--idea` says that ideas are meant.
+fn flags(outcome: &Outcome) -> String {
     let request = Request {
         distinct: false,
         ..outcome.request.clone()
     };
-    let flags = &next_commands::flags(&outcome.search.mechanism, &request);
-    let number = outcome.request.one();
-    let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
-    let mechanism = &outcome.search.mechanism.name;
-    if given > 0 {
-        let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
-        let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
-        // Whose first variant changes nothing has nothing to mend.
-        let own = (changed && is_description(file)).then(|| {
-            NextCommand::mend(
-                file,
-                &joined(&format!("--{number} 1")),
-                "the first of the list in your own file",
-            )
-        });
-        let steps = [
-            NextCommand::new(
-                "draw",
-                file,
-                &joined(&format!("--{number} 1 -o {svg}")),
-                "the first of the list, its changes in colour",
-            ),
-            NextCommand::new(
-                "export",
-                file,
-                &joined(&format!("--{number} 1 --to toml -o {toml}")),
-                "the first of the list as a mechanism file of its own",
-            ),
-        ];
-        return own.into_iter().chain(steps).collect();
-    }
+    next_commands::flags(&outcome.search.mechanism, &request)
+}
+
+/// What to do next where no variant is given: ask for some, or ease a condition.
+fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextCommand> {
+    let flags = &flags(outcome);
     if !outcome.admissible.total.is_zero() {
         return vec![NextCommand::new(
             "search",
             file,
-            &joined("--top 10"),
+            format!("{flags} --top 10").trim(),
             "the cheapest of them",
         )];
     }
-    let steps = eased.iter().map(|(how, n)| {
+    let steps = none.eased.iter().map(|(how, n)| {
         let (condition, to) = condition(*how);
         let name = format!("--{condition}");
         let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
@@ -400,7 +248,8 @@ fn next(
         let kept = without(flags, &name);
         NextCommand::new("search", file, format!("{kept} {flag}").trim(), &least)
     });
-    let options = match helps {
+    let some = none.hopeless.least_redundant;
+    let options = match some.and_then(|_| outcome.would_help()) {
         Some(wider) => NextCommand::new(
             "search",
             file,

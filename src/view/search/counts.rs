@@ -1,0 +1,180 @@
+//! The head of a search for people: how many variants there are, how that was checked, and their mobilities.
+
+use crate::format::number::grouped;
+use crate::format::phrase::{plural, plural_of};
+use crate::score::outcome::Outcome;
+use crate::search::check::second_prime::Verdict;
+use crate::view::search::conditions::in_state;
+use crate::view::search::ideas;
+use crate::view::search::numeric;
+use crate::view::search::second_opinion;
+use crate::view::search::stopped_early;
+use crate::view::terminal::layout::{fit, table};
+use itertools::Itertools;
+use num_bigint::BigUint;
+use num_traits::Zero;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+/// Rows of mobilities told at most; JSON and the page have them all.
+const MOBILITIES: usize = 12;
+
+/// The verdict, how it was checked, and the counts by mobility.
+pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
+    let mut out = verdict(outcome);
+    let minimal = ideas::minimal(outcome).into_iter();
+    let lines = minimal.chain(numeric::lines(outcome));
+    // Writing to a string cannot fail.
+    for line in lines.chain(second_opinion::lines(outcome)) {
+        let _ = writeln!(out, "  {line}");
+    }
+    // Two primes that agree on rounded digits prove nothing.
+    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
+        let _ = match check.verdict {
+            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
+            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
+        };
+    }
+    let exact = outcome.numeric.is_none();
+    let cut_short = exact.then(|| stopped_early::stopped(outcome)).flatten();
+    for line in cut_short
+        .into_iter()
+        .chain(stopped_early::estimated(outcome))
+    {
+        let _ = writeln!(out, "  {line}");
+    }
+    out += &by_mobility(outcome, width);
+    fit(&out, width)
+}
+
+fn big(n: &BigUint) -> String {
+    grouped(&n.to_string())
+}
+
+fn at_least(exact: bool) -> &'static str {
+    if exact { "" } else { "at least " }
+}
+
+/// "σ = 0", or the redundant constraints that are allowed.
+fn condition(outcome: &Outcome) -> String {
+    match outcome.search.conditions.max_redundant {
+        0 => "σ = 0".to_owned(),
+        most => format!("σ ≤ {most}"),
+    }
+}
+
+/// How many variants do all that is asked, and how many are determinate whatever else they do.
+fn verdict(outcome: &Outcome) -> String {
+    let mut out = String::new();
+    let least = at_least(outcome.is_counted());
+    let (conditions, condition) = (&outcome.search.conditions, condition(outcome));
+    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
+    let more = [
+        conditions
+            .keep_output
+            .then_some("keep the output motion".to_owned()),
+        conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
+        conditions
+            .max_changes
+            .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
+    ];
+    let told = in_state(&outcome.search, false);
+    let more = more.into_iter().flatten().chain(told).collect_vec();
+    let all = match more.split_last() {
+        None => format!("have {condition}"),
+        Some((last, rest)) => {
+            let head = std::iter::once(format!("have {condition}")).chain(rest.iter().cloned());
+            format!("{} and {last}", head.collect_vec().join(", "))
+        }
+    };
+    let good = if let Some(found) = &outcome.numeric {
+        format!("numeric: {}", numeric::from_to(&found.admissible))
+    } else if outcome.admissible.total.is_zero() && least.is_empty() {
+        "none".to_owned()
+    } else if !outcome.is_confirmed() {
+        format!("not exact: {least}{}", big(&outcome.admissible.total))
+    } else {
+        format!("{least}{}", big(&outcome.admissible.total))
+    };
+    // Writing to a string cannot fail.
+    let of = plural_of(&big(&size), "variant");
+    let _ = writeln!(out, "{mechanism}: {good} of {of} {all}");
+    if size == BigUint::from(1u8) {
+        let _ = writeln!(
+            out,
+            "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
+             [\"cylindrical\", \"spherical\"]"
+        );
+    }
+    if !more.is_empty() {
+        let determinate = match &outcome.numeric {
+            Some(found) => numeric::from_to(&found.determinate),
+            None => {
+                at_least(outcome.is_determinate_counted()).to_owned()
+                    + &big(&outcome.determinate.total)
+            }
+        };
+        let _ = writeln!(
+            out,
+            "  {determinate} with {condition}, whatever else they do"
+        );
+    }
+    out
+}
+
+/// The counts by mobility; nothing where there are none.
+fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
+    let exact = outcome.determinate.by_mobility.keys();
+    let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();
+    let mobilities: BTreeSet<i64> = match &outcome.numeric {
+        Some(found) => numeric::mobilities(found),
+        None => exact.collect(),
+    };
+    if mobilities.is_empty() {
+        return String::new();
+    }
+    // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
+    let may = |w: &i64| {
+        let found = outcome.numeric.as_ref();
+        found.is_some_and(|f| f.admissible.doubtful.by_mobility.contains_key(w))
+    };
+    let (shown, rest): (Vec<i64>, Vec<i64>) = mobilities.iter().partition(|w| {
+        outcome.admissible.total.is_zero()
+            || outcome.admissible.by_mobility.contains_key(w)
+            || may(w)
+    });
+    let row = |name: String, of: &[i64]| {
+        let sum =
+            |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
+        let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
+        if let Some(found) = &outcome.numeric {
+            let of = |b| numeric::by_mobility(b, of);
+            return vec![name, of(&found.determinate), of(&found.admissible)];
+        }
+        vec![
+            name,
+            sum(&determinate.by_mobility),
+            sum(&admissible.by_mobility),
+        ]
+    };
+    // Long tables are of robots with many joints; the least mobilities are those that let the least move idly.
+    let told = if shown.len() > MOBILITIES {
+        MOBILITIES - 1
+    } else {
+        shown.len()
+    };
+    let (told, folded) = shown.split_at(told);
+    let each = told.iter().map(|w| row(w.to_string(), &[*w]));
+    let folded = match folded {
+        [least, .., most] => Some(row(format!("{least} to {most}"), folded)),
+        _ => None,
+    };
+    let left_out = match (rest.first(), rest.last()) {
+        (Some(least), Some(most)) if least == most => Some(row(least.to_string(), &rest)),
+        (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
+        _ => None,
+    };
+    let rows = each.chain(folded).chain(left_out).collect();
+    let heads = ["W", &condition(outcome), "admissible"];
+    format!("\n{}\n", table(&heads, rows, width))
+}
