@@ -1,39 +1,36 @@
 //! From a mechanism and a request to the outcome: conditions, diagrams, the twin over a second prime, counts, orbits,
 //! poses and the ranking.
 
-use crate::geom::exact::ExactError;
+mod error;
+mod opinions;
+
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::exact_field;
-use crate::score::evaluation::evaluate::ScoreError;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::ranked::ranked;
 use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
+use crate::score::run::opinions::{other_scenes, second_opinion};
 use crate::search::Search;
 use crate::search::answer::counts::Counts;
-use crate::search::answer::k_best::Assignment;
 use crate::search::answer::orbit_counts;
 use crate::search::build::Diagrams;
 use crate::search::check::brute;
 use crate::search::check::other_poses;
-use crate::search::check::second_opinion::{self, DRAWN, SecondOpinion};
-use crate::search::check::second_prime::{self, Disagreement, PrimeCheck};
-use crate::search::check::singular_values::CHECKED;
+use crate::search::check::second_prime::{self, PrimeCheck};
 use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
-use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
+use crate::search::question::conditions::{Conditions, Symmetry};
 use crate::search::question::rounded_rank::Digits;
-use num_bigint::BigUint;
 use std::sync::Arc;
-use thiserror::Error;
+
+pub use error::RunError;
 
 /// Poses looked at where only generic variants are wanted and the number of poses is not given.
 const POSES: usize = 3;
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
-/// Of so many ideas the first variants get a second opinion.
-const IDEAS: usize = 100;
 /// How many of the best both primes must agree on where no number of them is asked for.
 const COMPARED: usize = 10;
 
@@ -52,35 +49,6 @@ pub enum Event {
 pub type Tell<'a> = &'a mut (dyn FnMut(Event) + Send);
 /// Says whether to end early.
 pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
-
-/// Why a search has no outcome.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RunError {
-    /// The request does not suit the mechanism.
-    #[error(transparent)]
-    Request(#[from] RequestError),
-    /// The geometry has no image in a prime field.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
-    /// The search could not be made.
-    #[error(transparent)]
-    Search(#[from] SearchError),
-    /// Two primes give different answers.
-    #[error(transparent)]
-    Disagreement(#[from] Box<Disagreement>),
-    /// The variants cannot be ranked.
-    #[error("cannot score variants of {mechanism}: {why}")]
-    Score {
-        /// Name of the mechanism.
-        mechanism: String,
-        /// Why not.
-        why: ScoreError,
-    },
-    /// Too many variants to look at each.
-    #[error("{0} variants are too many for brute force; use --method diagram, or fewer --options")]
-    TooMany(BigUint),
-}
 
 /// Searches a mechanism.
 ///
@@ -300,85 +268,6 @@ fn pool(
         ));
     }
     Ok(pool)
-}
-
-/// What singular values say of the counts, of the variants that are listed and of a sample, where coordinates look rounded.
-fn second_opinion(
-    search: &Search,
-    diagrams: &Diagrams,
-    determinate: &Counts,
-    ranking: Option<&RankedPool>,
-    request: &Request,
-) -> Result<Option<SecondOpinion>, RunError> {
-    let Some(written) = &search.conditions.written else {
-        return Ok(None);
-    };
-    let mut listed: Vec<Assignment> = match (ranking, request.list) {
-        (Some(r), _) => r
-            .list
-            .iter()
-            .map(|r| r.variant.clone())
-            .take(CHECKED)
-            .collect(),
-        (_, List::Top(k)) => search.cheapest(diagrams, k.min(CHECKED)).collect(),
-        (_, List::All) => search.cheapest(diagrams, CHECKED).collect(),
-        (_, List::Sample(n)) => {
-            let drawn = search.sample(diagrams, request.seed);
-            drawn.take(n.min(CHECKED)).collect()
-        }
-        (_, List::Nothing) => Vec::new(),
-    };
-    // People are given the first of each idea.
-    if let (None, List::Top(k @ 1..=IDEAS)) = (ranking, request.list) {
-        listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
-    }
-    let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
-    let said = second_opinion::second_opinion(
-        search,
-        written,
-        (listed, drawn),
-        determinate,
-        request.seed,
-    )?;
-    Ok(Some(said))
-}
-
-/// The least and the most (determinate, admissible) over the scenes that the digits do not rule out; none where all are the
-/// same, by mobility too.
-fn other_scenes(
-    search: &Search,
-    (determinate, admissible): (&Counts, &Counts),
-    should_cancel: ShouldCancel<'_>,
-) -> Result<Option<[(BigUint, BigUint); 2]>, RunError> {
-    let scenes = search.conditions.written.iter().flat_map(|w| &w.others);
-    let own = (determinate.total.clone(), admissible.total.clone());
-    let (mut range, mut differ) = ([own.clone(), own], false);
-    for scene in scenes {
-        let field = exact_field(scene, 0)?;
-        let mut conditions = search.conditions.clone();
-        conditions.estimate = None;
-        let other = Search::new(field, scene.clone(), conditions)?;
-        let built = other.build(should_cancel, &mut |_| {});
-        let found = (
-            other.counts(&built.determinate, false),
-            other.counts(&built.admissible, true),
-        );
-        differ |= found.0.by_mobility != determinate.by_mobility
-            || found.1.by_mobility != admissible.by_mobility;
-        let [least, most] = &mut range;
-        for (total, least, most) in [
-            (found.0.total, &mut least.0, &mut most.0),
-            (found.1.total, &mut least.1, &mut most.1),
-        ] {
-            if total < *least {
-                least.clone_from(&total);
-            }
-            if total > *most {
-                *most = total;
-            }
-        }
-    }
-    Ok(differ.then_some(range))
 }
 
 /// The search of the mechanism as its file writes it, for singular values.
