@@ -51,6 +51,12 @@ impl Terms {
     }
 
     /// The term that a word or sign stands for; case, hyphens and apostrophes do not matter.
+    ///
+    /// # Examples
+    /// ```
+    /// let terms = ozols::terms::Terms::builtin();
+    /// assert!(terms.find("mobility").is_some());
+    /// ```
     #[must_use]
     pub fn find(&self, word: &str) -> Option<&GlossaryTerm> {
         let word = fold(word);

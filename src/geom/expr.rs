@@ -67,6 +67,12 @@ impl Expr {
 
     /// The nearest double, right to the last bit or nearly so even after cancellation; values that vanish to all 256
     /// bits give 0, and those beyond the range of `f64` an infinity. O(1).
+    ///
+    /// # Examples
+    /// ```
+    /// let x: ozols::geom::expr::Expr = "sqrt(3)/2".parse().unwrap();
+    /// assert!((x.to_f64() - 0.866_025_4).abs() < 1e-7);
+    /// ```
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         self.0.enclosure.to_f64()

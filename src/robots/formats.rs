@@ -148,6 +148,13 @@ pub fn written() -> impl Iterator<Item = &'static Format> {
 ///
 /// # Errors
 /// Where there is no such format, or it cannot say what the mechanism has.
+///
+/// # Examples
+/// ```
+/// let m = ozols::Mechanism::builtin("four-bar").unwrap();
+/// let graph = ozols::robots::formats::write(&m, "dot").unwrap();
+/// assert!(graph.contains("graph"));
+/// ```
 pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
     Ok(export(m, word)?.text)
 }
