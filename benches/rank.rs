@@ -19,7 +19,7 @@ use itertools::Itertools;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{ToPrimitive, Zero};
-use ozols::accuracy::lattice::{self, Kind};
+use ozols::accuracy::lattice::{self, LatticeKind};
 use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
@@ -156,7 +156,8 @@ impl Case {
 
 fn cases(sizes: &[usize]) -> impl Iterator<Item = Case> + '_ {
     let of = |k: usize| {
-        Kind::ALL.map(|kind| Case::new(format!("{kind:?} {k}"), &lattice::mechanism(kind, k)))
+        LatticeKind::ALL
+            .map(|kind| Case::new(format!("{kind:?} {k}"), &lattice::mechanism(kind, k)))
     };
     sizes.iter().flat_map(move |&k| of(k))
 }
@@ -236,7 +237,7 @@ fn ratios() {
         }
     }
     println!("\n== growth: time of the rank contour by contour, for each contour ==");
-    for kind in Kind::ALL {
+    for kind in LatticeKind::ALL {
         print!("{kind:?}");
         for k in [10, 25, 50, 100, 200, 400] {
             let m = lattice::mechanism(kind, k);
@@ -312,7 +313,7 @@ fn methods(c: &mut Criterion) {
 
 fn analysis(c: &mut Criterion) {
     let mut group = c.benchmark_group("whole analysis");
-    for (kind, k) in Kind::ALL.into_iter().cartesian_product([50, 200]) {
+    for (kind, k) in LatticeKind::ALL.into_iter().cartesian_product([50, 200]) {
         let m = lattice::mechanism(kind, k);
         group.bench_function(format!("{kind:?} {k}"), |b| {
             b.iter(|| analyse(&m, &[StateId::FREE], Method::Modular))

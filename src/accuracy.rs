@@ -28,7 +28,7 @@ pub struct Truth {
 
 /// What an answer is worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum AnswerVerdict {
     /// The finite mobility.
     Right,
     /// The mobility at the pose, which is all the method speaks of, but not the finite one; by how much.
@@ -41,25 +41,25 @@ pub enum Verdict {
     Silent,
 }
 
-impl Verdict {
+impl AnswerVerdict {
     /// The verdict on an answer.
     #[must_use]
-    pub fn on(answer: &Result<Answer, NoAnswer>, truth: Truth) -> Verdict {
+    pub fn on(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
         match answer {
-            Ok(a) if a.mobility == truth.finite => Verdict::Right,
+            Ok(a) if a.mobility == truth.finite => AnswerVerdict::Right,
             Ok(a) if a.quantity == Quantity::Instantaneous && a.mobility == truth.instantaneous => {
-                Verdict::Pose(a.mobility - truth.finite)
+                AnswerVerdict::Pose(a.mobility - truth.finite)
             }
-            Ok(a) => Verdict::Wrong(a.mobility - truth.finite),
-            Err(NoAnswer::Failed(_)) => Verdict::Failed,
-            Err(_) => Verdict::Silent,
+            Ok(a) => AnswerVerdict::Wrong(a.mobility - truth.finite),
+            Err(NoAnswer::Failed(_)) => AnswerVerdict::Failed,
+            Err(_) => AnswerVerdict::Silent,
         }
     }
 
     /// Whether the answer is the one the method promises: the finite mobility, or the one at the pose where that is what
     /// it speaks of.
     #[must_use]
-    pub fn keeps_promise(answer: &Result<Answer, NoAnswer>, truth: Truth) -> bool {
+    pub(crate) fn keeps_promise(answer: &Result<Answer, NoAnswer>, truth: Truth) -> bool {
         answer.as_ref().is_ok_and(|a| match a.quantity {
             Quantity::Instantaneous => a.mobility == truth.instantaneous,
             Quantity::Count | Quantity::Finite => a.mobility == truth.finite,
@@ -70,11 +70,11 @@ impl Verdict {
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
-            Verdict::Right => "right",
-            Verdict::Pose(_) => "right at the pose",
-            Verdict::Wrong(_) => "wrong",
-            Verdict::Failed => "failed",
-            Verdict::Silent => "does not apply",
+            AnswerVerdict::Right => "right",
+            AnswerVerdict::Pose(_) => "right at the pose",
+            AnswerVerdict::Wrong(_) => "wrong",
+            AnswerVerdict::Failed => "failed",
+            AnswerVerdict::Silent => "does not apply",
         }
     }
 }

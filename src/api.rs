@@ -210,6 +210,13 @@ pub fn search(mechanism: &Mechanism, request: &Request) -> Result<Outcome, Error
 ///
 /// # Errors
 /// Where there is no such format, or it has no such joint.
+///
+/// # Examples
+/// ```
+/// let m = ozols::Mechanism::builtin("four-bar")?;
+/// assert!(ozols::export(&m, "urdf")?.contains("<robot"));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn export(mechanism: &Mechanism, format: &str) -> Result<String, Error> {
     Ok(formats::write(mechanism, format)?)
 }

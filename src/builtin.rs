@@ -42,6 +42,12 @@ pub fn names() -> Vec<&'static str> {
 }
 
 /// The file of a built-in mechanism.
+///
+/// # Examples
+/// ```
+/// assert!(ozols::builtin::text("four-bar").unwrap().contains("revolute"));
+/// assert!(ozols::builtin::text("perpetuum-mobile").is_none());
+/// ```
 #[must_use]
 pub fn text(name: &str) -> Option<&'static str> {
     files().find(|f| name_of(f) == Some(name))?.contents_utf8()

@@ -21,10 +21,12 @@ mod outline;
 mod page;
 mod polygons;
 
-pub use data::{Axis, Band, Bands, Cell, Chart, Contours, Kind, Matrix, Scale, Series, Style};
+pub use data::{
+    Axis, Band, Bands, Cell, Chart, Contours, Matrix, Scale, Series, Style, VerdictKind,
+};
 pub use outline::Outline;
 pub use page::page;
-pub use polygons::{Arrow, Pair, Panel, Polygons};
+pub use polygons::{Panel, PanelPair, PlanArrow, Polygons};
 
 mod style;
 #[cfg(test)]

@@ -15,7 +15,7 @@ mod subject;
 mod symbol;
 
 pub use crate::svg::plane::Rect;
-pub use kinematic::moving::{Moved, RATE, kinematic_along, kinematic_moving};
+pub use kinematic::moving::{Moved, kinematic_along, kinematic_moving};
 pub use kinematic::scene::{Scene, Shown, kinematic_scene};
 pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed, kinematic_with};
 

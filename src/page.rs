@@ -78,11 +78,13 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let drawn: Vec<Drawn<'_>> = m.state_ids().map(|s| Drawn::new(page, s)).collect();
     let (store, swaps) = symbols::store(&drawn);
     let search = match &page.redesigns {
-        Ok(r) if !r.variants.is_empty() => Some(variants::Found::new(page, r)?),
+        Ok(r) if !r.variants.is_empty() => Some(variants::FoundColumns::new(page, r)?),
         _ => None,
     };
     let ideas = page.ideas.as_ref().filter(|r| !r.variants.is_empty());
-    let ideas = ideas.map(|r| variants::Found::new(page, r)).transpose()?;
+    let ideas = ideas
+        .map(|r| variants::FoundColumns::new(page, r))
+        .transpose()?;
     let data = Data::new(page, &analysis, [search, ideas], swaps).script();
     let section = |n: usize, inside: Markup| {
         let (mark, head) = SECTIONS[n];

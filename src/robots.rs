@@ -19,10 +19,10 @@ mod urdf;
 mod warning;
 mod xml;
 
-pub use description::origin::{Origin, Place};
+pub use description::origin::{ElementPlace, Origin};
 pub use fix::fix;
 pub use formats::is_description;
 pub use import::{Imported, import};
 pub use options::{Options, Reader};
 pub use problem::ExportError;
-pub use warning::{Count, Kept, Note, Report};
+pub use warning::{CadCount, Kept, Note, Report};

@@ -29,12 +29,12 @@ pub struct Spec {
     /// Where it is looked at.
     pub sampling: Sampling,
     /// What is found out there.
-    pub asked: Asked,
+    pub asked: SweepRequest,
 }
 
 /// What is found out at each sample, beside mobility and redundant constraints of each state.
 #[derive(Debug, Clone)]
-pub struct Asked {
+pub struct SweepRequest {
     /// The search for redesigns, where there is to be one.
     pub search: Option<Request>,
     /// How many of the best redesigns are listed, beside all that share the first place.

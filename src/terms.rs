@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// A term of the field.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Term {
+pub struct GlossaryTerm {
     /// The word.
     pub name: String,
     /// Other words and signs for it.
@@ -21,7 +21,7 @@ pub struct Term {
     pub see: String,
 }
 
-impl Term {
+impl GlossaryTerm {
     /// The sentence that says what it is.
     #[must_use]
     pub fn first_sentence(&self) -> &str {
@@ -37,7 +37,7 @@ pub struct Terms {
     /// Publications by key.
     pub sources: BTreeMap<String, String>,
     /// The terms, by subject.
-    pub term: Vec<Term>,
+    pub term: Vec<GlossaryTerm>,
 }
 
 impl Terms {
@@ -51,8 +51,14 @@ impl Terms {
     }
 
     /// The term that a word or sign stands for; case, hyphens and apostrophes do not matter.
+    ///
+    /// # Examples
+    /// ```
+    /// let terms = ozols::terms::Terms::builtin();
+    /// assert!(terms.find("mobility").is_some());
+    /// ```
     #[must_use]
-    pub fn find(&self, word: &str) -> Option<&Term> {
+    pub fn find(&self, word: &str) -> Option<&GlossaryTerm> {
         let word = fold(word);
         let by_name = self.term.iter().find(|t| fold(&t.name) == word);
         by_name.or_else(|| {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 /// What to build.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum LatticeKind {
     /// Planar four-bars side by side on the frame, each driven by the one before: k contours, W = 1, σ = 3k.
     FourBars,
     /// A lazy tongs of k + 1 crossed pairs of bars: k contours, W = 1, σ = 3k.
@@ -15,15 +15,19 @@ pub enum Kind {
     Grid,
 }
 
-impl Kind {
+impl LatticeKind {
     /// All of them.
-    pub const ALL: [Kind; 3] = [Kind::FourBars, Kind::Scissors, Kind::Grid];
+    pub const ALL: [LatticeKind; 3] = [
+        LatticeKind::FourBars,
+        LatticeKind::Scissors,
+        LatticeKind::Grid,
+    ];
 }
 
-struct File(String);
+struct LatticeFile(String);
 
-impl File {
-    fn new(links: usize) -> File {
+impl LatticeFile {
+    fn new(links: usize) -> LatticeFile {
         let mut out = String::from("name = \"lattice\"\n");
         for l in 0..links {
             let role = match l {
@@ -33,7 +37,7 @@ impl File {
             };
             let _ = write!(out, "[[link]]\nid = \"{l}\"\n{role}");
         }
-        File(out)
+        LatticeFile(out)
     }
 
     fn joint(&mut self, ends: [usize; 2], kind: &str, point: [usize; 3], axis: [i32; 3]) {
@@ -55,12 +59,12 @@ impl File {
 /// # Panics
 /// Never: the text is valid.
 #[must_use]
-pub fn mechanism(kind: Kind, k: usize) -> Mechanism {
+pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
     let mut file;
     match kind {
-        Kind::FourBars => {
+        LatticeKind::FourBars => {
             // Cranks 1, 3, 5, ... and the couplers between them.
-            file = File::new(2 * k + 2);
+            file = LatticeFile::new(2 * k + 2);
             for i in 0..=k {
                 file.hinge([0, 2 * i + 1], 3 * i, i % 2);
             }
@@ -70,9 +74,9 @@ pub fn mechanism(kind: Kind, k: usize) -> Mechanism {
                 file.hinge([coupler, crank + 2], 3 * i + 3, 3 + i % 4);
             }
         }
-        Kind::Scissors => {
+        LatticeKind::Scissors => {
             // Bars 2i (rising) and 2i + 1 (falling) cross at (2i + 1, 1).
-            file = File::new(2 * k + 2);
+            file = LatticeFile::new(2 * k + 2);
             for i in 0..=k {
                 file.hinge([2 * i, 2 * i + 1], 2 * i + 1, 1);
             }
@@ -81,7 +85,7 @@ pub fn mechanism(kind: Kind, k: usize) -> Mechanism {
                 file.hinge([2 * i + 1, 2 * i + 2], 2 * i + 2, 0);
             }
         }
-        Kind::Grid => {
+        LatticeKind::Grid => {
             const TYPES: [&str; 6] = [
                 "revolute",
                 "universal",
@@ -92,7 +96,7 @@ pub fn mechanism(kind: Kind, k: usize) -> Mechanism {
             ];
             const AXES: [[i32; 3]; 5] = [[0, 0, 1], [1, 0, 0], [0, 0, 1], [0, 1, 0], [1, 2, -1]];
             let rows = k.div_ceil(3) + 1;
-            file = File::new(4 * rows);
+            file = LatticeFile::new(4 * rows);
             for l in 0..4 * rows {
                 let neighbours = [(l % 4 < 3, l + 1), (l / 4 + 1 < rows, l + 4)];
                 for (n, (_, to)) in neighbours

@@ -1,11 +1,11 @@
 //! The survey as pictures.
 
-use super::Verdict;
+use super::AnswerVerdict;
 use super::pareto::front;
-use super::survey::{Case, Reply, Standing, Survey};
+use super::survey::{Case, MethodRecord, Reply, Survey};
 use super::timing::{Machine, quantile};
 use super::tuned::Tuned;
-use crate::chart::{Axis, Bands, Cell, Chart, Kind, Matrix, Scale, Series, Style};
+use crate::chart::{Axis, Bands, Cell, Chart, Matrix, Scale, Series, Style, VerdictKind};
 use crate::format::number::{duration, scientific, signed};
 use crate::format::phrase::list;
 use crate::rank::method::MobilityMethod;
@@ -14,7 +14,7 @@ use crate::rank::method::registry;
 /// A method, at its default tolerance or at its best: its median time of an answer in seconds, and the share of all cases that
 /// it is right about.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place {
+pub struct MethodPlace {
     /// Its name.
     pub name: String,
     /// Seconds.
@@ -26,22 +26,22 @@ pub struct Place {
 /// Every method that applies to some case, the floating-point ones at their best tolerance too, which does not change their
 /// time.
 #[must_use]
-pub fn places(survey: &Survey) -> Vec<Place> {
-    let standings: Vec<Standing> = (0..registry::ALL.len())
+pub fn places(survey: &Survey) -> Vec<MethodPlace> {
+    let standings: Vec<MethodRecord> = (0..registry::ALL.len())
         .map(|m| survey.standing(m))
         .collect();
     let default = registry::ALL
         .iter()
         .zip(&standings)
         .filter(|(_, s)| s.applies > 0);
-    let default = default.map(|(m, s)| Place {
+    let default = default.map(|(m, s)| MethodPlace {
         name: m.name().to_owned(),
         seconds: s.seconds,
         share: s.share,
     });
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     let tuned = survey.tuned.iter().filter_map(|t| {
-        Some(Place {
+        Some(MethodPlace {
             name: tuned_name(t)?,
             seconds: standings[t.method].seconds,
             share: t.right as f64 / survey.cases.len().max(1) as f64,
@@ -52,7 +52,7 @@ pub fn places(survey: &Survey) -> Vec<Place> {
 
 /// The places that no other one beats in both share and time, the fastest first.
 #[must_use]
-pub fn pareto(places: &[Place]) -> Vec<&Place> {
+pub fn pareto(places: &[MethodPlace]) -> Vec<&MethodPlace> {
     let points: Vec<_> = places.iter().map(|p| (p.seconds, p.share)).collect();
     front(&points).into_iter().map(|i| &places[i]).collect()
 }
@@ -72,10 +72,10 @@ pub fn tuned_name(tuned: &Tuned) -> Option<String> {
 /// Share of right answers against median time of an answer; floating-point methods at their default tolerance, and at
 /// their best where that is another. The tolerance does not change their time.
 #[must_use]
-pub fn share_time(survey: &Survey, machine: &Machine) -> Chart {
+pub(crate) fn share_time(survey: &Survey, machine: &Machine) -> Chart {
     let places = places(survey);
     let front = pareto(&places);
-    let at = |p: &Place| (p.seconds, 100.0 * p.share);
+    let at = |p: &MethodPlace| (p.seconds, 100.0 * p.share);
     let mut steps: Vec<(f64, f64)> = front.iter().map(|p| at(p)).collect();
     let slowest = places.iter().map(|p| p.seconds).fold(0.0, f64::max);
     if let Some(&(_, share)) = steps.last() {
@@ -141,7 +141,12 @@ pub fn answers(survey: &Survey) -> Bands {
             right + pose + wrong,
             survey.cases.len(),
         ];
-        let kinds = [Kind::Good, Kind::Warn, Kind::Bad, Kind::None];
+        let kinds = [
+            VerdictKind::Good,
+            VerdictKind::Warn,
+            VerdictKind::Bad,
+            VerdictKind::None,
+        ];
         let bands = ends.windows(2).zip(kinds).filter(|(e, _)| e[0] < e[1]);
         bands
             .map(|(e, kind)| (e[0] as f64, e[1] as f64, kind))
@@ -190,7 +195,7 @@ pub fn tolerances(survey: &Survey) -> String {
     format!("Floating point is right most often with {}.", list(&all))
 }
 
-fn share_sentence(survey: &Survey, front: &[&Place]) -> String {
+fn share_sentence(survey: &Survey, front: &[&MethodPlace]) -> String {
     let cases = survey.cases.len();
     let standings = (0..registry::ALL.len()).map(|m| survey.standing(m));
     let all: Vec<String> = registry::ALL
@@ -222,11 +227,11 @@ pub fn matrix(survey: &Survey) -> Matrix {
     let rows = survey.cases.iter().map(Case::name).collect();
     let cell = |case: &Case, (method, reply): (&&dyn MobilityMethod, &Reply)| {
         let (text, kind) = match reply.verdict {
-            Verdict::Right => (String::new(), Kind::Good),
-            Verdict::Pose(by) => (signed(by), Kind::Warn),
-            Verdict::Wrong(by) => (signed(by), Kind::Bad),
-            Verdict::Failed => ("fails".to_owned(), Kind::Bad),
-            Verdict::Silent => ("n/a".to_owned(), Kind::None),
+            AnswerVerdict::Right => (String::new(), VerdictKind::Good),
+            AnswerVerdict::Pose(by) => (signed(by), VerdictKind::Warn),
+            AnswerVerdict::Wrong(by) => (signed(by), VerdictKind::Bad),
+            AnswerVerdict::Failed => ("fails".to_owned(), VerdictKind::Bad),
+            AnswerVerdict::Silent => ("n/a".to_owned(), VerdictKind::None),
         };
         Cell {
             text,
@@ -265,14 +270,14 @@ fn tooltip(case: &Case, method: &dyn MobilityMethod, reply: &Reply) -> String {
         )
     };
     match reply.verdict {
-        Verdict::Right => format!("{says}, right"),
-        Verdict::Pose(_) => format!("{says}; {is}: the method speaks of the pose alone"),
+        AnswerVerdict::Right => format!("{says}, right"),
+        AnswerVerdict::Pose(_) => format!("{says}; {is}: the method speaks of the pose alone"),
         _ => format!("{says}; {is}: {}", method.about().guarantee),
     }
 }
 
 fn matrix_sentence(survey: &Survey) -> String {
-    let total = |of: fn(&Verdict) -> bool| {
+    let total = |of: fn(&AnswerVerdict) -> bool| {
         survey
             .replies
             .iter()
@@ -281,8 +286,8 @@ fn matrix_sentence(survey: &Survey) -> String {
             .count()
     };
     let (wrong, pose) = (
-        total(|v| matches!(v, Verdict::Wrong(_) | Verdict::Failed)),
-        total(|v| matches!(v, Verdict::Pose(_))),
+        total(|v| matches!(v, AnswerVerdict::Wrong(_) | AnswerVerdict::Failed)),
+        total(|v| matches!(v, AnswerVerdict::Pose(_))),
     );
     format!(
         "{} cases by {} methods: a tick is the true finite mobility, a number by how much an answer is off; {wrong} \

@@ -12,7 +12,7 @@ pub mod record;
 pub mod search_method;
 pub mod table;
 
-pub use ground_truth::Effort;
+pub use ground_truth::TrialEffort;
 
 use super::timing::{Stopwatch, Timing};
 use crate::model::mechanism::Mechanism;
@@ -49,11 +49,11 @@ pub type Progress<'a> = &'a mut dyn FnMut(Way, usize, usize);
 /// As [`crate::score::run::run`].
 ///
 /// # Complexity
-/// Some searches, and six looks at each of [`Effort::looked`] variants.
+/// Some searches, and six looks at each of [`TrialEffort::looked`] variants.
 pub fn trial(
     mechanism: &Mechanism,
     request: &Request,
-    effort: Effort,
+    effort: TrialEffort,
     watch: Stopwatch,
     progress: Progress<'_>,
 ) -> Result<Trial, RunError> {

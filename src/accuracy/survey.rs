@@ -1,6 +1,6 @@
 //! Every method on every built-in mechanism.
 
-use super::Verdict;
+use super::AnswerVerdict;
 pub use super::cases::{Case, cases};
 use super::timing::{Stopwatch, Timing, quantile};
 use super::tuned::{Tuned, tuned};
@@ -18,14 +18,14 @@ pub struct Reply {
     /// The answer, or why there is none.
     pub answer: Result<Answer, NoAnswer>,
     /// What it is worth.
-    pub verdict: Verdict,
+    pub verdict: AnswerVerdict,
     /// Time from the parsed mechanism to the answer.
     pub time: Timing,
 }
 
 /// A method's record over all cases.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Standing {
+pub struct MethodRecord {
     /// Cases it answers.
     pub applies: usize,
     /// Cases in which it gives the finite mobility.
@@ -40,7 +40,7 @@ pub struct Standing {
     pub middle_half: [f64; 2],
 }
 
-impl Standing {
+impl MethodRecord {
     /// Cases it answers wrongly, for the pose too.
     #[must_use]
     pub fn wrong(&self) -> usize {
@@ -84,7 +84,7 @@ impl Survey {
         for (n, (case, answers)) in cases.iter().zip(answers).enumerate() {
             progress(n, cases.len());
             let reply = |(method, answer): (&&dyn MobilityMethod, _)| Reply {
-                verdict: Verdict::on(&answer, case.truth),
+                verdict: AnswerVerdict::on(&answer, case.truth),
                 answer,
                 time: watch
                     .time(|| black_box(*method).answer(&case.mechanism, case.state))
@@ -111,18 +111,18 @@ impl Survey {
     /// The record of the `m`th method.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    pub fn standing(&self, m: usize) -> Standing {
+    pub fn standing(&self, m: usize) -> MethodRecord {
         let count = |of: &dyn Fn(&Reply) -> bool| self.of_method(m).filter(|(_, r)| of(r)).count();
-        let right = count(&|r| r.verdict == Verdict::Right);
+        let right = count(&|r| r.verdict == AnswerVerdict::Right);
         let times: Vec<f64> = self
             .of_method(m)
-            .filter(|(_, r)| r.verdict != Verdict::Silent)
+            .filter(|(_, r)| r.verdict != AnswerVerdict::Silent)
             .map(|(_, r)| r.time.median)
             .collect();
-        Standing {
-            applies: count(&|r| r.verdict != Verdict::Silent),
+        MethodRecord {
+            applies: count(&|r| r.verdict != AnswerVerdict::Silent),
             right,
-            pose: count(&|r| matches!(r.verdict, Verdict::Pose(_))),
+            pose: count(&|r| matches!(r.verdict, AnswerVerdict::Pose(_))),
             share: right as f64 / self.cases.len().max(1) as f64,
             seconds: quantile(&times, 0.5),
             middle_half: [0.25, 0.75].map(|at| quantile(&times, at)),

@@ -1,6 +1,6 @@
 //! Every floating-point method at the tolerance at which it is right most often.
 
-use super::Verdict;
+use super::AnswerVerdict;
 use super::cases::Case;
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
@@ -37,9 +37,9 @@ pub fn tolerances(step: usize) -> Vec<f64> {
 
 /// How often each tolerance gives the finite mobility, and the mobility at the pose alone.
 fn tally(cases: &[Case], of: Elimination, tolerances: &[f64]) -> Vec<[usize; 2]> {
-    let verdicts = |case: &Case| -> Vec<Verdict> {
+    let verdicts = |case: &Case| -> Vec<AnswerVerdict> {
         let Ok(closure) = Closure::new(&Reals, &case.mechanism, case.state) else {
-            return vec![Verdict::Failed; tolerances.len()];
+            return vec![AnswerVerdict::Failed; tolerances.len()];
         };
         let found = of.mobilities(&closure, tolerances).into_iter();
         let verdict = |w: Option<i64>| {
@@ -49,16 +49,16 @@ fn tally(cases: &[Case], of: Elimination, tolerances: &[f64]) -> Vec<[usize; 2]>
                 quantity: Quantity::Instantaneous,
                 certainty: Certainty::Counted,
             });
-            Verdict::on(&answer, case.truth)
+            AnswerVerdict::on(&answer, case.truth)
         };
         found.map(verdict).collect()
     };
-    let all: Vec<Vec<Verdict>> = cases.par_iter().map(verdicts).collect();
-    let count = |t: usize, of: fn(Verdict) -> bool| all.iter().filter(|v| of(v[t])).count();
+    let all: Vec<Vec<AnswerVerdict>> = cases.par_iter().map(verdicts).collect();
+    let count = |t: usize, of: fn(AnswerVerdict) -> bool| all.iter().filter(|v| of(v[t])).count();
     let at = |t| {
         [
-            count(t, |v| v == Verdict::Right),
-            count(t, |v| matches!(v, Verdict::Pose(_))),
+            count(t, |v| v == AnswerVerdict::Right),
+            count(t, |v| matches!(v, AnswerVerdict::Pose(_))),
         ]
     };
     (0..tolerances.len()).map(at).collect()

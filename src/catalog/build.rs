@@ -1,6 +1,6 @@
 //! Every structure of a specification, in parallel, each given when it is done.
 
-use crate::catalog::row::{Row, RowError, row};
+use crate::catalog::row::{RowError, StructureRow, row};
 use crate::catalog::spec::Spec;
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
@@ -66,7 +66,7 @@ pub fn build<B: Send>(
     spec: &Spec,
     work: &[Work],
     skip: impl Fn(&Structure) -> bool + Sync,
-    done: impl FnMut(Row) -> ControlFlow<B> + Send,
+    done: impl FnMut(StructureRow) -> ControlFlow<B> + Send,
 ) -> Result<Option<B>, BuildError> {
     let done = Mutex::new(done);
     let all = work.par_iter().flat_map(|w| {

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 
 /// A drawn mechanism, searched with the options and under the workload of its own file.
 #[derive(Debug, Clone)]
-pub struct Drawn {
+pub struct DrawnMechanism {
     /// `drawn-` and the beginning of a hash of the file.
     pub id: String,
     /// Its name.
@@ -83,7 +83,7 @@ pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
 ///
 /// # Errors
 /// Where it cannot be analysed, searched or written.
-pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, RowError> {
+pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMechanism, RowError> {
     let (id, file) = named(&mechanism)?;
     let method = Method::Auto { tolerance: None };
     let as_built = analyse(&mechanism, &[StateId::FREE], method)?.swap_remove(0);
@@ -118,7 +118,7 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<Drawn, Ro
     let size = [links.count(), joints, contours];
     let symmetric = Symmetric::of(&mechanism, &request).unwrap_or_else(|_| Symmetric::none());
     let outcome = run(mechanism, &request, &|| false, &mut |_| {})?;
-    Ok(Drawn {
+    Ok(DrawnMechanism {
         id,
         name,
         description,

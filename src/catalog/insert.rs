@@ -1,7 +1,7 @@
 //! A row as entries of the tables.
 
-use crate::catalog::drawn::{Drawn, known};
-use crate::catalog::row::{IdeaRow, Laid, Row, Symmetric};
+use crate::catalog::drawn::{DrawnMechanism, known};
+use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
 use crate::format::number;
 use crate::geom::vector::sides;
 use crate::model::ranking::Term;
@@ -14,7 +14,7 @@ use rusqlite::{ToSql, Transaction};
 use std::collections::BTreeMap;
 
 /// Enters a row.
-pub(super) fn row(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
+pub(super) fn row(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
     structure(t, row)?;
     match &row.laid {
         Ok(laid) => layout(t, &row.structure, laid),
@@ -44,7 +44,7 @@ fn put(t: &Transaction<'_>, table: &str, row: &[(&str, &dyn ToSql)]) -> rusqlite
     Ok(())
 }
 
-fn structure(t: &Transaction<'_>, row: &Row) -> rusqlite::Result<()> {
+fn structure(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
     let (s, r) = (&row.structure, &row.structure.roles);
     put(
         t,
@@ -132,7 +132,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
 }
 
 /// Enters a drawn mechanism.
-pub(super) fn drawn(t: &Transaction<'_>, d: &Drawn) -> rusqlite::Result<()> {
+pub(super) fn drawn(t: &Transaction<'_>, d: &DrawnMechanism) -> rusqlite::Result<()> {
     let all: BigUint = d.counts.values().sum();
     put(
         t,

@@ -22,7 +22,7 @@ use crate::search::answer::counts::orbits;
 use crate::search::answer::freedom_patterns;
 use crate::search::answer::ideas::Idea;
 use crate::search::question::conditions::Symmetry;
-use crate::synthesis::figures::{Figures, figures};
+use crate::synthesis::figures::{LayoutFigures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
 use crate::synthesis::structure::Structure;
@@ -33,7 +33,7 @@ use thiserror::Error;
 
 /// A structure of a catalogue.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub struct StructureRow {
     /// The structure.
     pub structure: Structure,
     /// How many of the jaws are joined to the frame.
@@ -52,7 +52,7 @@ pub struct Laid {
     /// Where it is.
     pub layout: Layout,
     /// What it does over its stroke.
-    pub figures: Figures,
+    pub figures: LayoutFigures,
     /// The mechanism as a file in TOML.
     pub file: String,
     /// W and σ as built, all joints hinges.
@@ -191,12 +191,16 @@ pub fn request(spec: &Spec) -> Request {
 ///
 /// # Complexity
 /// A search for places, and one of the variants.
-pub fn row(subject: &Subject<'_>, structure: &Structure, spec: &Spec) -> Result<Row, RowError> {
+pub fn row(
+    subject: &Subject<'_>,
+    structure: &Structure,
+    spec: &Spec,
+) -> Result<StructureRow, RowError> {
     let laid = match layout(subject, structure, &spec.limits(), spec.seed) {
         Ok(layout) => lay(structure, layout, spec)?,
         Err(why) => Err(why),
     };
-    Ok(Row {
+    Ok(StructureRow {
         jaws_at_frame: subject.jaws_at_frame(&structure.roles),
         truss: subject.is_truss(&structure.roles),
         graph_symmetric: subject.swaps(&structure.roles).next().is_some(),
@@ -268,7 +272,7 @@ pub(super) fn ideas(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     search.ideas(diagrams, top).into_iter().map(row).collect()
 }
 
-impl Row {
+impl StructureRow {
     /// The code of its chain.
     #[must_use]
     pub fn chain(&self) -> String {

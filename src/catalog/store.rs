@@ -10,4 +10,3 @@ mod version;
 pub use error::StoreError;
 pub use held::Store;
 pub use merge::Merged;
-pub use version::TABLES;

@@ -80,7 +80,7 @@ pub struct Canonical {
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.
 #[must_use]
 pub fn canonical(graph: &Weighted) -> Canonical {
-    let mut search = Search {
+    let mut search = LabelSearch {
         graph,
         best: None,
         equal: Vec::new(),
@@ -106,14 +106,14 @@ pub fn canonical(graph: &Weighted) -> Canonical {
 /// A vertex's cell, the cells and weights of its neighbours, and the vertex.
 type Key = (usize, Vec<(usize, u8)>, usize);
 
-struct Search<'a> {
+struct LabelSearch<'a> {
     graph: &'a Weighted,
     best: Option<(Weighted, Vec<usize>)>,
     /// The numberings that give the best matrix.
     equal: Vec<Vec<usize>>,
 }
 
-impl Search<'_> {
+impl LabelSearch<'_> {
     /// Tells vertices of one cell apart by the cells of their neighbours until that changes nothing. A cell's number is the
     /// place of its first vertex.
     fn refine(&self, cells: &mut Vec<usize>) {

@@ -69,7 +69,7 @@ impl Chain {
 
     /// The mobility 3(n - 1) - 2e of the links of a set, given as bits, with the joints between them.
     #[must_use]
-    pub fn mobility_of(&self, part: u32) -> i64 {
+    pub(crate) fn mobility_of(&self, part: u32) -> i64 {
         let inside = |v: &usize| part >> v & 1 == 1;
         let ends = (0..self.links())
             .filter(inside)

@@ -92,7 +92,7 @@ fn distinct(candidates: impl ParallelIterator<Item = Weighted>) -> BTreeSet<Weig
 /// # Complexity
 /// One canonical numbering for each edge of each graph.
 #[must_use]
-pub fn contracted_graphs(loops: usize) -> Vec<Weighted> {
+pub(crate) fn contracted_graphs(loops: usize) -> Vec<Weighted> {
     let mut dipole = Weighted::new(2);
     dipole.set(0, 1, 3);
     let mut cubic = BTreeSet::from([dipole]);

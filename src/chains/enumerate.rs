@@ -104,6 +104,13 @@ pub fn chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> 
 ///
 /// # Errors
 /// As [`visit_chains`].
+///
+/// # Examples
+/// ```
+/// // The chains of Watt and Stephenson.
+/// assert_eq!(ozols::chains::enumerate::count_chains(6, 1).unwrap(), 2);
+/// assert_eq!(ozols::chains::enumerate::count_chains(8, 1).unwrap(), 16);
+/// ```
 pub fn count_chains(links: usize, mobility: usize) -> Result<u64, ChainsError> {
     let count = AtomicU64::new(0);
     visit_chains(links, mobility, &|_| {

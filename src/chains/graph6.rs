@@ -58,6 +58,15 @@ pub fn code(chain: &Chain) -> String {
 ///
 /// # Errors
 /// Where it is not graph6, or of another size than chains have.
+///
+/// # Examples
+/// ```
+/// use ozols::chains::enumerate::chains;
+/// use ozols::chains::graph6;
+/// let watt = &chains(6, 1).unwrap()[0];
+/// let again = graph6::read(&graph6::write(watt)).unwrap();
+/// assert_eq!(graph6::write(&again), graph6::write(watt));
+/// ```
 pub fn read(text: &str) -> Result<Chain, Graph6Error> {
     let wrong = text.chars().find(|c| !('?'..='~').contains(c));
     if let Some(c) = wrong {

@@ -7,7 +7,7 @@ use itertools::Itertools;
 use std::collections::BTreeSet;
 
 /// A part of the chain: the links of some vertices with all strings between them.
-struct Part {
+struct ChainPart {
     /// Its edges.
     edges: u64,
     /// How many joints it has at least, of no string more than three: a longer string would only make the part without it
@@ -20,7 +20,7 @@ pub(super) struct Strings {
     /// Links at their ends; strings between the same two links are neighbours in the list.
     pub(super) ends: Vec<(usize, usize)>,
     /// For each string the parts that it is the last one of.
-    parts: Vec<Vec<Part>>,
+    parts: Vec<Vec<ChainPart>>,
     /// Where the symmetries take the strings.
     images: Vec<Vec<usize>>,
 }
@@ -42,7 +42,7 @@ impl Strings {
         let mut ends = edges(graph);
         // Parts of the first few vertices are whole early.
         ends.sort_by_key(|&(u, v)| (v, u));
-        let mut parts: Vec<Vec<Part>> = ends.iter().map(|_| Vec::new()).collect();
+        let mut parts: Vec<Vec<ChainPart>> = ends.iter().map(|_| Vec::new()).collect();
         for part in 1u32..1 << n {
             let inside = |&&(u, v): &&(usize, usize)| part >> u & part >> v & 1 == 1;
             let own = ends.iter().positions(|e| inside(&e)).collect_vec();
@@ -58,7 +58,7 @@ impl Strings {
                 continue;
             };
             let least = LOOP * (own.len() + 1 - links) + 1;
-            parts[last].push(Part {
+            parts[last].push(ChainPart {
                 edges: own.iter().map(|&e| 1 << e).sum(),
                 least: u32::try_from(least).unwrap_or(u32::MAX),
             });
@@ -121,7 +121,7 @@ impl Strings {
             let capped = u64::from(n.min(3));
             shared.ones = ones | (capped & 1) << at;
             shared.twos = twos | (capped >> 1) << at;
-            let moves = |p: &Part| {
+            let moves = |p: &ChainPart| {
                 let joints =
                     (shared.ones & p.edges).count_ones() + 2 * (shared.twos & p.edges).count_ones();
                 joints >= p.least

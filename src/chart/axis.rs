@@ -35,7 +35,7 @@ pub(super) struct Label {
 
 /// How the range follows from the values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fit {
+pub(super) enum AxisFit {
     /// From the least to the greatest value.
     Tight,
     /// A little beyond both.
@@ -83,7 +83,7 @@ impl Ruler {
     pub(super) fn new(
         scale: Scale,
         values: impl Iterator<Item = f64>,
-        fit: Fit,
+        fit: AxisFit,
         room: Room,
     ) -> Self {
         let range = values
@@ -167,7 +167,7 @@ fn counts(room: Room) -> impl Iterator<Item = f64> {
         .filter(|&n| n >= 1.0)
 }
 
-fn linear(lo: f64, hi: f64, fit: Fit, room: Room) -> Ruler {
+fn linear(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
     let size = lo.abs().max(hi.abs());
     let (mut lo, mut hi) = if hi / 2.0 - lo / 2.0 > (size * 1e-10).max(1e-290) {
         (lo, hi)
@@ -177,14 +177,14 @@ fn linear(lo: f64, hi: f64, fit: Fit, room: Room) -> Ruler {
         let middle = lo / 2.0 + hi / 2.0;
         (middle - 0.2 * size, middle + 0.2 * size)
     };
-    if fit != Fit::Tight {
+    if fit != AxisFit::Tight {
         if lo >= 0.0 && lo < 0.4 * hi {
             lo = 0.0;
         } else if hi <= 0.0 && hi > 0.4 * lo {
             hi = 0.0;
         }
     }
-    if fit == Fit::Padded {
+    if fit == AxisFit::Padded {
         let pad = 0.05 * hi - 0.05 * lo;
         lo = if lo == 0.0 { lo } else { lo - pad };
         hi = if hi == 0.0 { hi } else { hi + pad };
@@ -200,7 +200,7 @@ fn linear(lo: f64, hi: f64, fit: Fit, room: Room) -> Ruler {
 }
 
 /// Ticks at a 1-2-5 step, about `count` steps in the range.
-fn linear_by(lo: f64, hi: f64, count: f64, fit: Fit) -> Ruler {
+fn linear_by(lo: f64, hi: f64, count: f64, fit: AxisFit) -> Ruler {
     let raw = hi / count - lo / count;
     let mut exponent = raw.log10().floor() as i32;
     let lead = raw / ten(exponent) * (1.0 - 1e-9);
@@ -212,7 +212,7 @@ fn linear_by(lo: f64, hi: f64, count: f64, fit: Fit) -> Ruler {
         (lead, exponent) = (1, exponent + 1);
     }
     let step = lead as f64 * ten(exponent);
-    let (first, last) = if fit == Fit::Round {
+    let (first, last) = if fit == AxisFit::Round {
         ((lo / step + 1e-9).floor(), (hi / step - 1e-9).ceil())
     } else {
         ((lo / step - 1e-9).ceil(), (hi / step + 1e-9).floor())
@@ -224,7 +224,7 @@ fn linear_by(lo: f64, hi: f64, count: f64, fit: Fit) -> Ruler {
         _ => k as f64 * ten(exponent),
     };
     let (mut lo, mut hi) = (lo, hi);
-    if let (Fit::Round, Some(&first), Some(&last)) = (fit, whole.first(), whole.last()) {
+    if let (AxisFit::Round, Some(&first), Some(&last)) = (fit, whole.first(), whole.last()) {
         (lo, hi) = (lo.min(value(first)), hi.max(value(last)));
     }
     let most = whole.iter().map(|k| k.abs()).max().unwrap_or(0);
@@ -271,10 +271,10 @@ fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
 }
 
 /// By decades; one of them may stand for zero.
-fn log(lo: f64, hi: f64, fit: Fit, room: Room, zero: Option<i32>) -> Ruler {
+fn log(lo: f64, hi: f64, fit: AxisFit, room: Room, zero: Option<i32>) -> Ruler {
     let decades = |lo: f64, hi: f64| (hi + 1e-9).floor() - (lo - 1e-9).ceil() + 1.0;
     let (mut lo, mut hi) = if decades(lo, hi) >= 2.0 {
-        let pad = if fit == Fit::Tight {
+        let pad = if fit == AxisFit::Tight {
             0.0
         } else {
             0.04 * (hi - lo)

@@ -1,7 +1,7 @@
 //! Regions of an axis, row by row.
 
-use super::axis::{Fit, Room, Ruler};
-use super::data::{Bands, Kind, Scale};
+use super::axis::{AxisFit, Room, Ruler};
+use super::data::{Bands, Scale, VerdictKind};
 use super::frame::{self, Head};
 use crate::chart::style::{PAD, TICK, WIDTH};
 use crate::format::number::tooltip;
@@ -12,11 +12,11 @@ use crate::svg::xml::Xml;
 /// The height of a row.
 const ROW: f64 = 28.0;
 /// The kinds in the order of the legend, with what they mean.
-const MEANINGS: [(Kind, &str); 4] = [
-    (Kind::Good, "right"),
-    (Kind::Warn, "in doubt"),
-    (Kind::Bad, "wrong"),
-    (Kind::None, "no verdict"),
+const MEANINGS: [(VerdictKind, &str); 4] = [
+    (VerdictKind::Good, "right"),
+    (VerdictKind::Warn, "in doubt"),
+    (VerdictKind::Bad, "wrong"),
+    (VerdictKind::None, "no verdict"),
 ];
 
 impl Bands {
@@ -34,7 +34,7 @@ impl Bands {
         let bands = || self.rows.iter().flat_map(|r| &r.1);
         let ends = bands().flat_map(|b| [b.0, b.1]);
         let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
-        let ruler = Ruler::new(self.x.scale, ends, Fit::Tight, room);
+        let ruler = Ruler::new(self.x.scale, ends, AxisFit::Tight, room);
 
         let about = self.about();
         let size = (WIDTH, bottom + 52.0);
@@ -100,7 +100,7 @@ impl Bands {
     /// What a screen reader says.
     fn about(&self) -> String {
         let rows = self.rows.iter().map(|(name, bands)| {
-            let right = bands.iter().filter(|b| b.2 == Kind::Good);
+            let right = bands.iter().filter(|b| b.2 == VerdictKind::Good);
             let right = right.map(|b| format!("{} to {}", tooltip(b.0), tooltip(b.1)));
             match right.collect::<Vec<_>>().join(", ").as_str() {
                 "" => format!("{name}: nowhere right"),
@@ -114,12 +114,12 @@ impl Bands {
 }
 
 /// A band about the height `y`; the kind gives its colour and its height.
-fn bar(xml: &mut Xml, kind: Kind, (from, to): (f64, f64), y: f64, tip: &str) {
+fn bar(xml: &mut Xml, kind: VerdictKind, (from, to): (f64, f64), y: f64, tip: &str) {
     let height = match kind {
-        Kind::Good => 16.0,
-        Kind::Warn => 10.0,
-        Kind::Bad => 5.0,
-        Kind::None => 2.0,
+        VerdictKind::Good => 16.0,
+        VerdictKind::Warn => 10.0,
+        VerdictKind::Bad => 5.0,
+        VerdictKind::None => 2.0,
     };
     let (from, to) = if to - from < 2.0 {
         (from - 1.0, to + 1.0)

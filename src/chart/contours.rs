@@ -1,6 +1,6 @@
 //! A quantity over two others: a mark for each sample, and lines of equal value where the samples are a grid.
 
-use super::axis::{Fit, Label, Room, Ruler};
+use super::axis::{AxisFit, Label, Room, Ruler};
 use super::data::{Contours, Scale};
 use super::frame::{self, Head};
 use crate::chart::style::{PAD, TICK, WIDTH};
@@ -33,7 +33,7 @@ impl Contours {
         let values = Ruler::new(
             Scale::Linear,
             seen().map(|s| s.2),
-            Fit::Tight,
+            AxisFit::Tight,
             Room::Up(260.0),
         );
         let legend = self.legend(&values);
@@ -42,7 +42,7 @@ impl Contours {
         let y = Ruler::new(
             self.y.scale,
             self.samples.iter().map(|s| s.1),
-            Fit::Padded,
+            AxisFit::Padded,
             Room::Up(HEIGHT),
         );
         let labels = y.ticks.iter().filter_map(|t| t.label.as_ref());
@@ -50,7 +50,7 @@ impl Contours {
         let left = (PAD + left + 8.0).max(48.0);
         let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
         let across = self.samples.iter().map(|s| s.0);
-        let x = Ruler::new(self.x.scale, across, Fit::Padded, room);
+        let x = Ruler::new(self.x.scale, across, AxisFit::Padded, room);
         let plot = Rect {
             left,
             top,

@@ -80,14 +80,14 @@ pub struct Cell {
     /// What stands in it; a cell without text shows a sign of its kind.
     pub text: String,
     /// Its colour.
-    pub kind: Kind,
+    pub kind: VerdictKind,
     /// What is said when one points at it, or nothing to repeat the text.
     pub tooltip: String,
 }
 
 /// A verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum VerdictKind {
     /// As it should be.
     Good,
     /// Wrong.
@@ -99,7 +99,7 @@ pub enum Kind {
 }
 
 /// A stretch of an axis: from, to, and the verdict between them.
-pub type Band = (f64, f64, Kind);
+pub type Band = (f64, f64, VerdictKind);
 
 /// Regions of an axis, row by row: where each of several methods is right.
 #[derive(Clone, Debug, PartialEq)]

@@ -39,7 +39,7 @@ pub(super) type Run = Vec<((f64, f64), (f64, f64))>;
 
 /// A series on the way to the paper.
 #[derive(Debug)]
-pub(super) struct Drawn<'a> {
+pub(super) struct DrawnSeries<'a> {
     /// Whether lines need marks to be told apart.
     pub(super) many: bool,
     /// Its place among all series.
@@ -50,7 +50,7 @@ pub(super) struct Drawn<'a> {
     pub(super) runs: Vec<Run>,
 }
 
-impl Drawn<'_> {
+impl DrawnSeries<'_> {
     fn points(&self) -> impl Iterator<Item = ((f64, f64), (f64, f64))> + '_ {
         self.runs.iter().flatten().copied()
     }
@@ -123,7 +123,7 @@ fn path(runs: &[Run], steps: bool) -> String {
     out
 }
 
-fn line_class(d: &Drawn) -> String {
+fn line_class(d: &DrawnSeries) -> String {
     let dash = if d.series.style == Style::Dashed {
         " dash"
     } else {
@@ -133,7 +133,7 @@ fn line_class(d: &Drawn) -> String {
 }
 
 /// The line and the points of a series.
-pub(super) fn body(xml: &mut Xml, d: &Drawn) {
+pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
     let style = d.series.style;
     xml.tag("g").open();
     if style != Style::Points {
@@ -190,7 +190,7 @@ pub(super) fn body(xml: &mut Xml, d: &Drawn) {
 }
 
 /// The mark of a series: its shape, colour and filling say which.
-fn mark(xml: &mut Xml, d: &Drawn, (x, y): (f64, f64), r: f64, tip: &str) {
+fn mark(xml: &mut Xml, d: &DrawnSeries, (x, y): (f64, f64), r: f64, tip: &str) {
     let class = match (d.hollow(), d.series.style) {
         (true, _) => format!("hollow c{}", d.colour()),
         (_, Style::Points) => format!("full f{}", d.colour()),
@@ -220,7 +220,7 @@ fn mark(xml: &mut Xml, d: &Drawn, (x, y): (f64, f64), r: f64, tip: &str) {
 }
 
 /// The names of points that stand alone, each beside its point.
-pub(super) fn beside_points(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
+pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     let lone = drawn
         .iter()
         .filter(|d| d.lone() && !d.series.name.is_empty());
@@ -260,7 +260,7 @@ pub(super) fn beside_points(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
 }
 
 /// The names of all other series in the margin, each near the end of its line and with a sample of it.
-pub(super) fn margin(xml: &mut Xml, drawn: &[Drawn], plot: &Rect) {
+pub(super) fn margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     let named = drawn
         .iter()
         .filter(|d| !d.lone() && !d.series.name.is_empty());

@@ -1,8 +1,8 @@
 //! Series over two axes, as SVG and as CSV.
 
-use super::axis::{Fit, Room, Ruler};
+use super::axis::{AxisFit, Room, Ruler};
 use super::data::{Chart, Series, Style};
-use super::drawn::{self, Drawn, LEAD, SAMPLE, STEP};
+use super::drawn::{self, DrawnSeries, LEAD, SAMPLE, STEP};
 use super::frame::{self, Head};
 use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::csv;
@@ -42,7 +42,7 @@ impl Chart {
         let y = Ruler::new(
             self.y.scale,
             values().map(|p| p.1),
-            Fit::Round,
+            AxisFit::Round,
             Room::Up(height),
         );
         let left = y
@@ -56,7 +56,11 @@ impl Chart {
             _ => WIDTH - PAD - LEAD - SAMPLE - 8.0 - longest.min(230.0),
         };
         let points = self.series.iter().any(|s| s.style == Style::Points);
-        let fit = if points { Fit::Padded } else { Fit::Tight };
+        let fit = if points {
+            AxisFit::Padded
+        } else {
+            AxisFit::Tight
+        };
         let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
         let x = Ruler::new(self.x.scale, values().map(|p| p.0), fit, room);
         let note = absent
@@ -94,9 +98,9 @@ impl Chart {
         };
         let lines = self.series.iter().filter(|s| s.style != Style::Points);
         let many = lines.count() > COLOURS;
-        let drawn: Vec<Drawn> = shown
+        let drawn: Vec<DrawnSeries> = shown
             .iter()
-            .map(|&(number, series)| Drawn {
+            .map(|&(number, series)| DrawnSeries {
                 many,
                 number,
                 series,

@@ -1,6 +1,6 @@
 //! Verdicts in rows and columns.
 
-use super::data::{Cell, Kind, Matrix};
+use super::data::{Cell, Matrix, VerdictKind};
 use super::frame::{self, Head};
 use crate::chart::style::{PAD, WIDTH};
 use crate::svg::text;
@@ -15,14 +15,14 @@ const ROW: f64 = 21.0;
 /// After so many rows the column heads stand again, so that they are in sight wherever one reads.
 const BLOCK: usize = 25;
 
-impl Kind {
+impl VerdictKind {
     /// The class of its colours.
     pub(super) fn class(self) -> &'static str {
         match self {
-            Kind::Good => "good",
-            Kind::Bad => "bad",
-            Kind::Warn => "warn",
-            Kind::None => "none",
+            VerdictKind::Good => "good",
+            VerdictKind::Bad => "bad",
+            VerdictKind::Warn => "warn",
+            VerdictKind::None => "none",
         }
     }
 }
@@ -106,7 +106,11 @@ impl Matrix {
                 .filter(|c| c.kind == kind)
                 .count()
         };
-        let (good, bad, warn) = (count(Kind::Good), count(Kind::Bad), count(Kind::Warn));
+        let (good, bad, warn) = (
+            count(VerdictKind::Good),
+            count(VerdictKind::Bad),
+            count(VerdictKind::Warn),
+        );
         let (rows, columns) = (self.rows.len(), self.columns.join(", "));
         let subtitle = &self.subtitle;
         format!(
@@ -151,10 +155,10 @@ fn one(xml: &mut Xml, cell: &Cell, tip: &str, (x, y): (f64, f64), width: f64) {
     let text = text::cut(&cell.text, SMALL, width - 4.0);
     if text.is_empty() {
         let shape = match cell.kind {
-            Kind::Good => "m-4 0 l3 3 l5 -6",
-            Kind::Bad => "m-3.5 -3.5 l7 7 m0 -7 l-7 7",
-            Kind::Warn => "m0 -4.5 v5 m0 2.5 v1.5",
-            Kind::None => "",
+            VerdictKind::Good => "m-4 0 l3 3 l5 -6",
+            VerdictKind::Bad => "m-3.5 -3.5 l7 7 m0 -7 l-7 7",
+            VerdictKind::Warn => "m0 -4.5 v5 m0 2.5 v1.5",
+            VerdictKind::None => "",
         };
         if !shape.is_empty() {
             let path = format!("M{} {}{shape}", number(middle), number(y + ROW / 2.0));

@@ -8,7 +8,7 @@ use crate::svg::plane::{Point, Rect, add, norm, scale, sub, unit};
 
 /// A vector of a plan.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Arrow {
+pub struct PlanArrow {
     /// Its name.
     pub name: String,
     /// x to the right, y up.
@@ -23,7 +23,7 @@ pub struct Panel {
     /// What is added up.
     pub title: String,
     /// In order.
-    pub arrows: Vec<Arrow>,
+    pub arrows: Vec<PlanArrow>,
 }
 
 impl Panel {
@@ -54,7 +54,7 @@ impl Panel {
 
 /// Two panels side by side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pair {
+pub struct PanelPair {
     /// Left and right.
     pub panels: [Panel; 2],
     /// Whether both are drawn at one scale.
@@ -71,7 +71,7 @@ pub struct Polygons {
     /// Unit of the vectors.
     pub unit: String,
     /// The panels, two a row.
-    pub rows: Vec<Pair>,
+    pub rows: Vec<PanelPair>,
 }
 
 /// Height of a plan, of a line of its list, and length of an arrowhead. `[px]`
@@ -84,7 +84,8 @@ impl Polygons {
     #[must_use]
     pub fn svg(&self) -> String {
         let head = Head::new(&self.title, &self.subtitle, WIDTH);
-        let lines = |row: &Pair| row.panels.iter().map(|p| p.arrows.len()).max().unwrap_or(0) + 1;
+        let lines =
+            |row: &PanelPair| row.panels.iter().map(|p| p.arrows.len()).max().unwrap_or(0) + 1;
         #[allow(clippy::cast_precision_loss, reason = "a few lines")]
         let heights: Vec<f64> = self
             .rows

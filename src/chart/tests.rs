@@ -169,11 +169,17 @@ fn bands_reach_the_edges() {
         rows: vec![
             (
                 "a".to_owned(),
-                vec![(0.0, 1e-3, Kind::Good), (1e-3, f64::INFINITY, Kind::Bad)],
+                vec![
+                    (0.0, 1e-3, VerdictKind::Good),
+                    (1e-3, f64::INFINITY, VerdictKind::Bad),
+                ],
             ),
             (
                 "b".to_owned(),
-                vec![(1.0, 1e-6, Kind::Good), (-1.0, 0.0, Kind::Bad)],
+                vec![
+                    (1.0, 1e-6, VerdictKind::Good),
+                    (-1.0, 0.0, VerdictKind::Bad),
+                ],
             ),
         ],
     };
@@ -197,7 +203,7 @@ fn bands_reach_the_edges() {
 fn a_cell_says_its_row_and_column() {
     let cell = |text: &str, tooltip: &str| Cell {
         text: text.to_owned(),
-        kind: Kind::Warn,
+        kind: VerdictKind::Warn,
         tooltip: tooltip.to_owned(),
     };
     let matrix = Matrix {
@@ -285,8 +291,13 @@ prop_compose! {
     }
 }
 
-fn any_kind() -> impl Strategy<Value = Kind> {
-    prop::sample::select(vec![Kind::Good, Kind::Bad, Kind::Warn, Kind::None])
+fn any_kind() -> impl Strategy<Value = VerdictKind> {
+    prop::sample::select(vec![
+        VerdictKind::Good,
+        VerdictKind::Bad,
+        VerdictKind::Warn,
+        VerdictKind::None,
+    ])
 }
 
 prop_compose! {
@@ -397,7 +408,7 @@ proptest! {
 fn the_heads_of_a_long_matrix_stand_again_every_twenty_five_rows() {
     let cell = Cell {
         text: String::new(),
-        kind: Kind::Good,
+        kind: VerdictKind::Good,
         tooltip: String::new(),
     };
     let matrix = |rows: usize| Matrix {

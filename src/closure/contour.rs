@@ -83,6 +83,14 @@ pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour>
 ///
 /// # Sources
 /// Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J. Comput. 16 (1987).
+///
+/// # Examples
+/// ```
+/// use ozols::closure::contour::contour_basis;
+/// use ozols::model::mechanism::StateId;
+/// let gripper = ozols::Mechanism::builtin("gripper-10").unwrap();
+/// assert_eq!(contour_basis(&gripper, StateId::FREE).len(), 4);
+/// ```
 #[must_use]
 pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
     let mut basis = Basis {

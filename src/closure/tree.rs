@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 /// A node reached from one reached before; links through a joint, where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Step<N = LinkId, E = JointId> {
+pub struct TreeStep<N = LinkId, E = JointId> {
     /// The node reached.
     pub link: N,
     /// The node it is reached from.
@@ -21,7 +21,7 @@ pub struct Step<N = LinkId, E = JointId> {
 /// # Complexity
 /// O(n + m) for n links, m joints.
 #[must_use]
-pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<Step> {
+pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<TreeStep> {
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
     let ends = joints
         .iter()
@@ -32,7 +32,7 @@ pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<Step> {
         |_| false,
         [mechanism.frame().index()],
     );
-    let named = |s: Step<usize, usize>| Step {
+    let named = |s: TreeStep<usize, usize>| TreeStep {
         link: LinkId::new(s.link),
         from: LinkId::new(s.from),
         joint: joints[s.joint],
@@ -58,7 +58,7 @@ pub fn path_from_frame(
 ///
 /// # Complexity
 /// O(n) for n links.
-pub(crate) fn path_in(tree: &[Step], link: LinkId) -> Vec<(JointId, bool)> {
+pub(crate) fn path_in(tree: &[TreeStep], link: LinkId) -> Vec<(JointId, bool)> {
     let (mut path, mut at) = (Vec::new(), link);
     // Every step comes after the one that leads to where it starts.
     for s in tree.iter().rev() {
@@ -81,7 +81,7 @@ pub fn forest(
     edges: impl IntoIterator<Item = [usize; 2]>,
     late: impl Fn(usize) -> bool,
     starts: impl IntoIterator<Item = usize>,
-) -> (Vec<usize>, Vec<Step<usize, usize>>) {
+) -> (Vec<usize>, Vec<TreeStep<usize, usize>>) {
     let mut at: Vec<Vec<(usize, usize, bool)>> = vec![Vec::new(); nodes];
     for (e, [a, b]) in edges.into_iter().enumerate() {
         at[a].push((e, b, true));
@@ -99,7 +99,7 @@ pub fn forest(
             let mut next = Vec::new();
             if let Some(from) = queue.pop_front() {
                 for &(joint, link, forward) in &at[from] {
-                    let step = Step {
+                    let step = TreeStep {
                         link,
                         from,
                         joint,

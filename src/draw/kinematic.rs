@@ -20,7 +20,7 @@ use self::body::Body;
 use self::marked::{Marked, marked};
 use super::subject::{Mark, Subject, roominess};
 use crate::draw::place::projection::places::places;
-use crate::draw::place::projection::{self, Place, Projection, Seen, Vector, bounds};
+use crate::draw::place::projection::{self, JointInSpace, Projection, ToBeSeen, Vector, bounds};
 use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use crate::draw::symbol::couplings;
@@ -97,7 +97,7 @@ pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Ve
 }
 
 /// The axes that outputs turn about in the frame.
-fn turning(m: &Mechanism, joints: &[JointId], places: &[Place]) -> Vec<Vector> {
+fn turning(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> Vec<Vector> {
     let with = |j: JointId, role: Role| m.joints[j].links.iter().any(|&l| m.links[l].role == role);
     let turns = |j: JointId| m.joints[j].joint_type.freedoms().contains(&Freedom::Rz);
     let all = joints.iter().zip(places);
@@ -128,7 +128,7 @@ struct Kinematic<'a> {
     facets: Vec<Option<Vec<Vector>>>,
     grounds: Vec<Ground>,
     /// Where the joints are in space.
-    places: Vec<Place>,
+    places: Vec<JointInSpace>,
     /// The points of interest of links that are there.
     points: Vec<Marked>,
     /// The ways of points over a motion, and whether each ends where it began.
@@ -162,7 +162,7 @@ impl<'a> Kinematic<'a> {
         let room = ROOM.map(|r| r * more);
         let mut points = marked(m, subject.state, &links);
         let more: Vec<_> = points.iter().map(|p| p.place).collect();
-        let seen = Seen {
+        let seen = ToBeSeen {
             places: &places,
             more: &more,
             turning: &turning(seen, &joints, &places),

@@ -7,7 +7,7 @@ use super::subject::{Mark, Subject, roominess};
 use crate::closure::contour::{Contour, contour_basis};
 use crate::draw::place::graph::{Graph, ring};
 use crate::draw::place::layout::{Layout, layout};
-use crate::draw::sheet::labels::Place;
+use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::shapes::{HALF, hatch, hatch_with, outline, rounded};
 use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
 use crate::draw::symbol::swap::{self, Swap};
@@ -245,7 +245,7 @@ impl<'a> Scheme<'a> {
         });
     }
 
-    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(Place, String)], shift: Point) {
+    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, String)], shift: Point) {
         let (joints, links) = (self.parts.joints.len(), self.parts.links.len());
         for (place, _) in labels {
             if let Some((a, b)) = place.leader {

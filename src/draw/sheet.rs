@@ -119,7 +119,7 @@ pub(super) struct Caption<'a> {
 
 /// The room that title and legend leave: where the drawing's own rectangle is moved to.
 #[derive(Debug)]
-pub(super) struct Plan {
+pub(super) struct SheetPlan {
     /// What to add to the drawing's coordinates.
     pub(super) shift: Point,
     pub(super) size: Point,
@@ -132,7 +132,7 @@ pub(super) struct Plan {
 const LEAST: f64 = 580.0;
 
 /// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
-pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> Plan {
+pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> SheetPlan {
     let rows = &caption.legend;
     let widest = rows.iter().map(|(_, t)| width(t, TEXT));
     let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
@@ -149,7 +149,7 @@ pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> Plan {
         PAD + (inner - (area.right - area.left)) / 2.0 - area.left,
         head - area.top,
     ];
-    Plan {
+    SheetPlan {
         shift,
         size: [
             inner + 2.0 * PAD,
@@ -163,7 +163,7 @@ pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> Plan {
 
 impl Sheet {
     /// Begins a sheet.
-    pub(super) fn new(caption: &Caption<'_>, plan: &Plan) -> Sheet {
+    pub(super) fn new(caption: &Caption<'_>, plan: &SheetPlan) -> Sheet {
         let [w, h] = plan.size;
         let mut xml = Xml::default();
         xml.tag("svg")
@@ -392,7 +392,7 @@ impl Sheet {
     }
 
     /// Draws the legend and ends the sheet.
-    pub(super) fn finish(mut self, caption: &Caption<'_>, plan: &Plan) -> Drawing {
+    pub(super) fn finish(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
         let lines = caption.legend.len().div_ceil(plan.columns).max(1);
         for (i, (swatch, text)) in caption.legend.iter().enumerate() {
             let x = PAD + plan.column * (i / lines) as f64;

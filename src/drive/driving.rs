@@ -8,7 +8,7 @@ use crate::model::drive::{Damping, DriveSpec};
 use serde::Serialize;
 
 /// Lengths of bars that are chosen are multiples of this. `[m]`
-pub const LENGTH_STEP: f64 = 1e-3;
+pub(crate) const LENGTH_STEP: f64 = 1e-3;
 
 /// Where the damping of a simulation comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -43,7 +43,7 @@ pub struct CamDesign {
 
 /// The motion of a payload. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct PayloadMotion {
     /// Greatest angular acceleration, p² φ0, at the ends of a swing. `[rad/s²]`
     pub angular_acceleration: f64,
     /// Greatest angular speed, p φ0, in its middle. `[rad/s]`
@@ -73,8 +73,8 @@ pub struct Design {
     pub feed: f64,
     /// The cam's spring.
     pub cam: Option<CamDesign>,
-    /// Motion of each disc.
-    pub motions: [Motion; 2],
+    /// PayloadMotion of each disc.
+    pub motions: [PayloadMotion; 2],
     /// The discs.
     pub module: Module,
     /// The programme run.
@@ -110,9 +110,9 @@ pub fn wanted(spec: &DriveSpec) -> Wanted {
 
 /// Greatest size of the acceleration at radius r over a swing: the tangential p² φ r and the radial p² (φ0² - φ²) r; the sum
 /// of their squares is convex in φ², so one of the ends of its range has it: r p² φ0 max(1, φ0).
-fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> Motion {
+fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> PayloadMotion {
     let p = frequency(stiffness, inertia);
-    Motion {
+    PayloadMotion {
         angular_acceleration: p * p * twist,
         angular_speed: p * twist,
         acceleration: radius.map(|r| r * p * p * twist * twist.max(1.0)),

@@ -1,7 +1,7 @@
 //! Two discs on a torsion bar, run through a programme of swings and dwells.
 
 use crate::drive::swing::{Disc, End, Feed, Latch, Swing, SwingError};
-use crate::model::drive::Step;
+use crate::model::drive::ProgrammeStep;
 
 /// Two discs on one bar.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +81,7 @@ const SAME: f64 = 1e-12;
 
 /// A moment of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct RunMoment {
     /// `[s]`
     pub time: f64,
     /// Angles of the discs. `[rad]`
@@ -114,10 +114,10 @@ impl Run {
 
 /// The discs that a programme lets go, in order.
 #[must_use]
-pub fn swings(programme: &[Step]) -> Vec<usize> {
-    let disc = |s: &Step| match s {
-        Step::Swing(disc) => Some(*disc),
-        Step::Dwell(_) => None,
+pub fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
+    let disc = |s: &ProgrammeStep| match s {
+        ProgrammeStep::Swing(disc) => Some(*disc),
+        ProgrammeStep::Dwell(_) => None,
     };
     programme.iter().filter_map(disc).collect()
 }
@@ -125,14 +125,14 @@ pub fn swings(programme: &[Step]) -> Vec<usize> {
 /// Where the discs stand. A disc's grooves are 2φ0 apart on it, and those of the two discs φ0 from each other's: a disc at
 /// rest is in the groove at φ0 times its place, or short of it by as much as the latch lets pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Standing {
+struct DiscAngles {
     /// Of the grooves, in steps of φ0; always one apart.
     places: [i32; 2],
     /// From the grooves to where the discs are. `[rad]`
     offsets: [f64; 2],
 }
 
-impl Standing {
+impl DiscAngles {
     /// The offsets as seen by whom the second disc stands ahead: a state and its mirror image go on alike.
     fn seen_ahead(&self) -> [f64; 2] {
         let way = f64::from(self.places[1] - self.places[0]);
@@ -142,12 +142,12 @@ impl Standing {
 
 impl Module {
     /// The discs in their grooves, the first a step ahead.
-    const START: Standing = Standing {
+    const START: DiscAngles = DiscAngles {
         places: [1, 0],
         offsets: [0.0; 2],
     };
 
-    fn angles(&self, now: &Standing) -> [f64; 2] {
+    fn angles(&self, now: &DiscAngles) -> [f64; 2] {
         [0, 1].map(|d| f64::from(now.places[d]) * self.latch.at + now.offsets[d])
     }
 
@@ -155,7 +155,7 @@ impl Module {
     ///
     /// The latch and the cam's push are where the disc's own grooves have them, however far short of its groove either disc
     /// stands: shortfalls add up.
-    fn swing(&self, now: &mut Standing, disc: usize) -> Result<Swing, SwingError> {
+    fn swing(&self, now: &mut DiscAngles, disc: usize) -> Result<Swing, SwingError> {
         let other = 1 - disc;
         let onward = now.places[other] - now.places[disc];
         let way = f64::from(onward);
@@ -179,7 +179,7 @@ impl Module {
     ///
     /// # Errors
     /// Discs that do not swing.
-    pub fn run(&self, programme: &[Step]) -> Result<Run, SwingError> {
+    pub fn run(&self, programme: &[ProgrammeStep]) -> Result<Run, SwingError> {
         let wanted = swings(programme).len();
         let mut now = Self::START;
         let mut run = Run {
@@ -192,8 +192,8 @@ impl Module {
         for step in programme {
             let angles = run.angles;
             let (duration, event) = match *step {
-                Step::Dwell(length) => (length, Event::Dwell),
-                Step::Swing(disc) => {
+                ProgrammeStep::Dwell(length) => (length, Event::Dwell),
+                ProgrammeStep::Swing(disc) => {
                     let swing = self.swing(&mut now, disc)?;
                     run.angles = self.angles(&now);
                     (swing.duration, Event::Swing { disc, swing })
@@ -228,7 +228,7 @@ impl Module {
     ///
     /// # Complexity
     /// At most [`PATIENCE`] swings, and those of one round more.
-    pub fn endurance(&self, programme: &[Step]) -> Result<Endurance, SwingError> {
+    pub fn endurance(&self, programme: &[ProgrammeStep]) -> Result<Endurance, SwingError> {
         let discs = swings(programme);
         if discs.is_empty() {
             return Ok(Endurance::Lasts { missing: 0.0 });
@@ -262,7 +262,7 @@ impl Module {
 
     /// The run at moments `per_swing` to a swing, for charts.
     #[must_use]
-    pub fn samples(&self, run: &Run, per_swing: u32) -> Vec<Sample> {
+    pub fn samples(&self, run: &Run, per_swing: u32) -> Vec<RunMoment> {
         let mut out = Vec::new();
         for step in &run.steps {
             let count = if matches!(step.event, Event::Dwell) {
@@ -285,7 +285,7 @@ impl Module {
                 }
                 let twist = angles[0] - angles[1];
                 let potential = self.discs[0].stiffness * twist * twist / 2.0;
-                out.push(Sample {
+                out.push(RunMoment {
                     time: step.start + t,
                     angles,
                     potential,

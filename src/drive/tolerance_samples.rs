@@ -1,18 +1,18 @@
-//! Shares of drives out of true whose swings end in their latches.
+//! RunShares of drives out of true whose swings end in their latches.
 //!
 //! What decides that is drawn: the bar's stiffness, inertia and losses of each disc, the cam's work and where it begins, the
 //! spacing of the grooves and how far short of them a latch still catches.
 
 use crate::drive::programme::{Endurance, Module, swings};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
-use crate::model::drive::Step;
+use crate::model::drive::ProgrammeStep;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 
 /// What became of samples.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shares {
+pub struct RunShares {
     /// By how much each quantity is out at most, as a share of itself.
     pub tolerance: f64,
     /// The discs that the programme lets go, in order.
@@ -69,16 +69,16 @@ impl Module {
 /// As [`Module::endurance`] for each sample.
 pub fn shares(
     module: &Module,
-    programme: &[Step],
+    programme: &[ProgrammeStep],
     tolerance: f64,
     samples: usize,
     seed: u64,
-) -> Result<Shares, SwingError> {
+) -> Result<RunShares, SwingError> {
     let long_run = |n: usize| {
         let sample = module.out_of_true(tolerance, seed, n as u64);
         sample.endurance(programme)
     };
-    Ok(Shares {
+    Ok(RunShares {
         tolerance,
         discs: swings(programme),
         long_runs: (0..samples)
@@ -88,7 +88,7 @@ pub fn shares(
     })
 }
 
-impl Shares {
+impl RunShares {
     /// The swings latched before the first failure of each sample that fails.
     pub fn failures(&self) -> impl Iterator<Item = usize> {
         self.long_runs.iter().filter_map(|r| match r {

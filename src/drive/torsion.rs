@@ -171,7 +171,7 @@ pub struct Wanted {
 
 /// A bar that was tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Trial {
+pub struct BarTrial {
     /// The bar.
     pub bar: Bar,
     /// `[φ]`. `[rad]`
@@ -201,7 +201,7 @@ pub struct Remedy {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sizing {
     /// What was tried, in order; the last is the bar where one was found.
-    pub trials: Vec<Trial>,
+    pub trials: Vec<BarTrial>,
     /// The bar.
     pub bar: Option<Bar>,
     /// What would have to change where there is none.
@@ -215,7 +215,7 @@ impl Wanted {
         self.inertia * (2.0 * PI / self.period).powi(2)
     }
 
-    fn trial(&self, length: f64, diameter: f64) -> Trial {
+    fn trial(&self, length: f64, diameter: f64) -> BarTrial {
         let bar = Bar {
             length,
             diameter,
@@ -225,7 +225,7 @@ impl Wanted {
         let fits = self
             .max_length
             .is_none_or(|most| length <= most * (1.0 + 1e-12));
-        Trial {
+        BarTrial {
             bar,
             allowable_twist,
             strong: allowable_twist > self.twist,
@@ -288,7 +288,7 @@ impl Wanted {
         }
     }
 
-    fn remedy(&self, trials: &[Trial]) -> Remedy {
+    fn remedy(&self, trials: &[BarTrial]) -> Remedy {
         let longest = trials.iter().map(|t| t.bar.length).fold(0.0, f64::max);
         let length = self.max_length.unwrap_or(longest);
         let here = self.trial(

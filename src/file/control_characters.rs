@@ -1,7 +1,7 @@
 //! Control characters, which have no business in names: a terminal would obey them, and a table would fall apart.
 
 use crate::file::findings::{Finding, Findings};
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::MechanismFile;
 use serde_json::Value;
@@ -21,12 +21,12 @@ pub(crate) fn controls(file: &MechanismFile) -> Vec<Finding> {
     out.told()
 }
 
-fn below(value: &Value, path: &mut Vec<Step>, out: &mut Findings) {
+fn below(value: &Value, path: &mut Vec<DocumentStep>, out: &mut Findings) {
     match value {
         Value::String(text) => check(text, path, out),
         Value::Array(all) => {
             for (i, value) in all.iter().enumerate() {
-                path.push(Step::Index(i));
+                path.push(DocumentStep::Index(i));
                 below(value, path, out);
                 path.pop();
             }
@@ -34,7 +34,7 @@ fn below(value: &Value, path: &mut Vec<Step>, out: &mut Findings) {
         Value::Object(all) => {
             for (key, value) in all {
                 check(key, path, out);
-                path.push(Step::Key(key.clone()));
+                path.push(DocumentStep::Key(key.clone()));
                 below(value, path, out);
                 path.pop();
             }
@@ -43,10 +43,10 @@ fn below(value: &Value, path: &mut Vec<Step>, out: &mut Findings) {
     }
 }
 
-fn check(text: &str, path: &[Step], out: &mut Findings) {
+fn check(text: &str, path: &[DocumentStep], out: &mut Findings) {
     let key = path.iter().rev().find_map(|s| match s {
-        Step::Key(key) => Some(key.as_str()),
-        Step::Index(_) => None,
+        DocumentStep::Key(key) => Some(key.as_str()),
+        DocumentStep::Index(_) => None,
     });
     let key = key.unwrap_or("the file");
     let allowed = |c: char| PROSE.contains(&key) && (c == '\n' || c == '\t');

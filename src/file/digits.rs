@@ -2,7 +2,7 @@
 //!
 //! The readers of TOML and JSON give doubles, and 0.49400 as a double is 0.494: it says less of how well it is known.
 
-use crate::file::locate::{Document, Step, index, key};
+use crate::file::locate::{Document, DocumentStep, index, key};
 use crate::file::schema::{
     Coordinate, JointEntry, MechanismFile, OptionEntry, ParameterEntry, Unloading,
 };
@@ -55,11 +55,11 @@ fn ends_with_zero(text: &str) -> bool {
 }
 
 /// What is asked of each number, with its path.
-type Visit<'v> = &'v mut dyn FnMut(&[Step], &mut Coordinate);
+type Visit<'v> = &'v mut dyn FnMut(&[DocumentStep], &mut Coordinate);
 
 /// Every number that places a joint or a point, or relates two motions; and the parameters these may be made of.
 fn geometry(file: &mut MechanismFile, visit: Visit<'_>) {
-    let root = |k: &str| vec![Step::Key(k.to_owned())];
+    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
     vector(file.plane_normal.as_mut(), &root("plane_normal"), visit);
     for (name, entry) in &mut file.parameter {
         let at = key(&root("parameter"), name);
@@ -93,7 +93,7 @@ fn geometry(file: &mut MechanismFile, visit: Visit<'_>) {
     );
 }
 
-fn of_joint(joint: &mut JointEntry, at: &[Step], visit: Visit<'_>) {
+fn of_joint(joint: &mut JointEntry, at: &[DocumentStep], visit: Visit<'_>) {
     vector(Some(&mut joint.point), &key(at, "point"), visit);
     vector(joint.axis.as_mut(), &key(at, "axis"), visit);
     vector(joint.reference.as_mut(), &key(at, "reference"), visit);
@@ -107,7 +107,7 @@ fn of_joint(joint: &mut JointEntry, at: &[Step], visit: Visit<'_>) {
     }
 }
 
-fn options(list: &mut [OptionEntry], at: &[Step], visit: Visit<'_>) {
+fn options(list: &mut [OptionEntry], at: &[DocumentStep], visit: Visit<'_>) {
     for (i, entry) in list.iter_mut().enumerate() {
         let OptionEntry::Table(o) = entry else {
             continue;
@@ -121,13 +121,13 @@ fn options(list: &mut [OptionEntry], at: &[Step], visit: Visit<'_>) {
     }
 }
 
-fn vector(v: Option<&mut [Coordinate; 3]>, at: &[Step], visit: Visit<'_>) {
+fn vector(v: Option<&mut [Coordinate; 3]>, at: &[DocumentStep], visit: Visit<'_>) {
     for (i, c) in v.into_iter().flatten().enumerate() {
         visit(&index(at, i), c);
     }
 }
 
-fn number(c: Option<&mut Coordinate>, at: &[Step], visit: Visit<'_>) {
+fn number(c: Option<&mut Coordinate>, at: &[DocumentStep], visit: Visit<'_>) {
     if let Some(c) = c {
         visit(at, c);
     }

@@ -1,6 +1,6 @@
 //! Ratios and pitches that are written as decimals and are all but fractions.
 
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::schema::MechanismFile;
 use crate::file::warning::WarningKind;
 use crate::format::number::significant;
@@ -9,8 +9,11 @@ use crate::model::mechanism::Mechanism;
 use crate::model::rounded::ratio::{doubt, doubt_of};
 
 /// What is doubted of the couplings and screws of a mechanism.
-pub(super) fn doubted(file: &MechanismFile, m: &Mechanism) -> Vec<(Vec<Step>, WarningKind)> {
-    let root = |k: &str| vec![Step::Key(k.to_owned())];
+pub(super) fn doubted(
+    file: &MechanismFile,
+    m: &Mechanism,
+) -> Vec<(Vec<DocumentStep>, WarningKind)> {
+    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
     let couplings = m.couplings.iter().enumerate().filter_map(|(i, c)| {
         let doubt = doubt_of(c)?;
         let kind = WarningKind::DoubtedRatio {

@@ -1,12 +1,12 @@
 //! Problems gathered on the way.
 
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::geom::expr::{Expr, ExprError};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A problem and the path of the item it concerns.
-pub type Finding = (Vec<Step>, ProblemKind);
+pub type Finding = (Vec<DocumentStep>, ProblemKind);
 
 /// Most problems that are told; a file of a few megabytes can hold a hundred thousand, and each is looked up and drawn.
 pub const TOLD: usize = 100;
@@ -54,7 +54,7 @@ impl Findings {
         self.names.keys().map(String::as_str)
     }
 
-    pub(crate) fn add(&mut self, path: &[Step], kind: ProblemKind) {
+    pub(crate) fn add(&mut self, path: &[DocumentStep], kind: ProblemKind) {
         if self.told.len() < TOLD {
             self.told.push((path.to_vec(), kind));
         } else {

@@ -1,6 +1,6 @@
 //! Directions of options that nobody stated, and that are taken from the joint's own, where they mean something else.
 
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
 use crate::file::warning::WarningKind;
 use crate::model::joint_type::JointType;
@@ -14,12 +14,18 @@ const SHOWN: usize = 8;
 type Guess = (&'static str, &'static str, &'static str);
 
 /// Each option with guessed directions, told once with the joints where it has them.
-pub(super) fn guessed(file: &MechanismFile, m: &Mechanism) -> Vec<(Vec<Step>, WarningKind)> {
-    let mut found: Vec<(Vec<Step>, String, Guess, Vec<&str>)> = Vec::new();
+pub(super) fn guessed(
+    file: &MechanismFile,
+    m: &Mechanism,
+) -> Vec<(Vec<DocumentStep>, WarningKind)> {
+    let mut found: Vec<(Vec<DocumentStep>, String, Guess, Vec<&str>)> = Vec::new();
     for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
         let (list, at) = match &entry.options {
-            Some(list) => (list, index(&[Step::Key("joint".to_owned())], i)),
-            None => (&file.search.options, vec![Step::Key("search".to_owned())]),
+            Some(list) => (list, index(&[DocumentStep::Key("joint".to_owned())], i)),
+            None => (
+                &file.search.options,
+                vec![DocumentStep::Key("search".to_owned())],
+            ),
         };
         for (n, item) in list.iter().enumerate() {
             let path = index(&key(&at, "options"), n);

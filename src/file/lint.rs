@@ -3,7 +3,7 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::doubted;
 use crate::file::guessed_directions::guessed;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ImportError;
 use crate::file::read::build;
 use crate::file::read::workload::workload_tables;
@@ -69,10 +69,10 @@ pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     })
 }
 
-type Found = Vec<(Vec<Step>, WarningKind)>;
+type Found = Vec<(Vec<DocumentStep>, WarningKind)>;
 
-fn root(k: &str) -> Vec<Step> {
-    vec![Step::Key(k.to_owned())]
+fn root(k: &str) -> Vec<DocumentStep> {
+    vec![DocumentStep::Key(k.to_owned())]
 }
 
 fn find(file: &MechanismFile, m: &Mechanism) -> Found {

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// A step into a document.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Step {
+pub enum DocumentStep {
     /// A key of a table.
     Key(String),
     /// A place in a list.
@@ -14,16 +14,19 @@ pub enum Step {
 }
 
 /// A path further by a key.
-pub(crate) fn key(path: &[Step], k: &str) -> Vec<Step> {
+pub(crate) fn key(path: &[DocumentStep], k: &str) -> Vec<DocumentStep> {
     path.iter()
         .cloned()
-        .chain([Step::Key(k.to_owned())])
+        .chain([DocumentStep::Key(k.to_owned())])
         .collect()
 }
 
 /// A path further by a place in a list.
-pub(crate) fn index(path: &[Step], i: usize) -> Vec<Step> {
-    path.iter().cloned().chain([Step::Index(i)]).collect()
+pub(crate) fn index(path: &[DocumentStep], i: usize) -> Vec<DocumentStep> {
+    path.iter()
+        .cloned()
+        .chain([DocumentStep::Index(i)])
+        .collect()
 }
 
 /// A document whose items can be found; read once for all its problems.
@@ -52,7 +55,7 @@ impl<'t> Document<'t> {
 
     /// Bytes of the item at a path, or of the deepest part of the path that exists.
     #[must_use]
-    pub fn span(&self, path: &[Step]) -> Option<Range<usize>> {
+    pub fn span(&self, path: &[DocumentStep]) -> Option<Range<usize>> {
         match self {
             Document::Toml(document) => in_toml(document.as_item(), path),
             Document::Json(root) => in_json(root, path),
@@ -60,13 +63,13 @@ impl<'t> Document<'t> {
     }
 }
 
-fn in_toml(root: &toml_edit::Item, path: &[Step]) -> Option<Range<usize>> {
+fn in_toml(root: &toml_edit::Item, path: &[DocumentStep]) -> Option<Range<usize>> {
     let mut item = root;
     let mut found = None;
     for step in path {
         let next = match step {
-            Step::Key(k) => item.get(k.as_str()),
-            Step::Index(i) => item.get(*i),
+            DocumentStep::Key(k) => item.get(k.as_str()),
+            DocumentStep::Index(i) => item.get(*i),
         };
         let Some(next) = next else { break };
         item = next;
@@ -75,13 +78,13 @@ fn in_toml(root: &toml_edit::Item, path: &[Step]) -> Option<Range<usize>> {
     found
 }
 
-fn in_json(root: &ast::Value<'_>, path: &[Step]) -> Option<Range<usize>> {
+fn in_json(root: &ast::Value<'_>, path: &[DocumentStep]) -> Option<Range<usize>> {
     let mut at = root;
     let mut found = None;
     for step in path {
         let next = match (step, at) {
-            (Step::Key(k), ast::Value::Object(o)) => o.get(k).map(|p| &p.value),
-            (Step::Index(i), ast::Value::Array(a)) => a.elements.get(*i),
+            (DocumentStep::Key(k), ast::Value::Object(o)) => o.get(k).map(|p| &p.value),
+            (DocumentStep::Index(i), ast::Value::Array(a)) => a.elements.get(*i),
             _ => None,
         };
         let Some(next) = next else { break };

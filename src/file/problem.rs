@@ -232,7 +232,7 @@ pub struct ImportError {
 impl ImportError {
     /// Line and column, from 1, of a byte.
     #[must_use]
-    pub fn line_and_column(&self, at: usize) -> (usize, usize) {
+    pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {
         let before = self.text.get(..at.min(self.text.len())).unwrap_or("");
         let line = before.matches('\n').count() + 1;
         (

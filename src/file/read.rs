@@ -16,7 +16,7 @@ pub mod value;
 pub mod workload;
 
 use crate::file::findings::Finding;
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::read::coupling::couplings;
 use crate::file::read::search::ranking::{joint_types, ranking};
@@ -61,7 +61,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
     ] {
         if count > limit {
             return Err(vec![(
-                vec![Step::Key(what[..what.len() - 1].to_owned())],
+                vec![DocumentStep::Key(what[..what.len() - 1].to_owned())],
                 ProblemKind::TooMany { what, count, limit },
             )]);
         }

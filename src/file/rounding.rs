@@ -8,7 +8,7 @@ use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::model::rounded::{looks_rounded, uncertainties};
 use crate::rank::rounded::snap::relation::{Moved, Reach, Relation};
 use crate::rank::rounded::snap::{size, snap};
-use crate::rank::rounded::verdict::{Meant, Verdict, reach, verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict, reach, verdict};
 use itertools::Itertools;
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
@@ -91,7 +91,7 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     })
 }
 
-fn of_verdict(found: &Verdict) -> WarningKind {
+fn of_verdict(found: &RankVerdict) -> WarningKind {
     let figures = |rank: usize| {
         let (w, sigma) = found.figures(rank);
         format!("W = {w}, σ = {sigma}")

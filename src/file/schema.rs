@@ -395,6 +395,12 @@ fn strip(value: &mut serde_json::Value) {
 }
 
 /// The JSON Schema of the file, which its `$id` names with the number of the contract.
+///
+/// # Examples
+/// ```
+/// let schema = ozols::file::schema::json_schema();
+/// assert!(schema["properties"]["joint"].is_object());
+/// ```
 #[must_use]
 pub fn json_schema() -> serde_json::Value {
     let mut schema = schemars::schema_for!(MechanismFile);

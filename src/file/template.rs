@@ -59,7 +59,7 @@ pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError
         *old.decor_mut() = decor;
     }
     let root = json_schema();
-    let mut writer = Writer {
+    let mut writer = TemplateWriter {
         root: &root,
         seen: BTreeSet::new(),
     };
@@ -83,13 +83,13 @@ pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError
     Ok(head + &document.to_string())
 }
 
-struct Writer<'a> {
+struct TemplateWriter<'a> {
     root: &'a Value,
     /// Paths already explained.
     seen: BTreeSet<String>,
 }
 
-impl Writer<'_> {
+impl TemplateWriter<'_> {
     fn table(&mut self, table: &mut Table, schema: &Value, path: &str) {
         let keys: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).collect();
         for key in keys {

@@ -25,6 +25,16 @@ pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, Impor
 ///
 /// # Errors
 /// Every problem found, each with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::file::text::mechanism_from_str;
+/// let m = mechanism_from_str("mine.toml", ozols::builtin::text("four-bar").unwrap()).unwrap();
+/// assert_eq!(m.joints.len(), 4);
+/// // Every problem has its place and a remedy.
+/// let why = mechanism_from_str("mine.toml", "name = 3").unwrap_err();
+/// assert!(why.to_string().contains("mine.toml"));
+/// ```
 pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
     read(name, text, build)
 }
@@ -41,6 +51,13 @@ pub fn mechanism_at(name: &str, text: &str, values: &Values) -> Result<Mechanism
 ///
 /// # Errors
 /// Every problem with them, each with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::file::text::parameters_of;
+/// let text = ozols::builtin::text("parallelogram-3-rods").unwrap();
+/// assert!(!parameters_of("rods.toml", text).unwrap().is_empty());
+/// ```
 pub fn parameters_of(name: &str, text: &str) -> Result<Vec<Parameter>, ImportError> {
     read(name, text, |file| {
         let mut out = Findings::default();

@@ -1,6 +1,6 @@
 //! Warnings about a file that can be used, with the lines they stand on.
 
-use crate::file::locate::{Document, Step};
+use crate::file::locate::{Document, DocumentStep};
 use crate::file::problem::render;
 use crate::file::text::is_json;
 use annotate_snippets::Level;
@@ -187,7 +187,7 @@ pub struct Warnings {
 
 impl Warnings {
     /// Adds a warning about the item at a path of the file.
-    pub fn add(&mut self, path: &[Step], kind: WarningKind) {
+    pub fn add(&mut self, path: &[DocumentStep], kind: WarningKind) {
         let document = Document::new(&self.text, is_json(&self.file));
         let span = document.and_then(|d| d.span(path));
         let at = |d: &Warning| d.span.as_ref().map_or(0, |s| s.start);

@@ -19,7 +19,7 @@ pub(crate) mod radical;
 pub use error::ExactError;
 pub use field::ExactField;
 
-use self::plan::{MAX_FAILURES, Plan};
+use self::plan::{MAX_FAILURES, PrimePlan};
 use super::expr::Expr;
 use crate::linalg::modp::{Field, Residue};
 
@@ -36,7 +36,7 @@ impl ExactField {
         nth: usize,
     ) -> Result<ExactField, ExactError> {
         let exprs: Vec<&Expr> = exprs.into_iter().collect();
-        let plan = Plan::new(&exprs)?;
+        let plan = PrimePlan::new(&exprs)?;
         let (mut found, mut failures) = (0, 0);
         for field in plan.fields() {
             let mut zero = None;

@@ -18,13 +18,13 @@ mod written;
 
 pub use error::ExprError;
 pub use node::Expr;
-pub(crate) use node::{Function, Kind};
+pub(crate) use node::{Function, NodeKind};
 pub(crate) use parse::WORDS;
 pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX_TEXT};
 pub use rational::PI_DIGITS;
 use rational::{MAX_BITS, bits, decimal};
 pub(crate) use rational::{PI, rational_sqrt};
-pub(crate) use written::{Digits, End, Written, half_of};
+pub(crate) use written::{Digits, End, WrittenNumber, half_of};
 
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -36,7 +36,7 @@ impl Expr {
     /// The expression of a rational number. O(1).
     #[must_use]
     pub fn rational(value: BigRational) -> Expr {
-        Expr::new(Kind::Rational(value))
+        Expr::new(NodeKind::Rational(value))
     }
 
     /// The shortest decimal that reads back as `x`, taken exactly: `0.1` is one tenth, as the designer meant. It has that
@@ -59,12 +59,20 @@ impl Expr {
         let value = Expr::rational(if x < 0.0 { -value } else { value });
         let places = i64::try_from(fraction.len()).unwrap_or(i64::MAX) - exponent;
         let digits = (places > 0).then(|| Digits::of(whole, fraction, exponent, true));
-        let written = digits.flatten().map_or(Written::No, Written::Decimal);
+        let written = digits
+            .flatten()
+            .map_or(WrittenNumber::No, WrittenNumber::Decimal);
         Ok(value.written_as(written))
     }
 
     /// The nearest double, right to the last bit or nearly so even after cancellation; values that vanish to all 256
     /// bits give 0, and those beyond the range of `f64` an infinity. O(1).
+    ///
+    /// # Examples
+    /// ```
+    /// let x: ozols::geom::expr::Expr = "sqrt(3)/2".parse().unwrap();
+    /// assert!((x.to_f64() - 0.866_025_4).abs() < 1e-7);
+    /// ```
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         self.0.enclosure.to_f64()
@@ -79,13 +87,13 @@ impl Expr {
     /// π to [`PI_DIGITS`] decimals.
     #[must_use]
     pub fn pi() -> Expr {
-        Expr::new(Kind::Pi)
+        Expr::new(NodeKind::Pi)
     }
 
     /// Whether digits stand for π in it.
     #[must_use]
     pub fn has_pi(&self) -> bool {
-        let leaf = |e: &&Expr| matches!(e.kind(), Kind::Pi);
+        let leaf = |e: &&Expr| matches!(e.kind(), NodeKind::Pi);
         self.rational_ref().is_none() && self.post_order().iter().any(leaf)
     }
 
@@ -103,12 +111,12 @@ impl Expr {
 
     pub(crate) fn rational_ref(&self) -> Option<&BigRational> {
         match &self.0.kind {
-            Kind::Rational(r) => Some(r),
+            NodeKind::Rational(r) => Some(r),
             _ => None,
         }
     }
 
-    pub(crate) fn kind(&self) -> &Kind {
+    pub(crate) fn kind(&self) -> &NodeKind {
         &self.0.kind
     }
 
@@ -143,7 +151,7 @@ impl Expr {
         {
             return Some(Expr::rational(s));
         }
-        Some(Expr::new(Kind::Sqrt(self.clone())))
+        Some(Expr::new(NodeKind::Sqrt(self.clone())))
     }
 
     /// The quotient, or `None` where the divisor cannot be told from zero.
@@ -159,7 +167,7 @@ impl Expr {
         if self.is_zero_rational() || other.rational_ref().is_some_and(One::is_one) {
             return Some(self.clone());
         }
-        Some(Expr::new(Kind::Div(self.clone(), other.clone())))
+        Some(Expr::new(NodeKind::Div(self.clone(), other.clone())))
     }
 
     /// The function of `k/n` turns (any integer `k`, `n > 0`), or `None` at a pole.
@@ -183,7 +191,7 @@ impl Expr {
             }
             (Function::Tan, _, 4) => None,
             (Function::Tan, k, 8) => int(if k % 4 == 1 { 1 } else { -1 }),
-            _ => Some(Expr::new(Kind::Trig(function, k, n))),
+            _ => Some(Expr::new(NodeKind::Trig(function, k, n))),
         }
     }
 

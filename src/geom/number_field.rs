@@ -20,7 +20,7 @@ use num_traits::One;
 
 use super::exact::ExactError;
 use super::exact::eval::{self, Target};
-use super::exact::plan::Plan;
+use super::exact::plan::PrimePlan;
 use super::exact::radical::{Radical, factor};
 use super::expr::Expr;
 use super::scalars::Scalars;
@@ -73,7 +73,7 @@ impl NumberField {
         exprs: impl IntoIterator<Item = &'a Expr>,
     ) -> Result<NumberField, NumberFieldError> {
         let exprs: Vec<&Expr> = exprs.into_iter().collect();
-        let plan = Plan::new(&exprs)?;
+        let plan = PrimePlan::new(&exprs)?;
         let half = factor(plan.order)
             .iter()
             .fold(plan.order, |phi, (q, _)| phi / q * (q - 1))

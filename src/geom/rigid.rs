@@ -13,32 +13,32 @@ pub fn halves(t: &Twist) -> (Vector, Vector) {
 
 /// A rotation and then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct RigidMotion {
     /// The rotation matrix, by rows.
     pub rotation: [Vector; 3],
     /// Where the origin goes.
     pub translation: Vector,
 }
 
-impl Motion {
+impl RigidMotion {
     /// No motion.
-    pub const IDENTITY: Motion = Motion {
+    pub const IDENTITY: RigidMotion = RigidMotion {
         rotation: [X, Y, Z],
         translation: [0.0; 3],
     };
 
     /// A shift without a turn.
     #[must_use]
-    pub fn shift(translation: Vector) -> Motion {
-        Motion {
+    pub fn shift(translation: Vector) -> RigidMotion {
+        RigidMotion {
             translation,
-            ..Motion::IDENTITY
+            ..RigidMotion::IDENTITY
         }
     }
 
     /// The turn about an axis of any length through the origin `[rad]`; quarter turns are exact.
     #[must_use]
-    pub fn turn(axis: Vector, angle: f64) -> Motion {
+    pub fn turn(axis: Vector, angle: f64) -> RigidMotion {
         let exact = |x: f64| {
             if (x - x.round()).abs() < 1e-15 {
                 x.round()
@@ -47,7 +47,7 @@ impl Motion {
             }
         };
         let (sine, cosine) = angle.sin_cos();
-        Motion {
+        RigidMotion {
             rotation: rotation(towards(axis), exact(sine), exact(cosine)),
             translation: [0.0; 3],
         }
@@ -55,12 +55,12 @@ impl Motion {
 
     /// The turn by fixed-axis roll, pitch and yaw, as in URDF and SDF: Rz(yaw)·Ry(pitch)·Rx(roll), and a shift.
     #[must_use]
-    pub fn roll_pitch_yaw(translation: Vector, angles: Vector) -> Motion {
+    pub fn roll_pitch_yaw(translation: Vector, angles: Vector) -> RigidMotion {
         let turns = [X, Y, Z].into_iter().zip(angles);
-        let turned = turns.fold(Motion::IDENTITY, |m, (axis, angle)| {
-            Motion::turn(axis, angle).then(&m)
+        let turned = turns.fold(RigidMotion::IDENTITY, |m, (axis, angle)| {
+            RigidMotion::turn(axis, angle).then(&m)
         });
-        Motion {
+        RigidMotion {
             translation,
             ..turned
         }
@@ -68,7 +68,7 @@ impl Motion {
 
     /// The turn by a quaternion w, x, y, z of any length but zero, and a shift.
     #[must_use]
-    pub fn quaternion(translation: Vector, q: [f64; 4]) -> Motion {
+    pub fn quaternion(translation: Vector, q: [f64; 4]) -> RigidMotion {
         let n = dot(q, q);
         let [w, x, y, z] = q;
         let s = if n > 0.0 { 2.0 / n } else { 0.0 };
@@ -89,7 +89,7 @@ impl Motion {
                 1.0 - s * (x * x + y * y),
             ],
         ];
-        Motion {
+        RigidMotion {
             rotation,
             translation,
         }
@@ -97,17 +97,17 @@ impl Motion {
 
     /// The least turn that takes z to an axis.
     #[must_use]
-    pub fn z_to(axis: Vector) -> Motion {
+    pub fn z_to(axis: Vector) -> RigidMotion {
         let to = towards(axis);
         let about = cross(Z, to);
         if length(about) < 1e-12 {
             return if dot(to, Z) > 0.0 {
-                Motion::IDENTITY
+                RigidMotion::IDENTITY
             } else {
-                Motion::turn(X, std::f64::consts::PI)
+                RigidMotion::turn(X, std::f64::consts::PI)
             };
         }
-        Motion::turn(about, length(about).atan2(dot(Z, to)))
+        RigidMotion::turn(about, length(about).atan2(dot(Z, to)))
     }
 
     /// The exponential of a unit twist (unit angular velocity, or none) times `q`.
@@ -115,17 +115,17 @@ impl Motion {
     /// # Sources
     /// Lynch & Park, "Modern Robotics", 2017, proposition 3.25.
     #[must_use]
-    pub fn exp(twist: &Twist, q: f64) -> Motion {
+    pub fn exp(twist: &Twist, q: f64) -> RigidMotion {
         let (w, v) = halves(twist);
         if w == [0.0; 3] {
-            return Motion::shift(scale(v, q));
+            return RigidMotion::shift(scale(v, q));
         }
         let (sine, cosine) = q.sin_cos();
         let rotation = rotation(w, sine, cosine);
         // (I - R)(ω × v) + ω (ω·v) q
         let u = cross(w, v);
         let along = dot(w, v) * q;
-        Motion {
+        RigidMotion {
             rotation,
             translation: [0, 1, 2].map(|i| u[i] - dot(rotation[i], u) + w[i] * along),
         }
@@ -134,10 +134,10 @@ impl Motion {
     /// The product self·inner: a place within the frame that this motion has carried along, or this motion after
     /// another in fixed axes.
     #[must_use]
-    pub fn then(&self, inner: &Motion) -> Motion {
+    pub fn then(&self, inner: &RigidMotion) -> RigidMotion {
         let column = |j: usize| inner.rotation.map(|row| row[j]);
         let columns = [column(0), column(1), column(2)];
-        Motion {
+        RigidMotion {
             rotation: self.rotation.map(|row| columns.map(|c| dot(row, c))),
             translation: self.point(inner.translation),
         }
@@ -145,13 +145,13 @@ impl Motion {
 
     /// The motion back.
     #[must_use]
-    pub fn inverse(&self) -> Motion {
+    pub fn inverse(&self) -> RigidMotion {
         let r = &self.rotation;
-        let back = Motion {
+        let back = RigidMotion {
             rotation: [0, 1, 2].map(|j| r.map(|row| row[j])),
             translation: [0.0; 3],
         };
-        Motion {
+        RigidMotion {
             translation: scale(back.direction(self.translation), -1.0),
             ..back
         }
@@ -268,13 +268,13 @@ mod tests {
         [-2.0..2.0, -2.0..2.0, -2.0..2.0]
     }
 
-    fn motion() -> impl Strategy<Value = Motion> {
+    fn motion() -> impl Strategy<Value = RigidMotion> {
         (vector(), [-1.0..1.0, -1.0..1.0, -1.0..1.0, 0.1..1.0f64])
-            .prop_map(|(at, q)| Motion::quaternion(at, q))
+            .prop_map(|(at, q)| RigidMotion::quaternion(at, q))
     }
 
     /// Largest difference of two motions.
-    fn apart(a: &Motion, b: &Motion) -> f64 {
+    fn apart(a: &RigidMotion, b: &RigidMotion) -> f64 {
         let rows = a.rotation.iter().zip(b.rotation);
         rows.map(|(a, b)| length(sub(*a, b)))
             .fold(length(sub(a.translation, b.translation)), f64::max)
@@ -288,8 +288,8 @@ mod tests {
 
         #[test]
         fn a_motion_and_its_inverse_cancel(a in motion()) {
-            prop_assert!(apart(&a.then(&a.inverse()), &Motion::IDENTITY) < 1e-13);
-            prop_assert!(apart(&a.inverse().then(&a), &Motion::IDENTITY) < 1e-13);
+            prop_assert!(apart(&a.then(&a.inverse()), &RigidMotion::IDENTITY) < 1e-13);
+            prop_assert!(apart(&a.inverse().then(&a), &RigidMotion::IDENTITY) < 1e-13);
         }
 
         #[test]
@@ -304,8 +304,8 @@ mod tests {
             prop_assume!(length(axis) > 0.1);
             let (w, v) = (unit(axis), cross(at, unit(axis)));
             let twist = [w[0], w[1], w[2], v[0] + 0.3 * w[0], v[1] + 0.3 * w[1], v[2] + 0.3 * w[2]];
-            let product = Motion::exp(&twist, a).then(&Motion::exp(&twist, b));
-            prop_assert!(apart(&product, &Motion::exp(&twist, a + b)) < 1e-12);
+            let product = RigidMotion::exp(&twist, a).then(&RigidMotion::exp(&twist, b));
+            prop_assert!(apart(&product, &RigidMotion::exp(&twist, a + b)) < 1e-12);
         }
 
         #[test]
@@ -313,14 +313,14 @@ mod tests {
             prop_assume!(length(axis) > 0.1);
             let w = unit(axis);
             let twist = [w[0], w[1], w[2], v[0], v[1], v[2]];
-            let carried = a.then(&Motion::exp(&twist, q)).then(&a.inverse());
-            prop_assert!(apart(&carried, &Motion::exp(&a.twist(&twist), q)) < 1e-12);
+            let carried = a.then(&RigidMotion::exp(&twist, q)).then(&a.inverse());
+            prop_assert!(apart(&carried, &RigidMotion::exp(&a.twist(&twist), q)) < 1e-12);
         }
 
         #[test]
         fn the_rotation_vector_gives_the_turn_back(axis in vector(), angle in 0.001..3.1) {
             prop_assume!(length(axis) > 0.1);
-            let turn = Motion::turn(axis, angle);
+            let turn = RigidMotion::turn(axis, angle);
             prop_assert!((turn.angle() - angle).abs() < 1e-12);
             prop_assert!(length(sub(turn.rotation_vector(), scale(unit(axis), angle))) < 1e-10);
         }
@@ -328,20 +328,20 @@ mod tests {
         #[test]
         fn z_goes_to_the_axis(axis in vector()) {
             prop_assume!(length(axis) > 0.1);
-            prop_assert!(length(sub(Motion::z_to(axis).direction(Z), unit(axis))) < 1e-9);
+            prop_assert!(length(sub(RigidMotion::z_to(axis).direction(Z), unit(axis))) < 1e-9);
         }
     }
 
     #[test]
     fn quarter_turns_are_exact() {
-        let p = Motion::roll_pitch_yaw([1.0, 2.0, 3.0], [FRAC_PI_2, 0.0, 0.0]);
+        let p = RigidMotion::roll_pitch_yaw([1.0, 2.0, 3.0], [FRAC_PI_2, 0.0, 0.0]);
         assert_eq!(p.direction(Z), [0.0, -1.0, 0.0]);
         assert_eq!(p.point([0.0, 0.1, 0.0]), [1.0, 2.0, 3.1]);
     }
 
     #[test]
     fn roll_comes_first() {
-        let p = Motion::roll_pitch_yaw([0.0; 3], [FRAC_PI_2, 0.0, FRAC_PI_2]);
+        let p = RigidMotion::roll_pitch_yaw([0.0; 3], [FRAC_PI_2, 0.0, FRAC_PI_2]);
         // y -> z by the roll; the yaw leaves it there.
         assert_eq!(p.direction(Y), Z);
         assert_eq!(p.direction(X), Y);
@@ -350,7 +350,7 @@ mod tests {
     #[test]
     fn half_a_turn_has_its_axis() {
         for axis in [X, Y, unit([1.0, -2.0, 0.5])] {
-            let v = Motion::turn(axis, PI).rotation_vector();
+            let v = RigidMotion::turn(axis, PI).rotation_vector();
             assert!(length(cross(v, axis)) < 1e-9 && (length(v) - PI).abs() < 1e-9);
         }
     }

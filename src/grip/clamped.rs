@@ -1,7 +1,7 @@
 //! Joint reactions of a mechanism that grips: the part cut free, and the contact forces of its hardest case on the jaws.
 
 use crate::geom::exact::ExactError;
-use crate::grip::clamping::{Row, Verdict};
+use crate::grip::clamping::{DiameterRow, HoldVerdict};
 use crate::grip::gripping::effort;
 use crate::grip::jaw_loads::{Fit, Gripping, JawError};
 use crate::model::grip::Transmission;
@@ -35,7 +35,7 @@ pub enum ClampedError {
 
 /// Reactions by the equations that determine them.
 #[derive(Debug, Clone)]
-pub enum Found {
+pub enum ClampingReactions {
     /// Those of the plane.
     Planar(Box<Statics>),
     /// Those of space.
@@ -52,13 +52,13 @@ pub struct Clamped {
     /// Force `[N]`, or moment `[N·m]`, that the grip asks of one drive of both levers, and whether that drive slides.
     pub effort: Option<(f64, bool)>,
     /// The reactions.
-    pub found: Found,
+    pub found: ClampingReactions,
 }
 
 /// What the grip asks of one drive of both levers in a pose, where the mechanism has one.
-fn asked(g: &Gripping, row: &Row, pose: &Pose) -> Option<(f64, bool)> {
+fn asked(g: &Gripping, row: &DiameterRow, pose: &Pose) -> Option<(f64, bool)> {
     let spec = g.mechanism.loads.grip.as_ref()?;
-    let (Transmission::Joints(joints), Verdict::Held(h)) =
+    let (Transmission::Joints(joints), HoldVerdict::Held(h)) =
         (spec.transmission, &row.hardest.as_ref()?.verdict)
     else {
         return None;
@@ -72,7 +72,11 @@ fn asked(g: &Gripping, row: &Row, pose: &Pose) -> Option<(f64, bool)> {
 ///
 /// # Errors
 /// [`ClampedError`].
-pub fn clamped(g: &Gripping, row: &Row, spatial: bool) -> Result<Option<Clamped>, ClampedError> {
+pub fn clamped(
+    g: &Gripping,
+    row: &DiameterRow,
+    spatial: bool,
+) -> Result<Option<Clamped>, ClampedError> {
     let fit = g.fit(row)?;
     let Some(loads) = g.loads(row) else {
         return Ok(None);
@@ -86,12 +90,12 @@ pub fn clamped(g: &Gripping, row: &Row, spatial: bool) -> Result<Option<Clamped>
         Some(Err(_)) | None => None,
     };
     let found = match planar {
-        Some(found) => Found::Planar(Box::new(found)),
+        Some(found) => ClampingReactions::Planar(Box::new(found)),
         None => {
             let home = Pose::of_file(&m, g.state)?;
             let drives = driven(&m, &Geometry::new(&m, g.state, &home)?)?;
             let found = Reactions::at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
-            Found::Spatial(found)
+            ClampingReactions::Spatial(found)
         }
     };
     Ok(Some(Clamped {

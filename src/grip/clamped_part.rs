@@ -1,13 +1,13 @@
 //! A part between the contacts of a mechanism whose drives stand still, ready for questions of closure.
 
 use crate::geom::vector::{add, length, scale, sub};
-use crate::grip::faces::{Face, turned_about};
+use crate::grip::faces::{JawFace, turned_about};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::contacts;
 use crate::statics::reactions::drives::driven;
-use crate::statics::reactions::geometry::{Column, Geometry, Six, TOLERANCE};
+use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE};
 use crate::statics::reactions::{Unsolved, no_couplings};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::Rng;
@@ -46,7 +46,7 @@ pub enum PartError {
 
 /// A motion of the mechanism with its contacts let go.
 #[derive(Debug, Clone)]
-pub struct Motion {
+pub struct LooseMotion {
     /// Twist of the part, about the geometry's middle.
     pub part: Six,
     /// By face: twist of the part against the jaw.
@@ -63,9 +63,9 @@ pub struct ClampedPart {
     /// The pose of the file.
     pub geometry: Geometry,
     /// The contacts.
-    pub faces: Vec<Face>,
+    pub faces: Vec<JawFace>,
     /// Independent motions of part and jaws, drives held and contacts let go.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<LooseMotion>,
     /// Mean of the contacts' points.
     pub middle: [f64; 3],
     /// Root mean square distance of the contacts' points from it: moments count by this.
@@ -94,10 +94,10 @@ impl ClampedPart {
             state: m.states[state].clone(),
         })?;
         let at_part = |j: JointId| m.joints[j].links.contains(&object);
-        let faces: Vec<Face> = all
+        let faces: Vec<JawFace> = all
             .iter()
             .filter(|c| at_part(c.joint))
-            .map(|c| Face::new(m, &geometry, c, object))
+            .map(|c| JawFace::new(m, &geometry, c, object))
             .collect();
         let is_face = |j: JointId| faces.iter().any(|f| f.joint == j);
         let mut others = geometry.joints.iter().filter(|&&j| at_part(j));
@@ -129,7 +129,7 @@ impl ClampedPart {
 
     /// The faces without friction.
     #[must_use]
-    pub fn smooth(&self) -> Vec<Face> {
+    pub fn smooth(&self) -> Vec<JawFace> {
         self.faces.iter().map(|f| f.smooth()).collect()
     }
 
@@ -167,17 +167,17 @@ fn motions(
     m: &Mechanism,
     geometry: &Geometry,
     object: LinkId,
-    faces: &[Face],
-) -> Result<Vec<Motion>, Unsolved> {
+    faces: &[JawFace],
+) -> Result<Vec<LooseMotion>, Unsolved> {
     let drives = driven(m, geometry)?;
-    let is_face = |c: &Column| faces.iter().any(|f| f.joint == c.joint);
-    let kept = |c: &&Column| !is_face(c) && !drives.contains(&(c.joint, c.freedom));
+    let is_face = |c: &FreedomColumn| faces.iter().any(|f| f.joint == c.joint);
+    let kept = |c: &&FreedomColumn| !is_face(c) && !drives.contains(&(c.joint, c.freedom));
     let mut free = geometry.clone();
     free.columns = geometry.columns.iter().filter(kept).copied().collect();
     let first = free.columns.len();
     for face in faces {
         free.columns
-            .extend(geometry.basis.iter().map(|twist| Column {
+            .extend(geometry.basis.iter().map(|twist| FreedomColumn {
                 joint: face.joint,
                 // No freedom of the joint: let go, it has them all.
                 freedom: Freedom::Screw,
@@ -207,14 +207,14 @@ fn motions(
 
 /// Independent motions of part and jaws among those of the whole, each as the part's twist and those against the jaws: idle rods
 /// may turn without either.
-fn felt(all: &[Vec<f64>]) -> Result<Vec<Motion>, Unsolved> {
+fn felt(all: &[Vec<f64>]) -> Result<Vec<LooseMotion>, Unsolved> {
     let width = all.first().map_or(0, Vec::len);
     let a = Matrix::from_fn(all.len(), width, |r, c| all[r][c]);
     let found = svd(&a).ok_or(Unsolved::NoConvergence)?;
     let six = |x: &[f64]| -> Six { std::array::from_fn(|i| x[i]) };
     let one = |i: usize| {
         let twists = found.v.col(i);
-        Motion {
+        LooseMotion {
             part: six(twists),
             against: twists[6..].chunks(6).map(six).collect(),
         }

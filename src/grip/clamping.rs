@@ -2,8 +2,10 @@
 
 use crate::format::number::decimals;
 use crate::geom::vector::{length, unit};
-use crate::grip::contact::{Gripper, Pose, Unholdable};
-use crate::grip::holding::{Holding, HoldingError, Load, Outcome, Slip, Spatial, hold};
+use crate::grip::contact::{Gripper, TouchingPose, Unholdable};
+use crate::grip::holding::{
+    Holding, HoldingError, HoldingOutcome, PartWrench, Slip, Spatial, hold,
+};
 use crate::grip::lever_arm::{Arms, Lever, LeverError};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
 use itertools::Itertools;
@@ -16,7 +18,7 @@ const CLIMB: usize = 20;
 
 /// What statics say of the hardest case of a diameter.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
+pub enum HoldVerdict {
     /// Held with these forces.
     Held(Holding),
     /// No forces hold it.
@@ -33,14 +35,14 @@ pub struct Hardest {
     /// Gravity less acceleration in the gripper's axes, without the safety factor. `[m/s²]`
     pub pull: Spatial,
     /// The load with its safety factor.
-    pub load: Load,
+    pub load: PartWrench,
     /// What comes of it.
-    pub verdict: Verdict,
+    pub verdict: HoldVerdict,
 }
 
 /// One diameter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct DiameterRow {
     /// `[m]`
     pub diameter: f64,
     /// The gripper, its pivots set for this diameter where they are.
@@ -48,7 +50,7 @@ pub struct Row {
     /// The arms.
     pub arms: Arms,
     /// The pose, where the levers reach.
-    pub pose: Option<Pose>,
+    pub pose: Option<TouchingPose>,
     /// Why it cannot be held, whatever the forces; empty where it can.
     pub obstacles: Vec<Unholdable>,
     /// Mass of the part; 0 where no load is stated. `[kg]`
@@ -57,13 +59,13 @@ pub struct Row {
     pub hardest: Option<Hardest>,
 }
 
-impl Row {
+impl DiameterRow {
     /// The drive moment per lever, where the part is held against a load. `[N·m]`
     #[must_use]
     pub fn drive(&self) -> Option<f64> {
         match &self.hardest.as_ref()?.verdict {
-            Verdict::Held(h) => Some(h.drive),
-            Verdict::Slips(_) | Verdict::Undecided(_) => None,
+            HoldVerdict::Held(h) => Some(h.drive),
+            HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => None,
         }
     }
 
@@ -73,7 +75,7 @@ impl Row {
         let forces = self
             .hardest
             .as_ref()
-            .is_none_or(|h| matches!(h.verdict, Verdict::Held(_)));
+            .is_none_or(|h| matches!(h.verdict, HoldVerdict::Held(_)));
         self.obstacles.is_empty() && forces
     }
 }
@@ -84,26 +86,26 @@ pub struct Study {
     /// The lever.
     pub lever: Lever,
     /// One row a diameter, ascending.
-    pub rows: Vec<Row>,
+    pub rows: Vec<DiameterRow>,
 }
 
 impl Study {
     /// Whether every diameter is held in every case.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.rows.iter().all(Row::holds)
+        self.rows.iter().all(DiameterRow::holds)
     }
 
     /// The diameter that takes the greatest drive moment.
     #[must_use]
-    pub fn hardest(&self) -> Option<&Row> {
+    pub fn hardest(&self) -> Option<&DiameterRow> {
         let held = self.rows.iter().filter_map(|r| Some((r, r.drive()?)));
         held.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(r, _)| r)
     }
 }
 
 /// Gravity less acceleration: a vector, and a further one of given size and any direction.
-struct Case {
+struct GravityCase {
     base: Spatial,
     any: f64,
     words: Box<dyn Fn(Spatial) -> String>,
@@ -114,9 +116,9 @@ fn vector([x, y, z]: Spatial) -> String {
     format!("({}, {}, {})", round(x), round(y), round(z))
 }
 
-fn cases(load: &GripLoad) -> Vec<Case> {
+fn cases(load: &GripLoad) -> Vec<GravityCase> {
     let each = |a: &Toward| match (load.gravity, *a) {
-        (Toward::Fixed(g), Toward::Fixed(a)) => Case {
+        (Toward::Fixed(g), Toward::Fixed(a)) => GravityCase {
             base: [0, 1, 2].map(|i| g[i] - a[i]),
             any: 0.0,
             words: Box::new(move |_| {
@@ -127,14 +129,14 @@ fn cases(load: &GripLoad) -> Vec<Case> {
                 }
             }),
         },
-        (Toward::Fixed(g), Toward::Any(size)) => Case {
+        (Toward::Fixed(g), Toward::Any(size)) => GravityCase {
             base: g,
             any: size,
             words: Box::new(move |u| {
                 format!("acceleration {size} m/s² along {}", vector(u.map(|x| -x)))
             }),
         },
-        (Toward::Any(size), Toward::Fixed(a)) => Case {
+        (Toward::Any(size), Toward::Fixed(a)) => GravityCase {
             base: a.map(|x| -x),
             any: size,
             words: Box::new(move |u| {
@@ -149,7 +151,7 @@ fn cases(load: &GripLoad) -> Vec<Case> {
                 }
             }),
         },
-        (Toward::Any(g), Toward::Any(a)) => Case {
+        (Toward::Any(g), Toward::Any(a)) => GravityCase {
             base: [0.0; 3],
             any: g + a,
             words: Box::new(move |u| {
@@ -175,27 +177,32 @@ fn cube_directions() -> impl Iterator<Item = Spatial> {
 }
 
 /// How hard a verdict is; what cannot be held is hardest.
-fn hardness(v: &Verdict) -> f64 {
+fn hardness(v: &HoldVerdict) -> f64 {
     match v {
-        Verdict::Held(h) => h.drive,
-        Verdict::Slips(_) | Verdict::Undecided(_) => f64::INFINITY,
+        HoldVerdict::Held(h) => h.drive,
+        HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => f64::INFINITY,
     }
 }
 
 /// What comes of a load in a pose.
-pub(super) fn verdict(pose: &Pose, load: &Load, friction: f64, levers: LeverDrive) -> Verdict {
+pub(super) fn verdict(
+    pose: &TouchingPose,
+    load: &PartWrench,
+    friction: f64,
+    levers: LeverDrive,
+) -> HoldVerdict {
     match hold(pose, load, friction, levers) {
-        Ok(Outcome::Held(h)) => Verdict::Held(h),
-        Ok(Outcome::Slips(s)) => Verdict::Slips(s),
-        Err(e) => Verdict::Undecided(e),
+        Ok(HoldingOutcome::Held(h)) => HoldVerdict::Held(h),
+        Ok(HoldingOutcome::Slips(s)) => HoldVerdict::Slips(s),
+        Err(e) => HoldVerdict::Undecided(e),
     }
 }
 
-fn hardest_of(pose: &Pose, load: &GripLoad, mass: f64, case: &Case) -> Hardest {
+fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCase) -> Hardest {
     let at = |u: Spatial| {
         let pull = [0, 1, 2].map(|i| case.base[i] + case.any * u[i]);
         let load_there =
-            Load::of_mass(mass, pull, [0.0; 3], load.centre_of_mass).times(load.safety);
+            PartWrench::of_mass(mass, pull, [0.0; 3], load.centre_of_mass).times(load.safety);
         let verdict = verdict(pose, &load_there, load.friction, load.levers);
         (
             u,
@@ -310,7 +317,7 @@ pub fn study(spec: &GripSpec) -> Result<Study, LeverError> {
             }
             _ => None,
         };
-        Row {
+        DiameterRow {
             diameter,
             gripper,
             arms: lever.arms(diameter),

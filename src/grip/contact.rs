@@ -44,7 +44,7 @@ pub struct Contact {
 
 /// A gripper that touches a part with all four faces.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pose {
+pub struct TouchingPose {
     /// Diameter of the part. `[m]`
     pub diameter: f64,
     /// Centre of the part, on the axis of symmetry. `[m]`
@@ -168,7 +168,7 @@ impl Gripper {
     ///
     /// # Sources
     /// The triangle of pivot, vertex and centre; `[Pavlenko & Godunko 2010]` fig. 1 for its angle at the vertex.
-    pub fn pose(&self, diameter: f64) -> Result<Pose, Unholdable> {
+    pub fn pose(&self, diameter: f64) -> Result<TouchingPose, Unholdable> {
         let (lever, half) = (&self.lever, self.lever.prism_angle / 2.0);
         let to_centre = lever.centre_distance(diameter);
         // With the vertex at the origin and the bisector pointing down, across the axis.
@@ -215,7 +215,7 @@ impl Gripper {
                 tangent: mirror(tangent),
             }
         };
-        Ok(Pose {
+        Ok(TouchingPose {
             diameter,
             centre,
             pivots: [pivot, [0.0, -self.pivot]],

@@ -11,11 +11,11 @@ use crate::statics::reactions::geometry::{Geometry, Six, wrench};
 use std::f64::consts::TAU;
 
 /// Points that stand for the rim of a round face: the polygon lies within the face, 2 % at most inside its rim.
-pub const RIM: usize = 16;
+pub(crate) const RIM: usize = 16;
 
 /// Where the pressure of a face can be, lengths in the geometry's size.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
+pub enum PressureArea {
     /// Round, of this radius; without end where none is stated.
     Disc(Option<f64>),
     /// A line along x of the joint's frame, of this half length; without end where none is stated.
@@ -26,7 +26,7 @@ pub enum Shape {
 
 /// A face of a jaw.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Face {
+pub struct JawFace {
     /// The joint that stands for it.
     pub joint: JointId,
     /// 1 where the part is the second link of the joint, -1 where it is the first.
@@ -36,7 +36,7 @@ pub struct Face {
     /// Coefficient of friction; as much as it takes where `None`.
     pub friction: Option<f64>,
     /// Where its pressure can be.
-    pub shape: Shape,
+    pub shape: PressureArea,
 }
 
 /// A point that presses: unit wrenches on the part, about the geometry's middle.
@@ -48,10 +48,10 @@ pub(super) struct Press {
     pub(super) along: [Six; 2],
 }
 
-impl Face {
+impl JawFace {
     /// The face that a contact is, with the friction and the half length of a line that a grip states for it.
     #[must_use]
-    pub fn new(m: &Mechanism, g: &Geometry, contact: &Contact, object: LinkId) -> Face {
+    pub fn new(m: &Mechanism, g: &Geometry, contact: &Contact, object: LinkId) -> JawFace {
         let joint = &m.joints[contact.joint];
         let second = if joint.links[1] == object { 1.0 } else { -1.0 };
         let grip = m.loads.grip.as_ref();
@@ -61,12 +61,12 @@ impl Face {
             .and_then(|l| l.mass.part_length())
             .map(|l| l / 2.0 / g.size);
         let (shape, unstated) = match joint.joint_type {
-            JointType::CylinderOnPlane => (Shape::Line(contact.radius.or(half)), Some(0.0)),
-            JointType::SphereOnPlane => (Shape::Point, Some(0.0)),
-            JointType::Fixed => (Shape::Disc(contact.radius), None),
-            _ => (Shape::Disc(contact.radius), Some(0.0)),
+            JointType::CylinderOnPlane => (PressureArea::Line(contact.radius.or(half)), Some(0.0)),
+            JointType::SphereOnPlane => (PressureArea::Point, Some(0.0)),
+            JointType::Fixed => (PressureArea::Disc(contact.radius), None),
+            _ => (PressureArea::Disc(contact.radius), Some(0.0)),
         };
-        Face {
+        JawFace {
             joint: contact.joint,
             second,
             towards: contact.push() * second,
@@ -77,8 +77,8 @@ impl Face {
 
     /// The face without friction.
     #[must_use]
-    pub fn smooth(self) -> Face {
-        Face {
+    pub fn smooth(self) -> JawFace {
+        JawFace {
             friction: Some(0.0),
             ..self
         }
@@ -96,13 +96,15 @@ impl Face {
         let turn = |axis| wrench([0.0; 3], [0.0; 3], axis);
         let spin = (self.friction != Some(0.0)).then(|| turn(z));
         match self.shape {
-            Shape::Point => (vec![press(at)], Vec::new()),
-            Shape::Line(Some(half)) => {
+            PressureArea::Point => (vec![press(at)], Vec::new()),
+            PressureArea::Line(Some(half)) => {
                 let ends = [half, -half].map(|h| press(add_scaled(at, h, x)));
                 (ends.to_vec(), Vec::new())
             }
-            Shape::Line(None) => (vec![press(at)], spin.into_iter().chain([turn(y)]).collect()),
-            Shape::Disc(Some(radius)) => {
+            PressureArea::Line(None) => {
+                (vec![press(at)], spin.into_iter().chain([turn(y)]).collect())
+            }
+            PressureArea::Disc(Some(radius)) => {
                 #[allow(clippy::cast_precision_loss, reason = "a count of points")]
                 let rim = (0..RIM).map(|k| {
                     let (sin, cos) = (TAU * k as f64 / RIM as f64).sin_cos();
@@ -110,7 +112,7 @@ impl Face {
                 });
                 (rim.collect(), Vec::new())
             }
-            Shape::Disc(None) => {
+            PressureArea::Disc(None) => {
                 let free = spin.into_iter().chain([turn(x), turn(y)]);
                 (vec![press(at)], free.collect())
             }
@@ -121,8 +123,8 @@ impl Face {
     #[must_use]
     pub fn reach(&self) -> Option<f64> {
         match self.shape {
-            Shape::Disc(r) | Shape::Line(r) => r,
-            Shape::Point => None,
+            PressureArea::Disc(r) | PressureArea::Line(r) => r,
+            PressureArea::Point => None,
         }
     }
 }

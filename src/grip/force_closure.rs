@@ -8,9 +8,9 @@
 
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
-use crate::grip::faces::Face;
+use crate::grip::faces::JawFace;
 use crate::grip::resisted_load::{Forces, Resisted};
-use crate::statics::cone_programme::Effort;
+use crate::statics::cone_programme::SolverEffort;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::geometry::Six;
 
@@ -33,7 +33,7 @@ const STEPS: usize = 20;
 
 /// What the contacts hold.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Closure {
+pub struct ForceClosure {
     /// Whether every small load is resisted; nothing where that is within the accuracy of the programmes.
     pub closed: Option<bool>,
     /// The margin is at least this: the radius of the ball in the hull of the loads resisted along the axes. 0 without closure.
@@ -46,7 +46,7 @@ pub struct Closure {
     pub along: Vec<(Six, f64)>,
 }
 
-impl Closure {
+impl ForceClosure {
     /// Whether every small load is known to be resisted.
     #[must_use]
     pub fn is_closed(&self) -> bool {
@@ -63,7 +63,7 @@ fn tried(
     enough: impl Fn(&Resisted) -> bool,
 ) -> Result<Resisted, Unsolved> {
     let mut best: Option<Resisted> = None;
-    for effort in Effort::ALL {
+    for effort in SolverEffort::ALL {
         let found = forces.resist(d, cap, effort)?;
         if found.most <= NOTHING || enough(&found) {
             return Ok(found);
@@ -116,7 +116,7 @@ fn resisted(forces: &Forces, d: &Six) -> Result<(f64, Six), Unsolved> {
 ///
 /// # Complexity
 /// Some hundred cone programmes, each of 3 unknowns a point.
-pub fn closure(part: &ClampedPart, faces: &[Face]) -> Result<Closure, Unsolved> {
+pub fn closure(part: &ClampedPart, faces: &[JawFace]) -> Result<ForceClosure, Unsolved> {
     let forces = Forces::new(part, faces);
     let mut along = Vec::new();
     let mut weakest = (part.axes[0], f64::INFINITY);
@@ -152,7 +152,7 @@ pub fn closure(part: &ClampedPart, faces: &[Face]) -> Result<Closure, Unsolved> 
         Some(true) => 1.0 / inverse.sqrt(),
         _ => 0.0,
     };
-    Ok(Closure {
+    Ok(ForceClosure {
         closed,
         at_least: at_least.min(weakest.1),
         at_most: weakest.1,
@@ -169,7 +169,7 @@ pub fn closure(part: &ClampedPart, faces: &[Face]) -> Result<Closure, Unsolved> 
 ///
 /// # Errors
 /// Where the solver refuses a programme.
-pub fn is_closed(part: &ClampedPart, faces: &[Face]) -> Result<Option<bool>, Unsolved> {
+pub fn is_closed(part: &ClampedPart, faces: &[JawFace]) -> Result<Option<bool>, Unsolved> {
     let forces = Forces::new(part, faces);
     let (mut inverse, mut left) = (0.0, 0.0);
     for axis in &part.axes {

@@ -1,7 +1,7 @@
 //! A gripper studied with its drive: what it holds, and what that asks of the one drive of both levers.
 
 use crate::geom::exact::ExactError;
-use crate::grip::clamping::{Row, Study, study};
+use crate::grip::clamping::{DiameterRow, Study, study};
 use crate::grip::holding::Holding;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::grip::lever_arm::LeverError;
@@ -86,7 +86,7 @@ pub fn grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, Grip
                 None | Some(Ok(None) | Err(JawError::Nominal(_))) => None,
                 Some(other) => other?,
             };
-            let there = |row: &Row| match &gripping {
+            let there = |row: &DiameterRow| match &gripping {
                 Some(g) if row.holds() => Ok(rates(m, &g.fit(row)?.pose, &joints)?),
                 _ => Ok(at_home.clone()),
             };

@@ -5,7 +5,7 @@
 //! may choose another, which is what the safety factor is for.
 
 use crate::geom::vector::cross;
-use crate::grip::contact::Pose;
+use crate::grip::contact::TouchingPose;
 use crate::model::grip::LeverDrive;
 use crate::statics::cone_programme::ConeProgramme;
 use clarabel::solver::SolverStatus;
@@ -17,22 +17,27 @@ pub type Spatial = [f64; 3];
 
 /// A wrench on the part at its centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Load {
+pub struct PartWrench {
     /// `[N]`
     pub force: Spatial,
     /// About the part's centre. `[N·m]`
     pub moment: Spatial,
 }
 
-impl Load {
+impl PartWrench {
     /// Weight less inertia force of a mass: m (g - a), at its centre of mass.
     ///
     /// # Units
     /// `[kg]`, `[m/s²]`, offset from the part's centre `[m]`.
     #[must_use]
-    pub fn of_mass(mass: f64, gravity: Spatial, acceleration: Spatial, offset: Spatial) -> Load {
+    pub(crate) fn of_mass(
+        mass: f64,
+        gravity: Spatial,
+        acceleration: Spatial,
+        offset: Spatial,
+    ) -> PartWrench {
         let force = [0, 1, 2].map(|i| mass * (gravity[i] - acceleration[i]));
-        Load {
+        PartWrench {
             force,
             moment: cross(offset, force),
         }
@@ -40,8 +45,8 @@ impl Load {
 
     /// The load times a factor, such as one for safety.
     #[must_use]
-    pub fn times(&self, factor: f64) -> Load {
-        Load {
+    pub fn times(&self, factor: f64) -> PartWrench {
+        PartWrench {
             force: self.force.map(|x| x * factor),
             moment: self.moment.map(|x| x * factor),
         }
@@ -108,7 +113,7 @@ pub struct Slip {
 /// Forces that hold the part with the least drive moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Holding {
-    /// Forces on the part, in the order of [`Pose::contacts`].
+    /// Forces on the part, in the order of [`TouchingPose::contacts`].
     pub forces: [ContactForce; 4],
     /// Drive moments on the upper and the lower lever, positive when they close. `[N·m]`
     pub moments: [f64; 2],
@@ -120,7 +125,7 @@ pub struct Holding {
 
 /// What statics say of a part between four faces.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
+pub enum HoldingOutcome {
     /// It can be held.
     Held(Holding),
     /// No forces balance the load, however hard the drive closes.
@@ -147,7 +152,7 @@ pub enum HoldingError {
 /// A linear programme over cones: minimise the drive moment subject to `row · x + s = right`, s in the cone of the row.
 /// Dimensionless: lengths over the lever's, forces over the load.
 struct Programme<'a> {
-    pose: &'a Pose,
+    pose: &'a TouchingPose,
     /// Length of a lever. `[m]`
     length: f64,
     /// Directions of the three components of each contact force.
@@ -161,7 +166,7 @@ struct Programme<'a> {
 const DRIVE: usize = 12;
 
 impl<'a> Programme<'a> {
-    fn new(pose: &'a Pose, friction: f64) -> Self {
+    fn new(pose: &'a TouchingPose, friction: f64) -> Self {
         let (p, v) = (pose.pivots[0], pose.vertices[0]);
         Programme {
             pose,
@@ -195,7 +200,7 @@ impl<'a> Programme<'a> {
     }
 
     /// Three equations of forces and three of moments about the part's centre.
-    fn balance(&mut self, load: &Load, unit: f64) {
+    fn balance(&mut self, load: &PartWrench, unit: f64) {
         let wrenches: Vec<(usize, Spatial, Spatial)> = self
             .components()
             .map(|(c, d, v)| {
@@ -238,7 +243,7 @@ impl<'a> Programme<'a> {
         }
     }
 
-    fn write(mut self, load: &Load, unit: f64, friction: f64, levers: LeverDrive) -> Self {
+    fn write(mut self, load: &PartWrench, unit: f64, friction: f64, levers: LeverDrive) -> Self {
         self.balance(load, unit);
         if levers == LeverDrive::Equal {
             self.equal_levers();
@@ -295,11 +300,11 @@ impl<'a> Programme<'a> {
 /// Equilibrium of the part (six equations) and of each lever about its pivot, moments taken from coordinates, not from the
 /// arms of `[Pavlenko & Godunko 2010]`.
 pub fn hold(
-    pose: &Pose,
-    load: &Load,
+    pose: &TouchingPose,
+    load: &PartWrench,
     friction: f64,
     levers: LeverDrive,
-) -> Result<Outcome, HoldingError> {
+) -> Result<HoldingOutcome, HoldingError> {
     if !(0.0..=10.0).contains(&friction) {
         return Err(HoldingError::Friction(friction));
     }
@@ -320,7 +325,7 @@ pub fn hold(
             along: 0.0,
             axial: 0.0,
         };
-        return Ok(Outcome::Held(Holding {
+        return Ok(HoldingOutcome::Held(Holding {
             forces: [idle; 4],
             moments: [0.0; 2],
             drive: 0.0,
@@ -358,7 +363,7 @@ pub fn hold(
                 LeverDrive::Equal | LeverDrive::Independent => moments[0].max(moments[1]),
             };
             let drive = drive.max(0.0);
-            Ok(Outcome::Held(Holding {
+            Ok(HoldingOutcome::Held(Holding {
                 forces,
                 moments,
                 drive,
@@ -370,7 +375,7 @@ pub fn hold(
             let z = &s.z[..6];
             let size = z.iter().map(|z| z * z).sum::<f64>().sqrt();
             let part = |from: usize| [0, 1, 2].map(|i| z[from + i] / size);
-            Ok(Outcome::Slips(Slip {
+            Ok(HoldingOutcome::Slips(Slip {
                 velocity: part(0),
                 rotation: part(3),
             }))

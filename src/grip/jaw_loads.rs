@@ -19,7 +19,7 @@
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{cross, dot, sub};
-use crate::grip::clamping::{Row, Study, Verdict, study};
+use crate::grip::clamping::{DiameterRow, HoldVerdict, Study, study};
 use crate::grip::contact::{self, Contact, Unholdable};
 use crate::grip::lever_arm::LeverError;
 use crate::model::grip::{GripSpec, Transmission};
@@ -98,7 +98,7 @@ pub struct Gripping {
     pub levers: [LinkId; 2],
     joints: [JointId; 2],
     axes: Axes,
-    nominal: contact::Pose,
+    nominal: contact::TouchingPose,
     start: Pose,
 }
 
@@ -209,7 +209,7 @@ impl Gripping {
     ///
     /// # Errors
     /// As [`Gripping::new`].
-    pub fn of_study(
+    pub(crate) fn of_study(
         m: &Mechanism,
         state: StateId,
         study: Study,
@@ -278,7 +278,7 @@ impl Gripping {
     ///
     /// # Errors
     /// A lever that is no hinge, or does not go there.
-    pub fn fit(&self, row: &Row) -> Result<Fit, JawError> {
+    pub fn fit(&self, row: &DiameterRow) -> Result<Fit, JawError> {
         let m = &self.mechanism;
         let there = row.pose.as_ref().map_or(0.0, |p| p.turn);
         let mut pose = self.start.clone();
@@ -323,9 +323,9 @@ impl Gripping {
     /// The loads of the mechanism in a diameter's hardest case: those of the file, and the part's forces on the jaws;
     /// `None` where the part is not held. The drives stand still.
     #[must_use]
-    pub fn loads(&self, row: &Row) -> Option<Loads> {
+    pub fn loads(&self, row: &DiameterRow) -> Option<Loads> {
         let (hardest, fitted) = (row.hardest.as_ref()?, row.pose.as_ref()?);
-        let Verdict::Held(holding) = &hardest.verdict else {
+        let HoldVerdict::Held(holding) = &hardest.verdict else {
             return None;
         };
         let exact = |v: [f64; 3]| {
@@ -368,7 +368,7 @@ fn hinge(pose: &Pose, joint: JointId) -> Option<usize> {
 }
 
 /// The point of a lever's face at a distance from the vertex, the lever as it holds the nominal part.
-fn on_face(nominal: &contact::Pose, c: &Contact, along: f64) -> [f64; 3] {
+fn on_face(nominal: &contact::TouchingPose, c: &Contact, along: f64) -> [f64; 3] {
     let vertex = nominal.vertices[c.lever];
     [
         vertex[0] + along * c.tangent[0],

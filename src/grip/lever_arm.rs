@@ -108,13 +108,13 @@ impl Lever {
 
     /// Distance of the part's centre from the vertex along the bisector, D/2 / sin(α/2). `[m]`
     #[must_use]
-    pub fn centre_distance(&self, diameter: f64) -> f64 {
+    pub(crate) fn centre_distance(&self, diameter: f64) -> f64 {
         diameter / 2.0 / (self.prism_angle / 2.0).sin()
     }
 
     /// θ = γ + α/2, between the lever and the bisector of its prism. `[rad]`
     #[must_use]
-    pub fn bisector_angle(&self) -> f64 {
+    pub(crate) fn bisector_angle(&self) -> f64 {
         self.mounting_angle + self.prism_angle / 2.0
     }
 

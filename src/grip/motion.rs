@@ -3,9 +3,9 @@
 //! [`study`](crate::grip::clamping::study) asks for the hardest case alone, and a gripper that always closes with that force
 //! marks soft parts; one whose force follows the motion closes harder only where it must.
 
-use crate::grip::clamping::{Row, Verdict, verdict};
+use crate::grip::clamping::{DiameterRow, HoldVerdict, verdict};
 use crate::grip::gripping::{Grip, effort};
-use crate::grip::holding::Load;
+use crate::grip::holding::PartWrench;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use thiserror::Error;
 
@@ -30,7 +30,7 @@ pub enum MotionError {
 
 /// A step of a motion and what it takes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Step {
+pub struct StepTaken {
     /// The step.
     pub of: MotionStep,
     /// The part. `[m]`
@@ -38,18 +38,18 @@ pub struct Step {
     /// Gravity less acceleration. `[m/s²]`
     pub pull: [f64; 3],
     /// What comes of it; nothing where this part cannot be held whatever the forces.
-    pub verdict: Option<Verdict>,
+    pub verdict: Option<HoldVerdict>,
     /// What one drive of both levers takes, `[N]` or `[N·m]`, and whether it slides.
     pub effort: Option<(f64, bool)>,
 }
 
-impl Step {
+impl StepTaken {
     /// The least drive moment per lever, where it holds. `[N·m]`
     #[must_use]
     pub fn drive(&self) -> Option<f64> {
         match &self.verdict {
-            Some(Verdict::Held(h)) => Some(h.drive),
-            Some(Verdict::Slips(_) | Verdict::Undecided(_)) | None => None,
+            Some(HoldVerdict::Held(h)) => Some(h.drive),
+            Some(HoldVerdict::Slips(_) | HoldVerdict::Undecided(_)) | None => None,
         }
     }
 }
@@ -61,11 +61,15 @@ impl Step {
 /// SI.
 ///
 /// # Guarantee
-/// Step by step that of [`hold`](crate::grip::holding::hold); nothing is said of what lies between two steps.
+/// StepTaken by step that of [`hold`](crate::grip::holding::hold); nothing is said of what lies between two steps.
 ///
 /// # Errors
 /// [`MotionError`].
-pub fn along(spec: &GripSpec, grip: &Grip, steps: &[MotionStep]) -> Result<Vec<Step>, MotionError> {
+pub fn along(
+    spec: &GripSpec,
+    grip: &Grip,
+    steps: &[MotionStep],
+) -> Result<Vec<StepTaken>, MotionError> {
     let load = spec.load.as_ref().ok_or(MotionError::NoLoad)?;
     let one = |(i, step): (usize, &MotionStep)| {
         let gravity = match (step.gravity, load.gravity) {
@@ -73,7 +77,7 @@ pub fn along(spec: &GripSpec, grip: &Grip, steps: &[MotionStep]) -> Result<Vec<S
             (None, Toward::Any(_)) => return Err(MotionError::Gravity(i + 1)),
         };
         let diameter = step.diameter.unwrap_or(spec.diameter);
-        let here = |r: &Row| (r.diameter - diameter).abs() <= 1e-9 * diameter;
+        let here = |r: &DiameterRow| (r.diameter - diameter).abs() <= 1e-9 * diameter;
         let rows = &grip.study.rows;
         let at = rows
             .iter()
@@ -83,15 +87,15 @@ pub fn along(spec: &GripSpec, grip: &Grip, steps: &[MotionStep]) -> Result<Vec<S
         let pull = [0, 1, 2].map(|k| gravity[k] - step.acceleration[k]);
         let pose = row.pose.as_ref().filter(|_| row.obstacles.is_empty());
         let wrench =
-            Load::of_mass(row.mass, pull, [0.0; 3], load.centre_of_mass).times(load.safety);
+            PartWrench::of_mass(row.mass, pull, [0.0; 3], load.centre_of_mass).times(load.safety);
         let verdict = pose.map(|p| verdict(p, &wrench, load.friction, load.levers));
         let effort = match (&verdict, grip.transmission.get(at)) {
-            (Some(Verdict::Held(h)), Some(rates)) => {
+            (Some(HoldVerdict::Held(h)), Some(rates)) => {
                 effort(load.levers, h, rates).map(|e| (e, rates.slides))
             }
             _ => None,
         };
-        Ok(Step {
+        Ok(StepTaken {
             of: *step,
             diameter,
             pull,

@@ -5,9 +5,9 @@
 //! is, over what the load works, a load from above.
 
 use crate::geom::vector::{add, cross, length, scale};
-use crate::grip::clamped_part::{ClampedPart, Motion};
-use crate::grip::faces::{Face, Press};
-use crate::statics::cone_programme::{ConeProgramme, Effort};
+use crate::grip::clamped_part::{ClampedPart, LooseMotion};
+use crate::grip::faces::{JawFace, Press};
+use crate::statics::cone_programme::{ConeProgramme, SolverEffort};
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::geometry::{Six, TOLERANCE, power, wrench};
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT};
@@ -70,7 +70,7 @@ fn across(a: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
 
 impl<'a> Forces<'a> {
     /// The forces of faces on a part.
-    pub(super) fn new(part: &'a ClampedPart, faces: &[Face]) -> Forces<'a> {
+    pub(super) fn new(part: &'a ClampedPart, faces: &[JawFace]) -> Forces<'a> {
         let mut out = Forces {
             part,
             points: Vec::new(),
@@ -79,7 +79,7 @@ impl<'a> Forces<'a> {
         };
         for (i, face) in faces.iter().enumerate() {
             let work = |w: &Six| -> Vec<f64> {
-                let of = |m: &Motion| power(w, &m.against[i]);
+                let of = |m: &LooseMotion| power(w, &m.against[i]);
                 part.motions.iter().map(of).collect()
             };
             let (presses, free) = face.presses(&part.geometry);
@@ -114,7 +114,12 @@ impl<'a> Forces<'a> {
     ///
     /// # Errors
     /// Where the solver refuses the programme.
-    pub(super) fn resist(&self, d: &Six, cap: f64, effort: Effort) -> Result<Resisted, Unsolved> {
+    pub(super) fn resist(
+        &self,
+        d: &Six,
+        cap: f64,
+        effort: SolverEffort,
+    ) -> Result<Resisted, Unsolved> {
         let part = self.part;
         let load = about_middle(part, d);
         let load: Vec<f64> = (part.motions.iter())

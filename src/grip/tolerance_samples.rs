@@ -1,4 +1,4 @@
-//! Shares of parts out of true that contacts hold.
+//! ClosureShares of parts out of true that contacts hold.
 
 use crate::grip::clamped_part::ClampedPart;
 use crate::grip::force_closure::is_closed;
@@ -8,7 +8,7 @@ use chacha20::rand_core::SeedableRng;
 
 /// How many samples have closure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shares {
+pub struct ClosureShares {
     /// How many there were.
     pub samples: usize,
     /// By how much points and rims are out at most `[m]`.
@@ -32,9 +32,9 @@ pub fn shares(
     tolerance: f64,
     samples: usize,
     seed: u64,
-) -> Result<Shares, Unsolved> {
+) -> Result<ClosureShares, Unsolved> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut out = Shares {
+    let mut out = ClosureShares {
         samples,
         tolerance,
         force_closed: 0,

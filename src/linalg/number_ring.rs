@@ -20,7 +20,7 @@ pub use element::Element;
 
 /// One generator: its relation `x^n + c[n-1] x^(n-1) + ... + c[0] = 0`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Step {
+struct Generator {
     /// Coefficients, lowest first, the leading 1 left out.
     relation: Vec<Element>,
     /// The same as integers.
@@ -32,7 +32,7 @@ struct Step {
 /// A tower of simple extensions of Q.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct NumberRing {
-    steps: Vec<Step>,
+    steps: Vec<Generator>,
 }
 
 impl NumberRing {
@@ -54,7 +54,7 @@ impl NumberRing {
         }
         width.checked_mul(relation.len())?;
         let numerators = |c: &Element| c.0.iter().map(|q| q.numer().clone()).collect();
-        self.steps.push(Step {
+        self.steps.push(Generator {
             integers: relation.iter().map(numerators).collect(),
             relation,
             width,
@@ -209,7 +209,7 @@ impl NumberRing {
             _ => {}
         }
         let step = self.steps.iter().rposition(|s| s.width < a.0.len())?;
-        let Step {
+        let Generator {
             relation, width, ..
         } = &self.steps[step];
         let mut modulus = relation.clone();

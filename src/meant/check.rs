@@ -1,7 +1,7 @@
 //! Whether relations hold exactly, looked at modulo a prime: what only rounding makes hold does not.
 
 use super::number::Rational3;
-use super::row::Row;
+use super::row::PointEquation;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -43,7 +43,7 @@ impl Images {
     }
 
     /// Whether a row holds; one that does not may seem to once in 10^18.
-    pub(super) fn holds(&self, row: &Row) -> bool {
+    pub(super) fn holds(&self, row: &PointEquation) -> bool {
         let n = &self.normals[row.normal];
         let sum = row.terms.iter().fold(0, |sum: u128, &(p, c)| {
             let by = (0..3).fold(0, |s, k| (s + n[k] * self.points[p][k]) % PRIME);
@@ -65,7 +65,7 @@ mod tests {
             let zero = BigRational::from_integer(0.into());
             [x, zero.clone(), zero]
         };
-        let row = Row {
+        let row = PointEquation {
             terms: vec![(0, 3), (1, -1)],
             normal: 0,
         };

@@ -1,33 +1,33 @@
 //! Directions, known worse than points are: an axis of six decimals leaves 5e-7 rad, over 150 mm a hundred times what the points
 //! leave. So a direction is moved, within what its own digits allow, to where most pairs of points are square to it or along it.
 
-use super::written::Pair;
+use super::written::PointPair;
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, unit};
 
 /// Pairs that hypotheses are made of.
 const TRIED: usize = 48;
 
 /// What a pair says of a small turn (a, b) of the direction: r0 a + r1 b = r2, give or take.
-struct Line {
+struct TurnEquation {
     row: [f64; 3],
     error: f64,
 }
 
 /// What pairs may say of a direction: each a line where they are square to it, two where they are along it.
 struct Evidence {
-    lines: Vec<Line>,
+    lines: Vec<TurnEquation>,
     /// First line and how many, one entry a pair.
     pairs: Vec<(usize, usize)>,
 }
 
 /// A turn that evidence says, and the ellipse of its errors: the angle of its short axis, and both.
-struct Fit {
+struct TurnEstimate {
     turn: [f64; 2],
     angle: f64,
     errors: [f64; 2],
 }
 
-impl Fit {
+impl TurnEstimate {
     fn tilts(&self, [a, b]: [Vector; 2]) -> [(Vector, f64); 2] {
         let (s, c) = self.angle.sin_cos();
         let turned = |x: f64, y: f64| add_scaled(a.map(|v| x * v), y, b);
@@ -58,7 +58,7 @@ pub(super) fn square_to(v: Vector) -> [Vector; 2] {
     [first, cross(v, first)]
 }
 
-fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[Pair]) -> Evidence {
+fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[PointPair]) -> Evidence {
     let mut out = Evidence {
         lines: Vec::new(),
         pairs: Vec::new(),
@@ -68,7 +68,7 @@ fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[Pair]) -> Evi
         let wide = 1.1 * p.length * error + p.error;
         let first = out.lines.len();
         if dot(v, w).abs() < wide {
-            out.lines.push(Line {
+            out.lines.push(TurnEquation {
                 row: [dot(e1, w), dot(e2, w), -dot(v, w)],
                 error: p.error,
             });
@@ -77,7 +77,7 @@ fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[Pair]) -> Evi
             for (k, e) in [e1, e2].into_iter().enumerate() {
                 let mut row = [0.0, 0.0, sign * dot(e, w)];
                 row[k] = p.length;
-                out.lines.push(Line {
+                out.lines.push(TurnEquation {
                     row,
                     error: p.error,
                 });
@@ -92,8 +92,9 @@ fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[Pair]) -> Evi
 
 impl Evidence {
     /// The lines of the pairs that agree with a turn.
-    fn agreeing(&self, [a, b]: [f64; 2]) -> impl Iterator<Item = &Line> + '_ {
-        let fits = move |l: &&Line| (l.row[0] * a + l.row[1] * b - l.row[2]).abs() <= l.error;
+    fn agreeing(&self, [a, b]: [f64; 2]) -> impl Iterator<Item = &TurnEquation> + '_ {
+        let fits =
+            move |l: &&TurnEquation| (l.row[0] * a + l.row[1] * b - l.row[2]).abs() <= l.error;
         self.pairs.iter().flat_map(move |&(first, n)| {
             let lines = &self.lines[first..first + n];
             let all = lines.iter().all(|l| fits(&l));
@@ -106,7 +107,7 @@ impl Evidence {
     }
 
     /// The turn that the lines which agree with one say together, and its error; `prior` is that of the direction's digits.
-    fn fit(&self, turn: [f64; 2], prior: f64) -> Option<Fit> {
+    fn fit(&self, turn: [f64; 2], prior: f64) -> Option<TurnEstimate> {
         let (mut m, mut g) = ([[prior.powi(-2), 0.0], [0.0, prior.powi(-2)]], [0.0; 2]);
         for l in self.agreeing(turn) {
             let weight = l.error.powi(-2);
@@ -130,7 +131,7 @@ impl Evidence {
         let angle = m[0][1].atan2(diff) / 2.0;
         let error = |info: f64| info.max(prior.powi(-2)).sqrt().recip();
         let errors = [error(half + radius), error(half - radius)];
-        (x[0].is_finite() && x[1].is_finite()).then_some(Fit {
+        (x[0].is_finite() && x[1].is_finite()).then_some(TurnEstimate {
             turn: x,
             angle,
             errors,
@@ -140,7 +141,7 @@ impl Evidence {
     /// Turns worth trying: what single pairs along the direction and two square to it say.
     fn hypotheses(&self) -> Vec<[f64; 2]> {
         let mut out = vec![[0.0; 2]];
-        let mut square: Vec<&Line> = Vec::new();
+        let mut square: Vec<&TurnEquation> = Vec::new();
         for &(first, n) in &self.pairs {
             if n == 2 {
                 let l = &self.lines[first..first + 2];
@@ -177,7 +178,7 @@ impl Evidence {
 pub(super) fn refined(
     v: Vector,
     error: f64,
-    pairs: &[Pair],
+    pairs: &[PointPair],
     allowed: impl Fn(Vector) -> bool,
 ) -> Refined {
     let across = square_to(v);

@@ -13,7 +13,7 @@ const DIGITS: u32 = 18;
 
 /// A rotation from the scene's frame to the file's, exact.
 #[derive(Debug, Clone)]
-pub(super) struct Frame {
+pub(super) struct SceneFrame {
     /// By rows; none where the frames are one.
     pub(super) rotation: Option<[Rational3; 3]>,
     /// The same as whole numbers, outwards and inwards.
@@ -21,10 +21,10 @@ pub(super) struct Frame {
     real: [Vector; 3],
 }
 
-impl Frame {
+impl SceneFrame {
     /// The file's own.
-    fn file() -> Frame {
-        Frame {
+    fn file() -> SceneFrame {
+        SceneFrame {
             rotation: None,
             whole: None,
             real: [X, Y, Z],
@@ -40,15 +40,15 @@ impl Frame {
 
     /// The frame of some directions: z the one that is known best, x the one square to it that is, or
     /// in a plane with it.
-    pub(super) fn of(all: &[Direction]) -> Frame {
-        if Frame::is_the_files(all) {
-            return Frame::file();
+    pub(super) fn of(all: &[Direction]) -> SceneFrame {
+        if SceneFrame::is_the_files(all) {
+            return SceneFrame::file();
         }
         let used = || all.iter().filter(|d| d.rays > 0);
         let sharper =
             |a: &&Direction, b: &&Direction| a.error.total_cmp(&b.error).then(b.rays.cmp(&a.rays));
         let Some(first) = used().min_by(sharper).or(all.first()) else {
-            return Frame::file();
+            return SceneFrame::file();
         };
         let z = first.unit;
         let square = |d: &&Direction| dot(d.unit, z).abs() <= 1e-12;
@@ -59,14 +59,14 @@ impl Frame {
         let any = if z[0].abs() < 0.9 { X } else { Y };
         let x = unit(across(axis.or(frequent).unwrap_or(any), z));
         if [x, z].iter().flatten().all(|c| c.is_finite()) {
-            Frame::turned([x, cross(z, x), z])
+            SceneFrame::turned([x, cross(z, x), z])
         } else {
-            Frame::file()
+            SceneFrame::file()
         }
     }
 
     /// The rational rotation nearest to the one whose columns are these axes.
-    fn turned(columns: [Vector; 3]) -> Frame {
+    fn turned(columns: [Vector; 3]) -> SceneFrame {
         let m = |i: usize, j: usize| columns[j][i];
         let trace = [1.0, m(0, 0), m(1, 1), m(2, 2)];
         // Four ways to the quaternion; that by its largest part is accurate.
@@ -114,7 +114,7 @@ impl Frame {
         ];
         let real = rotation.each_ref().map(to_f64);
         let out = Whole::of(rotation.each_ref());
-        Frame {
+        SceneFrame {
             whole: Some([out.clone(), out.transposed()]),
             rotation: Some(rotation),
             real,

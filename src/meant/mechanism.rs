@@ -2,8 +2,8 @@
 
 use super::number::{Rational3, is_same};
 use super::resolve::{Resolved, resolve};
-use super::scene::Scene;
-use super::written::{Place, Ray, Symmetry, Written};
+use super::scene::MeantScene;
+use super::written::{Ray, WrittenPoint, WrittenScene, WrittenSymmetry};
 use crate::geom::expr::Expr;
 use crate::geom::vector::real;
 use crate::model::joint_type::JointType;
@@ -22,7 +22,7 @@ pub struct Meant {
     /// The same as other scenes have it that the digits do not rule out.
     pub others: Vec<Mechanism>,
     /// What its scene has.
-    pub scene: Scene,
+    pub scene: MeantScene,
     /// Of which joint each point of the scene is.
     pub points: Vec<JointId>,
     /// Of which joint each direction of the scene is; none for the normal of the plane.
@@ -40,7 +40,7 @@ struct Slots {
 /// A scene on the way in.
 #[derive(Default)]
 struct Gathered {
-    written: Written,
+    written: WrittenScene,
     points: Vec<JointId>,
     rays: Vec<Option<JointId>>,
 }
@@ -48,7 +48,7 @@ struct Gathered {
 impl Gathered {
     fn point(&mut self, v: &[Expr; 3], half: [f64; 3], of: JointId) -> usize {
         self.points.push(of);
-        self.written.points.push(Place {
+        self.written.points.push(WrittenPoint {
             value: real(v),
             exact: rational(v),
             half,
@@ -195,12 +195,12 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
 }
 
 /// The images that the file states; none of a third of a turn, which rational numbers have in frames of its own alone.
-fn stated(mechanism: &Mechanism, own: &[Slots], offered: &[Vec<Slots>]) -> Option<Symmetry> {
+fn stated(mechanism: &Mechanism, own: &[Slots], offered: &[Vec<Slots>]) -> Option<WrittenSymmetry> {
     let search = &mechanism.search;
     if search.order() != 2 {
         return None;
     }
-    let mut out = Symmetry {
+    let mut out = WrittenSymmetry {
         turned: search.mirror.is_empty(),
         points: Vec::new(),
         rays: Vec::new(),
@@ -233,7 +233,7 @@ struct Places {
 
 impl Places {
     /// The mechanism with the geometry of a scene.
-    fn put(&self, mechanism: &Mechanism, scene: &Scene) -> Mechanism {
+    fn put(&self, mechanism: &Mechanism, scene: &MeantScene) -> Mechanism {
         let mut out = mechanism.clone();
         let put = |f: &mut Frame, s: &Slots| {
             for (v, x) in [

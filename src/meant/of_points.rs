@@ -2,7 +2,7 @@
 
 use super::directions::Direction;
 use super::projection::Projection;
-use super::written::{Pair, pairs};
+use super::written::{PointPair, pairs};
 use crate::geom::vector::{Vector, add_scaled, cross, dot, length, sub, unit};
 
 /// Points that lines and planes of points are looked for among.
@@ -40,7 +40,7 @@ pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
         let (mut sum, mut weight, mut open) = ([0.0; 3], 0.0, false);
         for &j in alike.iter().chain([&i]) {
             used[j] = true;
-            let p: &Pair = &pairs[j];
+            let p: &PointPair = &pairs[j];
             let w = (p.length / p.error).powi(2);
             sum = add_scaled(sum, w * dot(units[i], units[j]).signum(), units[j]);
             weight += w;
@@ -58,7 +58,7 @@ pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
 }
 
 /// Whether two pairs are parallel by what is taken.
-fn parallel_already(at: &Projection<'_>, a: &Pair, b: &Pair) -> bool {
+fn parallel_already(at: &Projection<'_>, a: &PointPair, b: &PointPair) -> bool {
     let [v, w] = [a, b].map(|p| p.along);
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
         .iter()

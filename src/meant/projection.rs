@@ -2,7 +2,7 @@
 //! taken so far still hold with no coordinate moved by more than its digits allow.
 
 use super::relations::Relation;
-use super::row::Row;
+use super::row::PointEquation;
 use crate::geom::vector::{Vector, dot, sub};
 
 /// What became of a relation.
@@ -36,7 +36,7 @@ pub(super) struct Projection<'a> {
     /// Orthonormal directions that are decided, in errors.
     basis: Vec<Vec<f64>>,
     /// Independent relations taken.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<PointEquation>,
     /// Sum of squares of moves, in errors.
     pub(super) square: f64,
     /// Moves may be larger by this than those of relations usually are.
@@ -62,7 +62,7 @@ impl<'a> Projection<'a> {
     }
 
     /// How far a row is from holding, a length times coefficients.
-    pub(super) fn residue(&self, row: &Row, normals: &[Vector]) -> f64 {
+    pub(super) fn residue(&self, row: &PointEquation, normals: &[Vector]) -> f64 {
         let n = normals[row.normal];
         let first = self.points[row.terms[0].0];
         // Differences from the first point, so that nothing large cancels.
@@ -95,7 +95,7 @@ impl<'a> Projection<'a> {
     }
 
     /// The move that a row asks for now, in errors; none where it is decided by what is taken.
-    pub(super) fn asks(&self, row: &Row, normals: &[Vector]) -> Option<f64> {
+    pub(super) fn asks(&self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
         let (a, before) = self.across(row, normals);
         let left = norm(&a);
         (left > DEPENDENT * before && before > 0.0)
@@ -124,7 +124,7 @@ impl<'a> Projection<'a> {
     }
 
     /// Takes rows all together or not at all.
-    pub(super) fn take(&mut self, rows: &[Row], normals: &[Vector]) -> Taken {
+    pub(super) fn take(&mut self, rows: &[PointEquation], normals: &[Vector]) -> Taken {
         let limit = self.bold * limit(rows.len());
         let (points, basis, taken, square) = (
             self.points.clone(),
@@ -201,7 +201,7 @@ impl<'a> Projection<'a> {
     }
 
     /// A row in errors, without what is decided, and how large it was with it.
-    fn across(&self, row: &Row, normals: &[Vector]) -> (Vec<f64>, f64) {
+    fn across(&self, row: &PointEquation, normals: &[Vector]) -> (Vec<f64>, f64) {
         let n = normals[row.normal];
         let mut a = vec![0.0; 3 * self.points.len()];
         for &(p, c) in &row.terms {
@@ -222,7 +222,7 @@ impl<'a> Projection<'a> {
     }
 
     /// Puts one row, and gives the square of the move; none where it contradicts those taken.
-    fn put(&mut self, row: &Row, normals: &[Vector]) -> Option<f64> {
+    fn put(&mut self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
         let (mut a, before) = self.across(row, normals);
         let residue = self.residue(row, normals);
         let scale: f64 = row

@@ -2,13 +2,13 @@
 
 use super::exact_directions::Exact;
 use super::number::{Rational3, axes, cross, scaled, to_f64};
-use super::row::Row;
+use super::row::PointEquation;
 use super::written::SPREAD;
 use crate::geom::vector::{self, Vector, add, dot, length, sub, unit};
 
 /// What kind of relation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum RelationKind {
     /// Points that are one.
     Coincident,
     /// Points in a plane square to a direction.
@@ -24,8 +24,8 @@ pub enum Kind {
 /// A relation, with how far the points as written are from it, in errors.
 #[derive(Debug, Clone)]
 pub(super) struct Relation {
-    pub(super) kind: Kind,
-    pub(super) rows: Vec<Row>,
+    pub(super) kind: RelationKind,
+    pub(super) rows: Vec<PointEquation>,
     /// How many points share it: planes of many points come before planes of two.
     pub(super) weight: usize,
     pub(super) off: f64,
@@ -126,9 +126,9 @@ impl<'a> Finder<'a> {
         SPREAD * (self.errors[i] + self.errors[j])
     }
 
-    fn difference(&self, i: usize, j: usize, normal: usize) -> Row {
+    fn difference(&self, i: usize, j: usize, normal: usize) -> PointEquation {
         let _ = self;
-        Row {
+        PointEquation {
             terms: vec![(i, 1), (j, -1)],
             normal,
         }
@@ -143,7 +143,7 @@ impl<'a> Finder<'a> {
                 let rows = (0..3).map(|n| self.difference(i, first, n)).collect();
                 let off = length(sub(self.points[i], self.points[first])) / self.wide(i, first);
                 out.push(Relation {
-                    kind: Kind::Coincident,
+                    kind: RelationKind::Coincident,
                     rows,
                     weight: 0,
                     off,
@@ -228,7 +228,7 @@ impl<'a> Finder<'a> {
                 let weak = chance * as_f64(normals) > CHANCE;
                 for w in at[start..k].windows(2) {
                     out.push(Relation {
-                        kind: Kind::InPlane,
+                        kind: RelationKind::InPlane,
                         rows: vec![self.difference(w[1].1, w[0].1, normal)],
                         weight: k - start,
                         off: (w[1].0 - w[0].0) / self.wide(w[1].1, w[0].1),
@@ -264,7 +264,7 @@ impl<'a> Finder<'a> {
         for (p, f) in found {
             let of = firsts.iter().find(|x| x.0 == f).map_or(2, |x| x.1);
             out.push(Relation {
-                kind: Kind::OnLine,
+                kind: RelationKind::OnLine,
                 rows: normals.map(|k| self.difference(p, f, k)).to_vec(),
                 weight: of,
                 off: off(p, f) / self.wide(p, f),
@@ -298,13 +298,13 @@ impl<'a> Finder<'a> {
                     continue;
                 }
                 done[b] = true;
-                let row = |n| Row::sum(&[(i, 1), (j, -1), (p, -sign), (q, sign)], n);
-                let rows: Vec<Row> = (0..3).map(row).collect();
+                let row = |n| PointEquation::sum(&[(i, 1), (j, -1), (p, -sign), (q, sign)], n);
+                let rows: Vec<PointEquation> = (0..3).map(row).collect();
                 if rows[0].terms.len() < 3 {
                     continue;
                 }
                 out.push(Relation {
-                    kind: Kind::EqualVectors,
+                    kind: RelationKind::EqualVectors,
                     rows,
                     weight: 0,
                     off: off / wide,
@@ -347,12 +347,12 @@ impl<'a> Finder<'a> {
                 if (i == j && p == q) || b - a > wide {
                     continue;
                 }
-                let row = Row::sum(&[(i, 1), (j, 1), (p, -1), (q, -1)], n);
+                let row = PointEquation::sum(&[(i, 1), (j, 1), (p, -1), (q, -1)], n);
                 if row.terms.len() < 2 {
                     continue;
                 }
                 out.push(Relation {
-                    kind: Kind::Mirrored,
+                    kind: RelationKind::Mirrored,
                     rows: vec![row],
                     weight: 0,
                     off: (b - a) / wide,
@@ -382,12 +382,12 @@ fn by_chance(n: usize, k: usize, error: f64) -> f64 {
 /// The strongest first.
 fn sort(out: &mut [Relation]) {
     let rank = |r: &Relation| match r.kind {
-        Kind::Coincident => 0,
-        Kind::InPlane if r.weight > 3 => 1,
-        Kind::OnLine => 2,
-        Kind::EqualVectors => 3,
-        Kind::InPlane => 4,
-        Kind::Mirrored => 5,
+        RelationKind::Coincident => 0,
+        RelationKind::InPlane if r.weight > 3 => 1,
+        RelationKind::OnLine => 2,
+        RelationKind::EqualVectors => 3,
+        RelationKind::InPlane => 4,
+        RelationKind::Mirrored => 5,
     };
     out.sort_by(|a, b| {
         (rank(a), std::cmp::Reverse(a.weight))

@@ -6,9 +6,9 @@ use super::exact_directions::{Exact, placed};
 use super::of_points;
 use super::projection::{Projection, Taken};
 use super::relations::{Finder, Relation, Use};
-use super::scene::Scene;
-use super::stage::{Mark, Stage};
-use super::written::Written;
+use super::scene::MeantScene;
+use super::stage::{Stage, StageMark};
+use super::written::WrittenScene;
 use crate::geom::vector::Vector;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -17,10 +17,10 @@ use num_rational::BigRational;
 #[derive(Debug, Clone)]
 pub struct Resolved {
     /// The scene with the most relations.
-    pub scene: Scene,
+    pub scene: MeantScene,
     /// Others that the digits do not rule out: with relations that are all but within them, and without those that as well are
     /// there by chance.
-    pub others: Vec<Scene>,
+    pub others: Vec<MeantScene>,
 }
 
 /// Sizes smaller than this, and larger than its inverse, are extreme.
@@ -37,7 +37,7 @@ const BOLD: f64 = 1.6;
 /// # Complexity
 /// O(p²) pairs of p points, held against each other and against d directions; then O(r² p) for r relations.
 #[must_use]
-pub fn resolve(written: &Written) -> Option<Resolved> {
+pub fn resolve(written: &WrittenScene) -> Option<Resolved> {
     let size = written.size();
     if (SMALL..SMALL.recip()).contains(&size) {
         return resolved(written);
@@ -60,13 +60,13 @@ pub fn resolve(written: &Written) -> Option<Resolved> {
 }
 
 /// The same of a geometry of no extreme size.
-fn resolved(written: &Written) -> Option<Resolved> {
+fn resolved(written: &WrittenScene) -> Option<Resolved> {
     let usual = Caution {
         bold: 1.0,
         weak: true,
     };
     let (scene, doubts, without) = resolve_with(written, usual)?;
-    let mut others: Vec<Scene> = without.into_iter().collect();
+    let mut others: Vec<MeantScene> = without.into_iter().collect();
     let bold = Caution {
         bold: BOLD,
         ..usual
@@ -94,7 +94,10 @@ struct Doubts {
 }
 
 /// A scene, how doubtful it is, and where it is doubted the same without lines and planes that points alone make.
-fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, Option<Scene>)> {
+fn resolve_with(
+    written: &WrittenScene,
+    caution: Caution,
+) -> Option<(MeantScene, Doubts, Option<MeantScene>)> {
     let stage = Stage::new(written, caution);
     let weights = stage.weights();
     let clipped = |p: usize, by: Vector| stage.clipped(p, by);
@@ -111,7 +114,7 @@ fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, O
     let mut became = solved.take_all(stated, &finder.normals.real);
     let found = keep(finder.all());
     became.extend(solved.take_all(found, &finder.normals.real));
-    let (first, plain) = (became.len(), Mark::of(&solved));
+    let (first, plain) = (became.len(), StageMark::of(&solved));
     // What points alone make: lines and planes that nothing above keeps.
     let directions_of_rays = fixed.len();
     for further in [of_points::lines, of_points::planes_of] {
@@ -155,7 +158,7 @@ fn resolve_with(written: &Written, caution: Caution) -> Option<(Scene, Doubts, O
     let without = (doubts.of_points > 0).then(without).flatten();
     let taken = became.into_iter().filter(|b| b.1 == Taken::New);
     let relations = taken.map(|(r, _)| (r.kind, r.rows[0].terms.iter().map(|t| t.0).collect()));
-    let scene = Scene {
+    let scene = MeantScene {
         relations: relations.collect(),
         ..scene
     };

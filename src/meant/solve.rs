@@ -1,7 +1,7 @@
 //! Linear relations solved exactly: free coordinates keep decimals, the others follow.
 
 use super::number::Rational3;
-use super::row::Row;
+use super::row::PointEquation;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ fn work(a: &BigRational, b: &BigRational) -> u64 {
 /// # Complexity
 /// O(r² w) operations on rationals for r rows of w coordinates.
 pub(super) fn solve(
-    rows: &[Row],
+    rows: &[PointEquation],
     normals: &[Rational3],
     points: usize,
     value: impl Fn(usize, usize) -> BigRational,
@@ -37,13 +37,13 @@ pub(super) fn solve(
     let mut solved: Vec<(usize, BTreeMap<usize, BigRational>, BigRational)> = Vec::new();
     let mut pivot_of: BTreeMap<usize, usize> = BTreeMap::new();
     // Short normals first: what is along an axis of the frame takes one coordinate for another.
-    let width = |r: &&Row| -> u64 {
+    let width = |r: &&PointEquation| -> u64 {
         let n = &normals[r.normal];
         n.iter()
             .map(|x| if x.is_zero() { 0 } else { bits(x) })
             .sum()
     };
-    let mut rows: Vec<&Row> = rows.iter().collect();
+    let mut rows: Vec<&PointEquation> = rows.iter().collect();
     rows.sort_by_key(width);
     let mut spent = 0;
     for row in rows {

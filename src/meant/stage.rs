@@ -3,15 +3,15 @@
 use super::caution::{Caution, WITHIN};
 use super::directions::{Directions, of_rays};
 use super::exact_directions::{Exact, exact};
-use super::frame::Frame;
+use super::frame::SceneFrame;
 use super::number::{self, Rational3, decimal, to_f64};
 use super::projection::Projection;
 use super::relations::{Normals, Relation, Use};
-use super::row::Row;
-use super::scene::Scene;
+use super::row::PointEquation;
+use super::scene::MeantScene;
 use super::solve::solve;
 use super::together::together;
-use super::written::{Ray, Written};
+use super::written::{Ray, WrittenScene};
 use crate::geom::vector::{Vector, sub};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -22,14 +22,14 @@ const NEVER_ALL: f64 = 0.95;
 
 /// What is known of a scene before its points are moved.
 pub(super) struct Stage<'a> {
-    written: &'a Written,
+    written: &'a WrittenScene,
     /// Moves of so many halves of a last digit are within it.
     within: f64,
     floor: f64,
     size: f64,
     /// Decimals of a direction's components.
     pub(super) digits: u32,
-    frame: Frame,
+    frame: SceneFrame,
     origin: usize,
     of: Directions,
     exact: Vec<Exact>,
@@ -56,7 +56,7 @@ fn places(error: f64) -> u32 {
 }
 
 impl<'a> Stage<'a> {
-    pub(super) fn new(written: &'a Written, caution: Caution) -> Stage<'a> {
+    pub(super) fn new(written: &'a WrittenScene, caution: Caution) -> Stage<'a> {
         let errors = written.errors();
         let points: Vec<Vector> = written.points.iter().map(|p| p.value).collect();
         let size = written.size();
@@ -65,7 +65,7 @@ impl<'a> Stage<'a> {
         let inexact = written.rays.iter().map(Ray::error).filter(|e| *e > 0.0);
         let digits = places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
         let (of, symmetric) = directions(written, (&points, &errors), caution.bold);
-        let frame = Frame::of(&of.all);
+        let frame = SceneFrame::of(&of.all);
         let whole = |p: &usize| written.points[*p].half == [0.0; 3];
         let origin = (0..points.len()).find(whole).unwrap_or(0);
         let exactly = |ray: usize| frame.inside_exactly(&written.rays[ray].exact);
@@ -148,7 +148,12 @@ impl<'a> Stage<'a> {
     }
 
     /// The scene of rows that hold at some points, exact; none where they contradict each other.
-    pub(super) fn scene(&self, rows: &[Row], at: &[Vector], normals: &Normals) -> Option<Scene> {
+    pub(super) fn scene(
+        &self,
+        rows: &[PointEquation],
+        at: &[Vector],
+        normals: &Normals,
+    ) -> Option<MeantScene> {
         let offset = &self.written.points[self.origin].exact;
         let rotated = self.frame.rotation.is_some();
         let start = |p: usize| {
@@ -172,7 +177,7 @@ impl<'a> Stage<'a> {
         };
         let points: Vec<Rational3> = inside.iter().map(back).collect();
         let rays = self.rays();
-        Some(Scene {
+        Some(MeantScene {
             moved: self.moved(&points, &rays),
             points,
             rays,
@@ -216,7 +221,7 @@ impl<'a> Stage<'a> {
 
 /// Whether the digits of the rays of a direction allow another.
 fn fits<'a>(
-    written: &'a Written,
+    written: &'a WrittenScene,
     of: &Directions,
     bold: f64,
 ) -> impl Fn(usize, Vector) -> bool + use<'a> {
@@ -230,7 +235,7 @@ fn fits<'a>(
 /// The directions of a scene, those that are square or in one plane made so together; and which of them is that of the symmetry
 /// that is stated.
 fn directions(
-    written: &Written,
+    written: &WrittenScene,
     (points, errors): (&[Vector], &[f64]),
     bold: f64,
 ) -> (Directions, Option<usize>) {
@@ -238,7 +243,7 @@ fn directions(
     let symmetry = written.symmetry.as_ref();
     let symmetric = symmetry.and_then(|s| s.put(&mut of, points, errors));
     let own = of.all.len();
-    if Frame::is_the_files(&of.all) {
+    if SceneFrame::is_the_files(&of.all) {
         of.add_axes();
     }
     let fits = fits(written, &of, bold);
@@ -248,14 +253,14 @@ fn directions(
 }
 
 /// The points of a projection, and how many rows it has taken: a scene on the way.
-pub(super) struct Mark {
+pub(super) struct StageMark {
     pub(super) rows: usize,
     pub(super) points: Vec<Vector>,
 }
 
-impl Mark {
-    pub(super) fn of(at: &Projection<'_>) -> Mark {
-        Mark {
+impl StageMark {
+    pub(super) fn of(at: &Projection<'_>) -> StageMark {
+        StageMark {
             rows: at.rows.len(),
             points: at.points.clone(),
         }

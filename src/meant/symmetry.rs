@@ -4,9 +4,9 @@
 
 use super::directions::{Direction, Directions};
 use super::number::Rational3;
-use super::relations::{Kind, Normals, Relation};
-use super::row::Row;
-use super::written::{SPREAD, Symmetry};
+use super::relations::{Normals, Relation, RelationKind};
+use super::row::PointEquation;
+use super::written::{SPREAD, WrittenSymmetry};
 use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, sub, unit};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -16,7 +16,7 @@ const FAR: f64 = 30.0;
 /// No direction of doubles is known better `[rad]`.
 const LEAST: f64 = 1e-15;
 
-impl Symmetry {
+impl WrittenSymmetry {
     /// The normal of the plane, or the axis of the half turn, with its error `[rad]`; none where images are too near each other.
     fn direction(&self, points: &[Vector], errors: &[f64]) -> Option<(Vector, f64)> {
         let apart = self.points.iter().filter_map(|&[a, b]| {
@@ -127,12 +127,13 @@ impl Symmetry {
         for &[a, b] in &self.points {
             let [p, q] = first;
             let differences = difference.iter();
-            let differences = differences.map(|&n| Row::sum(&[(a, 1), (b, -1)], n));
+            let differences = differences.map(|&n| PointEquation::sum(&[(a, 1), (b, -1)], n));
             let middles = middle.iter();
-            let middles = middles.map(|&n| Row::sum(&[(a, 1), (b, 1), (p, -1), (q, -1)], n));
+            let middles =
+                middles.map(|&n| PointEquation::sum(&[(a, 1), (b, 1), (p, -1), (q, -1)], n));
             for row in differences.chain(middles).filter(|r| !r.terms.is_empty()) {
                 out.push(Relation {
-                    kind: Kind::Mirrored,
+                    kind: RelationKind::Mirrored,
                     rows: vec![row],
                     weight: 0,
                     off: 0.0,

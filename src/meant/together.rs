@@ -6,7 +6,7 @@ use crate::geom::vector::{Vector, add_scaled, cross, dot, length, unit};
 
 /// A relation of directions.
 #[derive(Debug, Clone, Copy)]
-enum Relation {
+enum DirectionRelation {
     Square(usize, usize),
     InPlane(usize, usize, usize),
 }
@@ -20,15 +20,15 @@ const LIMIT: f64 = 2.0;
 /// What is left of a relation by others.
 const DEPENDENT: f64 = 1e-6;
 
-impl Relation {
+impl DirectionRelation {
     /// How far from holding, and the change of that with each direction.
     fn at(self, units: &[Vector]) -> (f64, Vec<(usize, Vector)>) {
         match self {
-            Relation::Square(i, j) => {
+            DirectionRelation::Square(i, j) => {
                 let (a, b) = (units[i], units[j]);
                 (dot(a, b), vec![(i, b), (j, a)])
             }
-            Relation::InPlane(i, j, k) => {
+            DirectionRelation::InPlane(i, j, k) => {
                 let (a, b, c) = (units[i], units[j], units[k]);
                 let by = vec![(i, cross(b, c)), (j, cross(c, a)), (k, cross(a, b))];
                 (dot(a, cross(b, c)), by)
@@ -93,11 +93,11 @@ impl Turns<'_> {
 }
 
 /// Relations that may hold within the errors, those of two directions first, the nearest first.
-fn candidates(all: &[Direction]) -> Vec<Relation> {
+fn candidates(all: &[Direction]) -> Vec<DirectionRelation> {
     let units: Vec<Vector> = all.iter().map(|d| d.unit).collect();
     let n = all.len();
-    let mut out: Vec<(bool, f64, Relation)> = Vec::new();
-    let mut offer = |r: Relation| {
+    let mut out: Vec<(bool, f64, DirectionRelation)> = Vec::new();
+    let mut offer = |r: DirectionRelation| {
         let (off, by) = r.at(&units);
         let errors = by.iter().flat_map(|(d, g)| {
             let tilts = all[*d].tilts;
@@ -105,13 +105,13 @@ fn candidates(all: &[Direction]) -> Vec<Relation> {
         });
         let error = errors.sum::<f64>().sqrt();
         if off.abs() <= LIMIT * error + 1e-14 {
-            let square = matches!(r, Relation::Square(..));
+            let square = matches!(r, DirectionRelation::Square(..));
             out.push((!square, off.abs() / (error + 1e-14), r));
         }
     };
     for i in 0..n {
         for j in 0..i {
-            offer(Relation::Square(i, j));
+            offer(DirectionRelation::Square(i, j));
             if n > MOST || length(cross(units[i], units[j])) < APART {
                 continue;
             }
@@ -120,7 +120,7 @@ fn candidates(all: &[Direction]) -> Vec<Relation> {
                     .iter()
                     .all(|&m| length(cross(units[m], units[k])) > APART);
                 if apart {
-                    offer(Relation::InPlane(i, j, k));
+                    offer(DirectionRelation::InPlane(i, j, k));
                 }
             }
         }
@@ -146,7 +146,7 @@ pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize,
         turns: vec![0.0; 2 * all.len()],
     };
     let start: Vec<Vector> = turns.all.iter().map(|d| d.unit).collect();
-    let mut taken: Vec<Relation> = Vec::new();
+    let mut taken: Vec<DirectionRelation> = Vec::new();
     for r in found {
         let (before, rows) = (turns.turns.clone(), turns.basis.len());
         let (off, by) = r.at(&start);

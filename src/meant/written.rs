@@ -8,7 +8,7 @@ use num_traits::ToPrimitive;
 
 /// A point as it is written.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place {
+pub struct WrittenPoint {
     /// Its coordinates.
     pub value: Vector,
     /// The same exactly.
@@ -30,7 +30,7 @@ pub struct Ray {
 
 /// Points and directions of a scene that are each other's images, or their own, as a file states it.
 #[derive(Debug, Clone)]
-pub struct Symmetry {
+pub struct WrittenSymmetry {
     /// Whether half a turn carries them over, and not a mirror.
     pub turned: bool,
     /// Pairs of points; a point that is its own image with itself.
@@ -41,19 +41,19 @@ pub struct Symmetry {
 
 /// The geometry of a file as it is written.
 #[derive(Debug, Clone, Default)]
-pub struct Written {
+pub struct WrittenScene {
     /// Its points.
-    pub points: Vec<Place>,
+    pub points: Vec<WrittenPoint>,
     /// Its directions.
     pub rays: Vec<Ray>,
     /// What it states of images.
-    pub symmetry: Option<Symmetry>,
+    pub symmetry: Option<WrittenSymmetry>,
 }
 
 /// Relative errors of double precision, times ten: no number is known better.
 const DOUBLE: f64 = 2e-15;
 
-impl Written {
+impl WrittenScene {
     /// The largest distance between two points; 1 where there is one place alone.
     pub(super) fn size(&self) -> f64 {
         let of = |i: usize| {
@@ -69,7 +69,7 @@ impl Written {
     }
 
     /// The same with lengths ten times larger so many times; none where that is too large or small for doubles.
-    pub(super) fn resized(&self, power: i32) -> Option<Written> {
+    pub(super) fn resized(&self, power: i32) -> Option<WrittenScene> {
         let (by, exactly) = (
             10f64.powi(power),
             BigRational::from_integer(BigInt::from(10)).pow(power),
@@ -103,7 +103,7 @@ impl Written {
     /// How far each point may be from where it is written, in each coordinate.
     pub(super) fn errors(&self) -> Vec<f64> {
         let least = self.floor();
-        let largest = |p: &Place| p.half.iter().fold(least, |a, &h| a.max(h));
+        let largest = |p: &WrittenPoint| p.half.iter().fold(least, |a, &h| a.max(h));
         self.points.iter().map(largest).collect()
     }
 }
@@ -144,7 +144,7 @@ impl Ray {
 }
 
 /// Two points' difference, and how far each of its components may be off.
-pub(super) struct Pair {
+pub(super) struct PointPair {
     pub(super) ends: [usize; 2],
     pub(super) along: Vector,
     pub(super) length: f64,
@@ -153,7 +153,7 @@ pub(super) struct Pair {
 }
 
 /// All pairs of points that are not one, the longest first.
-pub(super) fn pairs(points: &[Vector], errors: &[f64]) -> Vec<Pair> {
+pub(super) fn pairs(points: &[Vector], errors: &[f64]) -> Vec<PointPair> {
     let mut out = Vec::new();
     for i in 0..points.len() {
         for j in 0..i {
@@ -161,7 +161,7 @@ pub(super) fn pairs(points: &[Vector], errors: &[f64]) -> Vec<Pair> {
             let error = SPREAD * (errors[i] + errors[j]);
             let length = length(along);
             if length > FAR * error {
-                out.push(Pair {
+                out.push(PointPair {
                     ends: [j, i],
                     along,
                     length,

@@ -2,7 +2,7 @@
 
 /// One step of a programme.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Step {
+pub enum ProgrammeStep {
     /// The latch of disc 0 or 1 lets go, and the disc swings.
     Swing(usize),
     /// Both discs stay latched. `[s]`
@@ -110,5 +110,5 @@ pub struct DriveSpec {
     /// How far short of its groove a latch still catches a disc. `[rad]`
     pub capture: f64,
     /// What the discs do.
-    pub programme: Vec<Step>,
+    pub programme: Vec<ProgrammeStep>,
 }

@@ -186,6 +186,13 @@ impl JointType {
     }
 
     /// The freedoms of the type, in the joint's frame.
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::{Freedom, JointType};
+    /// let pin = JointType::from_name("cylindrical").unwrap();
+    /// assert_eq!(pin.freedoms(), [Freedom::Rz, Freedom::Tz]);
+    /// ```
     #[must_use]
     pub fn freedoms(&self) -> &[Freedom] {
         self.known().1

@@ -10,7 +10,7 @@ pub mod ratio;
 mod source;
 mod uncertainty;
 
-use crate::geom::expr::{End, Expr, PI_DIGITS, Written};
+use crate::geom::expr::{End, Expr, PI_DIGITS, WrittenNumber};
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{Frame, Mechanism, Mode};
 use std::collections::BTreeMap;
@@ -74,7 +74,7 @@ impl fmt::Display for Rounded {
 
 /// What is seen of a mechanism's decimals.
 #[derive(Default)]
-struct Seen {
+struct SeenDecimals {
     /// Units of long lengths, and of long components of directions, by their size.
     units: [BTreeMap<u64, f64>; 2],
     /// Number, place and value as text of the first coordinate, for those that look measured and for all.
@@ -84,7 +84,7 @@ struct Seen {
     pi: usize,
 }
 
-impl Seen {
+impl SeenDecimals {
     /// Takes in a coordinate of a vector of length `norm`, 0 for a length, that is long from so many digits on.
     fn see(&mut self, v: &Expr, (norm, least): (f64, usize), place: &dyn Fn() -> String) {
         let direction = norm > 0.0;
@@ -159,7 +159,7 @@ fn shared(mut units: Vec<f64>) -> f64 {
 /// decimals are, and so are whole numbers.
 #[must_use]
 pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
-    let mut seen = Seen::default();
+    let mut seen = SeenDecimals::default();
     for joint in &mechanism.joints {
         seen.see_frame(&joint.frame, &|| format!("joint {}", joint.id));
         // Options mostly share the joint's place; only what is their own counts.
@@ -217,11 +217,11 @@ fn decimal(expr: &Expr) -> Option<Decimal> {
     }
     match expr.written() {
         // The `.0` behind a whole number says nothing.
-        Written::Decimal(d) if d.end != End::Float => Some(Decimal {
+        WrittenNumber::Decimal(d) if d.end != End::Float => Some(Decimal {
             digits: Some(d.significant),
             unit: 2.0 * d.half,
         }),
-        Written::Stated(half) if half > 0.0 => Some(Decimal {
+        WrittenNumber::Stated(half) if half > 0.0 => Some(Decimal {
             digits: measured(expr),
             unit: 2.0 * half,
         }),
@@ -232,7 +232,7 @@ fn decimal(expr: &Expr) -> Option<Decimal> {
 /// The significant digits of a number as a double, where they are so many that it was measured or computed.
 fn measured(expr: &Expr) -> Option<usize> {
     match Expr::from_f64(expr.to_f64()).ok()?.written() {
-        Written::Decimal(d) => Some(d.significant).filter(|n| *n >= DIGITS),
+        WrittenNumber::Decimal(d) => Some(d.significant).filter(|n| *n >= DIGITS),
         _ => None,
     }
 }

@@ -63,7 +63,7 @@ impl Pose {
     ///
     /// # Complexity
     /// As [`Pose::close`].
-    pub fn close_within(
+    pub(crate) fn close_within(
         &self,
         mut q: Vec<f64>,
         hold: &[usize],

@@ -1,6 +1,6 @@
 //! The whole way of a drive, from one end to the other or once round, step by step.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::motion::follow::{Follower, Stop, positions, slides};
 use crate::motion::pose::Pose;
 use std::f64::consts::{PI, TAU};
@@ -21,7 +21,7 @@ pub struct Way {
     /// Position of the drive in each pose: radians, or fractions of [`Pose::length`], from the pose of the file.
     pub at: Vec<f64>,
     /// The motion of each link since the pose of the file, pose by pose; see [`Pose::links`].
-    pub links: Vec<Vec<Motion>>,
+    pub links: Vec<Vec<RigidMotion>>,
     /// Which of the poses is that of the file, or the nearest to it.
     pub start: usize,
     /// Whether the last pose is the first again, after one turn of the drive.
@@ -135,7 +135,7 @@ fn eased(part: f64, stopped: [bool; 2]) -> f64 {
 }
 
 /// How far two places of a link are apart: radians, and fractions of [`Pose::length`].
-fn apart(a: &Motion, b: &Motion) -> f64 {
+fn apart(a: &RigidMotion, b: &RigidMotion) -> f64 {
     let shift = (0..3).map(|i| (a.translation[i] - b.translation[i]).abs());
     let turn = (0..9).map(|i| (a.rotation[i / 3][i % 3] - b.rotation[i / 3][i % 3]).abs());
     shift.chain(turn).fold(0.0, f64::max)

@@ -403,6 +403,12 @@ pub fn slides(pose: &Pose, column: usize) -> bool {
 }
 
 /// The positions of a stroke in equal steps, both ends included.
+///
+/// # Examples
+/// ```
+/// let all: Vec<f64> = ozols::motion::follow::positions([0.0, 1.0], 2).collect();
+/// assert_eq!(all, [0.0, 0.5, 1.0]);
+/// ```
 pub fn positions([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
     (0..=steps).map(move |i| {
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]

@@ -12,7 +12,7 @@ use crate::closure::tree::spanning_tree;
 use crate::closure::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::Extent;
-use crate::geom::rigid::{Motion, halves};
+use crate::geom::rigid::{RigidMotion, halves};
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{self, across, cross, dot, length, sub};
 use crate::model::coupling::{CoupledFreedom, Coupling};
@@ -26,7 +26,7 @@ pub const CLOSED: f64 = 1e-12;
 pub const FLAT: f64 = 1e-6;
 
 /// Turn and shift as six numbers that vanish together with a motion: (sin θ · axis; translation).
-fn defect(motion: &Motion) -> [f64; 6] {
+fn defect(motion: &RigidMotion) -> [f64; 6] {
     // Beyond a quarter turn the sine falls again; keep it growing so that half a turn is no solution.
     let cosine = motion.cosine();
     let grow = if cosine < 0.0 {
@@ -63,8 +63,8 @@ pub struct Pose {
     pub length: f64,
     /// The middle that coordinates are taken from, in the file's unit.
     pub middle: [f64; 3],
-    /// Motion of each link since the file's pose, in [`Pose::length`] about the middle.
-    pub links: Vec<Motion>,
+    /// RigidMotion of each link since the file's pose, in [`Pose::length`] about the middle.
+    pub links: Vec<RigidMotion>,
     /// Relative error of the coordinates: contours need not close better than that.
     accuracy: f64,
     /// Contours as (column, direction).
@@ -80,7 +80,7 @@ pub struct Pose {
 impl Pose {
     /// Where motions of links, in the lengths of this pose, bring a point of one of them.
     #[must_use]
-    pub fn carried(&self, links: &[Motion], link: LinkId, p: [f64; 3]) -> [f64; 3] {
+    pub fn carried(&self, links: &[RigidMotion], link: LinkId, p: [f64; 3]) -> [f64; 3] {
         let parts = sub(p, self.middle).map(|x| x / self.length);
         let there = links[link].point(parts);
         [0, 1, 2].map(|i| self.middle[i] + there[i] * self.length)
@@ -158,7 +158,7 @@ impl Pose {
             columns,
             length: size,
             middle,
-            links: vec![Motion::IDENTITY; mechanism.links.len()],
+            links: vec![RigidMotion::IDENTITY; mechanism.links.len()],
             accuracy: 0.0,
             contours,
             couplings,
@@ -204,9 +204,9 @@ impl Pose {
     pub fn gaps(&self, q: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
         for contour in &self.contours {
-            let mut at = Motion::IDENTITY;
+            let mut at = RigidMotion::IDENTITY;
             for &(c, sign) in contour {
-                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
             }
             out.extend(defect(&at));
         }
@@ -224,13 +224,13 @@ impl Pose {
     pub fn jacobian(&self, q: &[f64]) -> Matrix {
         let mut matrix = Matrix::zeros(self.rows(), self.columns.len());
         for (k, contour) in self.contours.iter().enumerate() {
-            let mut at = Motion::IDENTITY;
+            let mut at = RigidMotion::IDENTITY;
             for &(c, sign) in contour {
                 let twist = at.twist(&self.columns[c].twist);
                 for (i, x) in twist.iter().enumerate() {
                     matrix[(6 * k + i, c)] += sign * x;
                 }
-                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
             }
         }
         for (row, coupling) in (6 * self.contours.len()..).zip(&self.couplings) {
@@ -260,11 +260,11 @@ impl Pose {
     /// The pose at coordinates `q` from this one, its twists taken there.
     #[must_use]
     pub fn moved(&self, q: &[f64]) -> Pose {
-        let mut since = vec![Motion::IDENTITY; self.links.len()];
+        let mut since = vec![RigidMotion::IDENTITY; self.links.len()];
         for (to, from, walk) in &self.tree {
             let mut at = since[*from];
             for &(c, sign) in walk {
-                at = at.then(&Motion::exp(&self.columns[c].twist, sign * q[c]));
+                at = at.then(&RigidMotion::exp(&self.columns[c].twist, sign * q[c]));
             }
             since[*to] = at;
         }
@@ -272,7 +272,7 @@ impl Pose {
         for (c, &(link, before)) in self.base.iter().enumerate() {
             let mut at = since[link];
             for (p, x) in q.iter().enumerate().take(c).skip(c - before) {
-                at = at.then(&Motion::exp(&self.columns[p].twist, *x));
+                at = at.then(&RigidMotion::exp(&self.columns[p].twist, *x));
             }
             next.columns[c].twist = unit(at.twist(&self.columns[c].twist));
             next.columns[c].moved += q[c];

@@ -43,7 +43,7 @@ fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError>
 
 /// The drawing of a mechanism as numbers.
 #[derive(Serialize)]
-struct Drawing {
+struct DrawingData {
     /// The places of the joints, and their names.
     pins: Vec<[f64; 2]>,
     names: Vec<String>,
@@ -61,7 +61,7 @@ struct Drawing {
 }
 
 /// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y.
-fn drawing(text: &str) -> Option<Drawing> {
+fn drawing(text: &str) -> Option<DrawingData> {
     let m = Mechanism::from_toml(text).ok()?;
     let place = |j: &Joint| {
         let [x, y, _] = real(&j.frame.point);
@@ -112,7 +112,7 @@ fn drawing(text: &str) -> Option<Drawing> {
     let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
     let place = |p: &[f64; 2]| p.map(|x| x * scaled);
     let slides = |d: usize| joints[d].joint_type.freedoms().iter().any(|f| f.slides());
-    Some(Drawing {
+    Some(DrawingData {
         pins: pins.iter().map(place).collect(),
         names: joints.iter().map(|j| j.id.clone()).collect(),
         links,

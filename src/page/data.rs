@@ -2,7 +2,7 @@
 
 use super::contents::Page;
 use super::symbols::Swaps;
-use super::variants::Found;
+use super::variants::FoundColumns;
 use crate::draw::Scene;
 use crate::format::plain::turns;
 use crate::model::mechanism::{Joint, Mechanism};
@@ -17,8 +17,8 @@ pub(super) struct Data<'a> {
     length_unit: &'a str,
     states: Vec<StateData<'a>>,
     joints: Vec<JointData<'a>>,
-    search: Option<Found>,
-    ideas: Option<Found>,
+    search: Option<FoundColumns>,
+    ideas: Option<FoundColumns>,
     swaps: Vec<Swaps>,
     variant_commands: &'a [(String, String)],
     idea_commands: &'a [(String, String)],
@@ -57,7 +57,7 @@ impl<'a> Data<'a> {
     pub(super) fn new(
         page: &'a Page<'_>,
         analysis: &'a Analysis<'_>,
-        [search, ideas]: [Option<Found>; 2],
+        [search, ideas]: [Option<FoundColumns>; 2],
         swaps: Vec<Swaps>,
     ) -> Data<'a> {
         let m = page.mechanism;

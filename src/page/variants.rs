@@ -2,8 +2,8 @@
 
 use super::contents::{Page, Redesigns};
 use super::figures;
-use super::number::Number;
-use super::workload::{Workload, workload};
+use super::number::PageNumber;
+use super::workload::{WorkloadColumns, workload};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::AnalysisError;
 use crate::score::outcome::variant::Variant;
@@ -17,7 +17,7 @@ use serde::Serialize;
 
 /// Everything the script knows of the search: counts, what can be chosen, and a column for each figure of the variants.
 #[derive(Serialize)]
-pub(super) struct Found {
+pub(super) struct FoundColumns {
     space: String,
     determinate: String,
     admissible: String,
@@ -26,7 +26,7 @@ pub(super) struct Found {
     variables: Vec<Choices>,
     /// Pairs of a variable and its choice, where that is not the present one.
     choices: Vec<Vec<usize>>,
-    cost: Vec<Number>,
+    cost: Vec<PageNumber>,
     changes: Vec<u32>,
     mobility: Vec<i64>,
     redundant: Vec<u32>,
@@ -38,7 +38,7 @@ pub(super) struct Found {
     /// The states but the free one.
     states: Vec<InState>,
     contours: Vec<Option<Vec<usize>>>,
-    conditioning: Vec<Option<Number>>,
+    conditioning: Vec<Option<PageNumber>>,
     agree: Vec<Option<bool>>,
     lucky: Vec<Option<bool>>,
     notes: Vec<Option<String>>,
@@ -49,7 +49,7 @@ pub(super) struct Found {
     stands_for: Vec<Option<String>>,
     /// Of the first ideas, line by line, what `ozols search` says of them.
     why: Vec<Vec<(String, String)>>,
-    workload: Option<Workload>,
+    workload: Option<WorkloadColumns>,
 }
 
 /// Ideas that a page says why of: two pages of its table. `ozols search --format json` says it of all.
@@ -59,11 +59,11 @@ const TOLD: usize = 50;
 #[derive(Serialize)]
 struct Choices {
     joints: Vec<usize>,
-    choices: Vec<Choice>,
+    choices: Vec<ChoiceData>,
 }
 
 #[derive(Serialize)]
-struct Choice {
+struct ChoiceData {
     names: Vec<String>,
     class: Option<&'static str>,
     unloading: bool,
@@ -106,8 +106,8 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     r.variants.par_iter().enumerate().map(one).collect()
 }
 
-impl Found {
-    pub(super) fn new(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Found, AnalysisError> {
+impl FoundColumns {
+    pub(super) fn new(page: &Page<'_>, r: &Redesigns<'_>) -> Result<FoundColumns, AnalysisError> {
         let search = &r.found.search;
         let further = further(r)?;
         let working = page.states.first().map(|s| s.working_mobility);
@@ -130,7 +130,7 @@ impl Found {
             }
         });
         let conditions = &search.conditions;
-        Ok(Found {
+        Ok(FoundColumns {
             space: search.size().to_string(),
             determinate: r.found.determinate.total.to_string(),
             admissible: r.found.admissible.total.to_string(),
@@ -147,7 +147,7 @@ impl Found {
                 let changed = choices.filter(|(_, c)| **c != 0);
                 changed.flat_map(|(v, &c)| [v, c]).collect()
             }),
-            cost: column(r, |c| Number::cost(c.cost_milli())),
+            cost: column(r, |c| PageNumber::cost(c.cost_milli())),
             changes: column(r, |c| c.change_count()),
             mobility: column(r, |c| c.mobility()),
             redundant: column(r, |c| c.redundant()),
@@ -163,7 +163,7 @@ impl Found {
             contours: further.iter().map(|f| f.contours.clone()).collect(),
             conditioning: column(r, |c| {
                 let opinion = c.second().opinion();
-                opinion.map(|o| Number::measured(o.conditioning))
+                opinion.map(|o| PageNumber::measured(o.conditioning))
             }),
             agree: column(r, |c| c.second().opinion().map(|o| o.agree)),
             lucky: column(r, |c| c.over_stroke().and_then(|s| s.lucky())),
@@ -195,7 +195,7 @@ impl Choices {
         let choices = v.choices.iter().map(|c| {
             let first = v.joints.first();
             let option = first.and_then(|&j| m.joints[j].options.get(c.option));
-            Choice {
+            ChoiceData {
                 names: v.joints.iter().map(|&j| choice_name(m, j, c)).collect(),
                 class: option.map(|o| o.joint_type.class()),
                 unloading: c.unloading.is_some(),

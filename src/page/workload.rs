@@ -1,7 +1,7 @@
 //! What the joints of each variant bear, and its scores, where the file states loads.
 
 use super::contents::Redesigns;
-use super::number::Number;
+use super::number::PageNumber;
 use crate::model::ranking::Term;
 use crate::score::evaluation::joint_loads::{Bearing, Bearings};
 use crate::score::evaluation::terms::Scores;
@@ -12,7 +12,7 @@ use serde::Serialize;
 /// Columns of the variants; `None` in them where the loads of a variant have no equilibrium.
 #[derive(Serialize)]
 #[serde(untagged)]
-pub(super) enum Workload {
+pub(super) enum WorkloadColumns {
     Failed { failed: String },
     Scored(Box<Columns>),
 }
@@ -23,27 +23,27 @@ type Column<T> = Vec<Option<T>>;
 pub(super) struct Columns {
     poses: usize,
     stopped: Option<f64>,
-    peak_force: Column<Number>,
-    peak_moment: Column<Number>,
-    conditioning: Column<Number>,
-    output_error_mm: Column<Number>,
+    peak_force: Column<PageNumber>,
+    peak_moment: Column<PageNumber>,
+    conditioning: Column<PageNumber>,
+    output_error_mm: Column<PageNumber>,
     minimum_norm: Column<bool>,
     /// By joint, as the three after it.
-    force: Column<Column<Number>>,
-    moment: Column<Column<Number>>,
-    force_share: Column<Column<Number>>,
-    moment_share: Column<Column<Number>>,
-    ranked: Option<Order>,
+    force: Column<Column<PageNumber>>,
+    moment: Column<Column<PageNumber>>,
+    force_share: Column<Column<PageNumber>>,
+    moment_share: Column<Column<PageNumber>>,
+    ranked: Option<RankingColumns>,
 }
 
 /// The ranking; `None` where a variant is not in its list.
 #[derive(Serialize)]
-struct Order {
+struct RankingColumns {
     head: String,
     notes: Vec<String>,
     terms: Vec<&'static str>,
     by_cost: Column<usize>,
-    total: Column<Number>,
+    total: Column<PageNumber>,
     front: Column<usize>,
     reason: Column<String>,
 }
@@ -57,7 +57,7 @@ const NOTHING: f64 = 1e-9;
 const ARM: f64 = 1e-12;
 
 /// Scores and bearings of the variants for the script; none where the file states no loads and asks for no ranking.
-pub(super) fn workload(r: &Redesigns<'_>) -> Option<Workload> {
+pub(super) fn workload(r: &Redesigns<'_>) -> Option<WorkloadColumns> {
     let Bearings {
         poses,
         stopped,
@@ -65,25 +65,25 @@ pub(super) fn workload(r: &Redesigns<'_>) -> Option<Workload> {
     } = match r.found.bearings(&r.variants) {
         Ok(bearings) => bearings?,
         Err(why) => {
-            return Some(Workload::Failed {
+            return Some(WorkloadColumns::Failed {
                 failed: why.to_string(),
             });
         }
     };
-    let term = |t: Term| column(&scored, |s| Number::measured(s.value(t)));
-    Some(Workload::Scored(Box::new(Columns {
+    let term = |t: Term| column(&scored, |s| PageNumber::measured(s.value(t)));
+    Some(WorkloadColumns::Scored(Box::new(Columns {
         poses,
         stopped,
         peak_force: term(Term::PeakForce),
         peak_moment: term(Term::PeakMoment),
         conditioning: term(Term::Conditioning),
-        output_error_mm: column(&scored, |s| Number::measured(1e3 * s.output_error)),
+        output_error_mm: column(&scored, |s| PageNumber::measured(1e3 * s.output_error)),
         minimum_norm: column(&scored, |s| s.minimum_norm),
         force: joints(&scored, |b| Some(b.force), 0.0),
         moment: joints(&scored, |b| Some(b.moment), ARM),
         force_share: joints(&scored, |b| Some(b.force_share), 0.0),
         moment_share: joints(&scored, |b| b.moment_share, 0.0),
-        ranked: r.found.ranking.as_ref().map(|p| Order::new(r, p)),
+        ranked: r.found.ranking.as_ref().map(|p| RankingColumns::new(r, p)),
     })))
 }
 
@@ -97,31 +97,31 @@ fn joints(
     scored: &[Scored],
     of: fn(&Bearing) -> Option<f64>,
     beside: f64,
-) -> Column<Column<Number>> {
+) -> Column<Column<PageNumber>> {
     let one = |list: &Vec<Option<Bearing>>| {
         let values = list.iter().map(|b| b.as_ref().and_then(of));
         let greatest = values.clone().flatten().fold(0.0, f64::max);
         let forces = list.iter().flatten().map(|b| b.force);
         let least = (NOTHING * greatest).max(beside * forces.fold(0.0, f64::max));
-        let clean = |x: f64| Number::measured(if x < least { 0.0 } else { x });
+        let clean = |x: f64| PageNumber::measured(if x < least { 0.0 } else { x });
         values.map(|x| x.map(clean)).collect()
     };
     let all = scored.iter();
     all.map(|s| s.as_ref().map(|(_, list)| one(list))).collect()
 }
 
-impl Order {
-    fn new(r: &Redesigns<'_>, p: &RankedPool) -> Order {
+impl RankingColumns {
+    fn new(r: &Redesigns<'_>, p: &RankedPool) -> RankingColumns {
         let m = &r.found.search.mechanism;
         let all: Column<&Ranked> = r.variants.iter().map(|v| v.ranked()).collect();
-        Order {
+        RankingColumns {
             head: head(p),
             notes: notes(m, p),
             terms: p.ranking.terms.iter().map(|(t, _)| t.name()).collect(),
             by_cost: all.iter().map(|x| x.map(|r| r.by_cost)).collect(),
             total: all
                 .iter()
-                .map(|x| x.and_then(|r| r.total).map(Number::measured))
+                .map(|x| x.and_then(|r| r.total).map(PageNumber::measured))
                 .collect(),
             front: all.iter().map(|x| x.and_then(|r| r.front)).collect(),
             reason: r.variants.iter().map(|v| v.reason()).collect(),

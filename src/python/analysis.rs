@@ -6,12 +6,12 @@ use ozols::file::read::workload::motion;
 use ozols::model::mechanism::StateId;
 use ozols::rank::method::registry;
 use ozols::rank::rounded::verdict::verdict;
-use ozols::rank::stroke::request::Asked;
+use ozols::rank::stroke::request::AskedStroke;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::view::analysis::Analysis;
 use ozols::view::analysis::mobility::ByMethod;
 use ozols::view::analysis::suggestions::advise;
-use ozols::view::stroke::Stroke;
+use ozols::view::stroke::StrokeData;
 use pyo3::prelude::*;
 
 /// As `ozols analyze`.
@@ -64,8 +64,9 @@ pub(crate) fn stroke(
         let state = state(m, named)?;
         let verdict = verdict(m, state, tolerance).map_err(failed)?;
         let read = (range, motion::stroke(range).map_err(failed)?);
-        let asked = Asked::new(m, state, read, drive, (&verdict, tolerance)).map_err(failed)?;
-        let told = Stroke::of(&asked);
+        let asked =
+            AskedStroke::new(m, state, read, drive, (&verdict, tolerance)).map_err(failed)?;
+        let told = StrokeData::of(&asked);
         Ok((
             json(&told)?,
             told.text(None),

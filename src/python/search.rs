@@ -190,11 +190,8 @@ impl Outcome {
     fn data(&self, py: Python<'_>) -> PyResult<String> {
         let o = &*self.0;
         written(py, |out| {
-            let (eased, why) = (
-                o.relaxations().map_err(failed)?,
-                o.hopeless().map_err(failed)?,
-            );
-            json::write(out, o, o.variants(), (&eased, &why), None).map_err(failed)
+            let none = o.why_none().map_err(failed)?;
+            json::write(out, o, o.variants(), &none, None).map_err(failed)
         })
     }
 
@@ -208,12 +205,9 @@ impl Outcome {
     fn text(&self, py: Python<'_>) -> PyResult<String> {
         let o = &*self.0;
         written(py, |out| {
-            let (eased, why) = (
-                o.relaxations().map_err(failed)?,
-                o.hopeless().map_err(failed)?,
-            );
+            let none = o.why_none().map_err(failed)?;
             let name = &o.search.mechanism.name;
-            text::write(out, o, o.variants(), (&eased, &why), name, None).map_err(failed)
+            text::write(out, o, o.variants(), &none, name, None).map_err(failed)
         })
     }
 

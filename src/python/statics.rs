@@ -3,17 +3,17 @@
 use crate::mechanism::Mechanism;
 use crate::told::{Told, failed, json, state};
 use ozols::file::read::workload::motion;
-use ozols::grip::clamped::{Found, clamped};
+use ozols::grip::clamped::{ClampingReactions, clamped};
 use ozols::grip::jaw_loads::{Gripping, JawError};
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::with_drives_held::exact_self_stresses;
 use ozols::statics::contour_group::solutions::GroupMethod;
 use ozols::statics::reactions::Unsolved;
-use ozols::statics::solve::{Answer, Model, StaticsError, solve};
+use ozols::statics::solve::{Model, SolvedReactions, StaticsError, solve};
 use ozols::view::grip::clamped::{Clamped, Gripped, NotHeld, pose};
-use ozols::view::reactions::stroke::Stroke;
+use ozols::view::reactions::stroke::ReactionsOverStroke;
 use ozols::view::reactions::{Reactions, text::reactions};
-use ozols::view::statics::{Statics, csv::csv, text};
+use ozols::view::statics::{StaticsData, csv::csv, text};
 use pyo3::prelude::*;
 
 /// As `ozols statics`.
@@ -61,19 +61,19 @@ fn reactions_of(
             not_held(&NotHeld::because(m, state, &why.to_string()))
         }
         Err(e) => Err(failed(e)),
-        Ok(Answer::Planar(found)) => {
-            let told = Statics::new(&m.name, &found, &GroupMethod::ALL);
+        Ok(SolvedReactions::Planar(found)) => {
+            let told = StaticsData::new(&m.name, &found, &GroupMethod::ALL);
             let csv = csv(&told);
             Ok((json(&told)?, text::statics(&told, None), Some(csv), None))
         }
-        Ok(Answer::Spatial(found)) => {
+        Ok(SolvedReactions::Spatial(found)) => {
             if let ([(_, Ok(one))], None) = (&found.positions[..], stroke) {
                 let exact = exact_self_stresses(m, state, &found.drives);
                 let told = Reactions::new(m, state, one).with_exact(exact);
                 let text = reactions(&told, "pose of the file", None);
                 return Ok((json(&told)?, text, Some(told.csv()), None));
             }
-            let told = Stroke::new(m, state, &found);
+            let told = ReactionsOverStroke::new(m, state, &found);
             Ok((json(&told)?, told.text(None), Some(told.csv()), None))
         }
     }
@@ -88,10 +88,10 @@ fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Told> {
         return not_held(&NotHeld::new(g));
     };
     let (m, grip) = (&found.mechanism, Clamped::new(g, row, &found));
-    let head = grip.text(matches!(found.found, Found::Planar(_)), None);
+    let head = grip.text(matches!(found.found, ClampingReactions::Planar(_)), None);
     match &found.found {
-        Found::Planar(s) => {
-            let told = Statics::new(&m.name, s, &GroupMethod::ALL);
+        ClampingReactions::Planar(s) => {
+            let told = StaticsData::new(&m.name, s, &GroupMethod::ALL);
             let (body, csv) = (text::statics(&told, None), csv(&told));
             let told = Gripped {
                 reactions: told,
@@ -100,7 +100,7 @@ fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Told> {
             };
             Ok((json(&told)?, head + &body, Some(csv), None))
         }
-        Found::Spatial(s) => {
+        ClampingReactions::Spatial(s) => {
             let told = Reactions::new(m, g.state, s);
             let (body, csv) = (reactions(&told, &pose(g, row), None), told.csv());
             let told = Gripped {

@@ -7,10 +7,10 @@ use ozols::file::read::workload::motion;
 use ozols::score::request::Request;
 use ozols::shard::Shard;
 use ozols::sweep::space::Sampling;
-use ozols::sweep::table::{Head, Watch, make, merge, read};
-use ozols::sweep::{Asked, Spec, Sweep, SweepError};
+use ozols::sweep::table::{Head, SweepWatch, make, merge, read};
+use ozols::sweep::{Spec, Sweep, SweepError, SweepRequest};
 use ozols::view;
-use ozols::view::sweep::plot::Quantity;
+use ozols::view::sweep::plot::PlottedQuantity;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -52,7 +52,7 @@ impl Asking {
                 (Some(count), seed) => Sampling::Sobol { count, seed },
                 (None, _) => Sampling::Grid { points: self.grid },
             },
-            asked: Asked {
+            asked: SweepRequest {
                 search: self.search.map(request).transpose()?,
                 top: self.top,
                 stroke,
@@ -103,7 +103,7 @@ struct Watching<'t> {
     tell: Tell<'t>,
 }
 
-impl Watch for Watching<'_> {
+impl SweepWatch for Watching<'_> {
     fn done(&mut self, done: usize, of: usize) {
         (self.tell)((done, of));
     }
@@ -128,7 +128,7 @@ pub(crate) fn sweep_merge(
 pub(crate) fn sweep_read(py: Python<'_>, path: PathBuf) -> PyResult<Told> {
     py.detach(|| {
         let table = read(&path).map_err(failed)?;
-        let told = view::sweep::Sweep::new(&table);
+        let told = view::sweep::SweepData::new(&table);
         Ok((json(&told)?, told.text(None), Some(told.csv()), None))
     })
 }
@@ -141,10 +141,10 @@ pub(crate) fn sweep_plot(
     quantity: &str,
     over: Vec<String>,
 ) -> PyResult<String> {
-    let quantity = search::word("quantity", quantity, &Quantity::ALL)?;
+    let quantity = search::word("quantity", quantity, &PlottedQuantity::ALL)?;
     py.detach(|| {
         let table = read(&path).map_err(failed)?;
-        let told = view::sweep::Sweep::new(&table);
+        let told = view::sweep::SweepData::new(&table);
         Ok(told.plot(quantity, &over).map_err(failed)?.svg())
     })
 }

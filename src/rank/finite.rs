@@ -70,7 +70,7 @@ pub fn finite(
 ///
 /// # Errors
 /// As [`finite`].
-pub fn finite_known(
+pub(crate) fn finite_known(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,

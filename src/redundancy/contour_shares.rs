@@ -38,7 +38,7 @@ pub struct CouplingShare {
 /// # Complexity
 /// As [`shares`].
 #[must_use]
-pub fn coupling_shares(
+pub(crate) fn coupling_shares(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,

@@ -9,7 +9,7 @@ use crate::redundancy::external::present_links;
 
 /// What a state is in numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Figures {
+pub struct StateFigures {
     /// Links, n.
     pub links: usize,
     /// Joints, p.
@@ -31,12 +31,12 @@ pub struct Figures {
 ///
 /// # Errors
 /// Where the geometry has no exact image.
-pub fn figures(mechanism: &Mechanism, state: StateId) -> Result<Figures, ExactError> {
+pub fn figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
     let exact = field_of(mechanism, state, 0)?;
     let closure = Closure::new(&exact, mechanism, state)?;
     let rank = modular::rank(&exact, &closure);
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
-    Ok(Figures {
+    Ok(StateFigures {
         links: present_links(mechanism, &joints).len(),
         joints: joints.len(),
         contours: closure.contours.len(),

@@ -5,7 +5,7 @@
 
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
@@ -72,7 +72,7 @@ pub fn wiggle(
         let mut there = pose.moved(&found.unwrap_or(ahead)).links;
         // they hang on links that move, by what closing leaves open
         for l in mechanism.link_ids().filter(|l| !moving(l)) {
-            there[l.index()] = Motion::IDENTITY;
+            there[l.index()] = RigidMotion::IDENTITY;
         }
         links.push(there);
         at.push(far);

@@ -67,7 +67,7 @@ impl<'a> Measured<'a> {
 
     /// Dimension of the joint motion of some links.
     #[must_use]
-    pub fn span_of_links(&self, links: &[LinkId]) -> usize {
+    pub(crate) fn span_of_links(&self, links: &[LinkId]) -> usize {
         let scaling = Scaling::of(&self.closure);
         let twists: Vec<Vec<Vec<f64>>> = links
             .iter()
@@ -88,7 +88,7 @@ impl<'a> Measured<'a> {
 
     /// Dimension of the part of the motions that some joints do.
     #[must_use]
-    pub fn span_of_joints(&self, joints: &[JointId]) -> usize {
+    pub(crate) fn span_of_joints(&self, joints: &[JointId]) -> usize {
         let columns: Vec<usize> = (0..self.closure.columns.len())
             .filter(|&c| joints.contains(&self.closure.columns[c].joint))
             .collect();
@@ -168,7 +168,7 @@ impl<'a> Measured<'a> {
     /// # Complexity
     /// 2c + 1 decompositions.
     #[must_use]
-    pub fn coupling_shares(&self) -> Vec<CouplingShare> {
+    pub(crate) fn coupling_shares(&self) -> Vec<CouplingShare> {
         let all: Vec<usize> = (0..self.closure.contours.len()).collect();
         let couplings: Vec<usize> = (0..self.closure.couplings.len()).collect();
         let whole = self.rank_of_rows(&all, &couplings);

@@ -39,7 +39,7 @@ pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
 
 /// A direction of a link in another pose, as it is in the pose of the file.
 #[must_use]
-pub fn turned_back(pose: &Pose, link: LinkId, d: Vector) -> Vector {
+pub(crate) fn turned_back(pose: &Pose, link: LinkId, d: Vector) -> Vector {
     pose.links[link.index()].inverse().direction(d)
 }
 

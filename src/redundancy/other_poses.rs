@@ -100,7 +100,7 @@ impl Where {
 ///
 /// # Complexity
 /// Some closings of O((6k)² f) and two decompositions of J a pose, where finite mobility does not tell.
-pub fn redundant_where(
+pub(crate) fn redundant_where(
     m: &Mechanism,
     state: StateId,
     finite: &Finite,

@@ -14,7 +14,7 @@ use itertools::Itertools;
 
 /// What a self-stress does to the parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum StressVerdict {
     /// Only friction at the faces of shared-load contacts: forces along them, or a moment about their normal.
     Harmless,
     /// Moments that faces or bearings must carry, or forces that press parts together.
@@ -46,7 +46,7 @@ pub struct SelfStress {
     /// Whether the self-stress exists only with the state's additional joints.
     pub external: bool,
     /// Harmless or harmful.
-    pub verdict: Verdict,
+    pub verdict: StressVerdict,
     /// ℓ, the size of the mechanism that moments are divided by, in the file's unit.
     pub size: f64,
 }
@@ -212,9 +212,9 @@ pub fn self_stresses(
             external: is_external,
             size,
             verdict: if friction {
-                Verdict::Harmless
+                StressVerdict::Harmless
             } else {
-                Verdict::Harmful
+                StressVerdict::Harmful
             },
         }
     };

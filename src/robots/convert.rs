@@ -15,14 +15,14 @@ mod to_mjcf;
 mod to_sdf;
 mod to_urdf;
 
-pub use closure::Closure;
-pub use judge::{Judged, Judgement, Motions, Wanted, figures};
-pub use lost::{Kind, Lost};
+pub use closure::LoopClosure;
+pub use judge::{JudgedLoop, Judgement, Motions, Wanted, figures};
+pub use lost::{Lost, LostKind};
 
 use crate::file::problem::ImportError;
 use crate::robots::convert::payload::Payload;
-use crate::robots::convert::plan::Plan;
-use crate::robots::convert::scene::{Scene, Text};
+use crate::robots::convert::plan::TreePlan;
+use crate::robots::convert::scene::{RobotScene, Text};
 use crate::robots::description::digits;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
@@ -95,7 +95,7 @@ pub struct Converted {
     /// The pose in which the loops are closed: values of the joints that are not at zero there.
     pub pose: Vec<(String, Vec<f64>)>,
     /// What was asked of loop closures, one by one.
-    pub closures: Vec<Judged>,
+    pub closures: Vec<JudgedLoop>,
     /// W and σ of what was read, its closures as asked, where the digits decide them.
     pub figures: Option<(usize, usize)>,
     /// Constraints that only repeat others, as the format has no better words: σ of what is written is so many more.
@@ -119,8 +119,8 @@ pub fn convert(
         digits::comment(imported.file.tolerance.as_ref()),
         Light::in_description(&origin.document).lighter(),
     );
-    let plan = Plan::new(&robot, origin.frame);
-    let scene = Scene {
+    let plan = TreePlan::new(&robot, origin.frame);
+    let scene = RobotScene {
         robot: &robot,
         payload: &payload,
         plan: &plan,
@@ -167,7 +167,7 @@ fn payload(origin: &Origin) -> Result<Payload, ImportError> {
 }
 
 /// Values of joints that are not at zero; SDF counts from the pose that it draws.
-fn pose(robot: &Robot, plan: &Plan, target: Target) -> Vec<(String, Vec<f64>)> {
+fn pose(robot: &Robot, plan: &TreePlan, target: Target) -> Vec<(String, Vec<f64>)> {
     if target == Target::Sdf {
         return Vec::new();
     }

@@ -21,7 +21,7 @@ pub struct Format {
     /// Endings of files that are robot descriptions of this format.
     endings: &'static [&'static str],
     read: Option<(&'static str, Describe)>,
-    write: Option<Writer>,
+    write: Option<FormatWriter>,
 }
 
 /// Reads the robot below the root element of a document; the files it includes are given by the reader.
@@ -30,26 +30,26 @@ pub(crate) type Describe =
 
 /// How a format is written.
 #[derive(Debug, Clone, Copy)]
-enum Writer {
+enum FormatWriter {
     /// From a mechanism alone.
-    Mechanism(fn(&Mechanism) -> Result<Written, ExportError>),
+    Mechanism(fn(&Mechanism) -> Result<FormattedFile, ExportError>),
     /// Into the owner's document alone, joints changed: shapes and references are there and in no mechanism.
     Own,
 }
 
 /// A mechanism in a format.
 #[derive(Debug)]
-pub struct Written {
+pub struct FormattedFile {
     /// The text.
     pub text: String,
     /// What the format has no words for, and what stands there in its place, a sentence each; comments of the text say it, too.
     pub told: Vec<String>,
 }
 
-impl From<String> for Written {
-    fn from(text: String) -> Written {
+impl From<String> for FormattedFile {
+    fn from(text: String) -> FormattedFile {
         let told = Vec::new();
-        Written { text, told }
+        FormattedFile { text, told }
     }
 }
 
@@ -61,7 +61,7 @@ static FORMATS: [Format; 9] = [
         about: "The mechanism file, every joint with its own options",
         endings: &[],
         read: None,
-        write: Some(Writer::Mechanism(|m| {
+        write: Some(FormatWriter::Mechanism(|m| {
             Ok(write::toml(&mechanism_file(m), &[])?.into())
         })),
     },
@@ -71,7 +71,7 @@ static FORMATS: [Format; 9] = [
         about: "The same as JSON",
         endings: &[],
         read: None,
-        write: Some(Writer::Mechanism(|m| {
+        write: Some(FormatWriter::Mechanism(|m| {
             Ok(format!("{:#}\n", mechanism_file(m).json()).into())
         })),
     },
@@ -81,7 +81,7 @@ static FORMATS: [Format; 9] = [
         about: "A spanning tree, loops as <loop_joint>",
         endings: &["urdf", "xml"],
         read: Some(("robot", urdf::read::read)),
-        write: Some(Writer::Mechanism(urdf::write::urdf)),
+        write: Some(FormatWriter::Mechanism(urdf::write::urdf)),
     },
     Format {
         word: "mjcf",
@@ -89,7 +89,7 @@ static FORMATS: [Format; 9] = [
         about: "Bodies; loops as connect and weld",
         endings: &["mjcf", "xml"],
         read: Some(("mujoco", mjcf::read::read)),
-        write: Some(Writer::Mechanism(mjcf::write::mjcf)),
+        write: Some(FormatWriter::Mechanism(mjcf::write::mjcf)),
     },
     Format {
         word: "sdf",
@@ -97,7 +97,7 @@ static FORMATS: [Format; 9] = [
         about: "Loops closed by joints",
         endings: &["sdf", "world", "xml"],
         read: Some(("sdf", sdf::read::read)),
-        write: Some(Writer::Mechanism(|m| Ok(sdf::write::sdf(m)))),
+        write: Some(FormatWriter::Mechanism(|m| Ok(sdf::write::sdf(m)))),
     },
     Format {
         word: "fcstd",
@@ -105,7 +105,7 @@ static FORMATS: [Format; 9] = [
         about: "FILE, a FreeCAD document, with joints of other types",
         endings: &["fcstd"],
         read: Some(("Document", fcstd::read::read)),
-        write: Some(Writer::Own),
+        write: Some(FormatWriter::Own),
     },
     Format {
         word: "asmt",
@@ -113,7 +113,7 @@ static FORMATS: [Format; 9] = [
         about: "FILE, an assembly of FreeCAD's solver, with joints of other types",
         endings: &["asmt"],
         read: Some(("Assembly", asmt::read::read)),
-        write: Some(Writer::Own),
+        write: Some(FormatWriter::Own),
     },
     Format {
         word: "dot",
@@ -121,7 +121,7 @@ static FORMATS: [Format; 9] = [
         about: "Graphviz",
         endings: &[],
         read: None,
-        write: Some(Writer::Mechanism(|m| Ok(graph::dot(m).into()))),
+        write: Some(FormatWriter::Mechanism(|m| Ok(graph::dot(m).into()))),
     },
     Format {
         word: "graphml",
@@ -129,14 +129,14 @@ static FORMATS: [Format; 9] = [
         about: "GraphML, for graph programs",
         endings: &[],
         read: None,
-        write: Some(Writer::Mechanism(|m| Ok(graph::graphml(m).into()))),
+        write: Some(FormatWriter::Mechanism(|m| Ok(graph::graphml(m).into()))),
     },
 ];
 
 /// Whether only files read in a format are written in it, with joints changed.
 #[must_use]
 pub fn is_own(word: &str) -> bool {
-    written().any(|f| f.word == word && matches!(f.write, Some(Writer::Own)))
+    written().any(|f| f.word == word && matches!(f.write, Some(FormatWriter::Own)))
 }
 
 /// The formats a mechanism can be written in.
@@ -148,6 +148,13 @@ pub fn written() -> impl Iterator<Item = &'static Format> {
 ///
 /// # Errors
 /// Where there is no such format, or it cannot say what the mechanism has.
+///
+/// # Examples
+/// ```
+/// let m = ozols::Mechanism::builtin("four-bar").unwrap();
+/// let graph = ozols::robots::formats::write(&m, "dot").unwrap();
+/// assert!(graph.contains("graph"));
+/// ```
 pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
     Ok(export(m, word)?.text)
 }
@@ -156,11 +163,11 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
 ///
 /// # Errors
 /// As [`write()`].
-pub fn export(m: &Mechanism, word: &str) -> Result<Written, ExportError> {
+pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
     let format = written().find(|f| f.word == word);
     match format.and_then(|f| Some((f.name, f.write?))) {
-        Some((_, Writer::Mechanism(write))) => write(m),
-        Some((format, Writer::Own)) => Err(ExportError::Own { format }),
+        Some((_, FormatWriter::Mechanism(write))) => write(m),
+        Some((format, FormatWriter::Own)) => Err(ExportError::Own { format }),
         None => Err(ExportError::Unknown {
             word: word.to_owned(),
             known: written().map(|f| f.word).collect::<Vec<_>>().join(", "),

@@ -29,14 +29,14 @@ pub struct Kept {
 
 /// What a CAD program counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Count {
+pub struct CadCount {
     /// Parts that are not the ground.
     pub parts: usize,
     /// Constraints of all joints.
     pub constraints: usize,
 }
 
-impl Count {
+impl CadCount {
     /// Six a part less all constraints: W less σ.
     #[must_use]
     pub fn freedoms(self) -> i64 {
@@ -61,7 +61,7 @@ pub struct Report {
     /// Rows of constraints of joints that are left out.
     pub constraint_rows: usize,
     /// What a CAD program would count, of an assembly.
-    pub count: Option<Count>,
+    pub count: Option<CadCount>,
     /// How the pose was found and how well the loops close.
     pub pose: Vec<String>,
     /// Those of these that make the mechanism another than is drawn: joints moved, loops taken open, bases that float.

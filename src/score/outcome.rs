@@ -60,6 +60,15 @@ pub struct Outcome {
     pub second: Option<SecondOpinion>,
 }
 
+/// What can be said where nothing was found; nothing where something was.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct WhyNone {
+    /// What easing one condition would leave.
+    pub eased: Vec<(Relaxation, BigUint)>,
+    /// What stands in the way of every variant.
+    pub hopeless: Hopeless,
+}
+
 impl Outcome {
     /// An outcome of (determinate, admissible) counts alone.
     pub(super) fn of_counts(
@@ -217,5 +226,15 @@ impl Outcome {
             return Ok(Hopeless::default());
         }
         Ok(why_none::hopeless(&self.search)?)
+    }
+    /// What can be said where nothing was found.
+    ///
+    /// # Errors
+    /// Where the geometry has no exact image.
+    pub fn why_none(&self) -> Result<WhyNone, SearchError> {
+        Ok(WhyNone {
+            eased: self.relaxations()?,
+            hopeless: self.hopeless()?,
+        })
     }
 }

@@ -1,39 +1,36 @@
 //! From a mechanism and a request to the outcome: conditions, diagrams, the twin over a second prime, counts, orbits,
 //! poses and the ranking.
 
-use crate::geom::exact::ExactError;
+mod error;
+mod opinions;
+
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::exact_field;
-use crate::score::evaluation::evaluate::ScoreError;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::ranked::ranked;
 use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
+use crate::score::run::opinions::{other_scenes, second_opinion};
 use crate::search::Search;
 use crate::search::answer::counts::Counts;
-use crate::search::answer::k_best::Assignment;
 use crate::search::answer::orbit_counts;
 use crate::search::build::Diagrams;
 use crate::search::check::brute;
 use crate::search::check::other_poses;
-use crate::search::check::second_opinion::{self, DRAWN, SecondOpinion};
-use crate::search::check::second_prime::{self, Disagreement, PrimeCheck};
-use crate::search::check::singular_values::CHECKED;
+use crate::search::check::second_prime::{self, PrimeCheck};
 use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
-use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
+use crate::search::question::conditions::{Conditions, Symmetry};
 use crate::search::question::rounded_rank::Digits;
-use num_bigint::BigUint;
 use std::sync::Arc;
-use thiserror::Error;
+
+pub use error::RunError;
 
 /// Poses looked at where only generic variants are wanted and the number of poses is not given.
 const POSES: usize = 3;
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
-/// Of so many ideas the first variants get a second opinion.
-const IDEAS: usize = 100;
 /// How many of the best both primes must agree on where no number of them is asked for.
 const COMPARED: usize = 10;
 
@@ -52,35 +49,6 @@ pub enum Event {
 pub type Tell<'a> = &'a mut (dyn FnMut(Event) + Send);
 /// Says whether to end early.
 pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
-
-/// Why a search has no outcome.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RunError {
-    /// The request does not suit the mechanism.
-    #[error(transparent)]
-    Request(#[from] RequestError),
-    /// The geometry has no image in a prime field.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
-    /// The search could not be made.
-    #[error(transparent)]
-    Search(#[from] SearchError),
-    /// Two primes give different answers.
-    #[error(transparent)]
-    Disagreement(#[from] Box<Disagreement>),
-    /// The variants cannot be ranked.
-    #[error("cannot score variants of {mechanism}: {why}")]
-    Score {
-        /// Name of the mechanism.
-        mechanism: String,
-        /// Why not.
-        why: ScoreError,
-    },
-    /// Too many variants to look at each.
-    #[error("{0} variants are too many for brute force; use --method diagram, or fewer --options")]
-    TooMany(BigUint),
-}
 
 /// Searches a mechanism.
 ///
@@ -132,17 +100,7 @@ pub fn answer(
         return numeric(search, (digits, measured), request, should_cancel, tell);
     }
     if request.method == Method::Brute {
-        let search = over(0)?;
-        if search.size() > BRUTE_LIMIT.into() {
-            return Err(RunError::TooMany(search.size()));
-        }
-        let counts = brute::brute(&search)?;
-        return Ok(Outcome::of_counts(
-            search,
-            request.clone(),
-            counts,
-            measured,
-        ));
+        return by_brute_force(over(0)?, request, measured);
     }
     let (search, twin) = match request.check {
         Check::None => (over(0)?, None),
@@ -154,87 +112,25 @@ pub fn answer(
     for note in search.already_loose()? {
         tell(Event::Note(note));
     }
-    let progress = &mut |p| tell(Event::Building(p));
-    let (diagrams, check) = match &twin {
-        None => (search.build(should_cancel, progress), None),
-        Some(twin) => {
-            let both: [&Question; 2] = [&search, twin];
-            let (first, second) = second_prime::build_both(both, should_cancel, progress);
-            let compared = match request.list {
-                List::Top(k) => k,
-                List::All | List::Sample(_) | List::Nothing => COMPARED,
-            };
-            let verdict = second_prime::compare(both, [&first, &second], compared)?;
-            let primes = second_prime::primes(both);
-            (first, Some(PrimeCheck { primes, verdict }))
-        }
-    };
+    let (diagrams, check) = built(&search, twin.as_ref(), request, should_cancel, tell)?;
     tell(Event::Built);
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-    let mut counts = (
-        search.counts(&diagrams.determinate, false),
-        search.counts(&diagrams.admissible, true),
-    );
-    // What is cut down elsewhere may have none of the cheapest.
-    if let Some(best) = &diagrams.cheapest {
-        let known = search.counts(&best.diagram, true);
-        for few in [&mut counts.0, &mut counts.1] {
-            if few.total < known.total {
-                few.clone_from(&known);
-            }
-        }
-    }
-    // Each is cut down by itself, and every admissible variant is determinate.
-    if stops[0] != Stop::Exhausted {
-        let (determinate, admissible) = &mut counts;
-        determinate.raise(admissible);
-    }
+    let mut counts = counted(&search, &diagrams);
     if counts.0.only_total || counts.1.only_total {
         tell(Event::Note(
             "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given"
                 .to_owned(),
         ));
     }
-    let counted = counts.0.clone();
+    let of_all = counts.0.clone();
     if request.symmetry == Symmetry::OnePerOrbit {
         (counts, stops) = orbits((&search, twin.as_ref()), counts, stops, should_cancel)?;
     }
-    let poses = match request.poses {
-        0 if request.generic_only => POSES,
-        n => n,
-    };
-    let stroke = (poses > 0)
-        .then(|| other_poses::stroke(&search, poses, request.seed, should_cancel))
-        .transpose()?;
-    if stroke.as_ref().is_some_and(|s| s.reached() == 0) && !should_cancel() {
-        tell(Event::Note(format!(
-            "warning: no other pose of {} could be reached: it has no motion to follow from this one",
-            search.mechanism.name
-        )));
-    }
-    let ranking = match request.ranking(&search.mechanism)? {
-        None => None,
-        Some(by) => ranked(&search, &diagrams, (request, &by), should_cancel).map_err(|why| {
-            let mechanism = search.mechanism.name.clone();
-            RunError::Score { mechanism, why }
-        })?,
-    };
-    if ranking.is_some()
-        && search
-            .mechanism
-            .loads
-            .drive_speeds
-            .iter()
-            .any(|s| *s != 0.0)
-    {
-        tell(Event::Note(
-            "note: variants are ranked at rest, without the inertia forces of drive_speed; `ozols statics --spatial` has them for one that is exported"
-                .to_owned(),
-        ));
-    }
-    let mut second = second_opinion((&search, &diagrams), &counted, ranking.as_ref(), request)?;
+    let stroke = in_other_poses(&search, request, should_cancel, tell)?;
+    let ranking = pool(&search, &diagrams, request, should_cancel, tell)?;
+    let mut second = second_opinion(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
     if let Some(second) = &mut second {
-        let all = (&counted, &search.counts(&diagrams.admissible, true));
+        let all = (&of_all, &search.counts(&diagrams.admissible, true));
         second.scenes = other_scenes(&search, all, should_cancel)?;
     }
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
@@ -262,82 +158,116 @@ pub fn answer(
     })
 }
 
-/// What singular values say of the counts, of the variants that are listed and of a sample, where coordinates look rounded.
-fn second_opinion(
-    (search, diagrams): (&Search, &Diagrams),
-    determinate: &Counts,
-    ranking: Option<&RankedPool>,
+/// Every variant looked at.
+fn by_brute_force(
+    search: Search,
     request: &Request,
-) -> Result<Option<SecondOpinion>, RunError> {
-    let Some(written) = &search.conditions.written else {
-        return Ok(None);
-    };
-    let mut listed: Vec<Assignment> = match (ranking, request.list) {
-        (Some(r), _) => r
-            .list
-            .iter()
-            .map(|r| r.variant.clone())
-            .take(CHECKED)
-            .collect(),
-        (_, List::Top(k)) => search.cheapest(diagrams, k.min(CHECKED)).collect(),
-        (_, List::All) => search.cheapest(diagrams, CHECKED).collect(),
-        (_, List::Sample(n)) => {
-            let drawn = search.sample(diagrams, request.seed);
-            drawn.take(n.min(CHECKED)).collect()
-        }
-        (_, List::Nothing) => Vec::new(),
-    };
-    // People are given the first of each idea.
-    if let (None, List::Top(k @ 1..=IDEAS)) = (ranking, request.list) {
-        listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
+    measured: Option<LooksRounded>,
+) -> Result<Outcome, RunError> {
+    if search.size() > BRUTE_LIMIT.into() {
+        return Err(RunError::TooMany(search.size()));
     }
-    let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
-    let said = second_opinion::second_opinion(
+    let counts = brute::brute(&search)?;
+    Ok(Outcome::of_counts(
         search,
-        written,
-        (listed, drawn),
-        determinate,
-        request.seed,
-    )?;
-    Ok(Some(said))
+        request.clone(),
+        counts,
+        measured,
+    ))
 }
 
-/// The least and the most (determinate, admissible) over the scenes that the digits do not rule out; none where all are the
-/// same, by mobility too.
-fn other_scenes(
+/// The diagrams, built over one prime or over two that must agree.
+fn built(
     search: &Search,
-    (determinate, admissible): (&Counts, &Counts),
+    twin: Option<&Search>,
+    request: &Request,
     should_cancel: ShouldCancel<'_>,
-) -> Result<Option<[(BigUint, BigUint); 2]>, RunError> {
-    let scenes = search.conditions.written.iter().flat_map(|w| &w.others);
-    let own = (determinate.total.clone(), admissible.total.clone());
-    let (mut range, mut differ) = ([own.clone(), own], false);
-    for scene in scenes {
-        let field = exact_field(scene, 0)?;
-        let mut conditions = search.conditions.clone();
-        conditions.estimate = None;
-        let other = Search::new(field, scene.clone(), conditions)?;
-        let built = other.build(should_cancel, &mut |_| {});
-        let found = (
-            other.counts(&built.determinate, false),
-            other.counts(&built.admissible, true),
-        );
-        differ |= found.0.by_mobility != determinate.by_mobility
-            || found.1.by_mobility != admissible.by_mobility;
-        let [least, most] = &mut range;
-        for (total, least, most) in [
-            (found.0.total, &mut least.0, &mut most.0),
-            (found.1.total, &mut least.1, &mut most.1),
-        ] {
-            if total < *least {
-                least.clone_from(&total);
-            }
-            if total > *most {
-                *most = total;
+    tell: Tell<'_>,
+) -> Result<(Diagrams, Option<PrimeCheck>), RunError> {
+    let progress = &mut |p| tell(Event::Building(p));
+    let Some(twin) = twin else {
+        return Ok((search.build(should_cancel, progress), None));
+    };
+    let both: [&Question; 2] = [search, twin];
+    let (first, second) = second_prime::build_both(both, should_cancel, progress);
+    let compared = match request.list {
+        List::Top(k) => k,
+        List::All | List::Sample(_) | List::Nothing => COMPARED,
+    };
+    let verdict = second_prime::compare(both, [&first, &second], compared)?;
+    let primes = second_prime::primes(both);
+    Ok((first, Some(PrimeCheck { primes, verdict })))
+}
+
+/// How many variants are determinate, and how many admissible.
+fn counted(search: &Search, diagrams: &Diagrams) -> (Counts, Counts) {
+    let mut counts = (
+        search.counts(&diagrams.determinate, false),
+        search.counts(&diagrams.admissible, true),
+    );
+    // What is cut down elsewhere may have none of the cheapest.
+    if let Some(best) = &diagrams.cheapest {
+        let known = search.counts(&best.diagram, true);
+        for few in [&mut counts.0, &mut counts.1] {
+            if few.total < known.total {
+                few.clone_from(&known);
             }
         }
     }
-    Ok(differ.then_some(range))
+    // Each is cut down by itself, and every admissible variant is determinate.
+    if diagrams.determinate.stop != Stop::Exhausted {
+        let (determinate, admissible) = &mut counts;
+        determinate.raise(admissible);
+    }
+    counts
+}
+
+/// Other poses to look at variants in, where that is asked for.
+fn in_other_poses(
+    search: &Search,
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Option<other_poses::Stroke>, RunError> {
+    let poses = match request.poses {
+        0 if request.generic_only => POSES,
+        n => n,
+    };
+    let stroke = (poses > 0)
+        .then(|| other_poses::stroke(search, poses, request.seed, should_cancel))
+        .transpose()?;
+    if stroke.as_ref().is_some_and(|s| s.reached() == 0) && !should_cancel() {
+        tell(Event::Note(format!(
+            "warning: no other pose of {} could be reached: it has no motion to follow from this one",
+            search.mechanism.name
+        )));
+    }
+    Ok(stroke)
+}
+
+/// The cheapest variants in the order of a ranking, where one is asked for.
+fn pool(
+    search: &Search,
+    diagrams: &Diagrams,
+    request: &Request,
+    should_cancel: ShouldCancel<'_>,
+    tell: Tell<'_>,
+) -> Result<Option<RankedPool>, RunError> {
+    let Some(by) = request.ranking(&search.mechanism)? else {
+        return Ok(None);
+    };
+    let pool = ranked(search, diagrams, (request, &by), should_cancel).map_err(|why| {
+        let mechanism = search.mechanism.name.clone();
+        RunError::Score { mechanism, why }
+    })?;
+    let mut speeds = search.mechanism.loads.drive_speeds.iter();
+    if pool.is_some() && speeds.any(|s| *s != 0.0) {
+        tell(Event::Note(
+            "note: variants are ranked at rest, without the inertia forces of drive_speed; `ozols statics --spatial` has them for one that is exported"
+                .to_owned(),
+        ));
+    }
+    Ok(pool)
 }
 
 /// The search of the mechanism as its file writes it, for singular values.

@@ -167,7 +167,7 @@ impl Question {
 
     /// Dimension of the kept links' present motion.
     #[must_use]
-    pub fn present_motion(&self) -> usize {
+    pub(crate) fn present_motion(&self) -> usize {
         self.present.unwrap_or(self.kept.1.len())
     }
 

@@ -11,7 +11,7 @@
 //! 2011; B. Servatius, O. Shai, W. Whiteley, "Combinatorial characterization of the Assur graphs from engineering",
 //! arXiv:0801.2525, 2008 (the components are the Assur groups).
 
-use crate::statics::assur_class::{Class, classify};
+use crate::statics::assur_class::{AssurClass, classify};
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
 use itertools::Itertools;
 use std::collections::VecDeque;
@@ -64,8 +64,8 @@ pub struct Group {
     pub outer: Vec<PairId>,
     /// Drives and rigid pairs within blocks.
     pub locked: Vec<PairId>,
-    /// Class, order and kind.
-    pub class: Class,
+    /// AssurClass, order and kind.
+    pub class: AssurClass,
 }
 
 impl Group {
@@ -98,7 +98,7 @@ pub struct Decomposition {
 }
 
 impl Decomposition {
-    /// Class of the mechanism: the highest among its groups, 1 where there are none.
+    /// AssurClass of the mechanism: the highest among its groups, 1 where there are none.
     #[must_use]
     pub fn class(&self) -> usize {
         self.groups.iter().map(|g| g.class.class).max().unwrap_or(1)

@@ -1,4 +1,4 @@
-//! Class, order and kind of an Assur group.
+//! AssurClass, order and kind of an Assur group.
 
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
 use petgraph::algo::dijkstra;
@@ -22,9 +22,9 @@ pub enum Kind {
     Other,
 }
 
-/// Class, order and kind of a group.
+/// AssurClass, order and kind of a group.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Class {
+pub struct AssurClass {
     /// The most pairs round one contour of the group: a body with k pairs is a rigid contour of k, bodies joined in a
     /// ring a changeable one; at least 2.
     pub class: usize,
@@ -49,7 +49,7 @@ pub fn roman(class: usize) -> String {
         .map_or_else(|| class.to_string(), |r| (*r).to_owned())
 }
 
-impl fmt::Display for Class {
+impl fmt::Display for AssurClass {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "class {}, order {}", roman(self.class), self.order)?;
         match self.kind {
@@ -74,12 +74,12 @@ impl fmt::Display for Class {
 /// # Sources
 /// I. I. Artobolevsky, "Theory of Mechanisms and Machines", 4th ed., 1988.
 #[must_use]
-pub fn classify(
+pub(crate) fn classify(
     m: &PlanarMechanism,
     blocks: &[Vec<BodyId>],
     inner: &[PairId],
     outer: &[PairId],
-) -> Class {
+) -> AssurClass {
     let block = |body: BodyId| blocks.iter().position(|b| b.contains(&body));
     let mut degree = vec![0usize; blocks.len()];
     let mut edges = Vec::new();
@@ -100,7 +100,7 @@ pub fn classify(
         composition.resize(composition.len().max(place + 1), 0);
         composition[place] += 1;
     }
-    Class {
+    AssurClass {
         class: rigid.max(changeable).max(2),
         order: outer.len(),
         composition,

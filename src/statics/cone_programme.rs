@@ -8,7 +8,7 @@ pub(crate) type Row = Vec<(usize, f64)>;
 
 /// How a programme is gone about: what one way stalls at, another may solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Effort {
+pub(crate) enum SolverEffort {
     /// As the solver is delivered.
     Usual,
     /// Without scaling rows and columns first.
@@ -17,9 +17,13 @@ pub(crate) enum Effort {
     Careful,
 }
 
-impl Effort {
+impl SolverEffort {
     /// All, the quickest first.
-    pub(crate) const ALL: [Effort; 3] = [Effort::Usual, Effort::Unscaled, Effort::Careful];
+    pub(crate) const ALL: [SolverEffort; 3] = [
+        SolverEffort::Usual,
+        SolverEffort::Unscaled,
+        SolverEffort::Careful,
+    ];
 
     fn settings(self) -> DefaultSettings<f64> {
         let usual = DefaultSettings {
@@ -27,12 +31,12 @@ impl Effort {
             ..DefaultSettings::default()
         };
         match self {
-            Effort::Usual => usual,
-            Effort::Unscaled => DefaultSettings {
+            SolverEffort::Usual => usual,
+            SolverEffort::Unscaled => DefaultSettings {
                 equilibrate_enable: false,
                 ..usual
             },
-            Effort::Careful => DefaultSettings {
+            SolverEffort::Careful => DefaultSettings {
                 equilibrate_enable: false,
                 max_step_fraction: 0.9,
                 static_regularization_constant: 1e-10,
@@ -76,7 +80,7 @@ impl ConeProgramme {
         quadratic: &[Row],
         linear: &[f64],
     ) -> Result<DefaultSolution<f64>, String> {
-        self.solve_with(quadratic, linear, Effort::Usual)
+        self.solve_with(quadratic, linear, SolverEffort::Usual)
     }
 
     /// The same in a way of its own.
@@ -87,7 +91,7 @@ impl ConeProgramme {
         &self,
         quadratic: &[Row],
         linear: &[f64],
-        effort: Effort,
+        effort: SolverEffort,
     ) -> Result<DefaultSolution<f64>, String> {
         let columns = linear.len();
         let mut solver = DefaultSolver::new(

@@ -7,7 +7,7 @@ use crate::statics::contour_group::letters::{ContourGroup, recognise};
 use crate::statics::contour_group::pose::GroupPose;
 use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::kinetostatics::{
-    Equilibrium, Load, PlanarLoads, Source, by_groups, power, whole,
+    Equilibrium, Load, LoadSource, PlanarLoads, by_groups, power, whole,
 };
 use crate::statics::planar::{PairId, PairKind, PlanarError, PlanarMechanism};
 use crate::statics::planar_motion::{DeadPoint, Instant, Motion};
@@ -75,7 +75,7 @@ impl Statics {
     /// The first four-link group with a closed contour, in the pose in which forces from outside load it most.
     #[must_use]
     pub fn heaviest_contour_group(&self) -> Option<&GroupPose> {
-        let outside = |l: &&Load| l.source == Source::External;
+        let outside = |l: &&Load| l.source == LoadSource::External;
         let weight = |g: &GroupPose| -> f64 {
             let forces = g.loads.iter().filter(outside).map(|l| l.force);
             forces.map(|f| f[0].hypot(f[1])).sum()
@@ -195,7 +195,7 @@ fn moment(
 
 /// The structure of a mechanism under one drive.
 #[derive(Debug, Clone)]
-pub struct Structure {
+pub struct DrivenStructure {
     /// The pair that takes the place of the first drive.
     pub drive: PairId,
     /// The decomposition, and the condition of each group's equations at the pose of the file; or why there is none.
@@ -209,11 +209,11 @@ pub struct Structure {
 pub fn structures(
     mechanism: &Mechanism,
     state: StateId,
-) -> Result<(PlanarMechanism, Vec<Structure>), PlanarError> {
+) -> Result<(PlanarMechanism, Vec<DrivenStructure>), PlanarError> {
     let planar = PlanarMechanism::new(mechanism, state)?;
     let linkage = Linkage::new(planar.clone());
     let all = alternatives(&planar, &planar.drives()).into_iter();
-    let found = all.map(|(drive, d)| Structure {
+    let found = all.map(|(drive, d)| DrivenStructure {
         drive,
         found: d.map(|d| {
             let conditions = Motion::new(&linkage, &d, &[]).conditions(&linkage.home());

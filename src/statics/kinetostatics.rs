@@ -15,7 +15,7 @@ use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
 
 /// Where a load comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
+pub enum LoadSource {
     /// Weight.
     Gravity,
     /// Inertia force and moment.
@@ -30,7 +30,7 @@ pub struct Load {
     /// The body.
     pub body: BodyId,
     /// Where it comes from.
-    pub source: Source,
+    pub source: LoadSource,
     /// Where it acts now `[m]`.
     pub point: [f64; 2],
     /// The force `[N]`.
@@ -42,7 +42,7 @@ pub struct Load {
 impl Load {
     /// Moment about a point `[N·m]`.
     #[must_use]
-    pub fn moment_about(&self, point: [f64; 2]) -> f64 {
+    pub(crate) fn moment_about(&self, point: [f64; 2]) -> f64 {
         self.moment + cross(minus(self.point, point), self.force)
     }
 }
@@ -145,14 +145,18 @@ impl PlanarLoads {
                 moment,
             };
             let mass = self.masses[x.body].map_or(0.0, |m| m.mass);
-            out.push(load(Source::Gravity, self.gravity.map(|g| g * mass), 0.0));
-            out.push(load(Source::Inertia, x.force, x.moment));
+            out.push(load(
+                LoadSource::Gravity,
+                self.gravity.map(|g| g * mass),
+                0.0,
+            ));
+            out.push(load(LoadSource::Inertia, x.force, x.moment));
         }
         for &(body, moment) in &self.moments {
             if body != linkage.mechanism.frame {
                 out.push(Load {
                     body,
-                    source: Source::External,
+                    source: LoadSource::External,
                     point: [now.pose[body][0], now.pose[body][1]],
                     force: [0.0; 2],
                     moment,
@@ -163,7 +167,7 @@ impl PlanarLoads {
             if acts_at(f.range, now.drive, f.period) && f.body != linkage.mechanism.frame {
                 out.push(Load {
                     body: f.body,
-                    source: Source::External,
+                    source: LoadSource::External,
                     point: linkage.point(&now.pose, f.body, f.point),
                     force: f.force,
                     moment: 0.0,
@@ -356,7 +360,7 @@ pub fn by_groups(
                     let [x, y, moment] = r.on(linkage, body, r.point);
                     loads.push(Load {
                         body,
-                        source: Source::External,
+                        source: LoadSource::External,
                         point: r.point,
                         force: [x, y],
                         moment,

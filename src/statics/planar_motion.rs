@@ -91,7 +91,7 @@ impl<'a> Motion<'a> {
 
     /// Positions of all drives when the first is at `s`: the others keep step by their speeds.
     #[must_use]
-    pub fn drive_positions(&self, s: f64) -> Vec<f64> {
+    pub(crate) fn drive_positions(&self, s: f64) -> Vec<f64> {
         let first = self.speeds.first().copied().unwrap_or(0.0);
         let ratio = |i: usize| match (i, first) {
             (0, _) => 1.0,

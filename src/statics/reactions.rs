@@ -28,6 +28,6 @@ pub mod unsolved;
 
 pub use contact::Contacts;
 pub use cycle::{Cycle, cycle};
-pub use solution::{Choice, JointReaction, NEARLY_SINGULAR, Solution};
+pub use solution::{JointReaction, NEARLY_SINGULAR, Solution, Uniqueness};
 pub use solve::Reactions;
 pub use unsolved::{Unsolved, no_couplings};

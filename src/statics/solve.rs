@@ -26,20 +26,22 @@ pub enum Model {
 
 /// Reactions over a stroke, or at one pose.
 #[derive(Debug, Clone)]
-pub enum Answer {
+pub enum SolvedReactions {
     /// By the equations of the plane.
     Planar(Box<Statics>),
     /// By those of space.
     Spatial(Cycle),
 }
 
-impl Answer {
+impl SolvedReactions {
     /// Whether every position asked for was reached and has a solution.
     #[must_use]
     pub fn complete(&self) -> bool {
         match self {
-            Answer::Planar(s) => s.dead.is_none(),
-            Answer::Spatial(c) => c.stopped.is_none() && c.positions.iter().all(|(_, s)| s.is_ok()),
+            SolvedReactions::Planar(s) => s.dead.is_none(),
+            SolvedReactions::Spatial(c) => {
+                c.stopped.is_none() && c.positions.iter().all(|(_, s)| s.is_ok())
+            }
         }
     }
 }
@@ -71,7 +73,7 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
 /// SI; the stroke in `[rad]` or the file's length unit.
 ///
 /// # Errors
-/// [`StaticsError`], where no pose has a solution. A stroke that ends early is an [`Answer`] that is not complete.
+/// [`StaticsError`], where no pose has a solution. A stroke that ends early is an [`SolvedReactions`] that is not complete.
 ///
 /// # Complexity
 /// O(n³) a position in the plane, n bodies; O((6k)²·f) in space, k contours and f freedoms.
@@ -80,11 +82,11 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
 /// The parallel shears, held in their first position:
 /// ```
 /// use ozols::model::mechanism::StateId;
-/// use ozols::statics::solve::{Answer, Model, solve};
+/// use ozols::statics::solve::{SolvedReactions, Model, solve};
 ///
 /// let text = ozols::builtin::text("parallel-shears").expect("it is built in");
 /// let shears = ozols::file::text::mechanism_from_str("parallel-shears.toml", text)?;
-/// let Answer::Planar(found) = solve(&shears, StateId::FREE, None, Model::Either)? else {
+/// let SolvedReactions::Planar(found) = solve(&shears, StateId::FREE, None, Model::Either)? else {
 ///     panic!("the shears are planar")
 /// };
 /// assert_eq!(found.decomposition.class(), 4);
@@ -96,7 +98,7 @@ pub fn solve(
     state: StateId,
     stroke: Option<Stroke>,
     model: Model,
-) -> Result<Answer, StaticsError> {
+) -> Result<SolvedReactions, StaticsError> {
     let touched = m.joints_in(state).any(|j| object_at(m, j).is_some());
     let (flat, contacts) = match model {
         Model::Planar => (true, Contacts::AsJoints),
@@ -106,10 +108,12 @@ pub fn solve(
     };
     if flat {
         match statics(m, state, stroke) {
-            Ok(found) => return Ok(Answer::Planar(Box::new(found))),
+            Ok(found) => return Ok(SolvedReactions::Planar(Box::new(found))),
             Err(e) if model == Model::Either && is_for_space(&e) => {}
             Err(e) => return Err(e.into()),
         }
     }
-    Ok(Answer::Spatial(cycle_with(m, state, stroke, contacts)?))
+    Ok(SolvedReactions::Spatial(cycle_with(
+        m, state, stroke, contacts,
+    )?))
 }

@@ -3,8 +3,8 @@
 use crate::format::number;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::cycle::Statics;
-use crate::statics::reactions::{Choice, Cycle};
-use crate::statics::solve::{Answer, Model, StaticsError, solve};
+use crate::statics::reactions::{Cycle, Uniqueness};
+use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve};
 use crate::sweep::known_or_why::Known;
 use serde::{Deserialize, Serialize};
 
@@ -47,8 +47,8 @@ fn found(m: &Mechanism) -> Result<Forces, StaticsError> {
     let answer = solve(m, StateId::FREE, m.loads.stroke, Model::Either)?;
     let complete = answer.complete();
     let (peak, positions, unique) = match &answer {
-        Answer::Planar(found) => in_plane(m, found),
-        Answer::Spatial(found) => in_space(m, found),
+        SolvedReactions::Planar(found) => in_plane(m, found),
+        SolvedReactions::Spatial(found) => in_space(m, found),
     };
     let (force, joint, at) = peak.unwrap_or_default();
     Ok(Forces {
@@ -110,6 +110,6 @@ fn in_space(m: &Mechanism, found: &Cycle) -> (Option<Peak>, usize, bool) {
         let each = solution.reactions.iter();
         each.map(move |r| (r.force_size(), m.joints[r.joint].id.as_str(), at))
     });
-    let unique = solved().all(|(_, s)| s.choice == Choice::Unique);
+    let unique = solved().all(|(_, s)| s.choice == Uniqueness::Unique);
     (greatest(forces), solved().count(), unique)
 }

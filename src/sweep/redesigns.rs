@@ -15,11 +15,11 @@ use crate::sweep::forces::{is_loaded, rounded};
 use serde::{Deserialize, Serialize};
 
 /// Most redesigns that share the first place and are all told.
-pub const TIED: usize = 100;
+pub(crate) const TIED: usize = 100;
 
 /// The redesigns of a sample.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Redesigns {
+pub struct SampleRedesigns {
     /// How many have no more redundant constraints than allowed, in digits.
     pub determinate: String,
     /// How many meet every condition, in digits.
@@ -73,7 +73,7 @@ pub(super) fn redesigns(
     m: &Mechanism,
     request: &Request,
     top: usize,
-) -> Result<Redesigns, RunError> {
+) -> Result<SampleRedesigns, RunError> {
     let listed = top.max(TIED + 1);
     let request = &as_searched(request, listed);
     let outcome = run(m.clone(), request, &|| false, &mut |_| {})?;
@@ -101,7 +101,7 @@ pub(super) fn redesigns(
         .map(|(v, _)| words(v))
         .collect();
     best.sort_unstable();
-    Ok(Redesigns {
+    Ok(SampleRedesigns {
         determinate: outcome.determinate.total.to_string(),
         admissible: outcome.admissible.total.to_string(),
         exact: outcome.is_exact(),

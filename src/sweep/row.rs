@@ -1,6 +1,6 @@
 //! What is found at a sample: the mechanism with these values, as every other command would find it.
 
-use crate::accuracy::{Truth, Verdict};
+use crate::accuracy::{AnswerVerdict, Truth};
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_at;
 use crate::geom::expr::Expr;
@@ -11,7 +11,7 @@ use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse}
 use crate::sweep::Sweep;
 use crate::sweep::forces::{Forces, forces};
 use crate::sweep::known_or_why::Known;
-use crate::sweep::redesigns::{Redesigns, redesigns};
+use crate::sweep::redesigns::{SampleRedesigns, redesigns};
 use crate::sweep::space::Sample;
 use crate::sweep::stroke::{OverStroke, over_stroke};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 
 /// What is found at a sample.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct SampleRow {
     /// Its number, from 0.
     pub sample: usize,
     /// The values of the parameters that vary.
@@ -32,10 +32,10 @@ pub struct Row {
     pub problem: Option<String>,
     /// The states, the free one first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub states: Vec<State>,
+    pub states: Vec<SampleState>,
     /// The redesigns, where they were searched.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub redesigns: Option<Known<Redesigns>>,
+    pub redesigns: Option<Known<SampleRedesigns>>,
     /// The greatest joint force as built, where there is a load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forces: Option<Known<Forces>>,
@@ -49,7 +49,7 @@ pub struct Row {
 
 /// The structure of a state; see [`StateAnalysis`].
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct State {
+pub struct SampleState {
     /// Its name.
     pub state: String,
     /// W at the pose of the file.
@@ -69,13 +69,13 @@ pub struct State {
     pub certainty: String,
 }
 
-impl State {
-    fn new(found: &StateAnalysis) -> State {
+impl SampleState {
+    fn new(found: &StateAnalysis) -> SampleState {
         let shares = found.per_contour.iter().map(|s| s.redundant);
         // Exact of something else than what is written.
         let meant =
             found.as_written.is_some() && !matches!(found.certainty, Certainty::Undecided { .. });
-        State {
+        SampleState {
             state: found.state.clone(),
             mobility: found.mobility,
             finite_mobility: found.finite.figure(),
@@ -98,7 +98,7 @@ impl Sweep {
     ///
     /// # Errors
     /// Where its values make none; every problem with its place in the file.
-    pub fn mechanism_of(&self, sample: &Sample) -> Result<Mechanism, ImportError> {
+    pub(crate) fn mechanism_of(&self, sample: &Sample) -> Result<Mechanism, ImportError> {
         mechanism_at(&self.spec.file, &self.spec.text, &sample.values)
     }
 
@@ -107,14 +107,14 @@ impl Sweep {
     /// # Complexity
     /// Reading the file, an analysis of every state, and what else is asked.
     #[must_use]
-    pub fn row(&self, sample: &Sample) -> Row {
+    pub fn row(&self, sample: &Sample) -> SampleRow {
         let pairs = || sample.values.iter();
         let is_decimal = |v: &Expr| {
             let near = Expr::from_f64(v.to_f64());
             near.is_ok_and(|n| n.as_rational().is_some() && n.as_rational() == v.as_rational())
         };
         let exact = pairs().filter(|(_, v)| !is_decimal(v));
-        let empty = Row {
+        let empty = SampleRow {
             sample: sample.number,
             at: pairs().map(|(n, v)| (n.clone(), v.to_f64())).collect(),
             exact: exact.map(|(n, v)| (n.clone(), v.to_string())).collect(),
@@ -125,7 +125,7 @@ impl Sweep {
             stroke: BTreeMap::new(),
             methods: BTreeMap::new(),
         };
-        let failed = |why: String| Row {
+        let failed = |why: String| SampleRow {
             problem: Some(why),
             ..empty.clone()
         };
@@ -137,7 +137,7 @@ impl Sweep {
         }
     }
 
-    fn filled(&self, m: &Mechanism, empty: &Row) -> Result<Row, AnalysisError> {
+    fn filled(&self, m: &Mechanism, empty: &SampleRow) -> Result<SampleRow, AnalysisError> {
         let states: Vec<StateId> = m.state_ids().collect();
         let asked = &self.spec.asked;
         let method = if asked.as_written {
@@ -155,8 +155,8 @@ impl Sweep {
             each.map(|&s| (m.states[s].clone(), Known::of(over_stroke(m, s, stroke))))
                 .collect()
         });
-        Ok(Row {
-            states: found.iter().map(State::new).collect(),
+        Ok(SampleRow {
+            states: found.iter().map(SampleState::new).collect(),
             redesigns: asked
                 .search
                 .as_ref()
@@ -183,7 +183,7 @@ fn judged(m: &Mechanism, free: &StateAnalysis) -> BTreeMap<String, String> {
         instantaneous: int(free.mobility),
         finite: int(free.finite.mobility),
     };
-    let word = |answer| Verdict::on(&answer, truth).word().to_owned();
+    let word = |answer| AnswerVerdict::on(&answer, truth).word().to_owned();
     let each = registry::ALL.iter();
     each.map(|method| {
         (

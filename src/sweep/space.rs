@@ -65,7 +65,7 @@ pub enum SpaceError {
 
 /// A parameter that varies.
 #[derive(Debug, Clone)]
-pub struct Axis {
+pub struct VaryingParameter {
     /// Its name.
     pub name: String,
     /// Its numbers on a grid, in order.
@@ -78,7 +78,7 @@ pub struct Axis {
 #[derive(Debug, Clone)]
 pub struct Space {
     /// The parameters that vary, by name.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<VaryingParameter>,
     /// Where they are looked at.
     pub sampling: Sampling,
 }
@@ -138,7 +138,7 @@ impl Space {
                     all.collect()
                 }
             };
-            Some(Axis {
+            Some(VaryingParameter {
                 name: p.name.clone(),
                 grid,
                 domain: p.domain.clone(),
@@ -216,7 +216,7 @@ fn fraction(number: usize, dimension: u32, seed: u32) -> usize {
     ((x * FRACTIONS as f64) as usize).min(FRACTIONS - 1)
 }
 
-impl Axis {
+impl VaryingParameter {
     /// The value at a fraction of the axis.
     fn at(&self, fraction: usize) -> Expr {
         match &self.domain {

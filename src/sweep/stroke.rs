@@ -4,7 +4,7 @@ use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::NoAnswer;
 use crate::rank::rounded::verdict::verdict;
-use crate::rank::stroke::request::{Asked, AskedError};
+use crate::rank::stroke::request::{AskedError, AskedStroke};
 use crate::sweep::forces::rounded;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -46,7 +46,7 @@ pub(super) fn over_stroke(
     (text, range): &(String, Stroke),
 ) -> Result<OverStroke, StrokeError> {
     let verdict = verdict(m, state, None)?;
-    let found = Asked::new(m, state, (text, *range), None, (&verdict, None))?.follow();
+    let found = AskedStroke::new(m, state, (text, *range), None, (&verdict, None))?.follow();
     let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
     let worst = found
         .poses

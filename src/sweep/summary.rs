@@ -1,13 +1,13 @@
 //! What the rows of a sweep say together: where σ changes, which redesigns are best everywhere and which anywhere, the least and
 //! the greatest peak force. All of it is of the samples alone.
 
-use crate::sweep::row::Row;
+use crate::sweep::row::SampleRow;
 use crate::sweep::table::Table;
 use std::collections::BTreeMap;
 
 /// How many samples have the same, and the first of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Tally {
+pub struct SampleTally {
     /// How many.
     pub samples: usize,
     /// The place of the first in the list of rows.
@@ -15,11 +15,14 @@ pub struct Tally {
 }
 
 /// Counts rows by a key.
-fn tally<K: Ord>(rows: &[Row], key: impl Fn(&Row) -> Option<K>) -> BTreeMap<K, Tally> {
-    let mut out: BTreeMap<K, Tally> = BTreeMap::new();
+fn tally<K: Ord>(
+    rows: &[SampleRow],
+    key: impl Fn(&SampleRow) -> Option<K>,
+) -> BTreeMap<K, SampleTally> {
+    let mut out: BTreeMap<K, SampleTally> = BTreeMap::new();
     for (first, row) in rows.iter().enumerate() {
         if let Some(key) = key(row) {
-            let t = out.entry(key).or_insert(Tally { samples: 0, first });
+            let t = out.entry(key).or_insert(SampleTally { samples: 0, first });
             t.samples += 1;
         }
     }
@@ -32,9 +35,9 @@ pub struct Redundant {
     /// Name of the state.
     pub state: String,
     /// Samples by σ; where it is undecided, by the least and the most it can be.
-    pub by_figure: BTreeMap<(usize, usize), Tally>,
+    pub by_figure: BTreeMap<(usize, usize), SampleTally>,
     /// Samples by the word for how sure that is.
-    pub by_certainty: BTreeMap<String, Tally>,
+    pub by_certainty: BTreeMap<String, SampleTally>,
     /// Places of the rows whose σ is not the most common.
     pub special: Vec<usize>,
 }
@@ -49,7 +52,7 @@ pub struct Best {
     /// Samples whose best are not proven to be all the best there are.
     pub unproven: usize,
     /// What the best change, with the samples where they are; those best most often first.
-    pub anywhere: Vec<(String, Tally)>,
+    pub anywhere: Vec<(String, SampleTally)>,
 }
 
 impl Best {
@@ -73,20 +76,20 @@ pub struct Peaks {
     /// Samples whose stroke ends early.
     pub incomplete: usize,
     /// Why others have none.
-    pub without: BTreeMap<String, Tally>,
+    pub without: BTreeMap<String, SampleTally>,
 }
 
 /// What the rows say together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Summary {
     /// Samples that make no mechanism, by why.
-    pub problems: BTreeMap<String, Tally>,
+    pub problems: BTreeMap<String, SampleTally>,
     /// σ, state by state.
     pub redundant: Vec<Redundant>,
     /// The redesigns, where they were searched.
     pub best: Option<Best>,
     /// Why some samples were not searched.
-    pub unsearched: BTreeMap<String, Tally>,
+    pub unsearched: BTreeMap<String, SampleTally>,
     /// The peak forces, where there are loads.
     pub peaks: Option<Peaks>,
     /// What each rank method was worth, by its name and the word.
@@ -114,7 +117,7 @@ impl Table {
     }
 }
 
-fn redundant(rows: &[Row]) -> Vec<Redundant> {
+fn redundant(rows: &[SampleRow]) -> Vec<Redundant> {
     let mut names: Vec<&str> = Vec::new();
     for state in rows.iter().flat_map(|r| &r.states) {
         if !names.contains(&state.state.as_str()) {
@@ -122,8 +125,8 @@ fn redundant(rows: &[Row]) -> Vec<Redundant> {
         }
     }
     let of = |name: &str| {
-        let state = |r: &Row| r.states.iter().find(|s| s.state == name).cloned();
-        let figure = |r: &Row| {
+        let state = |r: &SampleRow| r.states.iter().find(|s| s.state == name).cloned();
+        let figure = |r: &SampleRow| {
             let s = state(r)?;
             Some((s.redundant, s.redundant_at_most.unwrap_or(s.redundant)))
         };
@@ -145,7 +148,7 @@ fn redundant(rows: &[Row]) -> Vec<Redundant> {
     names.into_iter().map(of).collect()
 }
 
-fn best(rows: &[Row]) -> Option<Best> {
+fn best(rows: &[SampleRow]) -> Option<Best> {
     let searched = || {
         rows.iter()
             .enumerate()
@@ -154,14 +157,16 @@ fn best(rows: &[Row]) -> Option<Best> {
     searched().next()?;
     let found = || searched().filter_map(|(i, r)| Some((i, r.get()?)));
     let some = || found().filter(|(_, r)| !r.best.is_empty());
-    let mut anywhere: BTreeMap<&str, Tally> = BTreeMap::new();
+    let mut anywhere: BTreeMap<&str, SampleTally> = BTreeMap::new();
     for (first, redesigns) in some() {
         for words in &redesigns.best {
-            let t = anywhere.entry(words).or_insert(Tally { samples: 0, first });
+            let t = anywhere
+                .entry(words)
+                .or_insert(SampleTally { samples: 0, first });
             t.samples += 1;
         }
     }
-    let mut anywhere: Vec<(String, Tally)> = anywhere
+    let mut anywhere: Vec<(String, SampleTally)> = anywhere
         .into_iter()
         .map(|(words, t)| (words.to_owned(), t))
         .collect();
@@ -174,7 +179,7 @@ fn best(rows: &[Row]) -> Option<Best> {
     })
 }
 
-fn peaks(rows: &[Row]) -> Option<Peaks> {
+fn peaks(rows: &[SampleRow]) -> Option<Peaks> {
     rows.iter().find(|r| r.forces.is_some())?;
     let found = || {
         rows.iter()

@@ -14,6 +14,6 @@ mod rows;
 pub use error::TableError;
 pub use head::Head;
 pub use lines::read;
-pub use make::{Watch, make};
+pub use make::{SweepWatch, make};
 pub use merge::merge;
 pub use rows::Table;

@@ -42,9 +42,9 @@ impl JawMotion {
     }
 }
 
-/// Figures over the stroke, by following the mechanism numerically.
+/// LayoutFigures over the stroke, by following the mechanism numerically.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Figures {
+pub struct LayoutFigures {
     /// The least and the greatest opening reached, in millimetres.
     pub openings: [f64; 2],
     /// Which way the drive goes as the jaws close: 1, or -1 where its coordinate falls.
@@ -62,7 +62,7 @@ pub struct Figures {
     pub ends: [Option<Why>; 2],
 }
 
-/// Figures of a laid-out gripper, `mechanism` being its [`mechanism_file`](crate::synthesis::mechanism::mechanism_file).
+/// LayoutFigures of a laid-out gripper, `mechanism` being its [`mechanism_file`](crate::synthesis::mechanism::mechanism_file).
 ///
 /// # Errors
 /// Where a coordinate has no value.
@@ -73,7 +73,7 @@ pub fn figures(
     structure: &Structure,
     layout: &Layout,
     mechanism: &Mechanism,
-) -> Result<Figures, ExactError> {
+) -> Result<LayoutFigures, ExactError> {
     let pose = Pose::of_file(mechanism, StateId::FREE)?;
     let names = link_names(structure);
     let drive = |j: JointId| mechanism.joints[j].drive;
@@ -169,7 +169,7 @@ pub fn figures(
         }
         _ => JawMotion::Floating,
     };
-    Ok(Figures {
+    Ok(LayoutFigures {
         openings: [first.1, last.1],
         closes: sign,
         travel: (last.0 - first.0).abs(),

@@ -81,7 +81,7 @@ fn is_far(p: Point, [a, b]: [Point; 2], margin: f64) -> bool {
 }
 
 /// What velocities say of a layout.
-struct Motion {
+struct LayoutMotion {
     closing: f64,
     straightness: f64,
     tips: Vec<Point>,
@@ -241,7 +241,7 @@ impl Skeleton<'_> {
     }
 
     /// The figures of the motion, and what they cost.
-    fn motion(&self, at: &[Point]) -> Option<Motion> {
+    fn motion(&self, at: &[Point]) -> Option<LayoutMotion> {
         let velocities = self.contours.velocities(at)?;
         let jaws = self.structure.roles.jaws.iter().zip(&self.tips);
         let tips: Vec<Point> = jaws.map(|(&j, tip)| velocities[j].at(*tip)).collect();
@@ -256,7 +256,7 @@ impl Skeleton<'_> {
         let closes = closing.clone().all(|c| c * sum > 0.0);
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let pairs = tips.len() as f64 / 2.0;
-        let mut out = Motion {
+        let mut out = LayoutMotion {
             closing: sum.abs() / pairs,
             straightness: if closes {
                 sum.abs() / all.max(1e-12)

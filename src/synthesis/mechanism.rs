@@ -13,7 +13,7 @@ use itertools::Itertools;
 
 /// What each link is called: frame, slider or crank, the jaws, and the rest by their numbers.
 #[must_use]
-pub fn link_names(structure: &Structure) -> Vec<String> {
+pub(crate) fn link_names(structure: &Structure) -> Vec<String> {
     let r = &structure.roles;
     let name = |l: usize| match l {
         l if l == r.frame => "frame".to_owned(),

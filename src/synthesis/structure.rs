@@ -141,7 +141,7 @@ const HALF_OPENING: i32 = 15;
 impl Structure {
     /// Whether the jaws close on a part over the centre, all of the gripper round it, instead of in front.
     #[must_use]
-    pub fn is_round(&self) -> bool {
+    pub(crate) fn is_round(&self) -> bool {
         self.form.symmetry == Symmetry::HalfTurn || self.roles.jaws.len() > 2
     }
 

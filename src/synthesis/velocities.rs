@@ -4,7 +4,7 @@
 //! besides frame and driver. Where the links go follows from how they turn, from pin to pin.
 
 use crate::chains::layout_symmetry::Input;
-use crate::closure::tree::{Step, forest};
+use crate::closure::tree::{TreeStep, forest};
 use crate::geom::vector::{add_scaled, quarter, sub};
 use crate::synthesis::structure::Structure;
 use ozols_dense::{Matrix, solve};
@@ -41,7 +41,7 @@ pub struct Contours {
     driver: usize,
     input: Input,
     /// Links in the order they are reached from the frame.
-    tree: Vec<Step<usize, usize>>,
+    tree: Vec<TreeStep<usize, usize>>,
     /// Of each contour its two ways from the frame, without the links they share.
     contours: Vec<[Vec<Side>; 2]>,
     /// The place of each link's turning among the unknown; those of frame and driver are known.

@@ -53,7 +53,7 @@ fn rods(points: &[Point]) -> (f64, Point) {
 impl Workload {
     /// Whether links have weights.
     #[must_use]
-    pub fn weighs_links(&self) -> bool {
+    pub(crate) fn weighs_links(&self) -> bool {
         self.link_mass > 0.0 && self.gravity != [0.0; 3]
     }
 

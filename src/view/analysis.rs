@@ -13,11 +13,11 @@ use crate::model::claim::Topic;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
-use crate::redundancy::stress::{JointWrench, Verdict};
-use crate::view::analysis::least_rows::{Part, least_rows};
+use crate::redundancy::stress::{JointWrench, StressVerdict};
+use crate::view::analysis::least_rows::{ContourRows, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};
 use crate::view::claims::{Claim, about};
-use crate::view::stroke::Stroke;
+use crate::view::stroke::StrokeData;
 use serde::Serialize;
 
 /// The analysis of a mechanism.
@@ -30,7 +30,7 @@ pub struct Analysis<'a> {
     /// Its states.
     pub states: Vec<State<'a>>,
     /// The figures over a stroke, where one was asked for.
-    pub stroke: Option<Stroke<'a>>,
+    pub stroke: Option<StrokeData<'a>>,
     /// What is published of its structure, so or not.
     pub claims: Vec<Claim<'a>>,
 }
@@ -68,7 +68,7 @@ pub struct State<'a> {
     pub redundant_at_most: Option<usize>,
     pub formula_mobility: i64,
     /// Where fewer rows than all are enough, or parts of them do not see each other.
-    pub least_rows: Vec<Part>,
+    pub least_rows: Vec<ContourRows>,
     pub per_contour: Vec<Contour<'a>>,
     pub external: Option<External>,
     pub idle: Vec<Idle<'a>>,
@@ -354,8 +354,8 @@ impl<'a> SelfStress<'a> {
                 .collect(),
             external: t.external,
             verdict: match t.verdict {
-                Verdict::Harmless => "harmless",
-                Verdict::Harmful => "harmful",
+                StressVerdict::Harmless => "harmless",
+                StressVerdict::Harmful => "harmful",
             },
             joints: t.joints.iter().map(|w| Wrench::new(mechanism, w)).collect(),
             couplings: (!s.per_coupling.is_empty()).then(|| {

@@ -9,12 +9,12 @@ pub mod text;
 use crate::drive::driving::{self, DampingFrom, Driving};
 use crate::drive::programme::{self, Event, Ran};
 use crate::drive::swing::{Balance, End};
-use crate::drive::torsion::{Remedy, Trial, decrement};
-use crate::file::read::workload::Workload;
+use crate::drive::torsion::{BarTrial, Remedy, decrement};
+use crate::file::read::workload::WorkloadFile;
 use crate::model::claim::Topic;
 use crate::model::drive::DriveSpec;
 use crate::view::claims::{Claim, about};
-use crate::view::drive::cam::{Cam, FeedMoment, feed_moments};
+use crate::view::drive::cam::{CamData, FeedMoment, feed_moments};
 use serde::Serialize;
 
 /// A drive of a file and what was found of it.
@@ -42,7 +42,7 @@ pub struct Drive<'a> {
     pub claims: Vec<Claim<'a>>,
     /// The file, for its units and inputs.
     #[serde(skip)]
-    pub file: &'a Workload<DriveSpec>,
+    pub file: &'a WorkloadFile<DriveSpec>,
     /// The design as it was found, where there is a bar.
     #[serde(skip)]
     pub found: Option<&'a driving::Design>,
@@ -113,9 +113,9 @@ pub struct Design {
     /// By piece of the cam's push.
     pub feed_moments: Vec<FeedMoment>,
     /// The cam's spring, where a cam is stated.
-    pub cam: Option<Cam>,
+    pub cam: Option<CamData>,
     /// Of each disc.
-    pub motions: [Motion; 2],
+    pub motions: [DiscMotion; 2],
     /// What comes of the programme repeated without end.
     pub endurance: Endurance,
     /// How many swings ended in a latch.
@@ -123,7 +123,7 @@ pub struct Design {
     /// How many were asked for.
     pub wanted: usize,
     /// The programme as it ran.
-    pub programme: Vec<Step>,
+    pub programme: Vec<StepData>,
 }
 
 /// Damping of the simulation.
@@ -139,7 +139,7 @@ pub struct Damping {
 
 /// Greatest motion of a disc.
 #[derive(Debug, Serialize)]
-pub struct Motion {
+pub struct DiscMotion {
     /// `[rad/s²]`
     pub angular_acceleration: f64,
     /// `[rad/s]`
@@ -170,7 +170,7 @@ pub enum Endurance {
 
 /// A step of the programme.
 #[derive(Debug, Serialize)]
-pub struct Step {
+pub struct StepData {
     /// When it began `[s]`.
     pub start: f64,
     /// `[s]`
@@ -207,9 +207,9 @@ pub struct Energy {
 impl<'a> Drive<'a> {
     /// A drive of a file and what was found of it.
     #[must_use]
-    pub fn new(file: &'a Workload<DriveSpec>, found: &'a Driving) -> Self {
+    pub fn new(file: &'a WorkloadFile<DriveSpec>, found: &'a Driving) -> Self {
         let (spec, design) = (&file.spec, found.design.as_ref());
-        let tried = |t: &Trial| TriedBar {
+        let tried = |t: &BarTrial| TriedBar {
             length: t.bar.length,
             diameter: t.bar.diameter,
             allowable_twist: t.allowable_twist,
@@ -261,8 +261,8 @@ impl Design {
             needed_feed: d.needed_feed,
             feed: d.feed,
             feed_moments: feed_moments(&d.module),
-            cam: d.cam.as_ref().map(Cam::new),
-            motions: d.motions.map(|m| Motion {
+            cam: d.cam.as_ref().map(CamData::new),
+            motions: d.motions.map(|m| DiscMotion {
                 angular_acceleration: m.angular_acceleration,
                 angular_speed: m.angular_speed,
                 acceleration: m.acceleration,
@@ -283,12 +283,12 @@ impl Design {
             },
             latched: d.run.latched,
             wanted: d.run.wanted,
-            programme: d.run.steps.iter().map(Step::new).collect(),
+            programme: d.run.steps.iter().map(StepData::new).collect(),
         }
     }
 }
 
-impl Step {
+impl StepData {
     fn new(s: &Ran) -> Self {
         let swing = match &s.event {
             Event::Dwell => None,
@@ -311,7 +311,7 @@ impl Step {
                 })
             }
         };
-        Step {
+        StepData {
             start: s.start,
             duration: s.duration,
             angles: s.angles,

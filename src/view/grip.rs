@@ -7,8 +7,8 @@ pub mod closure;
 pub mod motion;
 pub mod text;
 
-use crate::file::read::workload::Workload;
-use crate::grip::clamping::{self, Hardest, Verdict};
+use crate::file::read::workload::WorkloadFile;
+use crate::grip::clamping::{self, Hardest, HoldVerdict};
 use crate::grip::gripping::{self, effort};
 use crate::grip::holding::Slip;
 use crate::grip::lever_arm::{Arms, Lever};
@@ -16,12 +16,12 @@ use crate::model::claim::Topic;
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
 use crate::view::claims::{Claim, about};
-use crate::view::grip::motion::Motion;
+use crate::view::grip::motion::GripMotion;
 use serde::Serialize;
 
 /// What a gripper can hold.
 #[derive(Debug, Serialize)]
-pub struct Grip<'a> {
+pub struct GripReport<'a> {
     /// Its name.
     pub mechanism: &'a str,
     /// What the numbers are in.
@@ -37,12 +37,12 @@ pub struct Grip<'a> {
     /// How the drive works on the levers at the hardest diameter, or the first.
     pub transmission: Option<Transmission<'a>>,
     /// The clamping along a motion, where one is asked about.
-    pub motion: Option<Motion>,
+    pub motion: Option<GripMotion>,
     /// What is published of this gripper, so or not.
     pub claims: Vec<Claim<'a>>,
     /// The file, for its units and inputs.
     #[serde(skip)]
-    pub file: &'a Workload<GripSpec>,
+    pub file: &'a WorkloadFile<GripSpec>,
 }
 
 /// How a drive works on two levers.
@@ -88,12 +88,12 @@ pub struct Diameter<'a> {
     /// Whether it is held in every case.
     pub holds: bool,
     /// The hardest case, where a load is stated and nothing stands against holding.
-    pub load: Option<Load<'a>>,
+    pub load: Option<HardestLoad<'a>>,
 }
 
 /// The hardest case of a diameter.
 #[derive(Debug, Clone, Serialize)]
-pub struct Load<'a> {
+pub struct HardestLoad<'a> {
     /// In words.
     pub case: &'a str,
     /// On the part, with its safety factor `[N]`.
@@ -111,14 +111,14 @@ pub struct Load<'a> {
     /// What one drive of both levers takes, `[N]` or `[N·m]`.
     pub drive_effort: Option<f64>,
     /// The forces on the part.
-    pub contacts: Option<Vec<Contact>>,
+    pub contacts: Option<Vec<PartContact>>,
     /// Why it is not held.
     pub reason: Option<String>,
 }
 
 /// A contact and its force on the part.
 #[derive(Debug, Clone, Serialize)]
-pub struct Contact {
+pub struct PartContact {
     /// Which.
     pub contact: &'static str,
     /// Where `[m]`.
@@ -133,7 +133,7 @@ pub struct Contact {
     pub along_part: f64,
 }
 
-impl Contact {
+impl PartContact {
     /// Friction over the normal force; nothing where the face does not press.
     #[must_use]
     pub fn friction(&self) -> Option<f64> {
@@ -142,10 +142,10 @@ impl Contact {
     }
 }
 
-impl<'a> Grip<'a> {
+impl<'a> GripReport<'a> {
     /// A gripper of a file and what was found of it.
     #[must_use]
-    pub fn new(file: &'a Workload<GripSpec>, found: &'a gripping::Grip) -> Self {
+    pub fn new(file: &'a WorkloadFile<GripSpec>, found: &'a gripping::Grip) -> Self {
         let study = &found.study;
         let diameters: Vec<Diameter> = (0..study.rows.len())
             .map(|at| Diameter::new(file, &study.rows[at], found.transmission.get(at)))
@@ -154,7 +154,7 @@ impl<'a> Grip<'a> {
             let mut all = diameters.iter();
             all.find(|d| d.diameter == row.diameter).cloned()
         });
-        Grip {
+        GripReport {
             mechanism: &file.name,
             units: "SI; angles in radians",
             lever: study.lever,
@@ -174,20 +174,20 @@ impl<'a> Grip<'a> {
 
 impl<'a> Diameter<'a> {
     fn new(
-        file: &Workload<GripSpec>,
-        row: &'a clamping::Row,
+        file: &WorkloadFile<GripSpec>,
+        row: &'a clamping::DiameterRow,
         transmission: Option<&'a Rates>,
     ) -> Self {
         let load = file.spec.load.as_ref();
         let friction = load.map_or(0.0, |l| l.friction);
         let case = |h: &'a Hardest| {
             let held = match &h.verdict {
-                Verdict::Held(held) => Some(held),
-                Verdict::Slips(_) | Verdict::Undecided(_) => None,
+                HoldVerdict::Held(held) => Some(held),
+                HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => None,
             };
             let contacts = held.zip(row.pose.as_ref()).map(|(held, pose)| {
                 let each = pose.contacts.iter().zip(&held.forces);
-                each.map(|(c, f)| Contact {
+                each.map(|(c, f)| PartContact {
                     contact: c.name,
                     point: c.point,
                     normal_direction: c.normal,
@@ -197,7 +197,7 @@ impl<'a> Diameter<'a> {
                 })
                 .collect()
             });
-            Load {
+            HardestLoad {
                 case: &h.case,
                 force: h.load.force,
                 moment: h.load.moment,
@@ -257,9 +257,9 @@ fn slip(s: &Slip) -> String {
 /// Why the hardest case is not held.
 fn reason(h: &Hardest, friction: f64) -> Option<String> {
     match &h.verdict {
-        Verdict::Held(_) => None,
-        Verdict::Undecided(e) => Some(format!("{}: {e}", h.case)),
-        Verdict::Slips(s) => {
+        HoldVerdict::Held(_) => None,
+        HoldVerdict::Undecided(e) => Some(format!("{}: {e}", h.case)),
+        HoldVerdict::Slips(s) => {
             let remedy = if friction == 0.0 {
                 "faces without friction cannot stop that; give friction"
             } else {

@@ -1,4 +1,4 @@
-//! Joint reactions of any mechanism, in a pose or over a stroke: one value from which text, JSON and CSV are made. Forces in
+//! JointForces reactions of any mechanism, in a pose or over a stroke: one value from which text, JSON and CSV are made. Forces in
 //! N, moments in N·m about the joints' points, each first link on second, in the joint's own frame.
 
 pub mod stroke;
@@ -8,7 +8,7 @@ use crate::format::csv::table;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::drives::slides;
-use crate::statics::reactions::{Choice, JointReaction, Solution};
+use crate::statics::reactions::{JointReaction, Solution, Uniqueness};
 use serde::Serialize;
 
 /// Reactions in one pose.
@@ -33,15 +33,15 @@ pub struct Reactions<'a> {
     /// Freedoms left with the drives held.
     pub undriven: usize,
     /// What is asked of the faces on objects, in states that have any.
-    pub contacts: Vec<Contact<'a>>,
+    pub contacts: Vec<ObjectContact<'a>>,
     /// By joint of the state.
-    pub reactions: Vec<Joint<'a>>,
+    pub reactions: Vec<JointForces<'a>>,
     /// Those that load nothing from outside, one set for each redundant constraint.
-    pub self_stresses: Vec<Vec<Joint<'a>>>,
+    pub self_stresses: Vec<Vec<JointForces<'a>>>,
     /// How many there are in exact geometry, where singular values tell another number.
     pub exact_self_stresses: Option<usize>,
     /// Those of elastic joints, where stiffness is stated and it matters.
-    pub elastic: Option<Vec<Joint<'a>>>,
+    pub elastic: Option<Vec<JointForces<'a>>>,
     /// The mechanism, for its loads.
     #[serde(skip)]
     pub of: &'a Mechanism,
@@ -49,7 +49,7 @@ pub struct Reactions<'a> {
 
 /// What a joint passes on.
 #[derive(Debug, Serialize)]
-pub struct Joint<'a> {
+pub struct JointForces<'a> {
     /// The joint.
     pub joint: &'a str,
     /// Its type.
@@ -74,14 +74,14 @@ pub struct Joint<'a> {
     /// In global axes `[N·m]`.
     pub global_moment: [f64; 3],
     /// What its drive does, part of force and moment.
-    pub drive: Option<Effort>,
+    pub drive: Option<DriveEffort>,
     /// Components that differ within the family of reactions, `Fx` to `Mz`; all others are the same in all of it.
     pub open: Vec<&'static str>,
 }
 
 /// The force of a face on an object.
 #[derive(Debug, Serialize)]
-pub struct Contact<'a> {
+pub struct ObjectContact<'a> {
     /// The joint.
     pub contact: &'a str,
     /// `pushes`, `idle`, or what no such face can do: `pulls`, `slips`, `tilts`.
@@ -98,9 +98,9 @@ pub struct Contact<'a> {
     pub radius: Option<f64>,
 }
 
-impl<'a> Contact<'a> {
+impl<'a> ObjectContact<'a> {
     fn new(m: &'a Mechanism, c: &ContactForce) -> Self {
-        Contact {
+        ObjectContact {
             contact: &m.joints[c.joint].id,
             touch: match c.touch {
                 Touch::Pushes => "pushes",
@@ -137,7 +137,7 @@ pub struct Axes {
 
 /// What a drive does.
 #[derive(Debug, Serialize)]
-pub struct Effort {
+pub struct DriveEffort {
     /// The freedom it holds.
     pub freedom: &'static str,
     /// Force `[N]` or torque `[N·m]` along it.
@@ -147,11 +147,11 @@ pub struct Effort {
     pub slides: bool,
 }
 
-impl<'a> Joint<'a> {
+impl<'a> JointForces<'a> {
     fn new(m: &'a Mechanism, r: &JointReaction) -> Self {
         let joint = &m.joints[r.joint];
         let [x, y, z] = r.axes;
-        Joint {
+        JointForces {
             joint: &joint.id,
             kind: joint.joint_type.name(),
             links: joint.links.map(|l| m.links[l].id.as_str()),
@@ -163,7 +163,7 @@ impl<'a> Joint<'a> {
             moment_magnitude: r.moment_size(),
             global_force: r.global_force(),
             global_moment: r.global_moment(),
-            drive: r.effort.map(|(freedom, effort)| Effort {
+            drive: r.effort.map(|(freedom, effort)| DriveEffort {
                 freedom: freedom.name(),
                 effort,
                 slides: slides(freedom),
@@ -177,28 +177,32 @@ impl<'a> Reactions<'a> {
     /// What was found of a state.
     #[must_use]
     pub fn new(m: &'a Mechanism, state: StateId, s: &Solution) -> Self {
-        let joints = |list: &Vec<JointReaction>| -> Vec<Joint<'a>> {
-            list.iter().map(|r| Joint::new(m, r)).collect()
+        let joints = |list: &Vec<JointReaction>| -> Vec<JointForces<'a>> {
+            list.iter().map(|r| JointForces::new(m, r)).collect()
         };
         Reactions {
             mechanism: &m.name,
             state: &m.states[state],
-            unique: s.choice == Choice::Unique,
+            unique: s.choice == Uniqueness::Unique,
             choice: match s.choice {
-                Choice::Unique => "unique",
-                Choice::MinimumNorm => "minimum-norm",
-                Choice::Pushing => "pushing",
+                Uniqueness::Unique => "unique",
+                Uniqueness::MinimumNorm => "minimum-norm",
+                Uniqueness::Pushing => "pushing",
             },
             size: s.size,
             condition: s.condition,
             nearly_singular: s.nearly_singular(),
             residual: s.residual,
             undriven: s.undriven,
-            contacts: s.contacts.iter().map(|c| Contact::new(m, c)).collect(),
+            contacts: s
+                .contacts
+                .iter()
+                .map(|c| ObjectContact::new(m, c))
+                .collect(),
             reactions: joints(&s.reactions)
                 .into_iter()
                 .zip(&s.open)
-                .map(|(joint, open)| Joint {
+                .map(|(joint, open)| JointForces {
                     open: COMPONENTS
                         .into_iter()
                         .zip(open)

@@ -1,4 +1,4 @@
-//! Statics of a planar mechanism: one value from which text, JSON, CSV and charts are made. SI units; the keys are a stable
+//! StaticsData of a planar mechanism: one value from which text, JSON, CSV and charts are made. SI units; the keys are a stable
 //! contract, and numbers that do not exist are null.
 
 pub mod charts;
@@ -20,7 +20,7 @@ use serde::Serialize;
 
 /// A mechanism's reactions over its cycle.
 #[derive(Debug, Serialize)]
-pub struct Statics<'a> {
+pub struct StaticsData<'a> {
     /// Its name.
     pub mechanism: &'a str,
     /// The driven joints.
@@ -30,7 +30,7 @@ pub struct Statics<'a> {
     /// The highest class among the groups.
     pub class: usize,
     /// The Assur groups, in the order they are placed.
-    pub groups: Vec<Group<'a>>,
+    pub groups: Vec<GroupData<'a>>,
     /// By position of the first drive.
     pub positions: Vec<Position<'a>>,
     /// Where the motion ended early, if it did.
@@ -45,7 +45,7 @@ pub struct Statics<'a> {
 
 /// An Assur group.
 #[derive(Debug, Serialize)]
-pub struct Group<'a> {
+pub struct GroupData<'a> {
     /// Its links.
     pub links: Vec<&'a str>,
     /// By Assur and Artobolevsky.
@@ -204,12 +204,12 @@ pub struct Structures<'a> {
     /// Its name.
     pub mechanism: &'a str,
     /// By drive, those at the frame first.
-    pub drives: Vec<Structure<'a>>,
+    pub drives: Vec<DrivenStructureData<'a>>,
 }
 
 /// The structure under one drive.
 #[derive(Debug, Serialize)]
-pub struct Structure<'a> {
+pub struct DrivenStructureData<'a> {
     /// The joint driven in place of the first drive.
     pub drive: &'a str,
     /// The groups, or why there are none.
@@ -226,7 +226,7 @@ pub enum Decomposed<'a> {
         /// The highest class among them.
         class: usize,
         /// In the order they are placed.
-        groups: Vec<Group<'a>>,
+        groups: Vec<GroupData<'a>>,
     },
     /// Why there are none.
     Not {
@@ -250,8 +250,8 @@ fn joints<'a>(m: &'a PlanarMechanism, list: &[PairId]) -> Vec<&'a str> {
     list.iter().map(|&p| m.pairs[p].name.as_str()).collect()
 }
 
-fn groups<'a>(m: &'a PlanarMechanism, d: &Decomposition, conditions: &[f64]) -> Vec<Group<'a>> {
-    let one = |(i, g): (usize, &assur::Group)| Group {
+fn groups<'a>(m: &'a PlanarMechanism, d: &Decomposition, conditions: &[f64]) -> Vec<GroupData<'a>> {
+    let one = |(i, g): (usize, &assur::Group)| GroupData {
         links: links(m, &g.bodies),
         class: g.class.class,
         order: g.class.order,
@@ -265,7 +265,7 @@ fn groups<'a>(m: &'a PlanarMechanism, d: &Decomposition, conditions: &[f64]) -> 
     d.groups.iter().enumerate().map(one).collect()
 }
 
-impl Group<'_> {
+impl GroupData<'_> {
     /// A short name: "4-6-7-10".
     #[must_use]
     pub fn name(&self) -> String {
@@ -276,8 +276,8 @@ impl Group<'_> {
 impl<'a> Structures<'a> {
     /// The structures of a mechanism.
     #[must_use]
-    pub fn new(name: &'a str, m: &'a PlanarMechanism, found: &[cycle::Structure]) -> Self {
-        let one = |x: &cycle::Structure| Structure {
+    pub fn new(name: &'a str, m: &'a PlanarMechanism, found: &[cycle::DrivenStructure]) -> Self {
+        let one = |x: &cycle::DrivenStructure| DrivenStructureData {
             drive: &m.pairs[x.drive].name,
             found: match &x.found {
                 Ok((d, conditions)) => Decomposed::Groups {
@@ -296,7 +296,7 @@ impl<'a> Structures<'a> {
     }
 }
 
-impl<'a> Statics<'a> {
+impl<'a> StaticsData<'a> {
     /// What was found of a mechanism, the four-link groups by `methods`.
     #[must_use]
     pub fn new(name: &'a str, s: &'a cycle::Statics, methods: &'a [GroupMethod]) -> Self {
@@ -315,7 +315,7 @@ impl<'a> Statics<'a> {
                 })
                 .collect(),
         });
-        Statics {
+        StaticsData {
             mechanism: name,
             drives: joints(m, &d.drives),
             driven: links(m, &d.driven),

@@ -5,7 +5,7 @@ use crate::format::number::decimals;
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::stroke::analysis::StrokeFigures;
-use crate::rank::stroke::request::Asked;
+use crate::rank::stroke::request::AskedStroke;
 use crate::view::terminal::layout::table;
 use itertools::Itertools;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use std::fmt::Write;
 
 /// The figures over a stroke; positions in radians or, where the drive slides, in the file's length unit.
 #[derive(Debug, Serialize)]
-pub struct Stroke<'a> {
+pub struct StrokeData<'a> {
     #[serde(skip)]
     mechanism: &'a str,
     /// The state.
@@ -27,19 +27,19 @@ pub struct Stroke<'a> {
     /// To, as asked for.
     pub to: f64,
     /// The poses reached.
-    pub poses: Vec<Pose<'a>>,
+    pub poses: Vec<PoseData<'a>>,
     /// Where the rank changes.
-    pub changes: Vec<Change>,
-    /// Output motions that no drive decides.
+    pub changes: Vec<RankChangeData>,
+    /// OutputPose motions that no drive decides.
     pub undriven: usize,
     /// The end of the way, where it comes before the last pose asked for.
-    pub stop: Option<Stop>,
+    pub stop: Option<StrokeEnd>,
 }
 
 /// The figures of one pose; see [`crate::rank::stroke::analysis::PoseFigures`].
 #[derive(Debug, Serialize)]
 #[allow(missing_docs, reason = "named as there")]
-pub struct Pose<'a> {
+pub struct PoseData<'a> {
     pub at: f64,
     pub rank: usize,
     pub mobility: usize,
@@ -48,12 +48,12 @@ pub struct Pose<'a> {
     pub largest_dropped: f64,
     pub drive_share: f64,
     pub gap: f64,
-    pub outputs: Vec<Output<'a>>,
+    pub outputs: Vec<OutputPose<'a>>,
 }
 
 /// Where an output link is.
 #[derive(Debug, Serialize)]
-pub struct Output<'a> {
+pub struct OutputPose<'a> {
     /// The link.
     pub link: &'a str,
     /// The middle of its joints, in the file's length unit.
@@ -65,7 +65,7 @@ pub struct Output<'a> {
 /// A change of the rank, somewhere between two positions.
 #[derive(Debug, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Change {
+pub struct RankChangeData {
     pub from: f64,
     pub to: f64,
     pub rank_before: usize,
@@ -76,18 +76,18 @@ pub struct Change {
 /// Where and why a stroke ends early.
 #[derive(Debug, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
-pub struct Stop {
+pub struct StrokeEnd {
     pub at: f64,
     pub why: &'static str,
     pub text: String,
 }
 
-impl<'a> Stroke<'a> {
+impl<'a> StrokeData<'a> {
     /// Follows a stroke that is asked for, and says what was found.
     #[must_use]
-    pub fn of(asked: &Asked<'a>) -> Stroke<'a> {
+    pub fn of(asked: &AskedStroke<'a>) -> StrokeData<'a> {
         let (m, state) = asked.subject();
-        Stroke::new(m, state, asked.drive(), asked.range(), &asked.follow())
+        StrokeData::new(m, state, asked.drive(), asked.range(), &asked.follow())
     }
 
     /// What was found of a drive of this name, which slides or turns, over a range.
@@ -98,16 +98,16 @@ impl<'a> Stroke<'a> {
         (drive, slides): (String, bool),
         [from, to]: [f64; 2],
         found: &StrokeFigures,
-    ) -> Stroke<'a> {
+    ) -> StrokeData<'a> {
         let outputs = |p: &crate::rank::stroke::analysis::PoseFigures| {
-            let one = |o: &crate::rank::stroke::analysis::Output| Output {
+            let one = |o: &crate::rank::stroke::analysis::Output| OutputPose {
                 link: &m.links[o.link].id,
                 point: o.point,
                 turn: o.turn,
             };
             p.outputs.iter().map(one).collect()
         };
-        let poses = found.poses.iter().map(|p| Pose {
+        let poses = found.poses.iter().map(|p| PoseData {
             at: p.at,
             rank: p.rank.rank,
             mobility: p.mobility,
@@ -118,14 +118,14 @@ impl<'a> Stroke<'a> {
             gap: p.gap,
             outputs: outputs(p),
         });
-        let changes = found.changes.iter().map(|c| Change {
+        let changes = found.changes.iter().map(|c| RankChangeData {
             from: c.between[0],
             to: c.between[1],
             rank_before: c.ranks[0],
             rank: c.ranks[1],
             rank_after: c.ranks[2],
         });
-        Stroke {
+        StrokeData {
             mechanism: &m.name,
             state: &m.states[state],
             drive,
@@ -135,7 +135,7 @@ impl<'a> Stroke<'a> {
             poses: poses.collect(),
             changes: changes.collect(),
             undriven: found.undriven,
-            stop: found.stop.map(|x| Stop {
+            stop: found.stop.map(|x| StrokeEnd {
                 at: x.at,
                 why: x.why.word(),
                 text: x.why.to_string(),
@@ -156,7 +156,7 @@ impl<'a> Stroke<'a> {
         }
     }
 
-    fn told(&self, c: &Change) -> String {
+    fn told(&self, c: &RankChangeData) -> String {
         let middle = self.place(c.middle(), 5);
         let (before, at, after) = (c.rank_before, c.rank, c.rank_after);
         if before == after {
@@ -295,7 +295,7 @@ impl<'a> Stroke<'a> {
     }
 }
 
-impl Change {
+impl RankChangeData {
     fn middle(&self) -> f64 {
         f64::midpoint(self.from, self.to)
     }

@@ -4,8 +4,8 @@ mod csv;
 pub mod plot;
 mod text;
 
-use crate::sweep::row::Row;
-use crate::sweep::summary::{Best, Peaks, Redundant, Summary, Tally};
+use crate::sweep::row::SampleRow;
+use crate::sweep::summary::{Best, Peaks, Redundant, SampleTally, Summary};
 use crate::sweep::table::Table;
 use itertools::Itertools;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 /// What a sweep found, in all.
 #[derive(Debug, Serialize)]
-pub struct Sweep<'a> {
+pub struct SweepData<'a> {
     /// Name of the mechanism.
     pub mechanism: &'a str,
     /// What each parameter may be.
@@ -31,9 +31,9 @@ pub struct Sweep<'a> {
     /// Samples that make no mechanism, by why.
     pub problems: Vec<Told<'a>>,
     /// σ, state by state.
-    pub states: Vec<State<'a>>,
+    pub states: Vec<StateOverSamples<'a>>,
     /// The redesigns, where they were searched.
-    pub redesigns: Option<Redesigns<'a>>,
+    pub redesigns: Option<RedesignsData<'a>>,
     /// The peak force, where there are loads.
     pub peak_force: Option<PeakForce<'a>>,
     /// What each rank method was worth, where that was asked: samples by the word.
@@ -55,7 +55,7 @@ pub struct Told<'a> {
 
 /// σ of a state over the samples.
 #[derive(Debug, Serialize)]
-pub struct State<'a> {
+pub struct StateOverSamples<'a> {
     /// Its name.
     pub state: String,
     /// By figure, the least first.
@@ -65,7 +65,7 @@ pub struct State<'a> {
     /// Samples whose σ is not the most common.
     pub special: Vec<Special<'a>>,
     /// Pairs of samples that differ in one parameter, with none between them, whose σ differs.
-    pub changes: Vec<Change>,
+    pub changes: Vec<NeighbouringSamples>,
 }
 
 /// A figure with its samples.
@@ -94,7 +94,7 @@ pub struct Special<'a> {
 
 /// Two samples next to each other.
 #[derive(Debug, Serialize)]
-pub struct Change {
+pub struct NeighbouringSamples {
     /// The parameter that differs.
     pub parameter: String,
     /// Its value in the first.
@@ -109,7 +109,7 @@ pub struct Change {
 
 /// The redesigns over the samples.
 #[derive(Debug, Serialize)]
-pub struct Redesigns<'a> {
+pub struct RedesignsData<'a> {
     /// Samples with a best one.
     pub samples: usize,
     /// Samples searched without finding any.
@@ -154,8 +154,8 @@ pub struct Peak<'a> {
     pub at: &'a BTreeMap<String, f64>,
 }
 
-fn told<'a>(rows: &'a [Row], of: &BTreeMap<String, Tally>) -> Vec<Told<'a>> {
-    let one = |(what, t): (&String, &Tally)| Told {
+fn told<'a>(rows: &'a [SampleRow], of: &BTreeMap<String, SampleTally>) -> Vec<Told<'a>> {
+    let one = |(what, t): (&String, &SampleTally)| Told {
         what: what.clone(),
         samples: t.samples,
         first: &rows[t.first].at,
@@ -163,10 +163,10 @@ fn told<'a>(rows: &'a [Row], of: &BTreeMap<String, Tally>) -> Vec<Told<'a>> {
     of.iter().map(one).collect()
 }
 
-impl<'a> Sweep<'a> {
+impl<'a> SweepData<'a> {
     /// What a table says.
     #[must_use]
-    pub fn new(table: &'a Table) -> Sweep<'a> {
+    pub fn new(table: &'a Table) -> SweepData<'a> {
         let (head, rows) = (&table.head, &table.rows[..]);
         let Summary {
             problems,
@@ -176,7 +176,7 @@ impl<'a> Sweep<'a> {
             peaks,
             methods,
         } = table.summary();
-        Sweep {
+        SweepData {
             mechanism: &head.sweep,
             parameters: &head.parameters,
             sampling: &head.sampling,
@@ -195,13 +195,13 @@ impl<'a> Sweep<'a> {
 }
 
 /// σ of the state of a row.
-fn sigma(row: &Row, state: &str) -> Option<usize> {
+fn sigma(row: &SampleRow, state: &str) -> Option<usize> {
     let found = row.states.iter().find(|s| s.state == state)?;
     Some(found.redundant)
 }
 
-fn state<'a>(rows: &'a [Row], r: Redundant) -> State<'a> {
-    let figure = |(&(least, most), t): (&(usize, usize), &Tally)| Figure {
+fn state<'a>(rows: &'a [SampleRow], r: Redundant) -> StateOverSamples<'a> {
+    let figure = |(&(least, most), t): (&(usize, usize), &SampleTally)| Figure {
         redundant: least,
         redundant_at_most: (most > least).then_some(most),
         samples: t.samples,
@@ -213,7 +213,7 @@ fn state<'a>(rows: &'a [Row], r: Redundant) -> State<'a> {
         redundant: sigma(&rows[i], &r.state).unwrap_or(0),
     };
     let by_certainty = r.by_certainty.iter();
-    State {
+    StateOverSamples {
         redundant: r.by_figure.iter().map(figure).collect(),
         certainty: by_certainty.map(|(w, t)| (w.clone(), t.samples)).collect(),
         special: r.special.iter().map(special).collect(),
@@ -223,18 +223,18 @@ fn state<'a>(rows: &'a [Row], r: Redundant) -> State<'a> {
 }
 
 /// Pairs of neighbours with different σ, parameter by parameter.
-fn changes(rows: &[Row], state: &str) -> Vec<Change> {
+fn changes(rows: &[SampleRow], state: &str) -> Vec<NeighbouringSamples> {
     let Some(first) = rows.first() else {
         return Vec::new();
     };
     let mut out = Vec::new();
     for parameter in first.at.keys() {
-        let others = |r: &Row| {
+        let others = |r: &SampleRow| {
             let all = r.at.iter().filter(|(n, _)| *n != parameter);
             all.map(|(n, x)| (n.clone(), *x))
                 .collect::<BTreeMap<_, _>>()
         };
-        let bits = |r: &Row| others(r).values().map(|x| x.to_bits()).collect_vec();
+        let bits = |r: &SampleRow| others(r).values().map(|x| x.to_bits()).collect_vec();
         let groups = rows.iter().into_group_map_by(|r| bits(r));
         for mut group in groups.into_values().sorted_by_key(|g| g[0].sample) {
             group.sort_by(|a, b| a.at[parameter].total_cmp(&b.at[parameter]));
@@ -243,7 +243,7 @@ fn changes(rows: &[Row], state: &str) -> Vec<Change> {
                     continue;
                 };
                 if one != two {
-                    out.push(Change {
+                    out.push(NeighbouringSamples {
                         parameter: parameter.clone(),
                         from: a.at[parameter],
                         to: b.at[parameter],
@@ -258,16 +258,16 @@ fn changes(rows: &[Row], state: &str) -> Vec<Change> {
 }
 
 fn redesigns<'a>(
-    rows: &'a [Row],
+    rows: &'a [SampleRow],
     best: Best,
-    unsearched: &BTreeMap<String, Tally>,
-) -> Redesigns<'a> {
-    let one = |(what, t): &(String, Tally)| Told {
+    unsearched: &BTreeMap<String, SampleTally>,
+) -> RedesignsData<'a> {
+    let one = |(what, t): &(String, SampleTally)| Told {
         what: what.clone(),
         samples: t.samples,
         first: &rows[t.first].at,
     };
-    Redesigns {
+    RedesignsData {
         samples: best.samples,
         without: best.without,
         unproven: best.unproven,
@@ -277,7 +277,7 @@ fn redesigns<'a>(
     }
 }
 
-fn peak_force<'a>(rows: &'a [Row], p: &Peaks) -> PeakForce<'a> {
+fn peak_force<'a>(rows: &'a [SampleRow], p: &Peaks) -> PeakForce<'a> {
     let at = |which: usize| {
         let row = &rows[p.least_and_greatest?[which]];
         let found = row.forces.as_ref()?.get()?;

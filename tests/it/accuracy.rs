@@ -1,11 +1,11 @@
 //! The survey of the methods, and where the naive formulas fail.
 
-use ozols::accuracy::Verdict;
+use ozols::accuracy::AnswerVerdict;
 use ozols::accuracy::pictures;
 use ozols::accuracy::stability::change::Noise;
-use ozols::accuracy::stability::close::{Drawn, Pair};
+use ozols::accuracy::stability::close::{DrawnNumbers, SpecialPair};
 use ozols::accuracy::stability::shaky::toggles;
-use ozols::accuracy::stability::special::Kind;
+use ozols::accuracy::stability::special::SpecialKind;
 use ozols::accuracy::survey::{Reply, Survey, cases};
 use ozols::accuracy::timing::Stopwatch;
 use ozols::accuracy::tuned::tolerances;
@@ -42,7 +42,7 @@ fn finite_auto_and_modular_are_right_everywhere() {
     let mut wrong = Vec::new();
     for name in ["finite", "auto"] {
         for (case, r) in SURVEY.of_method(index(name)) {
-            if r.verdict != Verdict::Right {
+            if r.verdict != AnswerVerdict::Right {
                 wrong.push(format!("{name} on {}: {:?}", case.name(), r.answer));
             }
         }
@@ -69,7 +69,7 @@ fn each_naive_formula_fails_where_it_is_known_to() {
             says,
             "{method} on {case}"
         );
-        assert_eq!(r.verdict, Verdict::Wrong(by), "{method} on {case}");
+        assert_eq!(r.verdict, AnswerVerdict::Wrong(by), "{method} on {case}");
     }
 }
 
@@ -186,7 +186,7 @@ fn the_front_has_nobody_that_another_beats() {
         assert!(places.iter().any(|p| p.name == name), "{name}");
     }
     let front = pictures::pareto(&places);
-    let beats = |a: &pictures::Place, b: &pictures::Place| {
+    let beats = |a: &pictures::MethodPlace, b: &pictures::MethodPlace| {
         a.seconds <= b.seconds && a.share >= b.share && (a.seconds < b.seconds || a.share > b.share)
     };
     for p in &places {
@@ -206,8 +206,8 @@ fn the_front_has_nobody_that_another_beats() {
 fn pairs_made_from_a_seed_are_what_they_are_said_to_be() {
     let seed = std::env::var("OZOLS_FUZZ_SEED").map_or(11, |s| s.parse().unwrap());
     let mut lost = 0;
-    for (i, pair) in Pair::ALL.into_iter().cycle().take(25).enumerate() {
-        let drawn = Drawn::new(pair, &mut Noise::new(seed, i));
+    for (i, pair) in SpecialPair::ALL.into_iter().cycle().take(25).enumerate() {
+        let drawn = DrawnNumbers::new(pair, &mut Noise::new(seed, i));
         for off in [None, Some(2), Some(9), Some(16), Some(40)] {
             let text = drawn.text(off);
             let m =
@@ -257,7 +257,7 @@ fn rows_of_toggles_have_one_freedom_at_the_pose() {
 
 #[test]
 fn special_mechanisms_are_those_of_their_seed() {
-    for kind in Kind::ALL {
+    for kind in SpecialKind::ALL {
         let text = |seed| kind.text(3.0, 6, true, &mut Noise::new(seed, 0));
         assert_eq!(text(1), text(1));
         assert_ne!(text(1), text(2));

@@ -5,7 +5,7 @@ use num_bigint::BigUint;
 use ozols::Mechanism;
 use ozols::accuracy::searching::record::{Record, Trial};
 use ozols::accuracy::searching::search_method::Way;
-use ozols::accuracy::searching::{Effort, MECHANISMS, pictures, trial};
+use ozols::accuracy::searching::{MECHANISMS, TrialEffort, pictures, trial};
 use ozols::accuracy::timing::{Machine, Stopwatch};
 use ozols::file::text::mechanism_from_str;
 use ozols::rank::numeric::Elimination;
@@ -17,13 +17,13 @@ use ozols::search::check::singular_values;
 use serde_json::Value;
 use std::time::Duration;
 
-const EFFORT: Effort = Effort {
+const EFFORT: TrialEffort = TrialEffort {
     looked: 400,
     pool: 2_000,
 };
 
 /// A trial by a clock that stands still: verdicts do not depend on it.
-fn tried(mechanism: &Mechanism, request: &Request, effort: Effort) -> Trial {
+fn tried(mechanism: &Mechanism, request: &Request, effort: TrialEffort) -> Trial {
     let watch = Stopwatch {
         clock: || Duration::ZERO,
         repeat: 1,

@@ -4,7 +4,7 @@ use crate::common::built_in;
 use ozols::builtin;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
-use ozols::redundancy::figures::{Figures, figures};
+use ozols::redundancy::figures::{StateFigures, figures};
 
 #[test]
 fn every_built_in_mechanism_has_the_figures_it_states() {
@@ -34,7 +34,7 @@ fn every_built_in_mechanism_has_the_figures_it_states() {
             let states: Vec<StateId> = m.state_ids().collect();
             for s in analyse(&m, &states, method).unwrap() {
                 let state = m.state(&s.state).unwrap();
-                let of_analysis = Figures {
+                let of_analysis = StateFigures {
                     links: s.links,
                     joints: s.joints,
                     contours: s.contours,
@@ -115,7 +115,7 @@ fn there_are_enough_mechanisms_and_the_gripper_is_among_them() {
 /// faces; with an unloading joint two are left, both harmless.
 #[test]
 fn friction_shared_by_the_jaws_is_told_from_harm() {
-    use ozols::redundancy::stress::Verdict;
+    use ozols::redundancy::stress::StressVerdict;
     for (name, harmless, harmful) in [
         ("gripper-10", 3, 2),
         ("gripper-10-unloaded", 2, 0),
@@ -124,19 +124,25 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
         let m = built_in(name);
         let clamped = m.state("clamped").unwrap();
         let s = &analyse(&m, &[clamped], Method::Modular).unwrap()[0];
-        let external: Vec<Verdict> = s
+        let external: Vec<StressVerdict> = s
             .self_stresses
             .iter()
             .filter(|t| t.external)
             .map(|t| t.verdict)
             .collect();
         assert_eq!(
-            external.iter().filter(|v| **v == Verdict::Harmless).count(),
+            external
+                .iter()
+                .filter(|v| **v == StressVerdict::Harmless)
+                .count(),
             harmless,
             "{name}"
         );
         assert_eq!(
-            external.iter().filter(|v| **v == Verdict::Harmful).count(),
+            external
+                .iter()
+                .filter(|v| **v == StressVerdict::Harmful)
+                .count(),
             harmful,
             "{name}"
         );

@@ -14,7 +14,7 @@ mod workload;
 
 use itertools::Itertools;
 use num_bigint::BigUint;
-use ozols::catalog::row::{Laid, Row, row};
+use ozols::catalog::row::{Laid, StructureRow, row};
 use ozols::catalog::spec::Spec;
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
@@ -395,7 +395,7 @@ fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
         if n % 9 != 0 {
             return;
         }
-        let Row { laid: Ok(laid), .. } = row(subject, &s, &plain(3)).unwrap() else {
+        let StructureRow { laid: Ok(laid), .. } = row(subject, &s, &plain(3)).unwrap() else {
             return;
         };
         let again = Mechanism::from_toml(&laid.file).unwrap();

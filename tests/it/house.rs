@@ -5,13 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Functions with more lines of code than are read at a glance ([`GLANCE`]).
-const LONG_FUNCTIONS: usize = 159;
+const LONG_FUNCTIONS: usize = 157;
 /// Functions that take a parameter apart as a tuple: a struct with names says what belongs together.
-const TUPLE_PARAMETERS: usize = 100;
+const TUPLE_PARAMETERS: usize = 96;
 /// Names of types that stand in three files or more: such a name does not say which of them is meant.
-const SHARED_NAMES: usize = 75;
+const SHARED_NAMES: usize = 0;
 /// Source files in one folder, without those of the folders in it.
-const FILES_IN_A_FOLDER: usize = 31;
+const FILES_IN_A_FOLDER: usize = 27;
 
 /// Lines of code, without blank lines and comments, that a function is read in at a glance.
 const GLANCE: usize = 60;

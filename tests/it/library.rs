@@ -2,9 +2,9 @@
 
 use crate::common::{built_in, ozols, text, timeless};
 use ozols::model::ranking::Term;
+use ozols::score::outcome::WhyNone;
 use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};
-use ozols::search::answer::why_none::Hopeless;
 use ozols::search::diagram::Stop;
 use ozols::search::question::conditions::Symmetry;
 use ozols::view::search::csv;
@@ -19,9 +19,8 @@ fn search(name: &str, request: &Request) -> Outcome {
 
 fn json(outcome: &Outcome) -> String {
     let mut out = Vec::new();
-    let eased = outcome.relaxations().unwrap();
-    let why = outcome.hopeless().unwrap();
-    json::write(&mut out, outcome, outcome.variants(), (&eased, &why), None).unwrap();
+    let none = outcome.why_none().unwrap();
+    json::write(&mut out, outcome, outcome.variants(), &none, None).unwrap();
     String::from_utf8(out).unwrap()
 }
 
@@ -229,7 +228,7 @@ fn csv_and_text_are_those_of_the_command() {
     // People are given ideas.
     outcome.request.distinct = true;
     let variants = outcome.variants();
-    let none = (&[][..], &Hopeless::default());
+    let none = &WhyNone::default();
     text::write(&mut text, &outcome, variants, none, "four-bar", None).unwrap();
     assert_eq!(text, printed("text").unwrap().stdout);
 }

@@ -15,7 +15,7 @@ use ozols::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use ozols::motion::pose::Pose;
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
-use ozols::statics::reactions::{Choice, JointReaction, Reactions, Solution, Unsolved};
+use ozols::statics::reactions::{JointReaction, Reactions, Solution, Uniqueness, Unsolved};
 use proptest::prelude::*;
 
 /// A number as written with nine decimals, so that the file's exactness is kept.
@@ -135,7 +135,7 @@ fn every_link_is_in_equilibrium_and_joints_do_no_work() {
         };
         assert!(s.residual < 1e-10, "{name}: {}", s.residual);
         assert!(left_over(&m, &s.reactions) < 1e-10, "{name}");
-        assert_eq!(s.choice == Choice::Unique, s.self_stresses.is_empty());
+        assert_eq!(s.choice == Uniqueness::Unique, s.self_stresses.is_empty());
         let greatest = s
             .reactions
             .iter()
@@ -310,7 +310,7 @@ fn planar_mechanisms_agree_with_the_planar_solver() {
             }
         }
         let s = solve(&m);
-        assert_eq!(s.choice, Choice::Unique, "{name}");
+        assert_eq!(s.choice, Uniqueness::Unique, "{name}");
         let planar = ozols::statics::cycle::statics(&m, StateId::FREE, None).unwrap();
         let whole = planar.moments[0].whole.as_ref().unwrap();
         let greatest = s

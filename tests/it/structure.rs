@@ -3,7 +3,7 @@
 
 use crate::common::built_in;
 use crate::search::twin;
-use ozols::accuracy::lattice::{self, Kind};
+use ozols::accuracy::lattice::{self, LatticeKind};
 use ozols::builtin;
 use ozols::closure::contour::Contour;
 use ozols::closure::matrix::{Closure, Column, CouplingRow};
@@ -66,12 +66,12 @@ fn built_in_mechanisms() {
 
 #[test]
 fn chains_and_grids() {
-    for kind in Kind::ALL {
+    for kind in LatticeKind::ALL {
         for k in [1, 2, 3, 9, 24] {
             check(&lattice::mechanism(kind, k));
         }
     }
-    for kind in [Kind::FourBars, Kind::Scissors] {
+    for kind in [LatticeKind::FourBars, LatticeKind::Scissors] {
         let m = lattice::mechanism(kind, 70);
         let exact = exact_field(&m, 0).unwrap();
         let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();

@@ -11,11 +11,11 @@ use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::score::request::{Check, List, Request};
 use ozols::shard::Shard;
-use ozols::statics::solve::{Answer, Model, solve};
-use ozols::sweep::row::Row;
+use ozols::statics::solve::{Model, SolvedReactions, solve};
+use ozols::sweep::row::SampleRow;
 use ozols::sweep::space::Sampling;
-use ozols::sweep::table::{Table, Watch, make};
-use ozols::sweep::{Asked, Spec, Sweep};
+use ozols::sweep::table::{SweepWatch, Table, make};
+use ozols::sweep::{Spec, Sweep, SweepRequest};
 use std::path::Path;
 
 /// A slider-crank in its plane, with a load: the crank's pin at (x, y), the piston where a rod of (96, -y) has it.
@@ -78,8 +78,8 @@ pub(crate) fn three_rods() -> String {
         .to_owned()
 }
 
-pub(crate) fn asked() -> Asked {
-    Asked {
+pub(crate) fn asked() -> SweepRequest {
+    SweepRequest {
         search: None,
         top: 3,
         stroke: None,
@@ -88,7 +88,7 @@ pub(crate) fn asked() -> Asked {
     }
 }
 
-pub(crate) fn sweep(text: &str, sampling: Sampling, asked: Asked) -> Sweep {
+pub(crate) fn sweep(text: &str, sampling: Sampling, asked: SweepRequest) -> Sweep {
     Sweep::new(Spec {
         file: "swept.toml".to_owned(),
         text: text.to_owned(),
@@ -101,7 +101,7 @@ pub(crate) fn sweep(text: &str, sampling: Sampling, asked: Asked) -> Sweep {
 /// Works to the end.
 struct Works;
 
-impl Watch for Works {
+impl SweepWatch for Works {
     fn done(&mut self, _: usize, _: usize) {}
     fn ended(&self) -> bool {
         false
@@ -141,7 +141,7 @@ fn written_in(text: &str, values: &[(&str, String)]) -> String {
 }
 
 /// What the other commands say of the mechanism of a row, found on a path of its own.
-fn as_others_say(m: &Mechanism, row: &Row, search: Option<&Request>) {
+fn as_others_say(m: &Mechanism, row: &SampleRow, search: Option<&Request>) {
     let states: Vec<StateId> = m.state_ids().collect();
     let found = analyse(m, &states, Method::Auto { tolerance: None }).unwrap();
     assert_eq!(row.states.len(), found.len());
@@ -200,7 +200,7 @@ fn a_row_is_what_the_other_commands_say_of_the_numbers_written_in() {
         Sampling::Sobol { count: 4, seed: 3 },
     ] {
         let text = three_rods();
-        let asked = Asked {
+        let asked = SweepRequest {
             search: Some(Request::default()),
             ..asked()
         };
@@ -236,7 +236,7 @@ fn the_peak_force_is_the_greatest_that_statics_gives_over_the_stroke() {
         ];
         let m = mechanism_from_str("written.toml", &written_in(LOADED, &values)).unwrap();
         as_others_say(&m, row, None);
-        let Answer::Planar(found) =
+        let SolvedReactions::Planar(found) =
             solve(&m, StateId::FREE, m.loads.stroke, Model::Planar).unwrap()
         else {
             panic!("it is planar")
@@ -281,7 +281,7 @@ fn a_special_geometry_is_found_exactly_where_an_expression_makes_it() {
         )
         .replace("600 + offset", "600 + a^2 - 2");
     let table = all(&sweep(&text, Sampling::Grid { points: 2 }, asked()), None);
-    let free = |r: &Row| {
+    let free = |r: &SampleRow| {
         (
             r.exact.contains_key("a"),
             r.states[0].redundant,
@@ -300,7 +300,7 @@ fn a_special_geometry_is_found_exactly_where_an_expression_makes_it() {
             }
         }
     }
-    let written = Asked {
+    let written = SweepRequest {
         as_written: true,
         ..asked()
     };
@@ -311,7 +311,7 @@ fn a_special_geometry_is_found_exactly_where_an_expression_makes_it() {
 
 #[test]
 fn a_summary_says_what_holds_at_the_samples_and_no_more() {
-    let asked = Asked {
+    let asked = SweepRequest {
         search: Some(Request::default()),
         ..asked()
     };
@@ -336,7 +336,7 @@ fn a_summary_says_what_holds_at_the_samples_and_no_more() {
     // Counted by hand from the rows.
     let best = summary.best.unwrap();
     let of = |words: &str| {
-        let has = |r: &&Row| {
+        let has = |r: &&SampleRow| {
             r.redesigns
                 .as_ref()
                 .unwrap()
@@ -360,7 +360,7 @@ fn a_summary_says_what_holds_at_the_samples_and_no_more() {
 
 #[test]
 fn strokes_states_and_methods_are_swept_too() {
-    let asked = Asked {
+    let asked = SweepRequest {
         stroke: Some((
             "0:20deg:2".to_owned(),
             ozols::file::read::workload::motion::stroke("0:20deg:2").unwrap(),

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// What a way says of one variant that it takes for determinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Judged {
+pub(super) struct JudgedVariant {
     /// Its properties.
     pub(super) key: Key,
     /// Whether it meets every condition.
@@ -34,16 +34,16 @@ pub(super) fn judged(
     search: &Search,
     choices: &[usize],
     seen: Seen,
-) -> Result<Option<Judged>, ExactError> {
+) -> Result<Option<JudgedVariant>, ExactError> {
     let judged = brute::judge(search, choices, seen)?;
-    Ok(judged.map(|(key, good)| Judged {
+    Ok(judged.map(|(key, good)| JudgedVariant {
         key,
         admissible: good && search.wanted(key),
     }))
 }
 
 /// The judgement of a search's diagrams; `None` where the variant is not in that of the determinate ones.
-pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
+pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<JudgedVariant> {
     let (search, diagrams) = (&outcome.search, outcome.diagrams.as_ref()?);
     let key = |redundancy| brute::key(search, choices, redundancy);
     let admissible = diagrams.admissible.end(choices).map(key);
@@ -53,14 +53,14 @@ pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged>
         None => diagrams.determinate.end(choices).map(key)?,
     };
     let admissible = admissible.is_some_and(|k| search.wanted(k));
-    Some(Judged { key, admissible })
+    Some(JudgedVariant { key, admissible })
 }
 
 /// Judges variants in parallel.
 pub(super) fn judge_all<E: Send>(
     variants: &[Vec<usize>],
-    judge: impl Fn(&[usize]) -> Result<Option<Judged>, E> + Sync,
-) -> Result<Vec<Option<Judged>>, E> {
+    judge: impl Fn(&[usize]) -> Result<Option<JudgedVariant>, E> + Sync,
+) -> Result<Vec<Option<JudgedVariant>>, E> {
     variants.par_iter().map(|v| judge(v)).collect()
 }
 
@@ -133,7 +133,7 @@ pub(super) fn ratio(size: &BigUint, looked: usize) -> f64 {
 }
 
 /// Counts of judged variants.
-pub(super) fn cells(search: &Search, judged: &[Option<Judged>]) -> Cells {
+pub(super) fn cells(search: &Search, judged: &[Option<JudgedVariant>]) -> Cells {
     let mut cells = Cells::new();
     for j in judged.iter().flatten() {
         let (w, changes) = (search.mobility(j.key), j.key.changes());
@@ -163,7 +163,7 @@ pub(super) fn properties(search: &Search, key: Key) -> Properties {
 pub(super) fn cheapest(
     search: &Search,
     variants: &[Vec<usize>],
-    judged: &[Option<Judged>],
+    judged: &[Option<JudgedVariant>],
     top: usize,
 ) -> Vec<Assignment> {
     let admissible = variants.iter().zip(judged).filter_map(|(choices, j)| {

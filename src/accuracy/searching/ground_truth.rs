@@ -1,6 +1,6 @@
 //! What ways of searching are judged by, from a prime that none of them uses.
 
-use crate::accuracy::searching::brute_judgement::{self, Cells, Judged, Properties};
+use crate::accuracy::searching::brute_judgement::{self, Cells, JudgedVariant, Properties};
 use crate::accuracy::searching::record::Share;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::Mechanism;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 
 /// How much to do.
 #[derive(Debug, Clone, Copy)]
-pub struct Effort {
+pub struct TrialEffort {
     /// Variants that brute force looks at; a larger space is sampled.
     pub looked: usize,
     /// The pool that a ranking of all is judged by.
@@ -50,7 +50,7 @@ pub(super) struct Truth {
     pub(super) top: usize,
     /// The pool of the ranking, and whether no variant outside of it can win.
     pub(super) pool: Option<(usize, bool)>,
-    judged: Vec<Option<Judged>>,
+    judged: Vec<Option<JudgedVariant>>,
     cells: Option<Cells>,
     best: Option<Best>,
 }
@@ -61,7 +61,7 @@ impl Truth {
         outcome: &Outcome,
         mechanism: &Mechanism,
         (request, top): (&Request, usize),
-        effort: Effort,
+        effort: TrialEffort,
     ) -> Result<Truth, RunError> {
         let search = over(&outcome.search, PRIME)?;
         let matrices = Matrices::new(&search);
@@ -182,8 +182,8 @@ impl Truth {
     }
 
     /// How many of the variants looked at are judged rightly: whether determinate, with which σ, and whether admissible.
-    pub(super) fn variants_right(&self, judged: &[Option<Judged>]) -> Share {
-        let verdict = |j: &Option<Judged>| j.map(|j| (j.key.internal(), j.admissible));
+    pub(super) fn variants_right(&self, judged: &[Option<JudgedVariant>]) -> Share {
+        let verdict = |j: &Option<JudgedVariant>| j.map(|j| (j.key.internal(), j.admissible));
         let pairs = self.judged.iter().zip(judged);
         Share {
             right: pairs.filter(|(a, b)| verdict(a) == verdict(b)).count(),

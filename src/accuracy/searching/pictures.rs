@@ -12,14 +12,14 @@ use crate::format::phrase::list;
 type Point<'a> = (&'a Record, f64, Share);
 
 /// What a chart shows: its title, the axes' labels, and a sentence.
-struct Words {
+struct ChartWords {
     title: String,
     time: String,
     wrong: String,
     why: String,
 }
 
-fn chart(words: Words, points: &[Point<'_>], machine: &Machine) -> Chart {
+fn chart(words: ChartWords, points: &[Point<'_>], machine: &Machine) -> Chart {
     let places: Vec<_> = points
         .iter()
         .map(|(_, t, s)| (*t, -s.percent_wrong()))
@@ -85,7 +85,7 @@ pub fn counts(trial: &Trial, machine: &Machine) -> Option<Chart> {
     let points: Vec<_> = given
         .filter_map(|r| Some((r, r.counting?.median, r.counts?)))
         .collect();
-    let words = Words {
+    let words = ChartWords {
         title: format!("{}: wrong counts against time", trial.mechanism),
         time: format!("{} of counting, s", machine.time()),
         wrong: "wrong counts, %".to_owned(),
@@ -103,7 +103,7 @@ pub fn variants(trial: &Trial, machine: &Machine) -> Option<Chart> {
     let points: Vec<_> = given
         .filter_map(|r| Some((r, r.counting?.median, r.variants)))
         .collect();
-    let words = Words {
+    let words = ChartWords {
         title: format!("{}: variants judged wrongly against time", trial.mechanism),
         time: format!("{} for all variants, s", machine.time()),
         wrong: format!(
@@ -123,7 +123,7 @@ pub fn best(trial: &Trial, machine: &Machine) -> Option<Chart> {
     let points: Vec<_> = named
         .filter_map(|r| Some((r, r.naming?.median, r.best?)))
         .collect();
-    let words = Words {
+    let words = ChartWords {
         title: format!(
             "{}: wrong among the best {} against time",
             trial.mechanism, trial.top

@@ -54,7 +54,7 @@ impl Way {
 
     /// Whether it counts as another way does, and differs in how the best are found or checked alone.
     #[must_use]
-    pub fn only_names(self) -> bool {
+    pub(crate) fn only_names(self) -> bool {
         matches!(self, Way::Diagram(Check::Full) | Way::Pool(_))
     }
 

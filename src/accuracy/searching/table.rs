@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// A row; the keys are a stable contract, in this order.
 #[derive(Debug, Serialize)]
-pub struct Row<'a> {
+pub struct TrialRow<'a> {
     mechanism: &'a str,
     way: String,
     about: &'static str,
@@ -27,11 +27,11 @@ pub struct Row<'a> {
     naming_repeats: Option<usize>,
 }
 
-impl<'a> Row<'a> {
-    fn new(trial: &'a Trial, record: &Record) -> Row<'a> {
+impl<'a> TrialRow<'a> {
+    fn new(trial: &'a Trial, record: &Record) -> TrialRow<'a> {
         let right = |s: Option<Share>| s.map(|s| s.right);
         let of = |s: Option<Share>| s.map(|s| s.of);
-        Row {
+        TrialRow {
             mechanism: &trial.mechanism,
             way: record.way.to_string(),
             about: record.way.about(),
@@ -56,8 +56,8 @@ impl<'a> Row<'a> {
 
 /// The rows of some trials.
 #[must_use]
-pub fn rows(trials: &[Trial]) -> Vec<Row<'_>> {
-    let of = |t| move |r| Row::new(t, r);
+pub fn rows(trials: &[Trial]) -> Vec<TrialRow<'_>> {
+    let of = |t| move |r| TrialRow::new(t, r);
     trials
         .iter()
         .flat_map(|t| t.records.iter().map(of(t)))

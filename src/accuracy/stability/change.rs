@@ -2,7 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::real;
 use crate::model::mechanism::{Mechanism, Mode};
 use chacha20::ChaCha8Rng;
@@ -12,7 +12,7 @@ use num_rational::BigRational;
 
 /// 10^e, exactly.
 #[must_use]
-pub fn power_of_ten(e: i32) -> Expr {
+pub(crate) fn power_of_ten(e: i32) -> Expr {
     Expr::rational(BigRational::from_integer(BigInt::from(10)).pow(e))
 }
 
@@ -76,7 +76,7 @@ impl Noise {
 /// their length, so that coordinates that are zero move as well. Joints that are all in one place stay there. In planar mode points alone, for joints stay square to
 /// the plane there.
 #[must_use]
-pub fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism {
+pub(crate) fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism {
     let mut m = bare(mechanism);
     let size = size(mechanism);
     let spatial = matches!(m.mode, Mode::Spatial);
@@ -105,7 +105,7 @@ pub fn turned_and_rounded(mechanism: &Mechanism, decimals: usize, noise: &mut No
         Mode::Spatial => [(); 3].map(|()| noise.uniform()),
         Mode::Planar { normal } => real(normal),
     };
-    let turn = Motion::turn(axis, angle);
+    let turn = RigidMotion::turn(axis, angle);
     let round = |x: f64| {
         let text = format!("{x:.decimals$}");
         text.parse().unwrap_or_else(|_| Expr::from(0))

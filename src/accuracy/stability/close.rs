@@ -1,12 +1,12 @@
 //! Mechanisms made from a seed in pairs of different mobility: one is special, the other the same but for one number, in the
 //! second to the sixteenth digit. Coordinates are fractions, which mean what they say.
 
-use super::asked::{self, Asked};
+use super::asked::{self, Replies};
 use super::change::Noise;
-use super::said::{Count, Counts};
+use super::said::{AnswerCount, Counts};
 use super::sketch::Sketch;
 use super::study::{Effort, Picture, Progress, Study};
-use super::sweep::{Sweep, Tally};
+use super::sweep::{RightTally, TallySweep};
 use crate::accuracy::Truth;
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// What is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Pair {
+pub enum SpecialPair {
     /// Three wheels on fixed axes, each geared to the others: they turn where the ratios agree.
     Gears,
     /// Two bars between two fixed pins, in line or with the knee off it.
@@ -29,8 +29,8 @@ pub enum Pair {
 
 /// The numbers of one of a kind, without the one by which it is off.
 #[derive(Debug, Clone)]
-pub struct Drawn {
-    pair: Pair,
+pub struct DrawnNumbers {
+    pair: SpecialPair,
     numbers: [i64; 10],
 }
 
@@ -42,25 +42,25 @@ fn number(hundredths: i64, off: Option<u32>) -> String {
     }
 }
 
-impl Pair {
+impl SpecialPair {
     /// All of them.
-    pub const ALL: [Pair; 5] = [
-        Pair::Gears,
-        Pair::Knee,
-        Pair::Rods,
-        Pair::Door,
-        Pair::Tilted,
+    pub const ALL: [SpecialPair; 5] = [
+        SpecialPair::Gears,
+        SpecialPair::Knee,
+        SpecialPair::Rods,
+        SpecialPair::Door,
+        SpecialPair::Tilted,
     ];
 
     /// Its name in pictures.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Pair::Gears => "three gears",
-            Pair::Knee => "two bars in line",
-            Pair::Rods => "three parallel rods",
-            Pair::Door => "door",
-            Pair::Tilted => "four-bar",
+            SpecialPair::Gears => "three gears",
+            SpecialPair::Knee => "two bars in line",
+            SpecialPair::Rods => "three parallel rods",
+            SpecialPair::Door => "door",
+            SpecialPair::Tilted => "four-bar",
         }
     }
 
@@ -69,7 +69,7 @@ impl Pair {
     #[must_use]
     pub fn truth(self, off: bool) -> Truth {
         let (instantaneous, finite) = match (self, off) {
-            (Pair::Knee, false) | (Pair::Rods, true) => (1, 0),
+            (SpecialPair::Knee, false) | (SpecialPair::Rods, true) => (1, 0),
             (_, false) => (1, 1),
             (_, true) => (0, 0),
         };
@@ -80,13 +80,13 @@ impl Pair {
     }
 }
 
-impl Drawn {
+impl DrawnNumbers {
     /// One drawn at random.
     #[must_use]
-    pub fn new(pair: Pair, noise: &mut Noise) -> Drawn {
+    pub fn new(pair: SpecialPair, noise: &mut Noise) -> DrawnNumbers {
         #[allow(clippy::cast_possible_truncation, reason = "30 at most")]
         let numbers = [(); 10].map(|()| (30.0 * noise.uniform()) as i64);
-        Drawn { pair, numbers }
+        DrawnNumbers { pair, numbers }
     }
 
     /// The file: special, or off in a digit.
@@ -97,7 +97,7 @@ impl Drawn {
         let at = |hundredths: i64, i: usize| number(hundredths + n[i], None);
         let mut s = Sketch::default();
         match self.pair {
-            Pair::Gears => {
+            SpecialPair::Gears => {
                 for (i, wheel) in ["a", "b", "c"].into_iter().enumerate() {
                     s.pin(["0", wheel], &at(200 * i as i64, 2 * i), &at(0, 2 * i + 1));
                 }
@@ -108,13 +108,13 @@ impl Drawn {
                     off.map_or_else(String::new, |d| number(0, Some(d)).replace("0/100", ""));
                 s.couple([0, 2], &format!("{}/{}{more}", one * two, 53 * 41));
             }
-            Pair::Knee => {
+            SpecialPair::Knee => {
                 let y = number(n[3], None);
                 s.pin(["0", "a"], &at(0, 0), &y);
                 s.pin(["a", "b"], &at(130, 1), &number(n[3], off));
                 s.pin(["b", "0"], &at(300, 2), &y);
             }
-            Pair::Rods => {
+            SpecialPair::Rods => {
                 let length = 140 + n[0];
                 for (i, (rod, x)) in [("a", 30), ("b", 110), ("c", 230)].into_iter().enumerate() {
                     let (x, y) = (at(x, i + 1), 30 + n[i + 4]);
@@ -123,12 +123,12 @@ impl Drawn {
                     s.pin([rod, "plate"], &x, &number(y + length, longer));
                 }
             }
-            Pair::Door => {
+            SpecialPair::Door => {
                 let (x, y, z) = (130 + n[0], at(-70, 1), ["0", "0", "1"]);
                 s.hinge(["0", "door"], [&number(x, None), &y, &at(40, 2)], z);
                 s.hinge(["0", "door"], [&number(x, off), &y, &at(220, 3)], z);
             }
-            Pair::Tilted => {
+            SpecialPair::Tilted => {
                 s.pin(["0", "a"], &at(30, 0), &at(20, 1));
                 s.pin(["a", "b"], &at(60, 2), &at(130, 3));
                 let place = [&at(180, 4)[..], &at(170, 5), &at(40, 6)];
@@ -148,23 +148,23 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, step) = if effort.quick { (1, 5) } else { (4, 1) };
     // The last digit first: the axis ascends.
     let digits: Vec<u32> = DIGITS.rev().step_by(step).collect();
-    let drawn: Vec<Drawn> = (0..Pair::ALL.len() * each)
-        .map(|i| Drawn::new(Pair::ALL[i / each], &mut Noise::new(effort.seed, i)))
+    let drawn: Vec<DrawnNumbers> = (0..SpecialPair::ALL.len() * each)
+        .map(|i| DrawnNumbers::new(SpecialPair::ALL[i / each], &mut Noise::new(effort.seed, i)))
         .collect();
     let mut rows = asked::rows();
-    let mut auto: Vec<(String, Vec<Count>)> = Pair::ALL
+    let mut auto: Vec<(String, Vec<AnswerCount>)> = SpecialPair::ALL
         .map(|p| (p.name().to_owned(), Vec::new()))
         .to_vec();
     for (n, &digit) in digits.iter().enumerate() {
         progress("closeness", n, digits.len());
-        let found: Vec<Asked> = drawn
+        let found: Vec<Replies> = drawn
             .par_iter()
             .filter_map(|d| {
                 let read = |off: Option<u32>| {
                     let m = mechanism_from_str("close.toml", &d.text(off)).ok()?;
                     Some((m, d.pair.truth(off.is_some())))
                 };
-                Asked::new(&[read(None)?, read(Some(digit))?], d.text(Some(digit)))
+                Replies::new(&[read(None)?, read(Some(digit))?], d.text(Some(digit)))
             })
             .collect();
         asked::add(&mut rows, &found);
@@ -178,7 +178,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
         .map(|&d| 10f64.powi(-i32::try_from(d).unwrap_or(0)))
         .collect();
     let x = "difference from the special one, relative to its size".to_owned();
-    let sweep = Sweep {
+    let sweep = TallySweep {
         title: "Close to special".to_owned(),
         x: x.clone(),
         column: "difference",
@@ -210,10 +210,10 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
 }
 
 /// Which methods tell every pair apart, which down to some digit, and what the automatic choice says.
-fn sentence(sweep: &Sweep, auto: &[Count], pairs: usize) -> String {
+fn sentence(sweep: &TallySweep, auto: &[AnswerCount], pairs: usize) -> String {
     let (mut always, mut down, mut never) = (Vec::new(), Vec::new(), Vec::new());
     for (name, tallies) in sweep.rows.iter().filter(|r| r.1.iter().any(|t| t.of > 0)) {
-        let right = |t: &Tally| t.of > 0 && t.right == t.of;
+        let right = |t: &RightTally| t.of > 0 && t.right == t.of;
         let good = tallies.iter().rev().take_while(|t| right(t)).count();
         match good {
             0 => never.push(name.clone()),

@@ -2,7 +2,7 @@
 //! wrong and sure, against the number of decimals.
 
 use super::change::{Noise, turned_and_rounded};
-use super::said::{Count, Counts, Said};
+use super::said::{AnswerCount, Counts, Said};
 use super::study::{Effort, Progress, Study};
 use crate::accuracy::survey::Case;
 use crate::format::phrase::list;
@@ -103,7 +103,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             })
             .collect();
         for (asked, row) in rows.iter_mut().enumerate() {
-            let mut count = Count::default();
+            let mut count = AnswerCount::default();
             for (at, said) in said.iter().enumerate() {
                 if let Some(said) = said[asked] {
                     let (case, turn) = (&cases[at / turns], at % turns);

@@ -3,9 +3,9 @@
 use super::change::power_of_ten;
 use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::bands;
-use crate::accuracy::{Truth, Verdict};
+use crate::accuracy::{AnswerVerdict, Truth};
 use crate::builtin;
-use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
+use crate::chart::{Axis, Bands, Chart, Scale, Series, Style, VerdictKind};
 use crate::closure::matrix::Closure;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
@@ -101,7 +101,7 @@ struct At {
 
 /// A line of the table: what one method said at one distance.
 #[derive(Serialize)]
-struct Row {
+struct DistanceRow {
     mechanism: &'static str,
     distance: String,
     method: &'static str,
@@ -154,29 +154,29 @@ fn smallest(m: &Mechanism, rank: usize) -> f64 {
 }
 
 /// Good for the verdict of exact ranks, doubtful for that on the special mechanism, bad for any other.
-fn kind(answer: &Result<Answer, NoAnswer>, truth: Truth, special: Truth) -> Kind {
+fn kind(answer: &Result<Answer, NoAnswer>, truth: Truth, special: Truth) -> VerdictKind {
     match answer {
-        Err(_) => Kind::None,
-        Ok(_) if Verdict::keeps_promise(answer, truth) => Kind::Good,
-        Ok(_) if Verdict::keeps_promise(answer, special) => Kind::Warn,
-        Ok(_) => Kind::Bad,
+        Err(_) => VerdictKind::None,
+        Ok(_) if AnswerVerdict::keeps_promise(answer, truth) => VerdictKind::Good,
+        Ok(_) if AnswerVerdict::keeps_promise(answer, special) => VerdictKind::Warn,
+        Ok(_) => VerdictKind::Bad,
     }
 }
 
 /// From where up a method tells a mechanism from the special one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Seen {
+enum ToldApart {
     Always,
     From(f64),
     Never,
 }
 
-fn seen(of: &[(f64, Kind)]) -> Seen {
-    let good = of.iter().rev().take_while(|(_, k)| *k == Kind::Good);
+fn seen(of: &[(f64, VerdictKind)]) -> ToldApart {
+    let good = of.iter().rev().take_while(|(_, k)| *k == VerdictKind::Good);
     match good.last() {
-        None => Seen::Never,
-        Some((d, _)) if *d == of[0].0 => Seen::Always,
-        Some((d, _)) => Seen::From(*d),
+        None => ToldApart::Never,
+        Some((d, _)) if *d == of[0].0 => ToldApart::Always,
+        Some((d, _)) => ToldApart::From(*d),
     }
 }
 
@@ -194,7 +194,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
     let mut table = Vec::new();
     let mut pictures = Vec::new();
     let mut values = Vec::new();
-    let mut met: Vec<Vec<Seen>> = vec![Vec::new(); registry::ALL.len()];
+    let mut met: Vec<Vec<ToldApart>> = vec![Vec::new(); registry::ALL.len()];
     for (n, special) in SPECIALS.iter().enumerate() {
         progress("distance from special geometry", n, SPECIALS.len());
         let text = builtin::text(special.name).unwrap_or_default();
@@ -203,7 +203,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         // A method that is wrong about the special mechanism cannot tell another one from it.
         let knows: Vec<bool> = registry::ALL
             .iter()
-            .map(|x| Verdict::keeps_promise(&x.answer(&mechanism, StateId::FREE), at_zero))
+            .map(|x| AnswerVerdict::keeps_promise(&x.answer(&mechanism, StateId::FREE), at_zero))
             .collect();
         let found: Vec<At> = distances
             .par_iter()
@@ -223,7 +223,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
             .collect();
         for at in &found {
             for (method, answer) in registry::ALL.iter().zip(&at.answers) {
-                table.push(Row {
+                table.push(DistanceRow {
                     mechanism: special.name,
                     distance: format!("{:e}", at.distance),
                     method: method.name(),
@@ -240,10 +240,15 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Result<Study, Imp
         let mut rows = Vec::new();
         for (m, method) in registry::ALL.iter().enumerate() {
             let kinds = found.iter().map(|a| kind(&a.answers[m], a.truth, at_zero));
-            let kinds: Vec<Kind> = kinds.collect();
-            let pairs: Vec<(f64, Kind)> = xs.iter().copied().zip(kinds.iter().copied()).collect();
-            if kinds.iter().any(|k| *k != Kind::None) {
-                met[m].push(if knows[m] { seen(&pairs) } else { Seen::Never });
+            let kinds: Vec<VerdictKind> = kinds.collect();
+            let pairs: Vec<(f64, VerdictKind)> =
+                xs.iter().copied().zip(kinds.iter().copied()).collect();
+            if kinds.iter().any(|k| *k != VerdictKind::None) {
+                met[m].push(if knows[m] {
+                    seen(&pairs)
+                } else {
+                    ToldApart::Never
+                });
             }
             rows.push((method.name().to_owned(), bands(&xs, kinds)));
         }
@@ -333,13 +338,13 @@ fn chart(mut series: Vec<Series>) -> Chart {
     }
 }
 
-fn sentence(met: &[Vec<Seen>]) -> String {
+fn sentence(met: &[Vec<ToldApart>]) -> String {
     let (mut always, mut from, mut blind) = (Vec::new(), Vec::new(), Vec::new());
     for (method, seen) in registry::ALL.iter().zip(met) {
         let name = method.name().to_owned();
         let places = || {
             seen.iter().filter_map(|s| match s {
-                Seen::From(d) => Some(*d),
+                ToldApart::From(d) => Some(*d),
                 _ => None,
             })
         };
@@ -347,9 +352,9 @@ fn sentence(met: &[Vec<Seen>]) -> String {
             places().fold(f64::MAX, f64::min),
             places().fold(0.0, f64::max),
         );
-        if seen.iter().all(|s| *s == Seen::Always) {
+        if seen.iter().all(|s| *s == ToldApart::Always) {
             always.push(name);
-        } else if seen.contains(&Seen::Never) {
+        } else if seen.contains(&ToldApart::Never) {
             blind.push(name);
         } else if low < high {
             from.push(format!(

@@ -2,8 +2,8 @@
 
 use super::change::{Noise, shaken};
 use super::study::{Effort, Picture, Progress, Study};
-use super::sweep::{Sweep, Tally};
-use crate::accuracy::Verdict;
+use super::sweep::{RightTally, TallySweep};
+use crate::accuracy::AnswerVerdict;
 use crate::accuracy::survey::Case;
 use crate::closure::matrix::Closure;
 use crate::format::number::scientific;
@@ -50,7 +50,7 @@ fn ask(case: &Case, level: f64, noise: &mut Noise, whole: bool) -> Vec<bool> {
     }
     for name in WHOLE.iter().filter(|_| whole) {
         let answer = registry::by_name(name).map(|x| x.answer(&m, case.state));
-        out.push(answer.is_some_and(|a| Verdict::keeps_promise(&a, case.truth)));
+        out.push(answer.is_some_and(|a| AnswerVerdict::keeps_promise(&a, case.truth)));
     }
     out
 }
@@ -59,7 +59,7 @@ fn ask(case: &Case, level: f64, noise: &mut Noise, whole: bool) -> Vec<bool> {
 pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (step, seeds) = if effort.quick { (3, 1) } else { (1, 3) };
     let exponents: Vec<i32> = (-15..=-3).step_by(step).collect();
-    let mut rows: Vec<(String, Vec<Tally>)> =
+    let mut rows: Vec<(String, Vec<RightTally>)> =
         names().into_iter().map(|n| (n, Vec::new())).collect();
     for (n, &e) in exponents.iter().enumerate() {
         progress("noise", n, exponents.len());
@@ -72,7 +72,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             })
             .collect();
         for (i, row) in rows.iter_mut().enumerate() {
-            let mut tally = Tally::default();
+            let mut tally = RightTally::default();
             for (at, found) in right.iter().enumerate() {
                 if let Some(&ok) = found.get(i) {
                     tally.add(at / seeds, ok);
@@ -81,7 +81,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             row.1.push(tally);
         }
     }
-    let sweep = Sweep {
+    let sweep = TallySweep {
         title: "Noise in the coordinates".to_owned(),
         x: "uniform noise, relative to the size of the mechanism and the length of axes".to_owned(),
         column: "noise",
@@ -112,7 +112,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     }
 }
 
-fn sentence(sweep: &Sweep) -> String {
+fn sentence(sweep: &TallySweep) -> String {
     let part = |name: &str| {
         let region = sweep.region(sweep.row(name)?, 1)?;
         Some(format!(

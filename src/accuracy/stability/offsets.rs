@@ -2,8 +2,8 @@
 //! geometry is to be found again, above one and a half the offset is to be kept.
 
 use super::change::Noise;
-use super::said::{Count, Counts, Said};
-use super::special::Kind;
+use super::said::{AnswerCount, Counts, Said};
+use super::special::SpecialKind;
 use super::study::{Effort, Progress, Study};
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
@@ -32,23 +32,23 @@ fn ask(text: &str, truth: (i64, i64)) -> Said {
 pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, step) = if effort.quick { (1, 3) } else { (6, 1) };
     let decimals: Vec<usize> = DECIMALS.step_by(step).collect();
-    let mut rows: Vec<(String, Vec<Count>)> = Kind::ALL
+    let mut rows: Vec<(String, Vec<AnswerCount>)> = SpecialKind::ALL
         .iter()
         .map(|k| (k.name().to_owned(), Vec::new()))
         .collect();
     for (n, &units) in UNITS.iter().enumerate() {
         progress("offsets", n, UNITS.len());
-        for (k, kind) in Kind::ALL.into_iter().enumerate() {
+        for (k, kind) in SpecialKind::ALL.into_iter().enumerate() {
             let said: Vec<(Said, String)> = (0..decimals.len() * each * 2)
                 .into_par_iter()
                 .map(|i| {
                     let (d, turned) = (decimals[i / 2 % decimals.len()], i % 2 == 1);
-                    let mut noise = Noise::new(effort.seed, i * Kind::ALL.len() + k);
+                    let mut noise = Noise::new(effort.seed, i * SpecialKind::ALL.len() + k);
                     let text = kind.text(units, d, turned, &mut noise);
                     (ask(&text, kind.figures(units > 1.0)), text)
                 })
                 .collect();
-            let mut count = Count::default();
+            let mut count = AnswerCount::default();
             for (said, text) in said {
                 count.add(said, || text.replace('\n', " "));
             }
@@ -64,7 +64,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let together = counts.together();
     let all = "Special geometry with one joint off";
     let mut pictures = vec![counts.picture("stability-offsets", all, &together)];
-    for (kind, row) in Kind::ALL.iter().zip(&counts.rows) {
+    for (kind, row) in SpecialKind::ALL.iter().zip(&counts.rows) {
         let name = format!("stability-offsets-{}", kind.name().replace(' ', "-"));
         pictures.push(counts.picture(&name, &format!("One joint off: {}", row.0), &row.1));
     }
@@ -78,7 +78,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
 }
 
 /// The three counts below half a unit, and for each offset above.
-fn sentence(together: &[Count]) -> String {
+fn sentence(together: &[AnswerCount]) -> String {
     let each: Vec<String> = UNITS
         .iter()
         .zip(together)

@@ -3,7 +3,7 @@
 
 use super::change::{Noise, turned_and_rounded};
 use super::study::{Effort, Picture, Progress, Study};
-use super::sweep::{Sweep, Tally};
+use super::sweep::{RightTally, TallySweep};
 use crate::accuracy::survey::Case;
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
@@ -49,7 +49,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     let (step, turns) = if effort.quick { (4, 1) } else { (1, 3) };
     // Finest first: the axis ascends.
     let decimals: Vec<usize> = DECIMALS.rev().step_by(step).collect();
-    let mut rows: Vec<(String, Vec<Tally>)> =
+    let mut rows: Vec<(String, Vec<RightTally>)> =
         ROWS.iter().map(|n| ((*n).to_owned(), Vec::new())).collect();
     for (n, &d) in decimals.iter().enumerate() {
         progress("rounding", n, decimals.len());
@@ -63,7 +63,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             })
             .collect();
         for (i, row) in rows.iter_mut().enumerate() {
-            let mut tally = Tally::default();
+            let mut tally = RightTally::default();
             for (at, found) in right.iter().enumerate() {
                 tally.add(at / turns, found[i]);
             }
@@ -76,7 +76,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         reason = "16 at most"
     )]
     let values = decimals.iter().map(|&d| 10f64.powi(-(d as i32))).collect();
-    let sweep = Sweep {
+    let sweep = TallySweep {
         title: "Turned and rounded".to_owned(),
         x: "unit in the last decimal of points and axes".to_owned(),
         column: "unit",
@@ -106,7 +106,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 }
 
 /// Right, undecided and wrong of the automatic choice for each number of decimals.
-fn sentence(sweep: &Sweep, decimals: &[usize]) -> String {
+fn sentence(sweep: &TallySweep, decimals: &[usize]) -> String {
     let [right, bounded, ..] = &sweep.rows[..] else {
         return String::new();
     };

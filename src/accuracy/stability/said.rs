@@ -53,14 +53,14 @@ impl Said {
 
 /// Answers counted.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Count {
+pub struct AnswerCount {
     /// How many of each of [`Said`].
     pub of: [usize; 4],
     /// The cases that are wrong and sure.
     pub wrong: Vec<String>,
 }
 
-impl Count {
+impl AnswerCount {
     /// Counts an answer on a case.
     pub fn add(&mut self, said: Said, case: impl FnOnce() -> String) {
         self.of[said as usize] += 1;
@@ -87,14 +87,14 @@ pub struct Counts {
     /// Where it was looked at, ascending.
     pub values: Vec<f64>,
     /// What was asked, with the count at each value.
-    pub rows: Vec<(String, Vec<Count>)>,
+    pub rows: Vec<(String, Vec<AnswerCount>)>,
 }
 
 impl Counts {
     /// All that was asked as one.
     #[must_use]
-    pub fn together(&self) -> Vec<Count> {
-        let mut out = vec![Count::default(); self.values.len()];
+    pub fn together(&self) -> Vec<AnswerCount> {
+        let mut out = vec![AnswerCount::default(); self.values.len()];
         for (_, row) in &self.rows {
             for (sum, count) in out.iter_mut().zip(row) {
                 sum.of.iter_mut().zip(count.of).for_each(|(s, n)| *s += n);
@@ -106,11 +106,11 @@ impl Counts {
 
     /// The shares of a row as three lines.
     #[must_use]
-    pub fn picture(&self, name: &str, title: &str, row: &[Count]) -> Picture {
+    pub fn picture(&self, name: &str, title: &str, row: &[AnswerCount]) -> Picture {
         let of = row.iter().map(|c| c.of.iter().sum::<usize>()).max();
         let names = ["right", "undecided, or not exact", "wrong and sure"];
         #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-        let share = |c: &Count, n: usize| {
+        let share = |c: &AnswerCount, n: usize| {
             100.0 * c.three()[n] as f64 / c.of.iter().sum::<usize>().max(1) as f64
         };
         let line = |(n, name): (usize, &str)| Series {

@@ -2,8 +2,8 @@
 
 use super::change::resized;
 use super::study::{Effort, Picture, Progress, Study};
-use super::sweep::{Sweep, Tally};
-use crate::accuracy::Verdict;
+use super::sweep::{RightTally, TallySweep};
+use crate::accuracy::AnswerVerdict;
 use crate::accuracy::survey::Case;
 use crate::format::number::scientific;
 use crate::format::phrase::list;
@@ -22,7 +22,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         .chain(["modular", "auto"])
         .filter_map(registry::by_name)
         .collect();
-    let mut rows: Vec<(String, Vec<Tally>)> = methods
+    let mut rows: Vec<(String, Vec<RightTally>)> = methods
         .iter()
         .map(|m| (m.name().to_owned(), Vec::new()))
         .collect();
@@ -33,20 +33,20 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             .map(|c| {
                 let m = resized(&c.mechanism, e);
                 let ask = |x: &&dyn MobilityMethod| {
-                    Verdict::keeps_promise(&x.answer(&m, c.state), c.truth)
+                    AnswerVerdict::keeps_promise(&x.answer(&m, c.state), c.truth)
                 };
                 methods.iter().map(ask).collect()
             })
             .collect();
         for (i, row) in rows.iter_mut().enumerate() {
-            let mut tally = Tally::default();
+            let mut tally = RightTally::default();
             kept.iter()
                 .enumerate()
                 .for_each(|(c, k)| tally.add(c, k[i]));
             row.1.push(tally);
         }
     }
-    let sweep = Sweep {
+    let sweep = TallySweep {
         title: "Scale of the coordinates".to_owned(),
         x: "all lengths multiplied by".to_owned(),
         column: "factor",
@@ -73,7 +73,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     }
 }
 
-fn sentence(sweep: &Sweep) -> String {
+fn sentence(sweep: &TallySweep) -> String {
     let (mut always, mut rest) = (Vec::new(), Vec::new());
     for (n, (name, tallies)) in sweep.rows.iter().enumerate() {
         let Some(region) = sweep.region(n, 0) else {

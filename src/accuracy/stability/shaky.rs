@@ -1,12 +1,12 @@
 //! Shakiness of higher and higher order: rows of toggles made from a seed, each knee pushed by the one before by the square of
 //! its motion. At the pose they have one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
 
-use super::asked::{self, Asked};
+use super::asked::{self, Replies};
 use super::change::Noise;
-use super::said::{Count, Counts};
+use super::said::{AnswerCount, Counts};
 use super::sketch::Sketch;
 use super::study::{Effort, Picture, Progress, Study};
-use super::sweep::{Sweep, Tally};
+use super::sweep::{RightTally, TallySweep};
 use crate::accuracy::Truth;
 use crate::file::text::mechanism_from_str;
 use crate::format::phrase::list;
@@ -57,12 +57,12 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let mut auto = Vec::new();
     for levels in 1..=most {
         progress("order of shakiness", levels - 1, most);
-        let found: Vec<Asked> = (0..each)
+        let found: Vec<Replies> = (0..each)
             .into_par_iter()
             .filter_map(|i| {
                 let text = toggles(levels, &mut Noise::new(effort.seed, 100 * levels + i));
                 let m = mechanism_from_str("toggles.toml", &text).ok()?;
-                Asked::new(&[(m, TRUTH)], text)
+                Replies::new(&[(m, TRUTH)], text)
             })
             .collect();
         asked::add(&mut rows, &found);
@@ -70,7 +70,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     }
     let values: Vec<f64> = (1..=most).map(|l| f64::from(1u32 << l)).collect();
     let x = "order of shakiness".to_owned();
-    let sweep = Sweep {
+    let sweep = TallySweep {
         title: "Order of shakiness".to_owned(),
         x: x.clone(),
         column: "order",
@@ -101,8 +101,8 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
 }
 
 /// Who keeps what he promises at every order, and what the automatic choice says at each.
-fn sentence(sweep: &Sweep, auto: &[Count]) -> String {
-    let kept = |row: &&(String, Vec<Tally>)| row.1.iter().all(|t| t.of > 0 && t.right == t.of);
+fn sentence(sweep: &TallySweep, auto: &[AnswerCount]) -> String {
+    let kept = |row: &&(String, Vec<RightTally>)| row.1.iter().all(|t| t.of > 0 && t.right == t.of);
     let always: Vec<String> = sweep
         .rows
         .iter()

@@ -1,11 +1,11 @@
 //! Size: 1 to 200 contours.
 
 use super::study::{Effort, Picture, Progress, Study};
-use super::sweep::{Tally, bands};
-use crate::accuracy::lattice::{self, Kind as Shape};
+use super::sweep::{RightTally, bands};
+use crate::accuracy::lattice::{self, LatticeKind as Shape};
 use crate::accuracy::timing::{Stopwatch, quantile};
-use crate::accuracy::{Truth, Verdict};
-use crate::chart::{Axis, Bands, Chart, Kind, Scale, Series, Style};
+use crate::accuracy::{AnswerVerdict, Truth};
+use crate::chart::{Axis, Bands, Chart, Scale, Series, Style, VerdictKind};
 use crate::closure::matrix::Closure;
 use crate::format::csv;
 use crate::format::number::duration;
@@ -27,14 +27,14 @@ const QUICK_LIMIT: Duration = Duration::from_millis(100);
 /// What a method did with one size, over the shapes.
 #[derive(Debug, Clone, Default)]
 struct Record {
-    tally: Tally,
+    tally: RightTally,
     times: Vec<f64>,
     skipped: usize,
 }
 
 /// A line of the table: what one method said of one mechanism.
 #[derive(Serialize)]
-struct Row {
+struct SizeRow {
     shape: String,
     contours: usize,
     links: usize,
@@ -92,12 +92,14 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
                 }
                 let (answer, seconds) = ask(*method, &m, effort);
                 slow[i] = seconds > limit.as_secs_f64();
-                let verdict = Verdict::on(&answer, truth);
-                if verdict != Verdict::Silent {
-                    record.tally.add(s, Verdict::keeps_promise(&answer, truth));
+                let verdict = AnswerVerdict::on(&answer, truth);
+                if verdict != AnswerVerdict::Silent {
+                    record
+                        .tally
+                        .add(s, AnswerVerdict::keeps_promise(&answer, truth));
                     record.times.push(seconds);
                 }
-                rows.push(Row {
+                rows.push(SizeRow {
                     shape: format!("{shape:?}"),
                     contours: size,
                     links: m.links.len(),
@@ -181,12 +183,12 @@ fn chart(sizes: &[usize], records: &[Vec<Record>]) -> Chart {
     }
 }
 
-fn kind(r: &Record) -> Kind {
+fn kind(r: &Record) -> VerdictKind {
     match &r.tally {
-        t if t.of == 0 || r.skipped > 0 => Kind::None,
-        t if t.right == t.of => Kind::Good,
-        t if t.right > 0 => Kind::Warn,
-        _ => Kind::Bad,
+        t if t.of == 0 || r.skipped > 0 => VerdictKind::None,
+        t if t.right == t.of => VerdictKind::Good,
+        t if t.right > 0 => VerdictKind::Warn,
+        _ => VerdictKind::Bad,
     }
 }
 
@@ -224,7 +226,7 @@ fn sentence(sizes: &[usize], records: &[Vec<Record>], limit: Duration) -> String
     let mut times = Vec::new();
     for (method, r) in registry::ALL.iter().zip(records) {
         let name = method.name();
-        if r.iter().all(|r| kind(r) == Kind::Good) {
+        if r.iter().all(|r| kind(r) == VerdictKind::Good) {
             always.push(name.to_owned());
         }
         if let Some(first) = r.iter().position(|r| r.skipped > 0) {

@@ -1,13 +1,13 @@
 //! Small mechanisms of special geometry with one joint off, made from a seed and written with so many decimals.
 
 use super::change::Noise;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use std::fmt::Write as _;
 
 /// What is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum SpecialKind {
     /// A door on two hinges, one out of line.
     Door,
     /// A planar four-bar with one axis tilted.
@@ -23,18 +23,23 @@ type Hinge = (&'static str, &'static str, Vector, Vector);
 
 const Z: Vector = [0.0, 0.0, 1.0];
 
-impl Kind {
+impl SpecialKind {
     /// All of them.
-    pub const ALL: [Kind; 4] = [Kind::Door, Kind::FourBar, Kind::Spherical, Kind::Rods];
+    pub const ALL: [SpecialKind; 4] = [
+        SpecialKind::Door,
+        SpecialKind::FourBar,
+        SpecialKind::Spherical,
+        SpecialKind::Rods,
+    ];
 
     /// Its name in pictures.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Door => "door",
-            Kind::FourBar => "four-bar",
-            Kind::Spherical => "spherical four-bar",
-            Kind::Rods => "three rods",
+            SpecialKind::Door => "door",
+            SpecialKind::FourBar => "four-bar",
+            SpecialKind::Spherical => "spherical four-bar",
+            SpecialKind::Rods => "three rods",
         }
     }
 
@@ -43,7 +48,7 @@ impl Kind {
     pub fn figures(self, off: bool) -> (i64, i64) {
         match (self, off) {
             (_, false) => (1, 1),
-            (Kind::Rods, true) => (1, 0),
+            (SpecialKind::Rods, true) => (1, 0),
             (_, true) => (0, 0),
         }
     }
@@ -53,12 +58,12 @@ impl Kind {
         // On the grid of the last digit, so that rounding does not change the offset of what is not turned.
         let mut near = |x: f64| ((x + 0.2 * noise.uniform()) / unit).round() * unit;
         match self {
-            Kind::Door => {
+            SpecialKind::Door => {
                 let [x, y, low, high] = [1.3, -0.7, 0.3, 2.2].map(&mut near);
                 let (one, two) = ([x, y, low], [x + off, y, high]);
                 vec![("0", "door", one, Z), ("0", "door", two, Z)]
             }
-            Kind::FourBar => {
+            SpecialKind::FourBar => {
                 let mut at = |x, y| [near(x), near(y), near(0.4)];
                 vec![
                     ("0", "crank", at(0.3, 0.2), Z),
@@ -67,7 +72,7 @@ impl Kind {
                     ("rocker", "0", at(2.3, 0.5), Z),
                 ]
             }
-            Kind::Spherical => {
+            SpecialKind::Spherical => {
                 let c = [0.4, -0.3, 0.7].map(&mut near);
                 let mut through = |x, y, z, off: f64| {
                     let v: Vector = [near(x), near(y), near(z)];
@@ -86,7 +91,7 @@ impl Kind {
                 let of = |(i, (p, v)): (usize, (Vector, Vector))| (links[i], links[i + 1], p, v);
                 ends.into_iter().enumerate().map(of).collect()
             }
-            Kind::Rods => {
+            SpecialKind::Rods => {
                 let length = near(1.4);
                 let rods = [("one", 0.3, 0.0), ("two", 1.1, 0.0), ("three", 2.3, off)];
                 let each = rods.into_iter().flat_map(|(rod, x, longer)| {
@@ -111,13 +116,13 @@ impl Kind {
         let axis = [(); 3].map(|()| noise.uniform());
         let angle = std::f64::consts::PI * noise.uniform();
         let hinges = self.hinges(units * unit, unit, noise);
-        let turn = Motion::turn(axis, if turned { angle } else { 0.0 });
+        let turn = RigidMotion::turn(axis, if turned { angle } else { 0.0 });
         let vector = |v: Vector, decimals: usize| {
             let [x, y, z] = turn.direction(v);
             format!("[{x:.decimals$}, {y:.decimals$}, {z:.decimals$}]")
         };
         // A tilt counts in units of the axes; where points are off, axes have two decimals more, so that only points count.
-        let finer = if self == Kind::FourBar { 0 } else { 2 };
+        let finer = if self == SpecialKind::FourBar { 0 } else { 2 };
         let axis_of = |v: Vector| {
             if v == Z && !turned {
                 "[0, 0, 1]".to_owned()

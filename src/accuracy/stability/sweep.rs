@@ -1,12 +1,12 @@
 //! Right answers of several methods over a range of one quantity.
 
-use crate::chart::{Axis, Band, Bands, Chart, Kind, Scale, Series, Style};
+use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind};
 use crate::format::csv;
 use crate::format::phrase::list;
 
 /// Right answers of how many, and whose were not.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct RightTally {
     /// Right ones.
     pub right: usize,
     /// All asked for.
@@ -15,7 +15,7 @@ pub struct Tally {
     pub missed: Vec<usize>,
 }
 
-impl Tally {
+impl RightTally {
     /// Counts an answer on a case; cases come in ascending order.
     pub fn add(&mut self, case: usize, right: bool) {
         self.right += usize::from(right);
@@ -32,19 +32,19 @@ impl Tally {
         self.right as f64 / self.of.max(1) as f64
     }
 
-    fn kind(&self) -> Kind {
+    fn kind(&self) -> VerdictKind {
         match self.share() {
-            _ if self.of == 0 => Kind::None,
-            _ if self.right == self.of => Kind::Good,
-            s if s >= 0.9 => Kind::Warn,
-            _ => Kind::Bad,
+            _ if self.of == 0 => VerdictKind::None,
+            _ if self.right == self.of => VerdictKind::Good,
+            s if s >= 0.9 => VerdictKind::Warn,
+            _ => VerdictKind::Bad,
         }
     }
 }
 
 /// Tallies over a range.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sweep {
+pub struct TallySweep {
     /// What is shown.
     pub title: String,
     /// The axis across, logarithmic.
@@ -56,7 +56,7 @@ pub struct Sweep {
     /// The names of the cases.
     pub cases: Vec<String>,
     /// Names with a tally for each value.
-    pub rows: Vec<(String, Vec<Tally>)>,
+    pub rows: Vec<(String, Vec<RightTally>)>,
 }
 
 /// Where a row does best.
@@ -72,7 +72,7 @@ pub struct Region {
 
 /// Bands about the values of a log axis, neighbours of one kind as one.
 #[must_use]
-pub fn bands(values: &[f64], kinds: impl IntoIterator<Item = Kind>) -> Vec<Band> {
+pub fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
     let between = |a: usize, b: usize| (values[a] * values[b]).sqrt();
     let mut out: Vec<Band> = Vec::new();
     for (n, kind) in kinds.into_iter().enumerate().take(values.len()) {
@@ -90,14 +90,14 @@ pub fn bands(values: &[f64], kinds: impl IntoIterator<Item = Kind>) -> Vec<Band>
     out
 }
 
-impl Sweep {
+impl TallySweep {
     /// The longest stretch of values over which a row misses as few cases as it ever does, or `slack` more.
     #[must_use]
     pub fn region(&self, row: usize, slack: usize) -> Option<Region> {
         let tallies = &self.rows[row].1;
         let asked = tallies.iter().filter(|t| t.of > 0);
         let fewest = asked.map(|t| t.missed.len()).min()?;
-        let good = |t: &Tally| t.of > 0 && t.missed.len() <= fewest + slack;
+        let good = |t: &RightTally| t.of > 0 && t.missed.len() <= fewest + slack;
         let (mut best, mut begun) = (None::<(usize, usize)>, None);
         for (n, tally) in tallies.iter().enumerate() {
             if !good(tally) {
@@ -230,13 +230,13 @@ mod tests {
     use super::*;
 
     /// Ten cases; those named are missed at each of four values.
-    fn sweep(missed: [&[usize]; 4]) -> Sweep {
+    fn sweep(missed: [&[usize]; 4]) -> TallySweep {
         let tally = |missed: &[usize]| {
-            let mut tally = Tally::default();
+            let mut tally = RightTally::default();
             (0..10).for_each(|c| tally.add(c, !missed.contains(&c)));
             tally
         };
-        Sweep {
+        TallySweep {
             title: String::new(),
             x: String::new(),
             column: "x",
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn the_region_is_the_longest_stretch_with_the_fewest_misses() {
-        let ends = |s: Sweep| s.region(0, 0).map(|r| (r.first, r.last, s.but(&r.missed)));
+        let ends = |s: TallySweep| s.region(0, 0).map(|r| (r.first, r.last, s.but(&r.missed)));
         let all = || "in all cases".to_owned();
         assert_eq!(ends(sweep([&[], &[3], &[], &[]])), Some((2, 3, all())));
         assert_eq!(ends(sweep([&[], &[], &[], &[1]])), Some((0, 2, all())));
@@ -267,7 +267,12 @@ mod tests {
     fn bands_meet_half_way_and_hold_their_verdict() {
         let b = bands(
             &[1e-3, 1e-2, 1e-1, 1.0],
-            [Kind::Good, Kind::Good, Kind::Warn, Kind::Bad],
+            [
+                VerdictKind::Good,
+                VerdictKind::Good,
+                VerdictKind::Warn,
+                VerdictKind::Bad,
+            ],
         );
         assert_eq!(b.len(), 3);
         assert_eq!(b[0].0, 1e-3);

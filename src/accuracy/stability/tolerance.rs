@@ -2,7 +2,7 @@
 
 use super::change::{Noise, shaken};
 use super::study::{Effort, Picture, Progress, Study};
-use super::sweep::{Sweep, Tally};
+use super::sweep::{RightTally, TallySweep};
 use crate::accuracy::survey::Case;
 use crate::accuracy::tuned::tolerances;
 use crate::closure::matrix::Closure;
@@ -25,7 +25,7 @@ fn name(method: Elimination, level: f64) -> String {
 }
 
 /// Tallies over the tolerances for each method, at a level of noise.
-fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<Vec<Tally>> {
+fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<Vec<RightTally>> {
     let seeds = if level == 0.0 || effort.quick { 1 } else { 3 };
     let right: Vec<Vec<Vec<bool>>> = (0..cases.len() * seeds)
         .into_par_iter()
@@ -51,7 +51,7 @@ fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<
                 .collect()
         })
         .collect();
-    let mut tallies = vec![vec![Tally::default(); tolerances.len()]; Elimination::ALL.len()];
+    let mut tallies = vec![vec![RightTally::default(); tolerances.len()]; Elimination::ALL.len()];
     for (at, one) in right.iter().enumerate() {
         for (row, found) in tallies.iter_mut().zip(one) {
             for (t, ok) in row.iter_mut().zip(found) {
@@ -65,7 +65,7 @@ fn tally(cases: &[Case], effort: Effort, level: f64, tolerances: &[f64]) -> Vec<
 /// Runs the study.
 pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let tolerances = tolerances(if effort.quick { 2 } else { 1 });
-    let mut found: Vec<Vec<Vec<Tally>>> = Vec::new();
+    let mut found: Vec<Vec<Vec<RightTally>>> = Vec::new();
     for (n, &level) in LEVELS.iter().enumerate() {
         progress("tolerance", n, LEVELS.len());
         found.push(tally(cases, effort, level, &tolerances));
@@ -76,7 +76,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             rows.push((name(method, level), found[n][m].clone()));
         }
     }
-    let all = Sweep {
+    let all = TallySweep {
         title: "Tolerance of the floating-point methods".to_owned(),
         x: "tolerance, relative to the largest pivot or singular value".to_owned(),
         column: "tolerance",
@@ -86,7 +86,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     };
     let part = |names: Vec<String>| {
         let rows = all.rows.iter().filter(|r| names.contains(&r.0));
-        Sweep {
+        TallySweep {
             rows: rows.cloned().collect(),
             ..all.clone()
         }
@@ -120,7 +120,7 @@ pub(super) fn study(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 }
 
 /// The tolerances at which a row does best, in words, and their middle on a log scale.
-fn best(sweep: &Sweep, row: &str) -> Option<(String, f64)> {
+fn best(sweep: &TallySweep, row: &str) -> Option<(String, f64)> {
     let region = sweep.region(sweep.row(row)?, 0)?;
     let (from, to) = (sweep.values[region.first], sweep.values[region.last]);
     let least = if region.first == 0 {
@@ -137,7 +137,7 @@ fn best(sweep: &Sweep, row: &str) -> Option<(String, f64)> {
     Some((words, (from * to).sqrt()))
 }
 
-fn sentence(sweep: &Sweep) -> String {
+fn sentence(sweep: &TallySweep) -> String {
     let levels = LEVELS.iter().filter_map(|&level| {
         let noise = match level {
             0.0 => "without noise".to_owned(),

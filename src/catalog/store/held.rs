@@ -1,9 +1,9 @@
 //! An open catalogue: what it holds, and what is added.
 
 use super::error::StoreError;
-use crate::catalog::drawn::Drawn;
+use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;
-use crate::catalog::row::Row;
+use crate::catalog::row::StructureRow;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, ErrorCode, OptionalExtension, TransactionBehavior, params};
 use serde_json::Value;
@@ -62,7 +62,7 @@ impl Store {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn add(&mut self, row: &Row) -> Stored<()> {
+    pub fn add(&mut self, row: &StructureRow) -> Stored<()> {
         let mut all = || -> rusqlite::Result<()> {
             let t = (self.db).transaction_with_behavior(TransactionBehavior::Immediate)?;
             insert::row(&t, row)?;
@@ -89,7 +89,7 @@ impl Store {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn add_drawn(&mut self, drawn: &Drawn) -> Stored<()> {
+    pub fn add_drawn(&mut self, drawn: &DrawnMechanism) -> Stored<()> {
         let mut all = || -> rusqlite::Result<()> {
             let t = (self.db).transaction_with_behavior(TransactionBehavior::Immediate)?;
             insert::drawn(&t, drawn)?;

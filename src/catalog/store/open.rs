@@ -6,7 +6,7 @@
 
 use super::error::StoreError;
 use super::held::{Store, Stored};
-use super::version::{self, Kind, OLDEST, VERSION};
+use super::version::{self, FileKind, OLDEST, VERSION};
 use crate::catalog::spec::Spec;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::{Connection, ErrorCode, OpenFlags, ffi};
@@ -47,9 +47,9 @@ impl Store {
             done => done?,
         };
         let version = match kind {
-            Kind::Fresh => return Err(StoreError::Empty(path.to_owned())),
-            Kind::Other => return Err(StoreError::Other(path.to_owned())),
-            Kind::Catalogue(found) => known(path, found)?,
+            FileKind::Fresh => return Err(StoreError::Empty(path.to_owned())),
+            FileKind::Other => return Err(StoreError::Other(path.to_owned())),
+            FileKind::Catalogue(found) => known(path, found)?,
         };
         Store::wrap(path, version::fill_in(&db, version))?;
         Store::wrap(path, db.authorizer(Some(only_questions)))?;
@@ -84,9 +84,9 @@ impl Store {
         let begun = db.execute_batch("PRAGMA page_size = 8192; BEGIN IMMEDIATE");
         begun.map_err(|why| unreadable(path, why))?;
         match kind(path, &db)? {
-            Kind::Other => return Err(StoreError::Other(path.to_owned())),
-            Kind::Fresh => Store::wrap(path, version::make(&db))?,
-            Kind::Catalogue(found) => {
+            FileKind::Other => return Err(StoreError::Other(path.to_owned())),
+            FileKind::Fresh => Store::wrap(path, version::make(&db))?,
+            FileKind::Catalogue(found) => {
                 if known(path, found)? < OLDEST {
                     let path = path.to_owned();
                     return Err(StoreError::Early { path, found });
@@ -151,7 +151,7 @@ pub(super) fn plain_name(path: &Path) -> PathBuf {
     }
 }
 
-fn kind(path: &Path, db: &Connection) -> Stored<Kind> {
+fn kind(path: &Path, db: &Connection) -> Stored<FileKind> {
     version::kind(db).map_err(|why| unreadable(path, why))
 }
 

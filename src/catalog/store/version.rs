@@ -13,7 +13,7 @@ pub(super) const VERSION: i64 = 5;
 pub(super) const OLDEST: i64 = 4;
 
 /// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
-pub const TABLES: &str = include_str!("../tables.sql");
+pub(crate) const TABLES: &str = include_str!("../tables.sql");
 
 /// What each version but the first has beside the one before it, as statements that make it of that one.
 const STEPS: [(i64, &str); 1] = [(
@@ -62,7 +62,7 @@ const VIEWS: [(i64, &str); 7] = [
 
 /// What a file is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum FileKind {
     /// A database without a table, as a kill leaves it that comes while a catalogue is being made.
     Fresh,
     /// A catalogue with tables of this version.
@@ -72,14 +72,14 @@ pub(super) enum Kind {
 }
 
 /// What an open database is.
-pub(super) fn kind(db: &Connection) -> rusqlite::Result<Kind> {
+pub(super) fn kind(db: &Connection) -> rusqlite::Result<FileKind> {
     let number = |name: &str| db.pragma_query_value(None, name, |r| r.get::<_, i64>(0));
     let (application, version) = (number("application_id")?, number("user_version")?);
     let tables: i64 = db.query_row("SELECT count(*) FROM main.sqlite_schema", [], |r| r.get(0))?;
     Ok(match (application, version, tables) {
-        (0, 0, 0) => Kind::Fresh,
-        (APPLICATION, version, 1..) => Kind::Catalogue(version),
-        _ => Kind::Other,
+        (0, 0, 0) => FileKind::Fresh,
+        (APPLICATION, version, 1..) => FileKind::Catalogue(version),
+        _ => FileKind::Other,
     })
 }
 
@@ -129,13 +129,13 @@ mod tests {
     #[test]
     fn what_is_brought_up_to_date_is_as_if_made_so() {
         let new = Connection::open_in_memory().unwrap();
-        assert_eq!(kind(&new).unwrap(), Kind::Fresh);
+        assert_eq!(kind(&new).unwrap(), FileKind::Fresh);
         make(&new).unwrap();
-        assert_eq!(kind(&new).unwrap(), Kind::Catalogue(VERSION));
+        assert_eq!(kind(&new).unwrap(), FileKind::Catalogue(VERSION));
         let old = fourth();
-        assert_eq!(kind(&old).unwrap(), Kind::Catalogue(4));
+        assert_eq!(kind(&old).unwrap(), FileKind::Catalogue(4));
         migrate(&old, 4).unwrap();
-        assert_eq!(kind(&old).unwrap(), Kind::Catalogue(VERSION));
+        assert_eq!(kind(&old).unwrap(), FileKind::Catalogue(VERSION));
         assert_eq!(schema(&old), schema(&new));
     }
 

@@ -10,7 +10,7 @@ use crate::cli::terminal::machine;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
 use crate::view::accuracy::survey::summary;
-use crate::view::terminal::next_commands::{self, Step};
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
@@ -70,7 +70,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     bar.clear();
     output::to(None, |out| {
         let text = summary(&survey, [], &machine, output::width(None));
-        let charts = Step {
+        let charts = NextCommand {
             command: "ozols accuracy -o accuracy".to_owned(),
             gives: "the same as charts, and where each method's numbers fail".to_owned(),
         };

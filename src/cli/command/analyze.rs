@@ -13,13 +13,13 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::registry;
 use crate::rank::method::{MobilityMethod, RankOfJ};
 use crate::rank::rounded::verdict::verdict;
-use crate::rank::stroke::request::Asked;
+use crate::rank::stroke::request::AskedStroke;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::analysis::mobility::ByMethod;
 use crate::view::analysis::next::next as steps;
 use crate::view::analysis::suggestions;
 use crate::view::analysis::{Analysis, State};
-use crate::view::stroke::Stroke;
+use crate::view::stroke::StrokeData;
 use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands;
 use anyhow::{Context, bail};
@@ -108,7 +108,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
         .map(|_| verdict(&mechanism, over, a.tolerance));
     let asked = asked.transpose()?;
     let stroke = match (&a.stroke, &asked) {
-        (Some(range), Some(verdict)) => Some(Asked::new(
+        (Some(range), Some(verdict)) => Some(AskedStroke::new(
             &mechanism,
             over,
             (range, stroke(range)?),
@@ -124,7 +124,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     if let Some(path) = &a.certificate {
         verify::write(path, &mechanism, &states, &found)?;
     }
-    let stroke = stroke.as_ref().map(Stroke::of);
+    let stroke = stroke.as_ref().map(StrokeData::of);
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
         output::to(Some(path), |out| {
             write!(out, "{}", s.chart().svg())?;

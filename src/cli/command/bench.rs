@@ -1,7 +1,7 @@
 //! `ozols bench`.
 
 use crate::accuracy::searching::search_method::Way;
-use crate::accuracy::searching::{Effort, MECHANISMS, pictures, table, trial};
+use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, table, trial};
 use crate::accuracy::timing::Stopwatch;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
@@ -79,7 +79,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
         &a.files[..]
     };
     let (mechanisms, mut well) = load::each(files);
-    let effort = Effort {
+    let effort = TrialEffort {
         looked,
         pool: request.pool.max(if a.quick { 2_000 } else { 100_000 }),
     };

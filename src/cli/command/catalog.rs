@@ -27,7 +27,7 @@ enum What {
     /// Lay out, search and score every structure, into a database; carries on where it was ended.
     Build(build::Build),
     /// Search mechanisms that were drawn, and keep them beside the structures.
-    Search(drawn::Search),
+    Search(drawn::SearchDrawn),
     /// Put the parts of a catalogue together.
     Merge(merge::Merge),
     /// Ask a catalogue in SQL, or for its best structures.

@@ -8,7 +8,7 @@ use crate::cli::option::named::File;
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::output;
 use crate::file::lint::{Checked, across, check};
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::read::workload::tables_alone;
 use crate::file::warning::{WarningKind, Warnings};
 use crate::format::phrase::plural;
@@ -126,9 +126,9 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
             };
             if stated != found {
                 let path = [
-                    Step::Key("expected".to_owned()),
-                    Step::Index(i),
-                    Step::Key(key.to_owned()),
+                    DocumentStep::Key("expected".to_owned()),
+                    DocumentStep::Index(i),
+                    DocumentStep::Key(key.to_owned()),
                 ];
                 let state = e.state.clone();
                 warnings.add(

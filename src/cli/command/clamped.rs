@@ -4,8 +4,8 @@ use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
 use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use crate::format::number::significant;
-use crate::grip::clamped::{Found, clamped};
-use crate::grip::clamping::Row;
+use crate::grip::clamped::{ClampingReactions, clamped};
+use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::view;
@@ -15,12 +15,13 @@ use crate::view::statics::{csv::csv, text::statics};
 use anyhow::{Context, ensure};
 
 /// The diameter asked for, or the hardest; none where it is not held.
-fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Row>> {
+fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
     let Some(diameter) = a.diameter else {
         return Ok(g.study.hardest());
     };
     let unit = g.mechanism.length_unit;
-    let near = |r: &&Row| (r.diameter / unit.metres - diameter).abs() < 1e-6 * diameter.abs();
+    let near =
+        |r: &&DiameterRow| (r.diameter / unit.metres - diameter).abs() < 1e-6 * diameter.abs();
     let found = g.study.rows.iter().find(near);
     let known = || {
         let all = g.study.rows.iter().take(30);
@@ -62,8 +63,8 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match &found.found {
-            Found::Planar(s) => {
-                let shown = view::statics::Statics::new(&m.name, s, &GroupMethod::ALL);
+            ClampingReactions::Planar(s) => {
+                let shown = view::statics::StaticsData::new(&m.name, s, &GroupMethod::ALL);
                 match a.format {
                     StaticsFormat::Json => {
                         let state = Some(m.states[g.state].as_str());
@@ -83,7 +84,7 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
                     }
                 }
             }
-            Found::Spatial(s) => {
+            ClampingReactions::Spatial(s) => {
                 let shown = Reactions::new(m, g.state, s);
                 match a.format {
                     StaticsFormat::Json => {

@@ -11,7 +11,7 @@ use crate::grip::force_closure::closure;
 use crate::grip::tolerance_samples::shares;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::contact::object_at;
-use crate::view::grip::closure::Closure;
+use crate::view::grip::closure::ClosureData;
 use anyhow::{Context, ensure};
 
 /// The state asked for, or the first in which a part is clamped.
@@ -50,7 +50,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
             )?)
         }
     };
-    let shown = Closure::new(&m, &part, [&force, &form], samples.as_ref());
+    let shown = ClosureData::new(&m, &part, [&force, &form], samples.as_ref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
             TextOrJson::Json => output::json(out, &shown)?,

@@ -5,7 +5,7 @@ use crate::cli::command::import::{Reading, description};
 use crate::cli::done::Done;
 use crate::cli::terminal::output;
 use crate::robots::Options;
-use crate::robots::convert::{Closure, Converted, Target, Wanted, convert, figures};
+use crate::robots::convert::{Converted, LoopClosure, Target, Wanted, convert, figures};
 use crate::view::robots::convert::{self as view, Files};
 use crate::view::terminal::layout::fit;
 use anyhow::{Context, bail, ensure};
@@ -155,11 +155,11 @@ fn wanted(words: &[String]) -> anyhow::Result<Wanted> {
         };
         let closure = match word {
             "auto" => None,
-            w => match Closure::ALL.iter().find(|c| c.0 == w) {
+            w => match LoopClosure::ALL.iter().find(|c| c.0 == w) {
                 Some(c) => Some(c.1),
                 None => bail!(
                     "--closure {given}: there is no such closure; known: auto, {}",
-                    Closure::ALL.iter().map(|c| c.0).join(", ")
+                    LoopClosure::ALL.iter().map(|c| c.0).join(", ")
                 ),
             },
         };

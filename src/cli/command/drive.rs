@@ -12,7 +12,7 @@ use crate::drive::tolerance_samples::shares;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
 use crate::view::drive::{charts::cam, charts::charts, charts::motion, samples::Samples, text};
-use crate::view::terminal::next_commands::{self, Step};
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
@@ -65,17 +65,17 @@ pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
         }
     }
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
-        let cam = cam(&shown).map(|cam| charts::Drawing {
+        let cam = cam(&shown).map(|cam| charts::ChartDrawing {
             name: "cam".to_owned(),
             files: vec![("svg", cam.svg()), ("csv", cam.csv()), ("dxf", cam.dxf())],
             title: cam.title,
         });
-        let motion = motion(&shown).map(|table| charts::Drawing {
+        let motion = motion(&shown).map(|table| charts::ChartDrawing {
             name: "motion".to_owned(),
             files: vec![("csv", table)],
             title: String::new(),
         });
-        let more: Vec<charts::Drawing> = cam.into_iter().chain(motion).collect();
+        let more: Vec<charts::ChartDrawing> = cam.into_iter().chain(motion).collect();
         charts::write(folder, None, &charts(&shown), &more)?;
     }
     output::to(a.output.as_deref(), |out| {
@@ -86,7 +86,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
                 write!(out, "{}", text::drive(&shown, width))?;
                 if a.svg.is_none() && shown.design.is_some() {
                     let gives = "charts of the programme, angle and energy over time, and the cam's profile where its radii are stated";
-                    let charts = Step::new("drive", &a.file.file, "--svg charts", gives);
+                    let charts = NextCommand::new("drive", &a.file.file, "--svg charts", gives);
                     write!(out, "{}", next_commands::text(&[charts], width))?;
                 }
             }

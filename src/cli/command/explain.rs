@@ -6,7 +6,7 @@ use crate::cli::done::Done;
 use crate::cli::terminal::did_you_mean;
 use crate::cli::terminal::output;
 use crate::model::joint_type::JointType;
-use crate::terms::{Term, Terms};
+use crate::terms::{GlossaryTerm, Terms};
 use crate::view::terminal::layout::table;
 use anyhow::{bail, ensure};
 use clap::Args as ClapArgs;
@@ -80,7 +80,7 @@ fn all(terms: &Terms, width: Option<u16>) -> String {
     table(&["term", "also", "what it is"], rows.collect(), width)
 }
 
-fn one(out: &mut dyn Write, terms: &Terms, term: &Term) -> std::io::Result<()> {
+fn one(out: &mut dyn Write, terms: &Terms, term: &GlossaryTerm) -> std::io::Result<()> {
     let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
     let fill = |text: &str| {
         let options = textwrap::Options::new(width).subsequent_indent("           ");

@@ -13,7 +13,7 @@ use crate::cli::terminal::output;
 use crate::cli::terminal::progress::note;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::release::Release;
-use crate::robots::formats::{self, Format, Written};
+use crate::robots::formats::{self, Format, FormattedFile};
 use crate::robots::{self, Options};
 use crate::view::robots::lint::words;
 use crate::view::terminal::layout::fit;
@@ -100,7 +100,7 @@ pub(in crate::cli) fn text(
     to: &str,
     left_behind: Option<String>,
 ) -> anyhow::Result<String> {
-    let Written { text, told } = formats::export(m, to)?;
+    let FormattedFile { text, told } = formats::export(m, to)?;
     let told = left_behind.into_iter().chain(told);
     let told: String = told.map(|t| format!("  {t}\n")).collect();
     if !told.is_empty() {

@@ -4,7 +4,7 @@ use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::command::import::{Reading, description};
 use crate::cli::command::lint;
 use crate::cli::command::types;
-use crate::cli::command::types::{Plan, changed};
+use crate::cli::command::types::{TypePlan, changed};
 use crate::cli::done::Done;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
@@ -16,7 +16,7 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Imported};
-use crate::view::robots::lint::{Change, words};
+use crate::view::robots::lint::{TypeChange, words};
 use crate::view::terminal::layout::fit;
 use anyhow::{Context, bail, ensure};
 use clap::{Args as ClapArgs, ValueHint};
@@ -81,7 +81,7 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
         Ok(Done::Found)
     })?;
     let told = match retyped {
-        Some(all) => all.iter().map(Change::words).collect(),
+        Some(all) => all.iter().map(TypeChange::words).collect(),
         None => releases
             .into_iter()
             .map(|(_, words)| words)
@@ -158,7 +158,7 @@ fn known(m: &Mechanism, at: &[String]) -> anyhow::Result<()> {
 }
 
 /// The cheapest releases that remove all redundant constraints.
-fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, Plan)> {
+fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let m = &imported.mechanism;
     let coupled = |q: usize| m.couplings[q].name(m);
     known(m, at)?;
@@ -193,7 +193,7 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     }
     let releases = std::mem::take(&mut found.cheapest);
     let releases = releases.into_iter().map(|i| found.releases[i].1).collect();
-    let plan = Plan {
+    let plan = TypePlan {
         releases,
         mobility: found.analysis.mobility,
         // What is redundant at this pose only stays.
@@ -204,7 +204,7 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
 
 /// Those of a variant of the search. Where nothing is redundant there is nothing to mend: variants only let more move, and
 /// are made where a mobility is asked for.
-fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, Plan)> {
+fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let m = &imported.mechanism;
     let request = a.chosen.of(a.which.request(None)?);
     let before = api::analyze(m)?.remove(0);
@@ -213,7 +213,7 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
             "nothing is redundant, so {} {k} of the search would only add mobility; --max-mobility makes the change all the same",
             request.one()
         ));
-        let plan = Plan {
+        let plan = TypePlan {
             releases: Vec::new(),
             mobility: before.mobility,
             redundant: 0,
@@ -224,11 +224,11 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
 }
 
 /// The first idea of the search among the types that the CAD program has, at the joints that may be changed.
-fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, Plan)> {
+fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let mut m = imported.mechanism.clone();
     let before = api::analyze(&m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() {
-        let plan = Plan {
+        let plan = TypePlan {
             releases: Vec::new(),
             mobility: before.mobility,
             redundant: 0,

@@ -17,8 +17,8 @@ use crate::grip::gripping::grip;
 use crate::grip::motion::along;
 use crate::model::grip::Toward;
 use crate::view;
-use crate::view::grip::{charts::charts, motion::Motion, text};
-use crate::view::terminal::next_commands::{self, Step};
+use crate::view::grip::{charts::charts, motion::GripMotion, text};
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail, ensure};
 use args::Grip;
 
@@ -65,10 +65,10 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
         None => None,
     };
     let found = grip(&file.spec, file.mechanism.as_ref())?;
-    let mut shown = view::grip::Grip::new(&file, &found);
+    let mut shown = view::grip::GripReport::new(&file, &found);
     if let Some(steps) = steps {
         let along = along(&file.spec, &found, &steps)?;
-        shown.motion = Some(Motion::new(&along, file.length_unit));
+        shown.motion = Some(GripMotion::new(&along, file.length_unit));
     }
     if let Some(folder) = &a.svg {
         charts::write(folder, None, &charts(&shown), &[])?;
@@ -81,7 +81,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
                 write!(out, "{}", text::grip(&shown, width))?;
                 if a.svg.is_none() {
                     let gives = "charts of the arms and the drive moment";
-                    let charts = Step::new("grip", &a.file.file, "--svg charts", gives);
+                    let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
                     write!(out, "{}", next_commands::text(&[charts], width))?;
                 }
             }

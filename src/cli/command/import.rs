@@ -6,7 +6,7 @@ use crate::cli::option::named::Named;
 use crate::cli::terminal::output;
 use crate::robots::{self, Options};
 use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, Step};
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use itertools::Itertools;
@@ -139,7 +139,7 @@ pub(in crate::cli) fn run(a: &Import) -> anyhow::Result<Done> {
             ("analyze", "its mobility and redundant constraints"),
             ("search", "the redesigns that remove those"),
         ];
-        let steps = steps.map(|(command, gives)| Step::new(command, &file, "", gives));
+        let steps = steps.map(|(command, gives)| NextCommand::new(command, &file, "", gives));
         output::note(&next_commands::text(&steps, output::error_width()));
     }
     Ok(Done::Found)

@@ -18,7 +18,7 @@ use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::robots::lint::{self, Lint as Found, PassedOver, sarif};
 use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, Step};
+use crate::view::terminal::next_commands::{self, NextCommand};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -86,7 +86,9 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                     .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
                 let gives = "the cheapest in your own file, all else as it is";
                 let flags = a.reading.flags();
-                let steps: Vec<Step> = mended.map(|l| Step::mend(&l.file, &flags, gives)).collect();
+                let steps: Vec<NextCommand> = mended
+                    .map(|l| NextCommand::mend(&l.file, &flags, gives))
+                    .collect();
                 write!(out, "{}", next_commands::text(&steps, width))?;
             }
             LintFormat::Json => output::json(out, &lint::json(&found, &others))?,

@@ -33,7 +33,7 @@ enum ListFormat {
 
 /// A state of a mechanism as data; the same keys in JSON and CSV.
 #[derive(Debug, Serialize)]
-struct Row {
+struct ListRow {
     name: &'static str,
     family: &'static str,
     state: String,
@@ -72,7 +72,7 @@ pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
     }
 }
 
-fn text(a: &List, rows: Vec<Row>) -> anyhow::Result<Done> {
+fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
     let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
     let (mut cells, mut notes) = (Vec::new(), Vec::new());
     let (mut family, mut name) = ("", "");
@@ -128,7 +128,7 @@ fn text(a: &List, rows: Vec<Row>) -> anyhow::Result<Done> {
 }
 
 /// A row for each state of the mechanisms wanted.
-fn wanted(a: &List) -> anyhow::Result<Vec<Row>> {
+fn wanted(a: &List) -> anyhow::Result<Vec<ListRow>> {
     let words: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
     let of = |(family, name)| rows(&words, family, name);
     let families = builtin::families();
@@ -136,12 +136,16 @@ fn wanted(a: &List) -> anyhow::Result<Vec<Row>> {
         .into_iter()
         .flat_map(|(family, names)| names.into_iter().map(move |name| (family, name)))
         .collect();
-    let rows: anyhow::Result<Vec<Vec<Row>>> = all.into_par_iter().map(of).collect();
+    let rows: anyhow::Result<Vec<Vec<ListRow>>> = all.into_par_iter().map(of).collect();
     Ok(rows?.into_iter().flatten().collect())
 }
 
 /// The rows of a mechanism; none where it has not all the words.
-fn rows(words: &[String], family: &'static str, name: &'static str) -> anyhow::Result<Vec<Row>> {
+fn rows(
+    words: &[String],
+    family: &'static str,
+    name: &'static str,
+) -> anyhow::Result<Vec<ListRow>> {
     let m = Mechanism::builtin(name)?;
     let about = format!("{name} {family} {}", m.description).to_lowercase();
     if !words.iter().all(|w| about.contains(w)) {
@@ -149,7 +153,7 @@ fn rows(words: &[String], family: &'static str, name: &'static str) -> anyhow::R
     }
     let row = |(state, of): (StateId, &String)| {
         let s = figures(&m, state).with_context(|| format!("built-in mechanism {name}"))?;
-        Ok(Row {
+        Ok(ListRow {
             name,
             family,
             state: of.clone(),

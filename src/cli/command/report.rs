@@ -8,7 +8,7 @@ use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
-use crate::cli::terminal::progress::{Watch, note};
+use crate::cli::terminal::progress::{SearchWatch, note};
 use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, kinematic_scene};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::page::{Commands, Page, Redesigns, SHOWN, html, swaps};
@@ -102,7 +102,7 @@ pub(in crate::cli) fn write(
             return Ok(verdict);
         }
     };
-    let mut watch = Watch::new(args.quiet);
+    let mut watch = SearchWatch::new(args.quiet);
     let outcome = watch.answer(mechanism.clone(), conditions, &request)?;
     let ideas = (!request.distinct).then(|| {
         let given = outcome.ideas_unless(&interrupt::pending);

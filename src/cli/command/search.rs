@@ -10,9 +10,10 @@ use crate::cli::terminal::interrupt;
 use crate::cli::terminal::machine;
 use crate::cli::terminal::memory;
 use crate::cli::terminal::output;
-use crate::cli::terminal::progress::Watch;
+use crate::cli::terminal::progress::SearchWatch;
 use crate::format::number::{duration, grouped};
 use crate::score::outcome::Outcome;
+use crate::score::outcome::WhyNone;
 use crate::score::request::{List, Method, Request};
 use crate::view::search::csv;
 use crate::view::search::json;
@@ -118,13 +119,12 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file.file)?;
     let request = a.request(args.seed)?;
-    let mut outcome = Watch::new(args.quiet).run(mechanism, &request)?;
+    let mut outcome = SearchWatch::new(args.quiet).run(mechanism, &request)?;
     outcome.request.distinct |= a.tells_ideas(&outcome);
-    let (eased, why) = match a.format {
-        SearchFormat::Text | SearchFormat::Json => (outcome.relaxations()?, outcome.hopeless()?),
-        SearchFormat::Jsonl | SearchFormat::Csv => Default::default(),
+    let none = &match a.format {
+        SearchFormat::Text | SearchFormat::Json => outcome.why_none()?,
+        SearchFormat::Jsonl | SearchFormat::Csv => WhyNone::default(),
     };
-    let none = (&eased[..], &why);
     let done = output::to(a.output.as_deref(), |out| {
         let variants = outcome.variants_unless(&interrupt::pending);
         match a.format {

@@ -18,14 +18,14 @@ use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;
 use crate::statics::reactions::contact::object_at;
 use crate::statics::reactions::{Cycle, Unsolved};
-use crate::statics::solve::{Answer, Model, StaticsError, solve};
+use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve};
 use crate::view;
 use crate::view::grip::clamped::NotHeld;
-use crate::view::reactions::stroke::Stroke as StrokeView;
+use crate::view::reactions::stroke::ReactionsOverStroke as StrokeView;
 use crate::view::reactions::{Reactions, text::reactions};
 use crate::view::statics::{Structures, charts as drawn, csv::csv, force_plans::plans, text};
 use crate::view::terminal::layout::table;
-use crate::view::terminal::next_commands::{self, Step};
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail};
 use args::{Statics, StaticsFormat, StaticsMethod};
 use std::path::Path;
@@ -107,8 +107,8 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         found => found?,
     };
     match &found {
-        Answer::Planar(found) => planar(&m, found, own, a)?,
-        Answer::Spatial(found) => spatial(&m, state, stroke, found, a)?,
+        SolvedReactions::Planar(found) => planar(&m, found, own, a)?,
+        SolvedReactions::Spatial(found) => spatial(&m, state, stroke, found, a)?,
     };
     // A stroke that could not be finished is no success.
     Ok(if found.complete() {
@@ -131,16 +131,16 @@ fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyh
             m.name
         );
     }
-    let shown = view::statics::Statics::new(&m.name, found, methods);
+    let shown = view::statics::StaticsData::new(&m.name, found, methods);
     if let Some(folder) = &a.svg {
         let plans = plans(&shown)
             .into_iter()
-            .map(|(name, plan)| charts::Drawing {
+            .map(|(name, plan)| charts::ChartDrawing {
                 name,
                 files: vec![("svg", plan.svg()), ("csv", plan.csv())],
                 title: plan.title,
             });
-        let plans: Vec<charts::Drawing> = plans.collect();
+        let plans: Vec<charts::ChartDrawing> = plans.collect();
         charts::write(folder, Some(&m.name), &drawn::cycle(&shown), &plans)?;
     }
     output::to(a.output.as_deref(), |out| {
@@ -156,12 +156,12 @@ fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyh
                 if loaded && a.svg.is_none() {
                     let gives =
                         "charts of reactions and accelerations over the cycle, and the force plans";
-                    steps.push(Step::new("statics", file, "--svg charts", gives));
+                    steps.push(NextCommand::new("statics", file, "--svg charts", gives));
                 }
                 if loaded {
                     let more = "--format csv -o reactions.csv";
                     let gives = "every joint's reaction at every position";
-                    steps.push(Step::new("statics", file, more, gives));
+                    steps.push(NextCommand::new("statics", file, more, gives));
                 }
                 write!(out, "{}", next_commands::text(&steps, width))?;
             }
@@ -189,14 +189,14 @@ fn spatial(
                     write!(out, "{}", reactions(&shown, "pose of the file", width))?;
                     let file = a.file.as_deref().unwrap_or(&m.name);
                     let step = if shown.unique {
-                        Step::new(
+                        NextCommand::new(
                             "statics",
                             file,
                             "--spatial --format csv -o reactions.csv",
                             "the components of every joint's reaction",
                         )
                     } else {
-                        Step::new(
+                        NextCommand::new(
                             "search",
                             file,
                             "",

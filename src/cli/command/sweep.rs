@@ -15,20 +15,20 @@ use crate::format::phrase::plural;
 use crate::score::request::Request;
 use crate::shard::Shard;
 use crate::sweep::space::Sampling;
-use crate::sweep::table::{Table, Watch, make, merge};
-use crate::sweep::{Asked, Spec, Sweep};
+use crate::sweep::table::{SweepWatch, Table, make, merge};
+use crate::sweep::{Spec, Sweep, SweepRequest};
 use crate::view;
-use crate::view::sweep::plot::Quantity;
-use crate::view::terminal::next_commands::{self, Step};
+use crate::view::sweep::plot::PlottedQuantity;
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail, ensure};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::{Path, PathBuf};
 
-fn quantity() -> impl TypedValueParser<Value = Quantity> {
-    let words = PossibleValuesParser::new(Quantity::ALL.map(|(word, _)| word));
+fn quantity() -> impl TypedValueParser<Value = PlottedQuantity> {
+    let words = PossibleValuesParser::new(PlottedQuantity::ALL.map(|(word, _)| word));
     words.try_map(|word| {
-        let found = Quantity::ALL.into_iter().find(|(w, _)| *w == word);
+        let found = PlottedQuantity::ALL.into_iter().find(|(w, _)| *w == word);
         found.map(|(_, q)| q).ok_or("there is no such quantity")
     })
 }
@@ -69,7 +69,7 @@ pub(in crate::cli) struct SweepArgs {
     svg: Option<PathBuf>,
     /// What is plotted.
     #[arg(long, value_name = "QUANTITY", value_parser = quantity(), default_value = "redundant", requires = "svg")]
-    plot: Quantity,
+    plot: PlottedQuantity,
     /// The parameters it is plotted over; the first two by default. Of samples that differ in others alone the greatest value counts.
     #[arg(long, value_name = "A,B", value_delimiter = ',', requires = "svg")]
     over: Vec<String>,
@@ -95,7 +95,7 @@ pub(in crate::cli) struct SweepArgs {
 /// Shows how far a sweep has come, and ends it at a signal.
 struct Watching(Bar);
 
-impl Watch for Watching {
+impl SweepWatch for Watching {
     fn done(&mut self, done: usize, of: usize) {
         self.0.step("samples", done, of);
     }
@@ -121,7 +121,7 @@ fn sweep(args: &Global, a: &SweepArgs, file: &Named) -> anyhow::Result<Sweep> {
         ..a.which.request(None)?
     };
     let read = |text: &String| anyhow::Ok((text.clone(), stroke(text)?));
-    let asked = Asked {
+    let asked = SweepRequest {
         as_written: request.as_written,
         search: (!a.no_search).then_some(request),
         top: a.top,
@@ -160,7 +160,7 @@ fn table(args: &Global, a: &SweepArgs) -> anyhow::Result<Table> {
 
 pub(in crate::cli) fn run(args: &Global, a: &SweepArgs) -> anyhow::Result<Done> {
     let table = table(args, a)?;
-    let shown = view::sweep::Sweep::new(&table);
+    let shown = view::sweep::SweepData::new(&table);
     let write = |path: &Option<PathBuf>, text: &dyn Fn() -> anyhow::Result<String>| match path {
         None => Ok(Done::Found),
         Some(path) => {
@@ -215,18 +215,18 @@ fn unfinished(table: &Table, path: Option<&Path>) -> String {
 }
 
 /// What to do next.
-fn steps(a: &SweepArgs, table: &Table) -> Vec<Step> {
+fn steps(a: &SweepArgs, table: &Table) -> Vec<NextCommand> {
     let Some(file) = a.file.as_deref().filter(|_| table.finished) else {
         return Vec::new();
     };
     let mut out = Vec::new();
     if a.output.is_none() {
         let gives = "the table of all samples, which can be carried on and made in parts";
-        out.push(Step::new("sweep", file, "-o sweep.jsonl", gives));
+        out.push(NextCommand::new("sweep", file, "-o sweep.jsonl", gives));
     }
     if a.svg.is_none() && table.head.parameters.len() > 1 {
         let gives = "redundant constraints over the first two parameters";
-        out.push(Step::new("sweep", file, "--svg sweep.svg", gives));
+        out.push(NextCommand::new("sweep", file, "--svg sweep.svg", gives));
     }
     out
 }

@@ -7,7 +7,7 @@ use crate::redundancy::release::{Release, added};
 use crate::robots::Origin;
 use crate::score::request::Request;
 use crate::score::run::Event;
-use crate::view::robots::lint::Change;
+use crate::view::robots::lint::TypeChange;
 use anyhow::ensure;
 
 /// Most joints, and nodes, that are searched unasked: beyond them it may take longer than one waits for.
@@ -17,7 +17,7 @@ const NODES: usize = 100_000;
 const NUMERIC: usize = 2000;
 
 /// What is to be done, and the W and σ that are to come of it.
-pub(in crate::cli) struct Plan {
+pub(in crate::cli) struct TypePlan {
     pub(in crate::cli) releases: Vec<Release>,
     pub(in crate::cli) mobility: usize,
     pub(in crate::cli) redundant: usize,
@@ -29,7 +29,7 @@ pub(in crate::cli) fn changed(
     request: Request,
     k: usize,
     tell: fn(Event),
-) -> anyhow::Result<Plan> {
+) -> anyhow::Result<TypePlan> {
     // What is added is told against the mechanism as it is meant, which is the one that was searched.
     let one = request.one();
     let (before_it, changed, w, sigma) =
@@ -55,7 +55,7 @@ pub(in crate::cli) fn changed(
             direction,
         }));
     }
-    let plan = Plan {
+    let plan = TypePlan {
         releases,
         mobility: usize::try_from(w)?,
         redundant: usize::try_from(sigma)?,
@@ -64,7 +64,7 @@ pub(in crate::cli) fn changed(
 }
 
 /// The first idea of the search; none where it finds none.
-pub(in crate::cli) fn first(m: &Mechanism, request: Request, tell: fn(Event)) -> Option<Plan> {
+pub(in crate::cli) fn first(m: &Mechanism, request: Request, tell: fn(Event)) -> Option<TypePlan> {
     let request = Request {
         distinct: true,
         ..request
@@ -79,7 +79,7 @@ pub(in crate::cli) fn changes(
     m: &Mechanism,
     origin: &Origin,
     exact: bool,
-) -> Option<(Vec<Change>, usize)> {
+) -> Option<(Vec<TypeChange>, usize)> {
     let options = m.joints.iter().map(|j| j.options.len().max(1));
     let variants = options.fold(1, usize::saturating_mul);
     if m.joints.len() > JOINTS || (!exact && variants > NUMERIC) {
@@ -98,7 +98,7 @@ pub(in crate::cli) fn named(
     m: &Mechanism,
     origin: &Origin,
     releases: &[Release],
-) -> Option<Vec<Change>> {
+) -> Option<Vec<TypeChange>> {
     if !origin.is_assembly() {
         return None;
     }
@@ -117,6 +117,6 @@ pub(in crate::cli) fn named(
             None => all.push((joint, vec![(slides, direction)])),
         }
     }
-    let change = |(j, more): &(JointId, Vec<(bool, Vector)>)| Change::at(m, origin, *j, more);
+    let change = |(j, more): &(JointId, Vec<(bool, Vector)>)| TypeChange::at(m, origin, *j, more);
     all.iter().map(change).collect()
 }

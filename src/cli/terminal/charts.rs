@@ -5,7 +5,7 @@ use crate::cli::done::Done;
 use crate::cli::terminal::output;
 
 /// A drawing beside the charts.
-pub(in crate::cli) struct Drawing {
+pub(in crate::cli) struct ChartDrawing {
     /// Name of its files.
     pub(in crate::cli) name: String,
     /// What is shown.
@@ -23,7 +23,7 @@ pub(in crate::cli) fn write(
     folder: &Path,
     title: Option<&str>,
     charts: &[(String, Chart)],
-    drawings: &[Drawing],
+    drawings: &[ChartDrawing],
 ) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;

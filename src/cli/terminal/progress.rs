@@ -21,15 +21,15 @@ pub(in crate::cli) fn note(text: String) {
 }
 
 /// Watches a search: shows how far it has come, and ends it early at a signal.
-pub(in crate::cli) struct Watch {
+pub(in crate::cli) struct SearchWatch {
     bar: Bar,
     quiet: bool,
 }
 
-impl Watch {
-    pub(in crate::cli) fn new(quiet: bool) -> Watch {
+impl SearchWatch {
+    pub(in crate::cli) fn new(quiet: bool) -> SearchWatch {
         let bar = Bar::new(quiet);
-        Watch { bar, quiet }
+        SearchWatch { bar, quiet }
     }
 
     /// Searches a mechanism.
@@ -60,7 +60,7 @@ impl Watch {
         request: &Request,
         search: impl FnOnce(ShouldCancel<'_>, Tell<'_>) -> T,
     ) -> T {
-        let Watch { bar, quiet } = self;
+        let SearchWatch { bar, quiet } = self;
         search(&interrupt::pending, &mut |event| match event {
             Event::Note(text) => note(text),
             Event::Building(p) => {

@@ -3,7 +3,9 @@
 
 use super::Kinematic;
 use super::body::Body;
-use crate::draw::place::projection::{Place, Vector, add, cross, dot, norm, scale as times, sub};
+use crate::draw::place::projection::{
+    JointInSpace, Vector, add, cross, dot, norm, scale as times, sub,
+};
 use crate::geom::vector::unit;
 use crate::svg::plane::Point;
 
@@ -83,7 +85,7 @@ impl Kinematic<'_> {
 }
 
 /// Where two axes meet.
-fn meeting(a: &Place, b: &Place) -> Option<Vector> {
+fn meeting(a: &JointInSpace, b: &JointInSpace) -> Option<Vector> {
     let n = cross(a.z, b.z);
     let nn = dot(n, n);
     if nn < 1e-12 {

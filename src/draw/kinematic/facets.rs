@@ -2,7 +2,9 @@
 
 use super::Kinematic;
 use super::body::Body;
-use crate::draw::place::projection::{Place, Vector, add, cross, dot, norm, scale as times, sub};
+use crate::draw::place::projection::{
+    JointInSpace, Vector, add, cross, dot, norm, scale as times, sub,
+};
 use crate::model::joint_type::JointType;
 use crate::svg::plane::Point;
 
@@ -44,8 +46,8 @@ impl Kinematic<'_> {
         if of.len() < 2 || !of.iter().all(hinge) || self.points_of(*link).next().is_some() {
             return None;
         }
-        let creases: Vec<&Place> = of.iter().map(|&i| &self.places[i]).collect();
-        let apart = |a: &Place, b: &Place| norm(sub(a.point, b.point));
+        let creases: Vec<&JointInSpace> = of.iter().map(|&i| &self.places[i]).collect();
+        let apart = |a: &JointInSpace, b: &JointInSpace| norm(sub(a.point, b.point));
         let pairs = creases
             .iter()
             .flat_map(|a| creases.iter().map(move |b| (a, b)));
@@ -79,7 +81,7 @@ struct Crease {
 
 /// Where a crease ends: where the next ones of its plate meet it on either side, or as far on the other side of its point where one
 /// meets it on one side alone; nothing where a crease passes it by or none meets it nearby.
-fn crease(own: &Place, all: &[&Place], size: f64) -> Option<Crease> {
+fn crease(own: &JointInSpace, all: &[&JointInSpace], size: f64) -> Option<Crease> {
     let mut reach = [f64::NEG_INFINITY, f64::INFINITY];
     for other in all {
         let n = cross(own.z, other.z);
@@ -111,6 +113,6 @@ fn crease(own: &Place, all: &[&Place], size: f64) -> Option<Crease> {
 }
 
 /// Whether a point is on a crease.
-fn on(crease: &Place, p: Vector, size: f64) -> bool {
+fn on(crease: &JointInSpace, p: Vector, size: f64) -> bool {
     norm(cross(crease.z, sub(p, crease.point))) < 1e-3 * size
 }

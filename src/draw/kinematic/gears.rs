@@ -1,7 +1,7 @@
 //! Joints that gears couple, as their pitch circles, and a pinion as that of its rack.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::place::projection::{self, Place, add, cross, dot, norm, scale, sub};
+use crate::draw::place::projection::{self, JointInSpace, add, cross, dot, norm, scale, sub};
 use crate::geom::vector::Vector;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::Freedom;
@@ -19,7 +19,7 @@ impl Kinematic<'_> {
     pub(in crate::draw) fn pitch_circles(
         &self,
         coupling: &Coupling,
-        places: &[Place],
+        places: &[JointInSpace],
     ) -> Vec<Vec<Point>> {
         let flat = |circle: Vec<Vector>| circle.iter().map(|&p| self.projection.flat(p)).collect();
         let circles = self.pitch_circles_in_space(coupling, places).into_iter();
@@ -30,7 +30,7 @@ impl Kinematic<'_> {
     pub(in crate::draw) fn pitch_circles_in_space(
         &self,
         coupling: &Coupling,
-        places: &[Place],
+        places: &[JointInSpace],
     ) -> Vec<(usize, Vec<Vector>)> {
         let circles = if coupling.gear {
             gears(self, coupling, places)
@@ -62,7 +62,12 @@ impl Kinematic<'_> {
             .collect()
     }
 
-    fn place<'p>(&self, coupling: &Coupling, end: usize, places: &'p [Place]) -> Option<&'p Place> {
+    fn place<'p>(
+        &self,
+        coupling: &Coupling,
+        end: usize,
+        places: &'p [JointInSpace],
+    ) -> Option<&'p JointInSpace> {
         let joint = coupling.ends[end].joint;
         let spot = self.spots.iter().position(|s| s.joint == joint)?;
         Some(&places[spot])
@@ -70,7 +75,11 @@ impl Kinematic<'_> {
 }
 
 /// Two gears on one carrier whose pitch circles roll on each other.
-fn gears(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[Place]) -> Option<Vec<Circle>> {
+fn gears(
+    drawn: &Kinematic<'_>,
+    coupling: &Coupling,
+    places: &[JointInSpace],
+) -> Option<Vec<Circle>> {
     if coupling.ends.iter().any(|e| e.freedom != Freedom::Rz) {
         return None;
     }
@@ -99,7 +108,7 @@ fn gears(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[Place]) -> Option
 }
 
 /// The pinion of a rack: one turn against one slide across its axis.
-fn pinion(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[Place]) -> Option<Circle> {
+fn pinion(drawn: &Kinematic<'_>, coupling: &Coupling, places: &[JointInSpace]) -> Option<Circle> {
     let turn = coupling
         .ends
         .iter()

@@ -5,11 +5,11 @@ pub(in crate::draw::kinematic) mod frame;
 pub(in crate::draw::kinematic) mod sliding;
 
 use super::{Kinematic, STRIP};
-use crate::draw::kinematic::moving::frame::Frame;
+use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::posed::Carried;
-use crate::draw::place::projection::{Place, bounds};
+use crate::draw::place::projection::{JointInSpace, bounds};
 use crate::draw::place::view_direction::Sight;
-use crate::draw::sheet::{Caption, Drawing, Plan, Sheet, Swatch, plan};
+use crate::draw::sheet::{Caption, Drawing, Sheet, SheetPlan, Swatch, plan};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::placed::Symbol;
 use crate::motion::drive_range::Way;
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Pictures a second.
-pub const RATE: usize = 30;
+pub(crate) const RATE: usize = 30;
 
 /// A motion to be drawn.
 #[derive(Debug, Clone, Copy)]
@@ -65,7 +65,7 @@ pub(super) fn poses<'m>(moved: &Moved<'m>) -> Vec<Carried<'m>> {
 struct Moving<'a> {
     rest: Kinematic<'a>,
     words: &'a str,
-    frames: Vec<Frame>,
+    frames: Vec<MovingPicture>,
     start: usize,
     closed: bool,
 }
@@ -74,7 +74,7 @@ impl<'a> Moving<'a> {
     fn new(mut rest: Kinematic<'a>, moved: &Moved<'a>) -> Moving<'a> {
         let poses = poses(moved);
         let lines = rest.moving_lines(&poses);
-        let frames: Vec<Frame> = poses.iter().map(|c| rest.frame(c, &lines)).collect();
+        let frames: Vec<MovingPicture> = poses.iter().map(|c| rest.frame(c, &lines)).collect();
         rest.traces = (rest.ways(&poses), moved.way.closed);
         Moving {
             frames,
@@ -100,7 +100,7 @@ impl<'a> Moving<'a> {
         };
         let plan = plan(&caption, area, STRIP);
         let by = plan.shift;
-        for p in self.frames.iter_mut().flat_map(Frame::all) {
+        for p in self.frames.iter_mut().flat_map(MovingPicture::all) {
             *p = add(*p, by);
         }
         self.rest.shift_ground(by);
@@ -176,7 +176,7 @@ impl<'a> Moving<'a> {
 }
 
 /// What the legend says of flags, where there are any.
-pub(super) fn flag_row(frame: &Frame) -> Option<(Swatch, String)> {
+pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
     let draw = |s: &mut Sheet, p: Point| s.line("flag", p, add(p, [7.0, -7.0]));
     let there = frame.lines.iter().any(|(class, _)| *class == "flag");
     there.then(|| {
@@ -192,7 +192,7 @@ impl Kinematic<'_> {
     }
 
     /// The room that pictures take, one of which has the symbols of the pose of the file.
-    pub(super) fn room_of(&self, frames: &[Frame], start: usize) -> Rect {
+    pub(super) fn room_of(&self, frames: &[MovingPicture], start: usize) -> Rect {
         let mut area = bounds(&frames[start].at);
         for (n, frame) in frames.iter().enumerate() {
             for (spot, at) in self.spots.iter().zip(&frame.at) {
@@ -238,13 +238,13 @@ impl Kinematic<'_> {
     }
 
     /// The axes and the scale.
-    pub(super) fn draw_below(&self, sheet: &mut Sheet, plan: &Plan) {
+    pub(super) fn draw_below(&self, sheet: &mut Sheet, plan: &SheetPlan) {
         self.draw_axes(sheet, plan.legend_top - STRIP + 34.0);
         self.draw_scale(sheet, plan.legend_top - STRIP + 40.0);
     }
 
     /// The symbol of a joint that stands at another place.
-    pub(super) fn symbol_in(&self, i: usize, place: &Place) -> Symbol {
+    pub(super) fn symbol_in(&self, i: usize, place: &JointInSpace) -> Symbol {
         let spot = &self.spots[i];
         let of = &self.subject.mechanism.joints[spot.joint].joint_type;
         let (view, size) = (&self.projection.view, spot.symbol.size);

@@ -2,20 +2,20 @@
 
 use super::Kinematic;
 use crate::draw::sheet::SMALL;
-use crate::draw::sheet::labels::{self, CROSSED, Line, Wish};
+use crate::draw::sheet::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::draw::symbol::ground::Ground;
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
 use crate::svg::text::{names, width};
 
 impl Kinematic<'_> {
     /// Where the ids of joints and links go, with their classes and sizes.
-    pub(super) fn place_labels(&self) -> (Vec<labels::Place>, Vec<(String, f64, String)>) {
+    pub(super) fn place_labels(&self) -> (Vec<labels::LabelPlace>, Vec<(String, f64, String)>) {
         let m = self.subject.mechanism;
         let mut taken: Vec<Rect> = self.spots.iter().map(|s| s.rect).collect();
         taken.extend(self.grounds.iter().map(Ground::rect));
         let mut lines = Vec::new();
         let mut add_line = |a: Point, b: Point| {
-            lines.push(Line {
+            lines.push(AvoidedLine {
                 ends: (a, b),
                 weight: CROSSED,
             });

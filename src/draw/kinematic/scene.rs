@@ -9,10 +9,10 @@ pub(in crate::draw::kinematic) mod swapped;
 use super::Kinematic;
 use super::arrow::Arrow;
 use super::moving::{Moved, flag_row, poses};
-use crate::draw::kinematic::moving::frame::Frame;
+use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::posed::Carried;
 use crate::draw::kinematic::scene::pair::{Pair, Tie};
-use crate::draw::kinematic::scene::part::{Part, below, paper, tidy};
+use crate::draw::kinematic::scene::part::{SymbolPart, below, paper, tidy};
 use crate::draw::place::projection::{Vector, View, add, cross, dot, norm, scale, sub};
 use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
@@ -41,8 +41,8 @@ pub struct Scene {
     /// The link that rests.
     frame: usize,
     /// The pieces of each symbol.
-    symbols: Vec<Vec<Part>>,
-    joints: Vec<Joint>,
+    symbols: Vec<Vec<SymbolPart>>,
+    joints: Vec<SceneJoint>,
     couplings: Vec<Tie>,
     wires: Vec<Wire>,
     moves: Vec<Move>,
@@ -74,7 +74,7 @@ pub(super) struct Swapped {
 
 /// A symbol at its place.
 #[derive(Debug, Clone, Serialize)]
-struct Joint {
+struct SceneJoint {
     at: Vector,
     axes: [Vector; 3],
     /// The link that carries its place, and the one that carries its axes.
@@ -111,12 +111,12 @@ struct Move {
 #[derive(Debug, Clone, Serialize)]
 struct Stress {
     name: String,
-    arrows: Vec<Load>,
+    arrows: Vec<LinkArrow>,
 }
 
 /// An arrow on a link.
 #[derive(Debug, Clone, Serialize)]
-struct Load {
+struct LinkArrow {
     at: Vector,
     along: Vector,
     turns: bool,
@@ -219,7 +219,7 @@ impl Scene {
     }
 
     /// The number of a symbol of some pieces.
-    pub(super) fn symbol(&mut self, parts: Vec<Part>) -> usize {
+    pub(super) fn symbol(&mut self, parts: Vec<SymbolPart>) -> usize {
         let known = self.symbols.iter().position(|s| *s == parts);
         known.unwrap_or_else(|| {
             self.symbols.push(parts);
@@ -300,7 +300,7 @@ impl Kinematic<'_> {
             let symbol = out.symbol(self.parts(spot.joint, of, &spot.symbol, mark));
             let (rides, guides) = self.carriers(i);
             let place = &self.places[i];
-            out.joints.push(Joint {
+            out.joints.push(SceneJoint {
                 axes: [place.x, place.y, place.z].map(fine),
                 pair: Some(self.pair(i, of)),
                 ..self.standing(
@@ -348,8 +348,8 @@ impl Kinematic<'_> {
         out
     }
 
-    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize, turned: bool) -> Joint {
-        Joint {
+    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize, turned: bool) -> SceneJoint {
+        SceneJoint {
             at: pixels(self, at),
             axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z],
             links,
@@ -374,8 +374,8 @@ impl Kinematic<'_> {
         self.links.iter().map(one).collect()
     }
 
-    fn load(&self, a: &Arrow) -> Load {
-        Load {
+    fn load(&self, a: &Arrow) -> LinkArrow {
+        LinkArrow {
             at: pixels(self, a.at),
             along: a.along.map(tidy),
             turns: a.turns,
@@ -384,7 +384,7 @@ impl Kinematic<'_> {
     }
 
     /// A picture by itself.
-    fn draw_frame(&self, sheet: &mut Sheet, frame: &Frame) {
+    fn draw_frame(&self, sheet: &mut Sheet, frame: &MovingPicture) {
         frame.draw(self, sheet);
         for i in self.outer_first() {
             let spot = &self.spots[i];

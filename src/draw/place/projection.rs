@@ -33,7 +33,7 @@ enum Turn {
 
 /// A joint in space.
 #[derive(Debug, Clone)]
-pub(in crate::draw) struct Place {
+pub(in crate::draw) struct JointInSpace {
     /// Its point, perhaps moved along its axis.
     pub(in crate::draw) point: Vector,
     /// Its frame.
@@ -46,10 +46,14 @@ pub(in crate::draw) struct Place {
     pub(in crate::draw) moved: bool,
 }
 
-impl Place {
+impl JointInSpace {
     /// The same kind of joint at another point, with its axes turned.
-    pub(in crate::draw) fn carried(&self, point: Vector, turn: impl Fn(Vector) -> Vector) -> Place {
-        Place {
+    pub(in crate::draw) fn carried(
+        &self,
+        point: Vector,
+        turn: impl Fn(Vector) -> Vector,
+    ) -> JointInSpace {
+        JointInSpace {
             point,
             x: turn(self.x),
             y: turn(self.y),
@@ -61,9 +65,9 @@ impl Place {
 }
 
 /// The place of a joint, as its coordinates have it.
-fn frame(mechanism: &Mechanism, joint: JointId) -> Place {
+fn frame(mechanism: &Mechanism, joint: JointId) -> JointInSpace {
     let of = &mechanism.joints[joint];
-    Place {
+    JointInSpace {
         turn: match of.joint_type {
             JointType::Revolute | JointType::Universal | JointType::Slotted => Turn::Hinge,
             JointType::Spherical | JointType::Fixed => Turn::Any,
@@ -81,7 +85,7 @@ pub(in crate::draw) fn real(v: &[Expr; 3]) -> Vector {
 }
 
 /// A joint's frame in numbers; those that are none count as 0.
-pub(in crate::draw) fn turned(f: &Frame) -> Place {
+pub(in crate::draw) fn turned(f: &Frame) -> JointInSpace {
     let z = unit(real(&f.axis), [0.0, 0.0, 1.0]);
     let reference = real(&f.reference);
     let other = if z[0].abs() < 0.9 {
@@ -91,7 +95,7 @@ pub(in crate::draw) fn turned(f: &Frame) -> Place {
     };
     let across = |v: Vector| sub(v, scale(z, dot(v, z)));
     let x = unit(across(reference), unit(across(other), other));
-    Place {
+    JointInSpace {
         point: real(&f.point),
         x,
         y: cross(z, x),
@@ -126,19 +130,19 @@ impl Projection {
 
 /// What has to be seen: the joints, room for some more points, and the axes that outputs turn about in the frame, whose circles
 /// should be no lines.
-pub(in crate::draw) struct Seen<'a> {
-    pub(in crate::draw) places: &'a [Place],
+pub(in crate::draw) struct ToBeSeen<'a> {
+    pub(in crate::draw) places: &'a [JointInSpace],
     pub(in crate::draw) more: &'a [Vector],
     pub(in crate::draw) turning: &'a [Vector],
 }
 
 /// The view that is asked for, or that with least overlap, for a picture of the given size.
 pub(in crate::draw) fn best(
-    Seen {
+    ToBeSeen {
         places,
         more,
         turning,
-    }: Seen<'_>,
+    }: ToBeSeen<'_>,
     links: &[(LinkId, Vec<usize>)],
     frame: LinkId,
     room: Point,
@@ -231,7 +235,7 @@ fn room_for_symbols(on: &[Point]) -> f64 {
 
 /// The common normal, in any direction, where all points lie in one plane and the mechanism moves in it; an axis of the
 /// coordinates where there is a choice.
-fn planar(places: &[Place]) -> Option<Vector> {
+fn planar(places: &[JointInSpace]) -> Option<Vector> {
     let size = extent(places);
     let first = places.first()?.point;
     // without a hinge: the plane through the points, if they are not all in a row
@@ -244,7 +248,7 @@ fn planar(places: &[Place]) -> Option<Vector> {
     let spanned = (norm(spread) > 1e-3 * size).then(|| unit(spread, [0.0; 3]));
     let axes = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
     let normals = axes.into_iter().chain(hinge(places)).chain(spanned);
-    let off = |p: &Place, n: Vector| dot(sub(p.point, first), n).abs();
+    let off = |p: &JointInSpace, n: Vector| dot(sub(p.point, first), n).abs();
     let flat = |n: &Vector| places.iter().all(|p| off(p, *n) <= FLAT * size);
     let flat: Vec<Vector> = normals.filter(flat).collect();
     let found = flat.iter().find(|&&n| moves_across(places, n));
@@ -253,24 +257,24 @@ fn planar(places: &[Place]) -> Option<Vector> {
 }
 
 /// The direction of the first hinge.
-fn hinge(places: &[Place]) -> Option<Vector> {
+fn hinge(places: &[JointInSpace]) -> Option<Vector> {
     let mut hinges = places.iter().filter(|p| p.turn == Turn::Hinge);
     hinges.next().map(|p| p.z)
 }
 
 /// Whether hinges turn about this direction and other axes are along or across it.
-fn moves_across(places: &[Place], n: Vector) -> bool {
+fn moves_across(places: &[JointInSpace], n: Vector) -> bool {
     lies_across(places, n) == Some(0)
 }
 
 /// Whether that is so of most hinges, and the others turn about axes across it: a screw's, say, or a shaft's.
-fn mostly_moves_across(places: &[Place], n: Vector) -> bool {
+fn mostly_moves_across(places: &[JointInSpace], n: Vector) -> bool {
     let hinges = places.iter().filter(|p| p.turn == Turn::Hinge).count();
     lies_across(places, n).is_some_and(|other| 2 * other < hinges)
 }
 
 /// How many hinges turn about axes across a direction; none where an axis is aslant.
-fn lies_across(places: &[Place], n: Vector) -> Option<usize> {
+fn lies_across(places: &[JointInSpace], n: Vector) -> Option<usize> {
     let mut other = 0;
     for p in places.iter().filter(|p| p.turn != Turn::Any) {
         let along = norm(cross(p.z, n)) < FLAT;
@@ -284,7 +288,12 @@ fn lies_across(places: &[Place], n: Vector) -> Option<usize> {
 }
 
 /// How much joints and links lie on each other.
-fn crowd(places: &[Place], on: &[Point], links: &[(LinkId, Vec<usize>)], frame: LinkId) -> f64 {
+fn crowd(
+    places: &[JointInSpace],
+    on: &[Point],
+    links: &[(LinkId, Vec<usize>)],
+    frame: LinkId,
+) -> f64 {
     const NEAR: f64 = 34.0;
     const CLEAR: f64 = 14.0;
     let mut cost = 0.0;
@@ -333,11 +342,11 @@ pub(in crate::draw) fn bounds(points: &[Point]) -> Rect {
     })
 }
 
-fn extent(places: &[Place]) -> f64 {
+fn extent(places: &[JointInSpace]) -> f64 {
     diagonal(places.iter().map(|p| p.point))
 }
 
-fn middle(places: &[Place]) -> Vector {
+fn middle(places: &[JointInSpace]) -> Vector {
     let sum = places.iter().fold([0.0; 3], |s, p| add(s, p.point));
     scale(sum, 1.0 / places.len().max(1) as f64)
 }

@@ -2,7 +2,7 @@
 
 use super::Scheme;
 use crate::draw::sheet::SMALL;
-use crate::draw::sheet::labels::{Line, Place, Wish, place};
+use crate::draw::sheet::labels::{AvoidedLine, LabelPlace, Wish, place};
 use crate::draw::sheet::shapes::{HALF, grid, outline};
 use crate::model::mechanism::Role;
 use crate::svg::plane::{Point, Rect, add, area, inside, mean, norm, scale, sub, to_segment, unit};
@@ -10,7 +10,7 @@ use crate::svg::text::{names, width};
 
 impl Scheme<'_> {
     /// Where the ids of joints and links and the numbers of contours go, in this order.
-    pub(super) fn place_labels(&self) -> Vec<(Place, String)> {
+    pub(super) fn place_labels(&self) -> Vec<(LabelPlace, String)> {
         let m = self.subject.mechanism;
         let mut taken: Vec<Rect> = (0..self.parts.joints.len())
             .map(|i| {
@@ -27,7 +27,7 @@ impl Scheme<'_> {
             let frame = m.links[self.parts.links[l]].role == Role::Frame;
             let weight = if frame || corners.len() < 3 { 2.5 } else { 0.6 };
             for &corner in &corners {
-                lines.push(Line {
+                lines.push(AvoidedLine {
                     ends: (self.at.hubs[l], corner),
                     weight,
                 });
@@ -39,7 +39,7 @@ impl Scheme<'_> {
                     // the inner one is no line where the link is a polygon
                     let middle = add(scale(add(a, b), 0.5), side);
                     if corners.len() < 3 || !inside(middle, &corners) {
-                        lines.push(Line {
+                        lines.push(AvoidedLine {
                             ends: (add(a, side), add(b, side)),
                             weight: 2.0,
                         });
@@ -67,7 +67,7 @@ impl Scheme<'_> {
         }
         // ids stay off links, numbers of contours off nothing but labels
         let places = place(&wishes, &mut taken, &[]);
-        let mut out: Vec<(Place, String)> = places.into_iter().zip(texts.drain(..)).collect();
+        let mut out: Vec<(LabelPlace, String)> = places.into_iter().zip(texts.drain(..)).collect();
         wishes.clear();
         for (c, _) in self.parts.contours.iter().enumerate() {
             let text = format!("{}", c + 1);
@@ -82,7 +82,7 @@ impl Scheme<'_> {
             texts.push(text);
         }
         let badges = place(&wishes, &mut taken, &lines);
-        let badges: Vec<(Place, String)> = badges.into_iter().zip(texts.drain(..)).collect();
+        let badges: Vec<(LabelPlace, String)> = badges.into_iter().zip(texts.drain(..)).collect();
         wishes.clear();
         let ids: Vec<&str> = self
             .parts
@@ -101,7 +101,7 @@ impl Scheme<'_> {
             texts.push(text);
         }
         let ids = place(&wishes, &mut taken, &lines);
-        let mut all: Vec<(Place, String)> = ids.into_iter().zip(texts).collect();
+        let mut all: Vec<(LabelPlace, String)> = ids.into_iter().zip(texts).collect();
         all.append(&mut out);
         all.extend(badges);
         all

@@ -19,7 +19,7 @@ pub(in crate::draw) struct Wish {
 
 /// Where a label went.
 #[derive(Clone, Debug)]
-pub(in crate::draw) struct Place {
+pub(in crate::draw) struct LabelPlace {
     /// Its box.
     pub(in crate::draw) rect: Rect,
     /// A line to what it names, where that is not near.
@@ -28,7 +28,7 @@ pub(in crate::draw) struct Place {
 
 /// A line that labels had better not lie on, and how bad that is.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::draw) struct Line {
+pub(in crate::draw) struct AvoidedLine {
     pub(in crate::draw) ends: (Point, Point),
     pub(in crate::draw) weight: f64,
 }
@@ -46,14 +46,18 @@ const NEAR: f64 = 9.0;
 const ANGLES: usize = 24;
 
 /// Places the labels one by one; none touches what is taken or one placed before. Each joins what is taken.
-pub(in crate::draw) fn place(wishes: &[Wish], taken: &mut Vec<Rect>, lines: &[Line]) -> Vec<Place> {
+pub(in crate::draw) fn place(
+    wishes: &[Wish],
+    taken: &mut Vec<Rect>,
+    lines: &[AvoidedLine],
+) -> Vec<LabelPlace> {
     let mut lines = lines.to_vec();
     let mut out = Vec::new();
     for wish in wishes {
         let place = best(wish, taken, &lines);
         taken.push(place.rect);
         if let Some(ends) = place.leader {
-            lines.push(Line {
+            lines.push(AvoidedLine {
                 ends,
                 weight: CROSSED,
             });
@@ -63,9 +67,9 @@ pub(in crate::draw) fn place(wishes: &[Wish], taken: &mut Vec<Rect>, lines: &[Li
     out
 }
 
-fn best(wish: &Wish, taken: &[Rect], lines: &[Line]) -> Place {
-    let mut best: Option<(f64, Place)> = None;
-    let mut offer = |cost: f64, place: Place| {
+fn best(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace {
+    let mut best: Option<(f64, LabelPlace)> = None;
+    let mut offer = |cost: f64, place: LabelPlace| {
         if best.as_ref().is_none_or(|(least, _)| cost < *least) {
             best = Some((cost, place));
         }
@@ -73,7 +77,7 @@ fn best(wish: &Wish, taken: &[Rect], lines: &[Line]) -> Place {
     for &(middle, cost) in &wish.first {
         let rect = Rect::around(middle, wish.width, wish.height);
         if free(&rect, taken) {
-            let place = Place { rect, leader: None };
+            let place = LabelPlace { rect, leader: None };
             offer(cost + crossed(&rect, lines), place);
         }
     }
@@ -105,7 +109,7 @@ fn best(wish: &Wish, taken: &[Rect], lines: &[Line]) -> Place {
             if let Some((a, b)) = leader {
                 cost += over(a, b, wish.anchor, taken, lines);
             }
-            offers.push((cost, Place { rect, leader }));
+            offers.push((cost, LabelPlace { rect, leader }));
         }
         for (cost, place) in offers {
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
@@ -120,7 +124,7 @@ fn best(wish: &Wish, taken: &[Rect], lines: &[Line]) -> Place {
             let middle = [bounds.right + wish.width / 2.0 + GAP, wish.anchor[1]];
             let rect = Rect::around(middle, wish.width, wish.height);
             let leader = Some((wish.anchor, rect.nearest(wish.anchor)));
-            Place { rect, leader }
+            LabelPlace { rect, leader }
         },
         |(_, place)| place,
     )
@@ -153,13 +157,13 @@ fn free(rect: &Rect, taken: &[Rect]) -> bool {
     !taken.iter().any(|t| t.overlaps(&grown))
 }
 
-fn crossed(rect: &Rect, lines: &[Line]) -> f64 {
+fn crossed(rect: &Rect, lines: &[AvoidedLine]) -> f64 {
     let on = lines.iter().filter(|l| rect.meets(l.ends.0, l.ends.1));
     on.map(|l| l.weight).sum()
 }
 
 /// How bad a leader is for what it crosses.
-fn over(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[Line]) -> f64 {
+fn over(a: Point, b: Point, anchor: Point, taken: &[Rect], lines: &[AvoidedLine]) -> f64 {
     let boxes = taken
         .iter()
         .filter(|t| t.nearest(anchor) != anchor && t.meets(a, b))

@@ -7,8 +7,8 @@ mod paint;
 mod solids;
 mod view;
 
-use self::solids::Part;
-use self::view::Seen;
+use self::solids::PairPart;
+use self::view::ReadyView;
 use crate::draw::place::projection;
 use crate::draw::sheet::{Caption, Drawing, Shape, Sheet, Swatch, plan};
 use crate::model::joint_type::JointType;
@@ -29,7 +29,7 @@ pub fn joint_type(of: &JointType) -> Drawing {
         return by_symbol::joint_type(of);
     }
     let views = [projection::aslant(), projection::along_z()];
-    let [left, right] = views.map(|v| Seen::new(&faces, of.freedoms(), &v));
+    let [left, right] = views.map(|v| ReadyView::new(&faces, of.freedoms(), &v));
     let wide = |r: Rect| r.right - r.left;
     let tall = |r: Rect| r.bottom - r.top;
     let height = tall(left.room).max(tall(right.room));
@@ -75,7 +75,7 @@ fn class_and_freedoms(of: &JointType) -> String {
 }
 
 /// What the tones and the arrows are, as far as they are there.
-fn legend(faces: &[solids::Face], of: &JointType) -> Vec<(Swatch, String)> {
+fn legend(faces: &[solids::SolidFace], of: &JointType) -> Vec<(Swatch, String)> {
     let corners = vec![[-13.0, -6.0], [13.0, -6.0], [13.0, 6.0], [-13.0, 6.0]];
     let swatch = |class: &str| {
         let box_of = |class: &str| Shape::Path {
@@ -92,7 +92,7 @@ fn legend(faces: &[solids::Face], of: &JointType) -> Vec<(Swatch, String)> {
             "the other link".to_owned(),
         ),
     ];
-    if faces.iter().any(|f| f.part == Part::Between) {
+    if faces.iter().any(|f| f.part == PairPart::Between) {
         let between = Swatch::Shapes(swatch("body-c"));
         out.push((between, "a part between them".to_owned()));
     }

@@ -1,6 +1,6 @@
 //! Pieces of symbols in the frame of a joint, and how they look from a side.
 
-use crate::draw::place::projection::{Place, Vector, View, dot};
+use crate::draw::place::projection::{JointInSpace, Vector, View, dot};
 use crate::draw::sheet::Shape;
 use crate::svg::plane::{Point, add, cross, norm, scale, sub, unit};
 use std::f64::consts::TAU;
@@ -8,20 +8,20 @@ use std::ops::Range;
 
 /// A joint's frame on paper.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::draw) struct Pose {
+pub(in crate::draw) struct PaperPose {
     axes: [Point; 3],
     toward: Vector,
 }
 
-impl Pose {
+impl PaperPose {
     /// Of a joint seen from a side.
-    pub(in crate::draw) fn new(place: &Place, view: &View) -> Pose {
-        Pose::of_axes([place.x, place.y, place.z], view)
+    pub(in crate::draw) fn new(place: &JointInSpace, view: &View) -> PaperPose {
+        PaperPose::of_axes([place.x, place.y, place.z], view)
     }
 
     /// Of a frame with these axes.
-    pub(in crate::draw) fn of_axes(axes: [Vector; 3], view: &View) -> Pose {
-        Pose {
+    pub(in crate::draw) fn of_axes(axes: [Vector; 3], view: &View) -> PaperPose {
+        PaperPose {
             axes: axes.map(|a| view.flat(a)),
             toward: axes.map(|a| dot(a, view.toward)),
         }
@@ -70,7 +70,7 @@ const EDGE: f64 = 0.05;
 
 impl Piece {
     /// How it looks from a side, so many times its size; nothing where it is not seen. `mark` is added to the class.
-    pub(in crate::draw) fn shape(&self, pose: &Pose, mark: &str, size: f64) -> Option<Shape> {
+    pub(in crate::draw) fn shape(&self, pose: &PaperPose, mark: &str, size: f64) -> Option<Shape> {
         if !self.seen.contains(&pose.toward[2].abs()) {
             return None;
         }

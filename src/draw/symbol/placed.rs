@@ -1,10 +1,10 @@
 //! The symbol of a joint, with the ring of a drive.
 
-use crate::draw::place::projection::{Place, View};
+use crate::draw::place::projection::{JointInSpace, View};
 use crate::draw::sheet::{Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
 use crate::draw::symbol::drive;
-use crate::draw::symbol::pieces::{Piece, Pose};
+use crate::draw::symbol::pieces::{PaperPose, Piece};
 use crate::draw::symbol::symbols;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::JointId;
@@ -13,7 +13,7 @@ use crate::svg::plane::Rect;
 /// The symbol of a joint round the origin.
 pub(in crate::draw) struct Symbol {
     of: JointType,
-    pose: Pose,
+    pose: PaperPose,
     shapes: Vec<Shape>,
     /// How many times the usual size it is.
     pub(in crate::draw) size: f64,
@@ -28,12 +28,12 @@ impl Symbol {
     pub(in crate::draw) fn new(
         subject: &Subject<'_>,
         joint: JointId,
-        (of, place): (&JointType, &Place),
+        (of, place): (&JointType, &JointInSpace),
         view: &View,
         size: f64,
         slide: Option<usize>,
     ) -> Symbol {
-        let pose = Pose::new(place, view);
+        let pose = PaperPose::new(place, view);
         let shapes = symbols::symbol(of, &pose, "", size);
         let own = symbols::extent(&shapes);
         let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;

@@ -2,7 +2,7 @@
 
 use crate::draw::place::projection::Vector;
 use crate::draw::sheet::{ROW, Shape};
-use crate::draw::symbol::pieces::{ALWAYS, END_ON, Form, Piece, Pose};
+use crate::draw::symbol::pieces::{ALWAYS, END_ON, Form, PaperPose, Piece};
 use crate::model::joint_type::JointType;
 use crate::svg::plane::{Point, Rect, scale};
 use std::f64::consts::{PI, TAU};
@@ -38,7 +38,12 @@ const FACE_ON: f64 = 0.97;
 const SPIRAL: f64 = 0.8;
 
 /// The symbol of a joint round the origin, so many times its usual size; `mark` is added to the classes.
-pub(in crate::draw) fn symbol(joint: &JointType, pose: &Pose, mark: &str, size: f64) -> Vec<Shape> {
+pub(in crate::draw) fn symbol(
+    joint: &JointType,
+    pose: &PaperPose,
+    mark: &str,
+    size: f64,
+) -> Vec<Shape> {
     let seen = |p: &Piece| p.shape(pose, mark, size);
     pieces(joint).iter().filter_map(seen).collect()
 }
@@ -284,10 +289,10 @@ mod tests {
         let types = JointType::NAMED;
         let along_z = projection::along_z();
         for pose in [
-            Pose::of_axes([X, Y, Z], &along_z),
-            Pose::of_axes([Y, Z, X], &along_z),
-            Pose::of_axes([Z, X, Y], &along_z),
-            Pose::of_axes([X, Y, Z], &projection::aslant()),
+            PaperPose::of_axes([X, Y, Z], &along_z),
+            PaperPose::of_axes([Y, Z, X], &along_z),
+            PaperPose::of_axes([Z, X, Y], &along_z),
+            PaperPose::of_axes([X, Y, Z], &projection::aslant()),
         ] {
             let drawn = types.each_ref().map(|t| {
                 let mut shapes = symbol(t, &pose, "", 1.0);

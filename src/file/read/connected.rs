@@ -1,7 +1,7 @@
 //! Every link hangs on the frame.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 
@@ -9,9 +9,9 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 pub(crate) fn connected(mechanism: &Mechanism, out: &mut Findings) {
     let at = |l: LinkId| {
         [
-            Step::Key("link".to_owned()),
-            Step::Index(l.index()),
-            Step::Key("id".to_owned()),
+            DocumentStep::Key("link".to_owned()),
+            DocumentStep::Index(l.index()),
+            DocumentStep::Key("id".to_owned()),
         ]
     };
     for (l, link) in mechanism.links_with_ids() {

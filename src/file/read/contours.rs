@@ -2,7 +2,7 @@
 
 use crate::closure::contour::closed_walk;
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index};
+use crate::file::locate::{DocumentStep, index};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::names::joint_by_id;
 use crate::file::schema::MechanismFile;
@@ -16,9 +16,9 @@ pub(crate) fn contours(
     let mut contours = Vec::new();
     for (i, entry) in file.contour.iter().enumerate() {
         let at = [
-            Step::Key("contour".to_owned()),
-            Step::Index(i),
-            Step::Key("joints".to_owned()),
+            DocumentStep::Key("contour".to_owned()),
+            DocumentStep::Index(i),
+            DocumentStep::Key("joints".to_owned()),
         ];
         let joints: Vec<JointId> = entry
             .joints

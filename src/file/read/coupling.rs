@@ -3,7 +3,7 @@
 use crate::closure::coupling::{coefficient, in_plane, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;
 use crate::file::schema::MechanismFile;
@@ -19,7 +19,10 @@ use itertools::Itertools;
 /// Reads the couplings, and takes from coupled joints the options that cannot be coupled alike.
 pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) {
     for (i, entry) in file.coupling.iter().enumerate() {
-        let at = [Step::Key("coupling".to_owned()), Step::Index(i)];
+        let at = [
+            DocumentStep::Key("coupling".to_owned()),
+            DocumentStep::Index(i),
+        ];
         let joints = key(&at, "joints");
         let ends: Vec<CoupledFreedom> = entry
             .joints
@@ -66,7 +69,7 @@ pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &m
 fn end(
     mechanism: &Mechanism,
     word: &str,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<CoupledFreedom> {
     let whole = mechanism.joint(word).map(|j| (j, None));
@@ -158,7 +161,10 @@ fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) 
             .collect();
         for (option, _) in joint.options.iter().zip(&keeps).filter(|(_, k)| !**k) {
             if file.joint[j].options.is_some() {
-                let path = [Step::Key("joint".to_owned()), Step::Index(j.index())];
+                let path = [
+                    DocumentStep::Key("joint".to_owned()),
+                    DocumentStep::Index(j.index()),
+                ];
                 let (joint, option) = (joint.id.clone(), option.name.clone());
                 let problem = ProblemKind::LosesCoupling { joint, option };
                 out.add(&key(&path, "options"), problem);

@@ -1,7 +1,7 @@
 //! Figures a published analysis gives.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::{Expected, Mechanism};
@@ -16,9 +16,9 @@ pub(crate) fn expected(
         let state = e.state.clone().unwrap_or_else(|| "free".to_owned());
         if !mechanism.states.contains(&state) {
             let path = [
-                Step::Key("expected".to_owned()),
-                Step::Index(i),
-                Step::Key("state".to_owned()),
+                DocumentStep::Key("expected".to_owned()),
+                DocumentStep::Index(i),
+                DocumentStep::Key("state".to_owned()),
             ];
             let known = mechanism.states.join(", ");
             out.add(

@@ -1,7 +1,7 @@
 //! The joints: ends, type, place, the states they act in.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{frame, joint_type, motion_name, option};
 use crate::file::read::search::options::options;
@@ -27,7 +27,7 @@ pub(crate) fn states(file: &MechanismFile, out: &mut Findings) -> Vec<String> {
         .collect();
     if states.len() > MOST_STATES {
         out.add(
-            &[Step::Key("joint".to_owned())],
+            &[DocumentStep::Key("joint".to_owned())],
             ProblemKind::TooMany {
                 what: "states",
                 count: states.len(),
@@ -66,7 +66,10 @@ fn joint(
     out: &mut Findings,
 ) -> Option<Joint> {
     let entry = &file.joint[i];
-    let at = [Step::Key("joint".to_owned()), Step::Index(i)];
+    let at = [
+        DocumentStep::Key("joint".to_owned()),
+        DocumentStep::Index(i),
+    ];
     check_id(
         "joint",
         &entry.id,
@@ -127,7 +130,7 @@ fn joint(
 fn driven(
     word: &DriveWord,
     joint_type: &JointType,
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> (bool, Option<Freedom>) {
     let word = match word {
@@ -156,13 +159,13 @@ fn unloading(
     entry: &JointEntry,
     frame: &Frame,
     states: &[String],
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> Vec<JointOption> {
     let (list, from) = match &entry.unloading {
         None | Some(Unloading::Allowed(false)) => return Vec::new(),
         Some(Unloading::Allowed(true)) => {
-            let from = key(&[Step::Key("search".to_owned())], "unloading");
+            let from = key(&[DocumentStep::Key("search".to_owned())], "unloading");
             (&file.search.unloading, from)
         }
         Some(Unloading::List(list)) => (list, key(at, "unloading")),
@@ -184,7 +187,12 @@ fn unloading(
         .collect()
 }
 
-fn place(entry: &JointEntry, joint_type: &JointType, at: &[Step], out: &mut Findings) -> Frame {
+fn place(
+    entry: &JointEntry,
+    joint_type: &JointType,
+    at: &[DocumentStep],
+    out: &mut Findings,
+) -> Frame {
     let point = vector(&entry.point, &key(at, "point"), out);
     let axis = match (&entry.axis, joint_type) {
         (Some(v), _) => direction(v, &key(at, "axis"), out),

@@ -1,7 +1,7 @@
 //! The links.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, key};
+use crate::file::locate::{DocumentStep, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::names::check_id;
 use crate::file::read::workload::loads::mass;
@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 pub(crate) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
     for (i, entry) in file.link.iter().enumerate() {
-        let at = [Step::Key("link".to_owned()), Step::Index(i)];
+        let at = [DocumentStep::Key("link".to_owned()), DocumentStep::Index(i)];
         check_id(
             "link",
             &entry.id,
@@ -55,7 +55,10 @@ pub(crate) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
     }
     let has = |role| links.iter().any(|l| l.role == role);
     if !has(Role::Frame) {
-        out.add(&[Step::Key("link".to_owned())], ProblemKind::NoFrame);
+        out.add(
+            &[DocumentStep::Key("link".to_owned())],
+            ProblemKind::NoFrame,
+        );
     }
     if !has(Role::Output) {
         outputs(file, &mut links);

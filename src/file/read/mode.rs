@@ -1,7 +1,7 @@
 //! Whether the mechanism moves in space or in a plane.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::direction;
 use crate::file::schema::MechanismFile;
@@ -9,7 +9,7 @@ use crate::geom::expr::Expr;
 use crate::model::mechanism::Mode;
 
 pub(crate) fn mode(file: &MechanismFile, out: &mut Findings) -> Mode {
-    let root = |k: &str| vec![Step::Key(k.to_owned())];
+    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
     match file.mode.as_deref().unwrap_or("spatial") {
         "planar" => {
             let at = root("plane_normal");

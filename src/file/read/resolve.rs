@@ -1,7 +1,7 @@
 //! Joint frames and options from their entries.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::{direction, pitch, vector};
 use crate::file::schema::OptionEntry;
@@ -47,7 +47,7 @@ pub(crate) fn frame(
     axis: [Expr; 3],
     reference: Option<[Expr; 3]>,
     pitch: Expr,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Frame {
     let mut axis = axis;
@@ -102,7 +102,7 @@ pub(crate) fn joint_type(
     joint: &str,
     kind: &str,
     freedoms: Option<&Vec<String>>,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<JointType> {
     if let (Some(t), None) = (JointType::from_name(kind), freedoms) {
@@ -183,7 +183,7 @@ pub(crate) fn joint_type(
 }
 
 /// A cost in thousandths.
-pub(crate) fn cost(value: f64, path: &[Step], out: &mut Findings) -> Option<i64> {
+pub(crate) fn cost(value: f64, path: &[DocumentStep], out: &mut Findings) -> Option<i64> {
     if !(0.0..=1e6).contains(&value) {
         out.add(
             path,
@@ -211,7 +211,7 @@ pub(crate) fn option(
     present: &Frame,
     entry: &OptionEntry,
     states: &[String],
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<JointOption> {
     let (table, at) = (entry.table(), path.to_vec());

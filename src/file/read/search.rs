@@ -6,7 +6,7 @@ pub(crate) mod ranking;
 
 use crate::closure::mirror::Plane;
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::search::costs::costs;
 use crate::file::read::value::names::{joint_by_id, link_by_id};
@@ -21,7 +21,12 @@ use itertools::Itertools;
 const NO_IMAGE: f64 = 1e-3;
 
 /// Tells pairs that are no mirror images.
-fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &[Step], out: &mut Findings) {
+fn images(
+    mechanism: &Mechanism,
+    pairs: &[(JointId, JointId)],
+    at: &[DocumentStep],
+    out: &mut Findings,
+) {
     let planes = Plane::of_pairs(mechanism, pairs);
     let Some((_, misses)) = planes.first() else {
         return;
@@ -48,7 +53,7 @@ pub(crate) fn search(
     mechanism: &Mechanism,
     out: &mut Findings,
 ) -> SearchSpec {
-    let at = [Step::Key("search".to_owned())];
+    let at = [DocumentStep::Key("search".to_owned())];
     let mut spec = SearchSpec::default();
     for (i, id) in file.search.hold.iter().enumerate() {
         let path = index(&key(&at, "hold"), i);
@@ -56,7 +61,7 @@ pub(crate) fn search(
             .extend(link_by_id(&mechanism.links, id, &path, out));
     }
     let mut grouped = Vec::new();
-    let mut joints = |ids: &[String], under, path: &[Step], out: &mut Findings| {
+    let mut joints = |ids: &[String], under, path: &[DocumentStep], out: &mut Findings| {
         let joints = ids
             .iter()
             .filter_map(|id| joint_by_id(mechanism, id, path, out))

@@ -8,7 +8,7 @@ pub mod motion;
 pub mod trajectory;
 
 use crate::file::findings::{Finding, Findings};
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::read::claims::claims;
@@ -25,7 +25,7 @@ use crate::model::mechanism::{LengthUnit, Mechanism};
 
 /// A file as the workload commands see it.
 #[derive(Debug, Clone)]
-pub struct Workload<T> {
+pub struct WorkloadFile<T> {
     /// Short name.
     pub name: String,
     /// Where the figures come from.
@@ -44,7 +44,7 @@ pub struct Workload<T> {
 ///
 /// # Errors
 /// Every problem found, each with its place.
-pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<GripSpec>, ImportError> {
+pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec>, ImportError> {
     let missing = ProblemKind::NoWorkload {
         table: "grip",
         example: "lever-gripper",
@@ -58,7 +58,7 @@ pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<GripSpec>, I
 ///
 /// # Errors
 /// Every problem found, each with its place.
-pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<Workload<DriveSpec>, ImportError> {
+pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<DriveSpec>, ImportError> {
     let missing = ProblemKind::NoWorkload {
         table: "drive",
         example: "torsion-module",
@@ -103,7 +103,7 @@ fn workload<T>(
     file: &MechanismFile,
     table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &mut Findings) -> Option<T>,
     missing: ProblemKind,
-) -> Result<Workload<T>, Vec<Finding>> {
+) -> Result<WorkloadFile<T>, Vec<Finding>> {
     let mut out = knowing(file, &Values::new());
     let mechanism = if file.link.is_empty() && file.joint.is_empty() {
         None
@@ -114,10 +114,10 @@ fn workload<T>(
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &mut out);
     let claims = claims(file, &mut out);
     if spec.is_none() && out.count() == 0 {
-        out.add(&[Step::Key("workload".to_owned())], missing);
+        out.add(&[DocumentStep::Key("workload".to_owned())], missing);
     }
     match spec {
-        Some(spec) if out.count() == 0 => Ok(Workload {
+        Some(spec) if out.count() == 0 => Ok(WorkloadFile {
             name: file.name.clone(),
             sources: file.sources.clone(),
             claims,

@@ -3,7 +3,7 @@
 use crate::file::read::workload::drive::regular;
 use crate::file::schema::{Coordinate, DriveEntry};
 use crate::file::write::quantity::{angle, number};
-use crate::model::drive::{DriveSpec, Push, Step};
+use crate::model::drive::{DriveSpec, ProgrammeStep, Push};
 
 /// The entry of a torsional drive, lengths in a unit of so many metres.
 pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
@@ -56,10 +56,13 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
 }
 
 /// The programme: as a number of swings where it is regular, else step by step.
-fn programme(entry: &mut DriveEntry, steps: &[Step]) {
-    let swings = steps.iter().filter(|s| matches!(s, Step::Swing(_))).count();
+fn programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
+    let swings = steps
+        .iter()
+        .filter(|s| matches!(s, ProgrammeStep::Swing(_)))
+        .count();
     let dwell = match steps {
-        [Step::Swing(_), Step::Dwell(time), ..] if *time > 0.0 => Some(*time),
+        [ProgrammeStep::Swing(_), ProgrammeStep::Dwell(time), ..] if *time > 0.0 => Some(*time),
         _ => None,
     };
     for (stepwise, word) in [(true, "stepwise"), (false, "reversing")] {
@@ -70,9 +73,9 @@ fn programme(entry: &mut DriveEntry, steps: &[Step]) {
             return;
         }
     }
-    let word = |s: &Step| match s {
-        Step::Swing(disc) => (disc + 1).to_string(),
-        Step::Dwell(time) => format!("wait {time}"),
+    let word = |s: &ProgrammeStep| match s {
+        ProgrammeStep::Swing(disc) => (disc + 1).to_string(),
+        ProgrammeStep::Dwell(time) => format!("wait {time}"),
     };
     entry.programme = Some(steps.iter().map(word).collect());
 }

@@ -1,7 +1,7 @@
 //! Numbers of the geometry, such that they say what they said where they were read.
 
 use crate::file::schema::Coordinate;
-use crate::geom::expr::{Digits, End, Expr, Written, half_of};
+use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
 use crate::model::rounded::ratio::doubt;
 use crate::model::rounded::{LONG_DIRECTION, LONG_LENGTH};
 use num_bigint::BigInt;
@@ -25,7 +25,7 @@ pub(super) fn ratio(e: &Expr) -> Coordinate {
 }
 
 fn is_long(decimal: &Expr, least: usize) -> bool {
-    matches!(decimal.written(), Written::Decimal(d) if d.significant >= least)
+    matches!(decimal.written(), WrittenNumber::Decimal(d) if d.significant >= least)
 }
 
 /// A number; a fraction that is exact is one where its decimal is `doubtful`.
@@ -34,7 +34,7 @@ fn written(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
         return Coordinate::Expression(e.to_string());
     };
     let written = e.written();
-    if matches!(written, Written::Stated(half) if half > 0.0) && is_chosen(&value) {
+    if matches!(written, WrittenNumber::Stated(half) if half > 0.0) && is_chosen(&value) {
         // As whole numbers they would be exact.
         return Coordinate::Expression(format!("{value}.00"));
     }
@@ -51,7 +51,7 @@ fn written(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
     let Ok(read) = Expr::from_f64(near) else {
         return Coordinate::Expression(e.to_string());
     };
-    let exact = matches!(written, Written::No) || written == Written::Stated(0.0);
+    let exact = matches!(written, WrittenNumber::No) || written == WrittenNumber::Stated(0.0);
     if exact && doubtful(&read) {
         return Coordinate::Expression(format!("{}/{}", value.numer(), value.denom()));
     }
@@ -68,8 +68,8 @@ fn is_chosen(value: &BigRational) -> bool {
 }
 
 /// A decimal whose last digit is 0, with all its digits.
-fn zeros(value: &BigRational, written: Written) -> Option<String> {
-    let Written::Decimal(
+fn zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
+    let WrittenNumber::Decimal(
         digits @ Digits {
             places,
             end: End::Zero,

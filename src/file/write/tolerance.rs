@@ -2,7 +2,7 @@
 
 use crate::file::schema::{Coordinate, ToleranceEntry};
 use crate::file::write::quantity::number;
-use crate::geom::expr::{Expr, Written};
+use crate::geom::expr::{Expr, WrittenNumber};
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::Mechanism;
 
@@ -43,7 +43,7 @@ fn short(x: f64) -> f64 {
 
 fn stated(e: &Expr) -> Option<f64> {
     match e.written() {
-        Written::Stated(half) => Some(half),
+        WrittenNumber::Stated(half) => Some(half),
         _ => None,
     }
 }
@@ -53,7 +53,7 @@ fn most<'e>(of: impl Iterator<Item = (&'e Expr, Option<f64>)>) -> Option<f64> {
     let mut count: Vec<(f64, usize)> = Vec::new();
     for (e, half) in of {
         match half {
-            None if e.written() == Written::No => {}
+            None if e.written() == WrittenNumber::No => {}
             None => return None,
             Some(half) => match count.iter_mut().find(|c| c.0.to_bits() == half.to_bits()) {
                 Some(c) => c.1 += 1,

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use super::error::ExactError;
 use super::quadratic::denested;
 use super::radical::{Radical, radical};
-use crate::geom::expr::{Expr, Function, Kind, PI};
+use crate::geom::expr::{Expr, Function, NodeKind, PI};
 
 /// A ring with the angles and roots of some expressions, under one consistent choice of roots.
 pub(crate) trait Target {
@@ -55,19 +55,19 @@ pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, Exac
         let at = |c: &Expr| memo.get(&c.id()).unwrap_or(&zero);
         let inverse = |x: &T::Number| target.inverse(x).ok_or_else(divides);
         let value = match e.kind() {
-            Kind::Rational(r) => target.rational(r).ok_or_else(divides)?,
-            Kind::Pi => target.rational(&PI).ok_or_else(divides)?,
-            Kind::Add(a, b) => target.sum(at(a), at(b)),
-            Kind::Sub(a, b) => target.difference(at(a), at(b)),
-            Kind::Mul(a, b) => target.product(at(a), at(b)),
-            Kind::Div(a, b) => target.product(at(a), &inverse(at(b))?),
-            Kind::Neg(a) => target.difference(&zero, at(a)),
-            Kind::Pow(a, n) => {
+            NodeKind::Rational(r) => target.rational(r).ok_or_else(divides)?,
+            NodeKind::Pi => target.rational(&PI).ok_or_else(divides)?,
+            NodeKind::Add(a, b) => target.sum(at(a), at(b)),
+            NodeKind::Sub(a, b) => target.difference(at(a), at(b)),
+            NodeKind::Mul(a, b) => target.product(at(a), at(b)),
+            NodeKind::Div(a, b) => target.product(at(a), &inverse(at(b))?),
+            NodeKind::Neg(a) => target.difference(&zero, at(a)),
+            NodeKind::Pow(a, n) => {
                 let power = target.power(at(a), n.unsigned_abs()).ok_or_else(divides)?;
                 if *n < 0 { inverse(&power)? } else { power }
             }
-            Kind::Sqrt(a) => sqrt(target, a, at(a))?,
-            Kind::Trig(function, k, n) => {
+            NodeKind::Sqrt(a) => sqrt(target, a, at(a))?,
+            NodeKind::Trig(function, k, n) => {
                 let [c, s] = target.twice_cos_sin(*k, *n).ok_or_else(|| outside(e))?;
                 let half = || {
                     let half = BigRational::new(1.into(), 2.into());

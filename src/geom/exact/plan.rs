@@ -10,7 +10,7 @@ use super::error::ExactError;
 use super::field::ExactField;
 use super::quadratic::denested;
 use super::radical::{Radical, TRIAL_LIMIT, factor, radical};
-use crate::geom::expr::{Expr, Kind, MAX_ANGLE_DENOMINATOR};
+use crate::geom::expr::{Expr, MAX_ANGLE_DENOMINATOR, NodeKind};
 use crate::linalg::modp::{Field, is_prime};
 
 /// Free square roots (of primes, or nested) whose primes are found by rejection, each halving the supply.
@@ -26,7 +26,7 @@ pub(crate) const MAX_FAILURES: usize = 32;
 
 /// What a prime has to provide.
 #[derive(Debug, Default)]
-pub(crate) struct Plan {
+pub(crate) struct PrimePlan {
     pub(crate) order: u64,
     /// Primes are taken 1 modulo this multiple of `order`.
     pub(crate) modulus: u64,
@@ -38,12 +38,12 @@ pub(crate) struct Plan {
     pub(crate) nested: Vec<Expr>,
 }
 
-impl Plan {
+impl PrimePlan {
     /// Classifies the roots and angles of some expressions.
-    pub(crate) fn new(exprs: &[&Expr]) -> Result<Plan, ExactError> {
-        let mut plan = Plan {
+    pub(crate) fn new(exprs: &[&Expr]) -> Result<PrimePlan, ExactError> {
+        let mut plan = PrimePlan {
             order: 4,
-            ..Plan::default()
+            ..PrimePlan::default()
         };
         let mut candidates = Vec::new();
         for e in exprs {
@@ -61,14 +61,14 @@ impl Plan {
     fn collect(&mut self, e: &Expr, candidates: &mut Vec<Expr>) -> Result<(), ExactError> {
         for node in e.post_order() {
             match node.kind() {
-                Kind::Trig(_, _, n) => {
+                NodeKind::Trig(_, _, n) => {
                     let lcm = u128::from(self.order).lcm(&u128::from(*n));
                     self.order = u64::try_from(lcm)
                         .ok()
                         .filter(|&l| l <= MAX_ANGLE_DENOMINATOR)
                         .ok_or(ExactError::AnglesTooFine)?;
                 }
-                Kind::Sqrt(inner) => {
+                NodeKind::Sqrt(inner) => {
                     if let Some(r) = inner.rational_ref() {
                         if !self.radicals.contains_key(r) {
                             self.radicals.insert(r.clone(), radical(r)?);

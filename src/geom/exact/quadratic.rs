@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::radical::radical;
-use crate::geom::expr::{Expr, Function, Kind, rational_sqrt};
+use crate::geom::expr::{Expr, Function, NodeKind, rational_sqrt};
 
 /// `u + v sqrt(d)` with `d` squarefree, or `d = 1` and `v = 0`.
 #[derive(Debug, Clone)]
@@ -123,13 +123,13 @@ fn quadratic(expr: &Expr) -> Option<Quadratic> {
     for e in expr.post_order() {
         let at = |c: &Expr| memo.get(&c.id());
         let value = match e.kind() {
-            Kind::Rational(r) => Quadratic::new(r.clone(), BigRational::zero(), BigInt::one())?,
-            Kind::Add(a, b) => at(a)?.add(at(b)?)?,
-            Kind::Sub(a, b) => at(a)?.add(&at(b)?.neg())?,
-            Kind::Mul(a, b) => at(a)?.mul(at(b)?)?,
-            Kind::Div(a, b) => at(a)?.mul(&at(b)?.inverse()?)?,
-            Kind::Neg(a) => at(a)?.neg(),
-            Kind::Pow(a, n) => {
+            NodeKind::Rational(r) => Quadratic::new(r.clone(), BigRational::zero(), BigInt::one())?,
+            NodeKind::Add(a, b) => at(a)?.add(at(b)?)?,
+            NodeKind::Sub(a, b) => at(a)?.add(&at(b)?.neg())?,
+            NodeKind::Mul(a, b) => at(a)?.mul(at(b)?)?,
+            NodeKind::Div(a, b) => at(a)?.mul(&at(b)?.inverse()?)?,
+            NodeKind::Neg(a) => at(a)?.neg(),
+            NodeKind::Pow(a, n) => {
                 let base = if *n < 0 {
                     at(a)?.inverse()?
                 } else {
@@ -142,19 +142,19 @@ fn quadratic(expr: &Expr) -> Option<Quadratic> {
                 }
                 product
             }
-            Kind::Sqrt(a) => {
+            NodeKind::Sqrt(a) => {
                 let (a, b, minus) = at(a)?.denest()?;
                 let (a, b) = (Quadratic::root(&a)?, Quadratic::root(&b)?);
                 a.add(&if minus { b.neg() } else { b })?
             }
-            Kind::Trig(Function::Cos, k, n) => Quadratic::cos(*k, *n)?,
+            NodeKind::Trig(Function::Cos, k, n) => Quadratic::cos(*k, *n)?,
             // sin x = cos(x - 1/4 turn)
-            Kind::Trig(Function::Sin, k, n) => {
+            NodeKind::Trig(Function::Sin, k, n) => {
                 let (k, n) = ((4 * k + 3 * n) % (4 * n), 4 * n);
                 let g = k.gcd(&n);
                 Quadratic::cos(k / g, n / g)?
             }
-            Kind::Trig(Function::Tan, ..) | Kind::Pi => return None,
+            NodeKind::Trig(Function::Tan, ..) | NodeKind::Pi => return None,
         };
         memo.insert(e.id(), value);
     }

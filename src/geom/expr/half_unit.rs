@@ -1,7 +1,7 @@
 //! How well a number is known, by how it was written or by what is said of it.
 
 use super::node::{Expr, Node};
-use super::written::{Digits, Written};
+use super::written::{Digits, WrittenNumber};
 use std::sync::Arc;
 
 impl Expr {
@@ -12,8 +12,8 @@ impl Expr {
     #[must_use]
     pub fn half_unit(&self) -> Option<f64> {
         match self.0.written {
-            Written::Decimal(digits) => Some(digits.half),
-            Written::Stated(half) if half > 0.0 => Some(half),
+            WrittenNumber::Decimal(digits) => Some(digits.half),
+            WrittenNumber::Stated(half) if half > 0.0 => Some(half),
             _ => None,
         }
     }
@@ -21,21 +21,21 @@ impl Expr {
     /// The same number, known to within `half` whatever its digits say; exact where `half` is 0. O(size of the number).
     #[must_use]
     pub fn with_half_unit(self, half: f64) -> Expr {
-        self.written_as(Written::Stated(half))
+        self.written_as(WrittenNumber::Stated(half))
     }
 
     /// Whether it was written as a whole number, without a point. O(1).
     #[must_use]
     pub fn is_written_whole(&self) -> bool {
-        self.0.written == Written::Whole
+        self.0.written == WrittenNumber::Whole
     }
 
-    pub(crate) fn written(&self) -> Written {
+    pub(crate) fn written(&self) -> WrittenNumber {
         self.0.written
     }
 
     /// The same number, written so.
-    pub(crate) fn written_as(mut self, written: Written) -> Expr {
+    pub(crate) fn written_as(mut self, written: WrittenNumber) -> Expr {
         if self.0.written == written {
             return self;
         }
@@ -54,12 +54,12 @@ impl Expr {
     /// The number times a factor that is exact, its digits worth that much more or less.
     pub(crate) fn scaled_as_written(&self, value: Expr, factor: f64) -> Expr {
         let written = match self.0.written {
-            Written::Decimal(digits) => Written::Decimal(Digits {
+            WrittenNumber::Decimal(digits) => WrittenNumber::Decimal(Digits {
                 half: digits.half * factor.abs(),
                 ..digits
             }),
-            Written::Stated(half) => Written::Stated(half * factor.abs()),
-            Written::No | Written::Whole => Written::No,
+            WrittenNumber::Stated(half) => WrittenNumber::Stated(half * factor.abs()),
+            WrittenNumber::No | WrittenNumber::Whole => WrittenNumber::No,
         };
         value.written_as(written)
     }

@@ -2,7 +2,7 @@
 
 use super::enclosure::Enclosure;
 use super::rational::PI;
-use super::written::Written;
+use super::written::WrittenNumber;
 use num_rational::BigRational;
 use std::sync::Arc;
 
@@ -12,12 +12,12 @@ use std::sync::Arc;
 pub struct Expr(pub(super) Arc<Node>);
 
 pub(super) struct Node {
-    pub(super) kind: Kind,
+    pub(super) kind: NodeKind,
     pub(super) enclosure: Enclosure,
     /// Leaves of the tree as written out, saturating.
     pub(super) size: u64,
     /// How it was written, which no value depends on.
-    pub(super) written: Written,
+    pub(super) written: WrittenNumber,
 }
 
 /// A trigonometric function of an angle in turns.
@@ -29,7 +29,7 @@ pub(crate) enum Function {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) enum Kind {
+pub(crate) enum NodeKind {
     Rational(BigRational),
     Add(Expr, Expr),
     Sub(Expr, Expr),
@@ -45,20 +45,22 @@ pub(crate) enum Kind {
 }
 
 impl Expr {
-    pub(super) fn new(kind: Kind) -> Expr {
+    pub(super) fn new(kind: NodeKind) -> Expr {
         let enclosure = match &kind {
-            Kind::Rational(r) => Enclosure::rational(r),
-            Kind::Pi => Enclosure::rational(&PI),
-            Kind::Add(a, b) => a.0.enclosure.add(&b.0.enclosure),
-            Kind::Sub(a, b) => a.0.enclosure.add(&b.0.enclosure.neg()),
-            Kind::Mul(a, b) => a.0.enclosure.mul(&b.0.enclosure),
-            Kind::Div(a, b) => a.0.enclosure.div(&b.0.enclosure),
-            Kind::Neg(a) => a.0.enclosure.neg(),
-            Kind::Pow(a, n) => a.0.enclosure.pow(*n),
-            Kind::Sqrt(a) => a.0.enclosure.sqrt(),
-            Kind::Trig(Function::Cos, k, n) => Enclosure::cos(*k, *n),
-            Kind::Trig(Function::Sin, k, n) => Enclosure::sin(*k, *n),
-            Kind::Trig(Function::Tan, k, n) => Enclosure::sin(*k, *n).div(&Enclosure::cos(*k, *n)),
+            NodeKind::Rational(r) => Enclosure::rational(r),
+            NodeKind::Pi => Enclosure::rational(&PI),
+            NodeKind::Add(a, b) => a.0.enclosure.add(&b.0.enclosure),
+            NodeKind::Sub(a, b) => a.0.enclosure.add(&b.0.enclosure.neg()),
+            NodeKind::Mul(a, b) => a.0.enclosure.mul(&b.0.enclosure),
+            NodeKind::Div(a, b) => a.0.enclosure.div(&b.0.enclosure),
+            NodeKind::Neg(a) => a.0.enclosure.neg(),
+            NodeKind::Pow(a, n) => a.0.enclosure.pow(*n),
+            NodeKind::Sqrt(a) => a.0.enclosure.sqrt(),
+            NodeKind::Trig(Function::Cos, k, n) => Enclosure::cos(*k, *n),
+            NodeKind::Trig(Function::Sin, k, n) => Enclosure::sin(*k, *n),
+            NodeKind::Trig(Function::Tan, k, n) => {
+                Enclosure::sin(*k, *n).div(&Enclosure::cos(*k, *n))
+            }
         };
         let size = kind
             .children()
@@ -69,33 +71,38 @@ impl Expr {
             kind,
             enclosure,
             size,
-            written: Written::No,
+            written: WrittenNumber::No,
         }))
     }
 }
 
-impl Kind {
+impl NodeKind {
     pub(super) fn children(&self) -> [Option<&Expr>; 2] {
         match self {
-            Kind::Rational(_) | Kind::Trig(..) | Kind::Pi => [None, None],
-            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => {
-                [Some(a), Some(b)]
-            }
-            Kind::Neg(a) | Kind::Pow(a, _) | Kind::Sqrt(a) => [Some(a), None],
+            NodeKind::Rational(_) | NodeKind::Trig(..) | NodeKind::Pi => [None, None],
+            NodeKind::Add(a, b)
+            | NodeKind::Sub(a, b)
+            | NodeKind::Mul(a, b)
+            | NodeKind::Div(a, b) => [Some(a), Some(b)],
+            NodeKind::Neg(a) | NodeKind::Pow(a, _) | NodeKind::Sqrt(a) => [Some(a), None],
         }
     }
 
     /// Moves the children out, leaving a leaf.
     fn take_children(&mut self, into: &mut Vec<Expr>) {
-        if matches!(self, Kind::Rational(_) | Kind::Trig(..) | Kind::Pi) {
+        if matches!(
+            self,
+            NodeKind::Rational(_) | NodeKind::Trig(..) | NodeKind::Pi
+        ) {
             return;
         }
-        match std::mem::replace(self, Kind::Trig(Function::Cos, 0, 1)) {
-            Kind::Rational(_) | Kind::Trig(..) | Kind::Pi => {}
-            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Mul(a, b) | Kind::Div(a, b) => {
-                into.extend([a, b])
-            }
-            Kind::Neg(a) | Kind::Pow(a, _) | Kind::Sqrt(a) => into.push(a),
+        match std::mem::replace(self, NodeKind::Trig(Function::Cos, 0, 1)) {
+            NodeKind::Rational(_) | NodeKind::Trig(..) | NodeKind::Pi => {}
+            NodeKind::Add(a, b)
+            | NodeKind::Sub(a, b)
+            | NodeKind::Mul(a, b)
+            | NodeKind::Div(a, b) => into.extend([a, b]),
+            NodeKind::Neg(a) | NodeKind::Pow(a, _) | NodeKind::Sqrt(a) => into.push(a),
         }
     }
 }

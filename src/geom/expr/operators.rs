@@ -1,8 +1,8 @@
 //! Sums, differences, products and negatives, folded where they are rational.
 
 use super::Expr;
-use super::node::Kind;
-use super::written::Written;
+use super::node::NodeKind;
+use super::written::WrittenNumber;
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -15,7 +15,7 @@ impl Add for &Expr {
         match (self.is_zero_rational(), other.is_zero_rational()) {
             (true, _) => other.clone(),
             (_, true) => self.clone(),
-            _ => Expr::new(Kind::Add(self.clone(), other.clone())),
+            _ => Expr::new(NodeKind::Add(self.clone(), other.clone())),
         }
     }
 }
@@ -29,7 +29,7 @@ impl Sub for &Expr {
         match (self.is_zero_rational(), other.is_zero_rational()) {
             (true, _) => -other,
             (_, true) => self.clone(),
-            _ => Expr::new(Kind::Sub(self.clone(), other.clone())),
+            _ => Expr::new(NodeKind::Sub(self.clone(), other.clone())),
         }
     }
 }
@@ -53,7 +53,7 @@ impl Mul for &Expr {
                 }
             }
         }
-        Expr::new(Kind::Mul(self.clone(), other.clone()))
+        Expr::new(NodeKind::Mul(self.clone(), other.clone()))
     }
 }
 
@@ -61,12 +61,12 @@ impl Neg for &Expr {
     type Output = Expr;
     fn neg(self) -> Expr {
         let negative = match &self.0.kind {
-            Kind::Rational(r) => Expr::rational(-r),
-            Kind::Neg(a) => a.clone(),
-            _ => Expr::new(Kind::Neg(self.clone())),
+            NodeKind::Rational(r) => Expr::rational(-r),
+            NodeKind::Neg(a) => a.clone(),
+            _ => Expr::new(NodeKind::Neg(self.clone())),
         };
         match self.written() {
-            Written::No => negative,
+            WrittenNumber::No => negative,
             written => negative.written_as(written),
         }
     }

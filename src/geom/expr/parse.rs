@@ -1,9 +1,9 @@
 //! From text to an expression: a recursive descent with limits on size and depth.
 
 use super::error::ExprError;
-use super::node::{Expr, Function, Kind};
+use super::node::{Expr, Function, NodeKind};
 use super::rational::{MAX_BITS, bits, decimal, fraction};
-use super::written::{Digits, Written};
+use super::written::{Digits, WrittenNumber};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -277,13 +277,13 @@ impl<'a> Parser<'a, '_> {
             _ if n == 1 => base,
             Some(r) => {
                 // Checked on the enclosure first: the exact power of a large number is the costly part.
-                finite(Expr::new(Kind::Pow(base.clone(), n)), at)?;
+                finite(Expr::new(NodeKind::Pow(base.clone(), n)), at)?;
                 if bits(r).saturating_mul(n.unsigned_abs()) > MAX_BITS {
                     return Err(ExprError::TooManyDigits { at });
                 }
                 Expr::rational(num_traits::Pow::pow(r, n as i32))
             }
-            None => Expr::new(Kind::Pow(base, n)),
+            None => Expr::new(NodeKind::Pow(base, n)),
         };
         Ok(Value::Number(finite(result, at)?))
     }
@@ -385,7 +385,7 @@ impl<'a> Parser<'a, '_> {
         }
         let value = decimal(whole, fraction, exponent).ok_or(ExprError::BadNumber { at })?;
         let digits = Digits::of(whole, fraction, exponent, point);
-        let written = digits.map_or(Written::Whole, Written::Decimal);
+        let written = digits.map_or(WrittenNumber::Whole, WrittenNumber::Decimal);
         finite(Expr::rational(value).written_as(written), at)
     }
 

@@ -1,7 +1,7 @@
 //! From an expression to text that reads back as the same number.
 
 use super::Expr;
-use super::node::{Function, Kind};
+use super::node::{Function, NodeKind};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -77,7 +77,7 @@ impl fmt::Display for Expr {
             };
             // In reverse: the stack is written from its end.
             let (strength, mut parts) = match &e.0.kind {
-                Kind::Rational(r) => {
+                NodeKind::Rational(r) => {
                     let (text, strength) = show_rational(r);
                     if strength < least {
                         write!(f, "({text})")?
@@ -86,7 +86,7 @@ impl fmt::Display for Expr {
                     }
                     continue;
                 }
-                Kind::Trig(function, k, n) => {
+                NodeKind::Trig(function, k, n) => {
                     let name = match function {
                         Function::Cos => "cos",
                         Function::Sin => "sin",
@@ -101,17 +101,17 @@ impl fmt::Display for Expr {
                     }
                     continue;
                 }
-                Kind::Pi => {
+                NodeKind::Pi => {
                     f.write_str("pi")?;
                     continue;
                 }
-                Kind::Add(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("+"), Tree(a, SUM)]),
-                Kind::Sub(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("-"), Tree(a, SUM)]),
-                Kind::Mul(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("*"), Tree(a, PRODUCT)]),
-                Kind::Div(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("/"), Tree(a, PRODUCT)]),
-                Kind::Neg(a) => (UNARY, vec![Tree(a, UNARY), Text("-")]),
-                Kind::Pow(a, n) => (UNARY + 1, vec![Power(*n), Tree(a, ATOM)]),
-                Kind::Sqrt(a) => (ATOM, vec![Text(")"), Tree(a, 0), Text("sqrt(")]),
+                NodeKind::Add(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("+"), Tree(a, SUM)]),
+                NodeKind::Sub(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("-"), Tree(a, SUM)]),
+                NodeKind::Mul(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("*"), Tree(a, PRODUCT)]),
+                NodeKind::Div(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("/"), Tree(a, PRODUCT)]),
+                NodeKind::Neg(a) => (UNARY, vec![Tree(a, UNARY), Text("-")]),
+                NodeKind::Pow(a, n) => (UNARY + 1, vec![Power(*n), Tree(a, ATOM)]),
+                NodeKind::Sqrt(a) => (ATOM, vec![Text(")"), Tree(a, 0), Text("sqrt(")]),
             };
             if strength < least {
                 tasks.push(Text(")"));

@@ -2,7 +2,7 @@
 
 /// How a number was written; arithmetic makes numbers that were not.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) enum Written {
+pub(crate) enum WrittenNumber {
     /// As an expression, or not at all: exact.
     #[default]
     No,

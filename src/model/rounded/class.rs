@@ -1,7 +1,7 @@
 //! What the decimals of one kind, lengths or directions, say together of how they were written.
 
 use super::long::{LONG_DIRECTION, LONG_LENGTH};
-use crate::geom::expr::{Digits, End, Expr, Written, half_of};
+use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
 use num_traits::One;
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ const FEW: usize = 3;
 
 /// What a number is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Kind {
+pub(super) enum NumberKind {
     /// A length.
     Length,
     /// A component of a direction.
@@ -21,7 +21,7 @@ pub(super) enum Kind {
 
 /// The numbers of a kind as they are written, equal ones once.
 #[derive(Debug, Default)]
-pub(super) struct Class {
+pub(super) struct NumberClass {
     /// Places of the decimals that are long, and of all that have digits behind the point, by size of the number.
     long: BTreeMap<u64, i32>,
     decimals: BTreeMap<u64, i32>,
@@ -33,7 +33,7 @@ pub(super) struct Class {
     most: Option<f64>,
 }
 
-impl Class {
+impl NumberClass {
     /// Takes in a direction: where it is not chosen, its decimals count as long however few digits they have.
     pub(super) fn see_direction(&mut self, v: &[Expr]) {
         let least = if is_rounded(v) { 1 } else { LONG_DIRECTION };
@@ -41,10 +41,10 @@ impl Class {
     }
 
     /// Takes in a number.
-    pub(super) fn see(&mut self, e: &Expr, kind: Kind) {
+    pub(super) fn see(&mut self, e: &Expr, kind: NumberKind) {
         let least = match kind {
-            Kind::Length => LONG_LENGTH,
-            Kind::Direction => LONG_DIRECTION,
+            NumberKind::Length => LONG_LENGTH,
+            NumberKind::Direction => LONG_DIRECTION,
         };
         self.see_from(e, least);
     }
@@ -53,12 +53,12 @@ impl Class {
     fn see_from(&mut self, e: &Expr, least: usize) {
         let size = e.to_f64().abs();
         let digits = match e.written() {
-            Written::Decimal(digits) if digits.end != End::Float => digits,
-            Written::Decimal(_) | Written::Whole => {
+            WrittenNumber::Decimal(digits) if digits.end != End::Float => digits,
+            WrittenNumber::Decimal(_) | WrittenNumber::Whole => {
                 self.whole |= size != 0.0;
                 return;
             }
-            Written::No | Written::Stated(_) => return,
+            WrittenNumber::No | WrittenNumber::Stated(_) => return,
         };
         self.zeros |= digits.end == End::Zero;
         // Of equal numbers the one with the most digits says most.
@@ -88,7 +88,7 @@ impl Class {
     }
 
     /// The same, when all numbers are taken in.
-    pub(super) fn counted(mut self) -> Class {
+    pub(super) fn counted(mut self) -> NumberClass {
         self.most = self.count();
         self
     }
@@ -132,13 +132,15 @@ impl Class {
             _ => 0.0,
         };
         match e.written() {
-            Written::No => 0.0,
-            Written::Stated(half) => half,
-            Written::Whole => whole(1.0),
-            Written::Decimal(digits) if digits.end == End::Float && self.decimals.is_empty() => {
+            WrittenNumber::No => 0.0,
+            WrittenNumber::Stated(half) => half,
+            WrittenNumber::Whole => whole(1.0),
+            WrittenNumber::Decimal(digits)
+                if digits.end == End::Float && self.decimals.is_empty() =>
+            {
                 whole(digits.factor())
             }
-            Written::Decimal(digits) => self.decimal(digits),
+            WrittenNumber::Decimal(digits) => self.decimal(digits),
         }
     }
 
@@ -149,10 +151,10 @@ impl Class {
         let finest = v.iter().filter_map(digits_of);
         let finest = finest.map(|d| d.half).fold(f64::INFINITY, f64::min);
         let half = |e: &Expr| match e.written() {
-            Written::No | Written::Whole => 0.0,
-            Written::Stated(half) => half,
-            Written::Decimal(_) if chosen => 0.0,
-            Written::Decimal(digits) => {
+            WrittenNumber::No | WrittenNumber::Whole => 0.0,
+            WrittenNumber::Stated(half) => half,
+            WrittenNumber::Decimal(_) if chosen => 0.0,
+            WrittenNumber::Decimal(digits) => {
                 let half = self.decimal(digits);
                 if self.zeros { half } else { half.min(finest) }
             }
@@ -163,7 +165,7 @@ impl Class {
 
 fn digits_of(e: &Expr) -> Option<Digits> {
     match e.written() {
-        Written::Decimal(digits) if digits.end != End::Float => Some(digits),
+        WrittenNumber::Decimal(digits) if digits.end != End::Float => Some(digits),
         _ => None,
     }
 }
@@ -181,7 +183,7 @@ fn is_chosen(v: &[Expr]) -> bool {
         return false;
     }
     // Who writes sqrt(3)/2 beside a half knows both.
-    let calculated = |e: &Expr| e.written() == Written::No && e.to_f64() != 0.0;
+    let calculated = |e: &Expr| e.written() == WrittenNumber::No && e.to_f64() != 0.0;
     if v.iter().any(calculated) {
         return true;
     }

@@ -1,6 +1,6 @@
 //! Ratios that are written as decimals, and the fractions that are meant.
 
-use crate::geom::expr::{End, Expr, Written};
+use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::model::coupling::Coupling;
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -38,7 +38,7 @@ impl Doubt {
 /// O(digits) divisions.
 #[must_use]
 pub fn doubt(ratio: &Expr) -> Option<Doubt> {
-    let Written::Decimal(digits) = ratio.written() else {
+    let WrittenNumber::Decimal(digits) = ratio.written() else {
         return None;
     };
     let value = ratio.rational_ref().filter(|_| digits.end != End::Float)?;

@@ -1,8 +1,8 @@
 //! How well numbers are known that are calculated from those of another file.
 
-use super::class::{Class, Kind};
+use super::class::{NumberClass, NumberKind};
 use super::long::{LONG_DIRECTION, LONG_LENGTH};
-use crate::geom::expr::{End, Expr, Written};
+use crate::geom::expr::{End, Expr, WrittenNumber};
 
 /// The numbers that places are calculated from, as they are written.
 #[derive(Debug, Default)]
@@ -30,24 +30,24 @@ impl Sources {
     /// The largest half units of long decimals, each as [`uncertainties`](super::uncertainties) takes it; none where there is
     /// none.
     pub(crate) fn largest(&self) -> Option<Largest> {
-        let (mut lengths, mut directions) = (Class::default(), Class::default());
+        let (mut lengths, mut directions) = (NumberClass::default(), NumberClass::default());
         self.lengths
             .iter()
-            .for_each(|e| lengths.see(e, Kind::Length));
+            .for_each(|e| lengths.see(e, NumberKind::Length));
         self.directions
             .iter()
             .for_each(|v| directions.see_direction(v));
         self.angles
             .iter()
-            .for_each(|e| directions.see(e, Kind::Direction));
-        let [lengths, directions] = [lengths, directions].map(Class::counted);
+            .for_each(|e| directions.see(e, NumberKind::Direction));
+        let [lengths, directions] = [lengths, directions].map(NumberClass::counted);
         if !lengths.is_long() && !directions.is_long() {
             return None;
         }
         let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, f64::max);
         // Short ones are chosen.
-        let long = |class: &Class, e: &Expr, least: usize| match e.written() {
-            Written::Decimal(d) if d.significant >= least && d.end != End::Float => {
+        let long = |class: &NumberClass, e: &Expr, least: usize| match e.written() {
+            WrittenNumber::Decimal(d) if d.significant >= least && d.end != End::Float => {
                 class.decimal(d)
             }
             _ => 0.0,

@@ -1,8 +1,8 @@
 //! How well each number of a mechanism is known, by its last digit or by what is stated.
 
-use super::class::{Class, Kind};
+use super::class::{NumberClass, NumberKind};
 use super::ratio::doubt_of;
-use crate::geom::expr::{End, Expr, Written};
+use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::model::coupling::Coupling;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Mode};
 use std::collections::BTreeMap;
@@ -61,14 +61,14 @@ pub struct Uncertainties {
 
 /// What the numbers of a mechanism say together.
 struct Reading {
-    lengths: Class,
-    directions: Class,
+    lengths: NumberClass,
+    directions: NumberClass,
     /// Whether any decimal is long, or any uncertainty stated.
     rounded: bool,
     /// Whether the file is turned in space: most axes of its joints are decimals.
     turned: bool,
     /// Indices of numbers by kind and size.
-    seen: BTreeMap<(Kind, u64), usize>,
+    seen: BTreeMap<(NumberKind, u64), usize>,
     distinct: [usize; 2],
 }
 
@@ -109,10 +109,10 @@ pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
         out.option_frames.push(offered.collect());
     }
     let points = mechanism.points.iter();
-    let points = points.map(|p| reading.vector(&p.point, Kind::Length).0);
+    let points = points.map(|p| reading.vector(&p.point, NumberKind::Length).0);
     out.points = points.collect();
     if let Mode::Planar { normal } = &mechanism.mode {
-        out.normal = reading.vector(normal, Kind::Direction).0;
+        out.normal = reading.vector(normal, NumberKind::Direction).0;
     }
     out.distinct = reading.distinct;
     Some(out)
@@ -121,9 +121,9 @@ pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
 /// Whether a number is whole as it is written.
 fn is_whole(e: &Expr) -> bool {
     match e.written() {
-        Written::Whole => true,
-        Written::Decimal(digits) => digits.end == End::Float,
-        Written::No | Written::Stated(_) => false,
+        WrittenNumber::Whole => true,
+        WrittenNumber::Decimal(digits) => digits.end == End::Float,
+        WrittenNumber::No | WrittenNumber::Stated(_) => false,
     }
 }
 
@@ -138,33 +138,33 @@ fn is_turned(mechanism: &Mechanism) -> bool {
 
 impl Reading {
     fn of(mechanism: &Mechanism) -> Reading {
-        let [mut lengths, mut directions] = [Class::default(), Class::default()];
+        let [mut lengths, mut directions] = [NumberClass::default(), NumberClass::default()];
         let mut stated = false;
-        let mut see = |v: &[Expr], kind: Kind| {
-            let says = |e: &Expr| matches!(e.written(), Written::Stated(half) if half > 0.0);
+        let mut see = |v: &[Expr], kind: NumberKind| {
+            let says = |e: &Expr| matches!(e.written(), WrittenNumber::Stated(half) if half > 0.0);
             stated |= v.iter().any(says);
             match kind {
-                Kind::Length => v.iter().for_each(|e| lengths.see(e, kind)),
-                Kind::Direction => directions.see_direction(v),
+                NumberKind::Length => v.iter().for_each(|e| lengths.see(e, kind)),
+                NumberKind::Direction => directions.see_direction(v),
             }
         };
         let own = mechanism.joints.iter().map(|j| &j.frame);
         let offered = mechanism.joints.iter().flat_map(|j| j.offered());
         for frame in own.chain(offered.map(|o| &o.frame)) {
-            see(&frame.point, Kind::Length);
-            see(&frame.axis, Kind::Direction);
-            see(&frame.reference, Kind::Direction);
+            see(&frame.point, NumberKind::Length);
+            see(&frame.axis, NumberKind::Direction);
+            see(&frame.reference, NumberKind::Direction);
             if !is_whole(&frame.pitch) {
-                see(std::slice::from_ref(&frame.pitch), Kind::Length);
+                see(std::slice::from_ref(&frame.pitch), NumberKind::Length);
             }
         }
         for p in &mechanism.points {
-            see(&p.point, Kind::Length);
+            see(&p.point, NumberKind::Length);
         }
         if let Mode::Planar { normal } = &mechanism.mode {
-            see(normal, Kind::Direction);
+            see(normal, NumberKind::Direction);
         }
-        let [lengths, directions] = [lengths, directions].map(Class::counted);
+        let [lengths, directions] = [lengths, directions].map(NumberClass::counted);
         let rounded = stated || lengths.is_long() || directions.is_long();
         Reading {
             turned: directions.is_long() && is_turned(mechanism),
@@ -189,9 +189,9 @@ impl Reading {
 
     fn frame(&mut self, f: &Frame) -> (FrameUncertainty, FrameNumbers) {
         let [point, axis, reference] = [
-            (&f.point, Kind::Length),
-            (&f.axis, Kind::Direction),
-            (&f.reference, Kind::Direction),
+            (&f.point, NumberKind::Length),
+            (&f.axis, NumberKind::Direction),
+            (&f.reference, NumberKind::Direction),
         ]
         .map(|(v, kind)| self.vector(v, kind));
         let of = FrameUncertainty {
@@ -220,11 +220,11 @@ impl Reading {
         self.lengths.length(e, self.turned)
     }
 
-    fn vector(&mut self, v: &[Expr; 3], kind: Kind) -> ([f64; 3], [Option<usize>; 3]) {
+    fn vector(&mut self, v: &[Expr; 3], kind: NumberKind) -> ([f64; 3], [Option<usize>; 3]) {
         let halves = match kind {
             _ if !self.rounded => [0.0; 3],
-            Kind::Length => v.each_ref().map(|e| self.length(e)),
-            Kind::Direction => {
+            NumberKind::Length => v.each_ref().map(|e| self.length(e)),
+            NumberKind::Direction => {
                 let of = self.directions.direction(v);
                 [0, 1, 2].map(|i| of.get(i).copied().unwrap_or(0.0))
             }

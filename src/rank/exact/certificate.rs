@@ -96,7 +96,7 @@ pub fn certify(mechanism: &Mechanism, state: StateId) -> Result<Certificate, NoC
 ///
 /// # Complexity
 /// As [`certify_matrix`].
-pub fn certify_within(
+pub(crate) fn certify_within(
     mechanism: &Mechanism,
     state: StateId,
     budget: Budget,

@@ -60,7 +60,7 @@ impl Sets {
 
 /// What is known before any arithmetic. A coupling takes part as one more contour, of whose rows all but the first are
 /// zeros.
-pub(in crate::rank) struct Plan {
+pub(in crate::rank) struct EliminationPlan {
     /// Per joint, where its columns begin and end.
     columns_of: Vec<(usize, usize)>,
     /// Per joint, where its contours begin in `passes`; one more at the end.
@@ -75,8 +75,8 @@ pub(in crate::rank) struct Plan {
     pub(in crate::rank) neighbours: Sets,
 }
 
-impl Plan {
-    pub(in crate::rank) fn new(closure: &Closure<Residue>) -> Plan {
+impl EliminationPlan {
+    pub(in crate::rank) fn new(closure: &Closure<Residue>) -> EliminationPlan {
         let (k, joints) = (
             closure.contours.len() + closure.couplings.len(),
             closure.columns.last().map_or(0, |c| c.joint.index() + 1),
@@ -128,7 +128,7 @@ impl Plan {
             }
         }
         let (order, place) = fewest_neighbours_first(k, &mut neighbours);
-        Plan {
+        EliminationPlan {
             columns_of,
             passes_from,
             passes,

@@ -19,7 +19,7 @@ use crate::geom::exact::ExactField;
 use crate::linalg::echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::exact::elimination_order::Plan;
+use crate::rank::exact::elimination_order::EliminationPlan;
 use crate::rank::exact::field::field_of;
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 
@@ -32,7 +32,7 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Qu
 /// [`rank_dense`].
 #[must_use]
 pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
-    let plan = Plan::new(closure);
+    let plan = EliminationPlan::new(closure);
     let mut work = Work {
         field: exact.field(),
         plan: &plan,
@@ -72,7 +72,7 @@ struct Rest {
 
 struct Work<'a> {
     field: Field,
-    plan: &'a Plan,
+    plan: &'a EliminationPlan,
     rest: Vec<Rest>,
     /// The columns of all rests.
     left: Vec<Residue>,

@@ -154,7 +154,7 @@ pub enum Settled {
 
 /// The inverse of the product of the primes so far, in a field of another prime. O(primes).
 #[must_use]
-pub fn inverse_of(modulus: &Modulus, field: Field) -> Option<Residue> {
+pub(crate) fn inverse_of(modulus: &Modulus, field: Field) -> Option<Residue> {
     let residue = field.from_bigint(&modulus.product);
     (residue != 0).then(|| field.inv(residue))
 }

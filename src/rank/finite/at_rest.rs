@@ -17,7 +17,7 @@ use crate::model::mechanism::Mechanism;
 /// # Complexity
 /// One elimination of J by rows, O((6k)² f).
 #[must_use]
-pub fn lock_resting(
+pub(crate) fn lock_resting(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,

@@ -27,17 +27,17 @@ type Twist = Vec<Residue>;
 
 /// What passes for a joint: a manifold of displacements.
 #[derive(Debug, Clone)]
-struct Part {
+struct BondPart {
     /// Its twists in this pose, a basis.
     span: Vec<Twist>,
     /// A basis of the algebra of a group that holds all its displacements.
     within: Vec<Twist>,
 }
 
-impl Part {
+impl BondPart {
     /// All displacements of a group.
-    fn group(basis: Vec<Twist>) -> Part {
-        Part {
+    fn group(basis: Vec<Twist>) -> BondPart {
+        BondPart {
             span: basis.clone(),
             within: basis,
         }
@@ -52,7 +52,7 @@ impl Part {
 #[derive(Debug, Clone)]
 struct Chain {
     ends: [LinkId; 2],
-    parts: Vec<Part>,
+    parts: Vec<BondPart>,
 }
 
 impl Chain {
@@ -95,7 +95,7 @@ pub fn mobility(
             ends: mechanism.joints[j].links,
             parts: passed
                 .into_iter()
-                .map(|(_, t)| Part::group(vec![t]))
+                .map(|(_, t)| BondPart::group(vec![t]))
                 .collect(),
         });
     }
@@ -170,7 +170,7 @@ impl Bonds<'_> {
                     };
                     let all: usize = part.iter().map(|p| p.span.len()).sum();
                     self.mobility += all - group.len();
-                    let mut parts = vec![Part::group(group)];
+                    let mut parts = vec![BondPart::group(group)];
                     parts.extend_from_slice(rest);
                     if !closed {
                         parts.rotate_right(from);
@@ -186,7 +186,7 @@ impl Bonds<'_> {
     /// A closed chain of two groups moves in what they have in common, one of a single group not at all.
     fn close(&mut self) -> bool {
         let Some(c) = self.chains.iter().position(|c| {
-            c.is_closed() && c.parts.len() <= 2 && c.parts.iter().all(Part::is_group)
+            c.is_closed() && c.parts.len() <= 2 && c.parts.iter().all(BondPart::is_group)
         }) else {
             return false;
         };
@@ -199,8 +199,9 @@ impl Bonds<'_> {
 
     /// Two single groups between the same links let them move in what they have in common.
     fn side_by_side(&mut self) -> bool {
-        let single =
-            |c: &Chain| c.parts.len() <= 1 && !c.is_closed() && c.parts.iter().all(Part::is_group);
+        let single = |c: &Chain| {
+            c.parts.len() <= 1 && !c.is_closed() && c.parts.iter().all(BondPart::is_group)
+        };
         for b in 0..self.chains.len() {
             for a in 0..b {
                 let (x, y) = (&self.chains[a], &self.chains[b]);
@@ -209,7 +210,7 @@ impl Bonds<'_> {
                     continue;
                 }
                 let parts = match (&x.parts[..], &y.parts[..]) {
-                    ([a], [b]) => vec![Part::group(common(self.exact, &a.span, &b.span))],
+                    ([a], [b]) => vec![BondPart::group(common(self.exact, &a.span, &b.span))],
                     _ => Vec::new(),
                 };
                 self.chains[a].parts = parts;
@@ -221,7 +222,7 @@ impl Bonds<'_> {
     }
 
     /// The algebra that some parts span together, where that is one and holds all they do.
-    fn spanned(&self, parts: &[Part]) -> Option<Vec<Twist>> {
+    fn spanned(&self, parts: &[BondPart]) -> Option<Vec<Twist>> {
         let mut span = Echelon::new(self.exact.field());
         let mut basis: Vec<&Twist> = Vec::new();
         for t in parts.iter().flat_map(|p| &p.span) {
@@ -229,7 +230,7 @@ impl Bonds<'_> {
                 basis.push(t);
             }
         }
-        let inside = |p: &Part| p.within.iter().all(|t| span.contains(t));
+        let inside = |p: &BondPart| p.within.iter().all(|t| span.contains(t));
         let group = parts.iter().all(inside) && self.is_algebra(&basis);
         group.then(|| basis.into_iter().cloned().collect())
     }

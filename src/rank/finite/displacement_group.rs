@@ -61,7 +61,7 @@ pub(in crate::rank) fn spatial_twists(
 ///
 /// # Complexity
 /// At most 15 brackets of at most 6 independent twists.
-pub fn group_dimension(
+pub(crate) fn group_dimension(
     exact: &ExactField,
     mechanism: &Mechanism,
     contour: &Contour,
@@ -143,7 +143,7 @@ fn algebra(
 
 /// What kind of displacements a group holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum GroupKind {
     /// Nothing, or slides only.
     Translation,
     /// Turns about one axis, and slides along it at most.
@@ -160,7 +160,7 @@ pub enum Kind {
 
 /// The group that all joints of a state move in together.
 #[derive(Debug, Clone)]
-pub struct Group {
+pub struct DisplacementGroup {
     dimension: usize,
     turns: usize,
     slides: usize,
@@ -171,7 +171,7 @@ pub struct Group {
     pivots: Vec<usize>,
 }
 
-impl Group {
+impl DisplacementGroup {
     /// J with one row per dimension of the group and contour: the other components of its twists are combinations of
     /// these, the same for every column, so the rank is the same.
     #[must_use]
@@ -198,14 +198,14 @@ impl Group {
 
     /// Its kind.
     #[must_use]
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> GroupKind {
         match (self.turns, self.slides) {
-            (0, _) => Kind::Translation,
-            (1, 0) if !self.screws => Kind::Rotation,
-            (1, 2) if self.across && !self.screws => Kind::Planar,
-            (1, 3) => Kind::Schoenflies,
-            (3, 0) => Kind::Spherical,
-            _ => Kind::Other,
+            (0, _) => GroupKind::Translation,
+            (1, 0) if !self.screws => GroupKind::Rotation,
+            (1, 2) if self.across && !self.screws => GroupKind::Planar,
+            (1, 3) => GroupKind::Schoenflies,
+            (3, 0) => GroupKind::Spherical,
+            _ => GroupKind::Other,
         }
     }
 
@@ -213,21 +213,23 @@ impl Group {
     #[must_use]
     pub fn name(&self) -> String {
         match self.kind() {
-            Kind::Translation if self.slides == 0 => "no motion (0)".to_owned(),
-            Kind::Translation if self.slides == 3 => "the group of translations (3)".to_owned(),
-            Kind::Translation => format!("a group of translations ({})", self.dimension),
-            Kind::Rotation => "the turns about one axis (1)".to_owned(),
-            Kind::Planar => "one plane (3)".to_owned(),
-            Kind::Spherical => "the turns about one point (3)".to_owned(),
-            Kind::Schoenflies => "a Schoenflies group (4)".to_owned(),
-            Kind::Other if self.screws && self.slides == 0 => "one screw (1)".to_owned(),
-            Kind::Other if self.screws => {
+            GroupKind::Translation if self.slides == 0 => "no motion (0)".to_owned(),
+            GroupKind::Translation if self.slides == 3 => {
+                "the group of translations (3)".to_owned()
+            }
+            GroupKind::Translation => format!("a group of translations ({})", self.dimension),
+            GroupKind::Rotation => "the turns about one axis (1)".to_owned(),
+            GroupKind::Planar => "one plane (3)".to_owned(),
+            GroupKind::Spherical => "the turns about one point (3)".to_owned(),
+            GroupKind::Schoenflies => "a Schoenflies group (4)".to_owned(),
+            GroupKind::Other if self.screws && self.slides == 0 => "one screw (1)".to_owned(),
+            GroupKind::Other if self.screws => {
                 format!(
                     "screws of one pitch and slides across them ({})",
                     self.dimension
                 )
             }
-            Kind::Other => format!("a group of dimension {}", self.dimension),
+            GroupKind::Other => format!("a group of dimension {}", self.dimension),
         }
     }
 }
@@ -241,9 +243,9 @@ pub fn whole_group(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: StateId,
-) -> Result<Group, ExactError> {
+) -> Result<DisplacementGroup, ExactError> {
     if let Mode::Planar { .. } = &mechanism.mode {
-        return Ok(Group {
+        return Ok(DisplacementGroup {
             dimension: 3,
             turns: 1,
             slides: 2,
@@ -263,7 +265,7 @@ pub(in crate::rank) fn group_of(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: impl IntoIterator<Item = JointId>,
-) -> Result<Group, ExactError> {
+) -> Result<DisplacementGroup, ExactError> {
     let basis = algebra(exact, mechanism, joints)?;
     let mut turns = Echelon::new(exact.field());
     for t in &basis {
@@ -296,7 +298,7 @@ pub(in crate::rank) fn group_of(
     // Slides across the axis change nothing of what a turn slides along it; a slide along it makes any turn of the screw.
     let along = |t: &Vec<Residue>| exact.dot([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
     let screws = turns.rank() == 1 && across && basis.iter().any(|t| along(t) != 0);
-    Ok(Group {
+    Ok(DisplacementGroup {
         dimension: basis.len(),
         turns: turns.rank(),
         slides: slides.len(),

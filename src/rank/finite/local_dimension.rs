@@ -55,7 +55,7 @@ pub struct Traced {
 /// About W closings of O((6k)² f) each at a regular pose, and some hundred at a singular one.
 #[must_use]
 pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Option<Traced> {
-    let mut search = Search {
+    let mut search = DimensionSearch {
         random: ChaCha8Rng::seed_from_u64(1),
         poses: 0,
         budget,
@@ -89,15 +89,15 @@ fn along(span: &Matrix, weights: &[f64]) -> Vec<f64> {
 
 /// Dimensions found and not excluded.
 #[derive(Debug, Clone, Copy)]
-struct Found {
+struct DimensionsFound {
     from: usize,
     to: usize,
     regular: bool,
 }
 
-impl Found {
-    fn exactly(dimension: usize, regular: bool) -> Found {
-        Found {
+impl DimensionsFound {
+    fn exactly(dimension: usize, regular: bool) -> DimensionsFound {
+        DimensionsFound {
             from: dimension,
             to: dimension,
             regular,
@@ -108,13 +108,13 @@ impl Found {
 /// Equations beside those of the contours: their values and rows at some coordinates.
 type Beside<'a> = &'a dyn Fn(&[f64]) -> Vec<(f64, Vec<f64>)>;
 
-struct Search {
+struct DimensionSearch {
     random: ChaCha8Rng,
     poses: usize,
     budget: usize,
 }
 
-impl Search {
+impl DimensionSearch {
     /// A random unit vector.
     fn direction(&mut self, n: usize) -> Vec<f64> {
         // A sum of twelve uniform numbers is near enough to normal, the same on every machine.
@@ -280,13 +280,13 @@ impl Search {
         shaky: bool,
         scale: f64,
         depth: usize,
-    ) -> Option<Found> {
+    ) -> Option<DimensionsFound> {
         let flat = Flat::new(pose, motions);
         let n = flat.kernel.ncols();
         if n == 0 {
             let to = usize::from(!flat.clear);
             let regular = flat.clear;
-            return Some(Found {
+            return Some(DimensionsFound {
                 from: 0,
                 to,
                 regular,
@@ -294,10 +294,10 @@ impl Search {
         }
         if !shaky {
             match self.smooth(pose, &flat.kernel, scale)? {
-                Some(true) => return Some(Found::exactly(n, true)),
+                Some(true) => return Some(DimensionsFound::exactly(n, true)),
                 Some(false) => {}
                 None => {
-                    return Some(Found {
+                    return Some(DimensionsFound {
                         from: 0,
                         to: n,
                         regular: false,
@@ -308,11 +308,11 @@ impl Search {
         // Not everything extends, so at most a hypersurface does.
         let at_most = n - 1;
         if n == 1 {
-            return Some(Found::exactly(0, false));
+            return Some(DimensionsFound::exactly(0, false));
         }
         let quadrics = Quadrics::new(pose, &flat);
         if quadrics.is_definite() {
-            return Some(Found::exactly(0, false));
+            return Some(DimensionsFound::exactly(0, false));
         }
         let starts = (0..80).map(|_| self.direction(n)).collect();
         let seeds = tangent_cone::directions(&quadrics, tangent_cone::sparse(&flat.kernel), starts);
@@ -326,7 +326,7 @@ impl Search {
             quadrics.dimension(&seeds).min(at_most)
         };
         let from = self.along_branches(pose, &flat, &directions, scale, depth);
-        Some(Found {
+        Some(DimensionsFound {
             from,
             to: if self.poses < self.budget {
                 sampled.max(from)

@@ -10,13 +10,13 @@ use crate::rank::finite::{Finite, finite_known, within};
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use crate::rank::numeric::Elimination;
 use crate::rank::rounded::snap::size;
-use crate::rank::rounded::verdict::{Meant, Verdict, verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
 
 /// A decision for one state.
 #[derive(Debug, Clone)]
 pub struct Decision {
     /// The rank, and which mechanism it is of.
-    pub verdict: Verdict,
+    pub verdict: RankVerdict,
     /// The mobility that is really there.
     pub finite: Finite,
     /// What was chosen, why, and what was left out.
@@ -44,7 +44,7 @@ pub fn decide(
 }
 
 /// The finite mobility of what is meant.
-fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, NoAnswer> {
+fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finite, NoAnswer> {
     // What rounding and noise leave of a zero says how well poses can close, and so does the last digit.
     let size = size(m);
     let unit = |r: &Rounded| r.units.direction.max(r.units.length / size);
@@ -86,7 +86,7 @@ fn finite_of(m: &Mechanism, state: StateId, found: &Verdict) -> Result<Finite, N
 }
 
 /// What was chosen and why.
-fn line(found: &Verdict) -> String {
+fn line(found: &RankVerdict) -> String {
     let needed = &found.needed;
     let Some(n) = found.numeric else {
         return format!("exact geometry, so ranks over prime fields{needed}");

@@ -3,7 +3,7 @@
 use crate::closure::matrix::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::field_of;
-use crate::rank::finite::displacement_group::{Kind, whole_group};
+use crate::rank::finite::displacement_group::{GroupKind, whole_group};
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 
 /// W = 6(n - 1) - Σ constraints.
@@ -73,7 +73,7 @@ impl MobilityMethod for Planar {
         let exact = field_of(mechanism, state, 0)?;
         match whole_group(&exact, mechanism, state)?.kind() {
             // Freedoms out of the plane, which planar mode leaves out, do not count in it.
-            Kind::Planar | Kind::Rotation => {
+            GroupKind::Planar | GroupKind::Rotation => {
                 let freedoms = Closure::new(&exact, mechanism, state)?.columns.len();
                 Ok(counted(count(mechanism, state, 3, freedoms)))
             }

@@ -6,7 +6,7 @@ use ozols_dense::Matrix;
 
 /// J as it stands: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
-pub fn as_it_stands(closure: &Closure<f64>) -> Matrix {
+pub(crate) fn as_it_stands(closure: &Closure<f64>) -> Matrix {
     let columns = closure.dense(&Reals);
     Matrix::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r])
 }

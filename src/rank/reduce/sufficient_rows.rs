@@ -16,7 +16,7 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, Mode};
 use crate::rank::exact::modular;
-use crate::rank::finite::displacement_group::{Group, group_of};
+use crate::rank::finite::displacement_group::{DisplacementGroup, group_of};
 use crate::rank::finite::independent_parts::parts;
 use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::plane::{Rows, planes, seen};
@@ -38,7 +38,7 @@ pub enum Motions {
 
 /// Rows of a block that do not depend on its others.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Part {
+pub struct BlockRows {
     /// What they are of.
     pub motions: Motions,
     /// Rows a contour.
@@ -57,7 +57,7 @@ pub struct Block {
     /// The contours, by their places.
     pub contours: Vec<usize>,
     /// One part, or that in a plane and that out of it.
-    pub parts: Vec<Part>,
+    pub parts: Vec<BlockRows>,
 }
 
 /// The rows that are enough for the rank of J.
@@ -94,7 +94,7 @@ impl LeastRows {
         let mut blocks = Vec::new();
         let mut spoken_for = 0;
         if let Mode::Planar { .. } = mechanism.mode {
-            blocks.push(all(Part::whole(exact, closure)));
+            blocks.push(all(BlockRows::whole(exact, closure)));
         } else {
             for (joints, (contours, own)) in tied.iter().zip(of_blocks(closure, &tied)) {
                 spoken_for += if contours.is_empty() { 0 } else { joints.len() };
@@ -111,7 +111,7 @@ impl LeastRows {
             {
                 let group = group_of(exact, mechanism, tied.into_iter().flatten())?;
                 if group.dimension() == one {
-                    blocks = vec![all(Part::of_group(exact, &group, closure))];
+                    blocks = vec![all(BlockRows::of_group(exact, &group, closure))];
                 }
             }
         }
@@ -141,7 +141,7 @@ impl LeastRows {
         self.parts().all(|p| p.motions == Motions::All)
     }
 
-    fn parts(&self) -> impl Iterator<Item = &Part> {
+    fn parts(&self) -> impl Iterator<Item = &BlockRows> {
         self.blocks.iter().flat_map(|b| &b.parts)
     }
 
@@ -164,7 +164,7 @@ impl LeastRows {
             .collect_vec();
         if let [block] = blocks.as_slice() {
             let left_out = match &block.parts[0] {
-                Part {
+                BlockRows {
                     motions: Motions::Group(_),
                     per_contour,
                     ..
@@ -216,7 +216,7 @@ impl Block {
                 )
             }
             [
-                Part {
+                BlockRows {
                     motions: Motions::Group(name),
                     per_contour,
                     ..
@@ -233,9 +233,9 @@ impl Block {
     }
 }
 
-impl Part {
-    fn new(exact: &ExactField, motions: Motions, least: &Closure<Residue>, of: usize) -> Part {
-        Part {
+impl BlockRows {
+    fn new(exact: &ExactField, motions: Motions, least: &Closure<Residue>, of: usize) -> BlockRows {
+        BlockRows {
             motions,
             per_contour: least.dim,
             rows: least.rows(),
@@ -247,13 +247,17 @@ impl Part {
         }
     }
 
-    fn whole(exact: &ExactField, closure: &Closure<Residue>) -> Part {
-        Part::new(exact, Motions::All, closure, closure.rows())
+    fn whole(exact: &ExactField, closure: &Closure<Residue>) -> BlockRows {
+        BlockRows::new(exact, Motions::All, closure, closure.rows())
     }
 
-    fn of_group(exact: &ExactField, group: &Group, closure: &Closure<Residue>) -> Part {
+    fn of_group(
+        exact: &ExactField,
+        group: &DisplacementGroup,
+        closure: &Closure<Residue>,
+    ) -> BlockRows {
         let name = Motions::Group(group.name());
-        Part::new(exact, name, &group.rows_of(closure), closure.rows())
+        BlockRows::new(exact, name, &group.rows_of(closure), closure.rows())
     }
 
     /// Redundant constraints of such motions, with those of rows that are left out.
@@ -322,9 +326,9 @@ fn least(
     mechanism: &Mechanism,
     joints: &[JointId],
     closure: &Closure<Residue>,
-) -> Result<Vec<Part>, ExactError> {
+) -> Result<Vec<BlockRows>, ExactError> {
     if closure.contours.is_empty() {
-        return Ok(vec![Part::whole(exact, closure)]);
+        return Ok(vec![BlockRows::whole(exact, closure)]);
     }
     let group = group_of(exact, mechanism, joints.iter().copied())?;
     // A coupling may tie what is in the plane to what is out of it.
@@ -342,15 +346,15 @@ fn least(
             let normal = Direction::of(exact, mechanism, plane.normal);
             let half = closure.rows() / 2;
             return Ok(vec![
-                Part::new(exact, Motions::InPlane(normal), &inside, half),
-                Part::new(exact, Motions::OutOfPlane(normal), &outside, half),
+                BlockRows::new(exact, Motions::InPlane(normal), &inside, half),
+                BlockRows::new(exact, Motions::OutOfPlane(normal), &outside, half),
             ]);
         }
     }
     Ok(vec![if group.dimension() < closure.dim {
-        Part::of_group(exact, &group, closure)
+        BlockRows::of_group(exact, &group, closure)
     } else {
-        Part::whole(exact, closure)
+        BlockRows::whole(exact, closure)
     }])
 }
 

@@ -6,7 +6,7 @@ use crate::rank::method::NoAnswer;
 use crate::rank::rounded::moves::{moves, understood};
 use crate::rank::rounded::snap::relation::{Moved, Reach};
 use crate::rank::rounded::snap::{size, snap};
-use crate::rank::rounded::verdict::{Verdict, rank_of, resolved, verdict_on};
+use crate::rank::rounded::verdict::{RankVerdict, rank_of, resolved, verdict_on};
 
 /// The mechanism that is meant, for exact arithmetic.
 #[derive(Debug, Clone, Default)]
@@ -23,7 +23,7 @@ pub struct Settled {
     pub refused: Vec<Moved>,
     /// The verdicts on the states; none where every digit is exact and no tolerance is asked for, so that there is nothing to
     /// decide.
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<RankVerdict>,
     /// The first of them that the mechanism does not have the rank of, with the rank it has.
     pub open: Option<(usize, usize)>,
 }

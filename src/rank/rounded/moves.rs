@@ -2,7 +2,7 @@
 
 use crate::geom::vector::{cross, dot, length, real, sub, unit};
 use crate::meant::mechanism::Meant;
-use crate::meant::relations::Kind;
+use crate::meant::relations::RelationKind;
 use crate::model::mechanism::{Frame, JointId};
 use crate::rank::rounded::snap::relation::{Moved, Relation};
 
@@ -66,10 +66,10 @@ fn relations(meant: &Meant, j: JointId) -> Vec<(Relation, Option<JointId>)> {
         };
         add(
             match kind {
-                Kind::Coincident => Relation::Concentric,
-                Kind::InPlane | Kind::Mirrored => Relation::InPlane,
-                Kind::OnLine => Relation::Coaxial,
-                Kind::EqualVectors => Relation::EqualVectors,
+                RelationKind::Coincident => Relation::Concentric,
+                RelationKind::InPlane | RelationKind::Mirrored => Relation::InPlane,
+                RelationKind::OnLine => Relation::Coaxial,
+                RelationKind::EqualVectors => Relation::EqualVectors,
             },
             with,
         );
@@ -94,11 +94,11 @@ pub fn understood(meant: &Meant) -> String {
         parts.push(format!("{} axes parallel", all.join(" + ")));
     }
     for (kind, what) in [
-        (Kind::Coincident, "centres one with another"),
-        (Kind::InPlane, "in a plane with another"),
-        (Kind::OnLine, "on a line with another"),
-        (Kind::EqualVectors, "equal vectors"),
-        (Kind::Mirrored, "mirrored"),
+        (RelationKind::Coincident, "centres one with another"),
+        (RelationKind::InPlane, "in a plane with another"),
+        (RelationKind::OnLine, "on a line with another"),
+        (RelationKind::EqualVectors, "equal vectors"),
+        (RelationKind::Mirrored, "mirrored"),
     ] {
         let n = meant.scene.relations.iter().filter(|r| r.0 == kind).count();
         if n > 0 {

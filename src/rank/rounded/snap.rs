@@ -12,7 +12,7 @@ use crate::geom::extent::Extent;
 use crate::geom::vector::{self, Vector, length, real, sub, unit};
 use crate::model::mechanism::{Frame, Joint, JointId, Mechanism, Mode};
 use directions::Directions;
-use places::{Kind, kind, places};
+use places::{PlaceKind, kind, places};
 use relation::{Moved, Reach, Relation};
 
 /// A mechanism with its near-coincidences made exact.
@@ -130,8 +130,8 @@ fn turn(m: &mut Mechanism, angle: f64, why: &mut [Vec<(Relation, Option<JointId>
 fn shift(before: &Joint, after: &Joint) -> f64 {
     let off = sub(real(&after.frame.point), real(&before.frame.point));
     match kind(&before.joint_type) {
-        Kind::Nowhere => 0.0,
-        Kind::Line | Kind::Centre => length(off),
+        PlaceKind::Nowhere => 0.0,
+        PlaceKind::Line | PlaceKind::Centre => length(off),
     }
 }
 

@@ -66,7 +66,7 @@ pub enum Meant {
 
 /// The verdict on a state.
 #[derive(Debug, Clone)]
-pub struct Verdict {
+pub struct RankVerdict {
     /// Name of the state.
     pub state: String,
     /// f.
@@ -89,7 +89,7 @@ pub struct Verdict {
     pub needed: String,
 }
 
-impl Verdict {
+impl RankVerdict {
     /// The rank of J; as written where that is not decided, which then is the most it can be.
     #[must_use]
     pub fn rank(&self) -> usize {
@@ -177,7 +177,7 @@ impl Verdict {
 
     /// A tolerance for `--snap` in the gap below the rank that is likely meant.
     #[must_use]
-    pub fn suggested_tolerance(&self) -> Option<f64> {
+    pub(crate) fn suggested_tolerance(&self) -> Option<f64> {
         let n = self.numeric?;
         let power = |x: f64| 10f64.powf(x.log10().ceil());
         let wide = power(n.dropped.max(ROUND_OFF) * 10.0);
@@ -224,7 +224,7 @@ pub fn verdict(
     mechanism: &Mechanism,
     state: StateId,
     tolerance: Option<f64>,
-) -> Result<Verdict, NoAnswer> {
+) -> Result<RankVerdict, NoAnswer> {
     let scene = resolved(mechanism, tolerance);
     verdict_on(mechanism, state, tolerance, scene.as_ref())
 }
@@ -241,7 +241,7 @@ pub(in crate::rank) fn verdict_on(
     state: StateId,
     tolerance: Option<f64>,
     scene: Option<&Scene>,
-) -> Result<Verdict, NoAnswer> {
+) -> Result<RankVerdict, NoAnswer> {
     let file = mechanism;
     // In a plane joints must stay square to it: as they are written they have no freedom there.
     let planar = |_: &&Scene| matches!(file.mode, Mode::Planar { .. });
@@ -249,7 +249,7 @@ pub(in crate::rank) fn verdict_on(
     let (as_written, needed) = exact_rank(mechanism, state)?;
     let real = Closure::new(&Reals, mechanism, state)?;
     let rounded = looks_rounded(file);
-    let mut found = Verdict {
+    let mut found = RankVerdict {
         state: mechanism.states[state].clone(),
         freedoms: real.columns.len(),
         rows: real.rows(),

@@ -14,7 +14,7 @@ use ozols_dense::{Matrix, singular_values};
 
 /// Changes of rank are bracketed to this fraction of the stroke, or to the stretch where singular values are below the
 /// tolerance where that is longer.
-pub const BRACKET: f64 = 1e-6;
+pub(crate) const BRACKET: f64 = 1e-6;
 /// The lowest point of a singular value is found to this fraction of the stroke.
 const LOWEST: f64 = 1e-9;
 /// Golden section.
@@ -52,7 +52,7 @@ pub struct PoseFigures {
 
 /// A change of the rank along the stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Change {
+pub struct RankChange {
     /// Positions of the drive on either side, in the order of the stroke: radians or the file's length unit.
     pub between: [f64; 2],
     /// Rank before, between and after. Before and after are the same where it falls in one pose only.
@@ -65,7 +65,7 @@ pub struct StrokeFigures {
     /// The poses reached of those asked for, in order.
     pub poses: Vec<PoseFigures>,
     /// Changes of rank between the first of them and the end.
-    pub changes: Vec<Change>,
+    pub changes: Vec<RankChange>,
     /// The end of the way before the last pose asked for, the position in radians or the file's length unit.
     pub stop: Option<Stop>,
     /// Output motions that no drive decides: with them the way taken is one of many, the shortest.
@@ -108,7 +108,7 @@ struct Looker<'a> {
 
 /// Singular values in a pose on the way.
 #[derive(Debug, Clone)]
-struct Sample {
+struct PoseValues {
     follower: Follower,
     at: f64,
     rank: NumericRank,
@@ -154,13 +154,13 @@ impl<'a> Looker<'a> {
         }
     }
 
-    fn sample(&self, follower: &Follower) -> Sample {
+    fn sample(&self, follower: &Follower) -> PoseValues {
         let pose = follower.pose();
         let mut all = values(&pose.jacobian(&vec![0.0; pose.columns.len()]));
         let rank = rank_of_values(all.clone(), self.tolerance);
         let largest = all.first().copied().unwrap_or(1.0).max(f64::MIN_POSITIVE);
         all.iter_mut().for_each(|v| *v /= largest);
-        Sample {
+        PoseValues {
             follower: follower.clone(),
             at: follower.at(),
             rank,
@@ -168,7 +168,7 @@ impl<'a> Looker<'a> {
         }
     }
 
-    fn figures(&self, sample: &Sample) -> PoseFigures {
+    fn figures(&self, sample: &PoseValues) -> PoseFigures {
         let pose = sample.follower.pose();
         let rank = sample.rank;
         let outputs = self.outputs.iter().map(|&(link, p)| {
@@ -192,14 +192,14 @@ impl<'a> Looker<'a> {
     }
 
     /// The sample at a position, reached from one near it.
-    fn from(&self, near: &Sample, at: f64) -> Option<Sample> {
+    fn from(&self, near: &PoseValues, at: f64) -> Option<PoseValues> {
         let mut follower = near.follower.clone();
         follower.advance(at, |_| {}).ok()?;
         Some(self.sample(&follower))
     }
 
     /// Brackets the change between two poses of different ranks.
-    fn bisect(&self, low: &Sample, high: &Sample, width: f64, out: &mut Vec<Change>) {
+    fn bisect(&self, low: &PoseValues, high: &PoseValues, width: f64, out: &mut Vec<RankChange>) {
         let (mut low, mut high) = (low.clone(), high.clone());
         // Two such brackets and the flat stretch between them make one change in one pose.
         while (high.at - low.at).abs() > width / 8.0 {
@@ -212,19 +212,19 @@ impl<'a> Looker<'a> {
                 high = middle;
             }
         }
-        out.push(Change {
+        out.push(RankChange {
             between: [low.at, high.at],
             ranks: [low.rank.rank, high.rank.rank, high.rank.rank],
         });
     }
 
     /// The lowest kept singular value between two poses of one rank round a third, where it vanishes.
-    fn lowest(&self, around: [&Sample; 3], width: f64, out: &mut Vec<Change>) {
+    fn lowest(&self, around: [&PoseValues; 3], width: f64, out: &mut Vec<RankChange>) {
         let rank = around[1].rank.rank;
         let Some(last) = rank.checked_sub(1) else {
             return;
         };
-        let value = |s: &Sample| s.values.get(last).copied().unwrap_or(0.0);
+        let value = |s: &PoseValues| s.values.get(last).copied().unwrap_or(0.0);
         let [mut low, mut middle, mut high] = around.map(Clone::clone);
         while (high.at - low.at).abs() > width * LOWEST / BRACKET {
             let up = (high.at - middle.at).abs() > (middle.at - low.at).abs();
@@ -244,7 +244,7 @@ impl<'a> Looker<'a> {
         }
         if middle.rank.rank < rank {
             let half = width / 2.0 * (around[2].at - around[0].at).signum();
-            out.push(Change {
+            out.push(RankChange {
                 between: [middle.at - half, middle.at + half],
                 ranks: [rank, middle.rank.rank, rank],
             });
@@ -252,11 +252,12 @@ impl<'a> Looker<'a> {
     }
 
     /// Changes along the way.
-    fn changes(&self, way: &[Sample]) -> Vec<Change> {
+    fn changes(&self, way: &[PoseValues]) -> Vec<RankChange> {
         let [from, to] = self.request.range;
         let width = BRACKET * ((to - from) / self.unit).abs();
-        let last =
-            |s: &Sample, rank: usize| rank.checked_sub(1).and_then(|i| s.values.get(i).copied());
+        let last = |s: &PoseValues, rank: usize| {
+            rank.checked_sub(1).and_then(|i| s.values.get(i).copied())
+        };
         let mut found = Vec::new();
         for (i, pair) in way.windows(2).enumerate() {
             if pair[0].rank.rank != pair[1].rank.rank {
@@ -275,21 +276,21 @@ impl<'a> Looker<'a> {
         for pair in ends.into_iter().flatten() {
             let (from, to) = (&pair[0], &pair[1]);
             let (low, high) = (from.at.min(to.at) - width, from.at.max(to.at) + width);
-            let known = |c: &Change| c.between.iter().any(|x| (low..=high).contains(x));
+            let known = |c: &RankChange| c.between.iter().any(|x| (low..=high).contains(x));
             if found.iter().any(known) {
                 continue;
             }
             let Some(middle) = self.from(from, f64::midpoint(from.at, to.at)) else {
                 continue;
             };
-            let alike = |s: &Sample| s.rank.rank == from.rank.rank;
+            let alike = |s: &PoseValues| s.rank.rank == from.rank.rank;
             if alike(&middle) && alike(to) {
                 self.lowest([from, &middle, to], width, &mut found);
             }
         }
         let along = (to - from).signum();
         found.sort_by(|a, b| (a.between[0] * along).total_cmp(&(b.between[0] * along)));
-        let mut merged: Vec<Change> = Vec::new();
+        let mut merged: Vec<RankChange> = Vec::new();
         for c in found {
             match merged.last_mut() {
                 // Down and up again is one change in one pose.

@@ -6,7 +6,7 @@ use crate::model::loads;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::rounded::verdict::{Meant, Verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict};
 use crate::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
 use itertools::Itertools;
 use thiserror::Error;
@@ -92,10 +92,10 @@ pub enum AskedError {
 
 /// A stroke that is asked for.
 #[derive(Debug)]
-pub struct Asked<'a> {
+pub struct AskedStroke<'a> {
     mechanism: &'a Mechanism,
     state: StateId,
-    verdict: &'a Verdict,
+    verdict: &'a RankVerdict,
     tolerance: Option<f64>,
     range: loads::Stroke,
     pose: Pose,
@@ -127,7 +127,7 @@ fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
         .collect()
 }
 
-impl<'a> Asked<'a> {
+impl<'a> AskedStroke<'a> {
     /// What a range, as it was written and read, and the joint named as the drive ask of the mechanism that a verdict is about.
     ///
     /// # Units
@@ -140,8 +140,8 @@ impl<'a> Asked<'a> {
         state: StateId,
         (text, range): (&str, loads::Stroke),
         named: Option<&str>,
-        (verdict, tolerance): (&'a Verdict, Option<f64>),
-    ) -> Result<Asked<'a>, AskedError> {
+        (verdict, tolerance): (&'a RankVerdict, Option<f64>),
+    ) -> Result<AskedStroke<'a>, AskedError> {
         if !verdict.is_decided() {
             let why = verdict.undecided();
             let name = m.name.clone();
@@ -156,7 +156,7 @@ impl<'a> Asked<'a> {
         if range.steps > MOST || range.from.abs() > far || range.to.abs() > far {
             return Err(AskedError::Far(far));
         }
-        Ok(Asked {
+        Ok(AskedStroke {
             mechanism: m,
             state,
             verdict,

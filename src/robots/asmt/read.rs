@@ -1,7 +1,7 @@
 //! Reads an `.asmt` file: parts with markers, and joints between two markers each.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::robots::cad::assembly::{Assembly, Connection, NO_LIMITS};
 use crate::robots::cad::holds::Holds;
@@ -118,12 +118,12 @@ fn called(e: Element<'_>) -> String {
 }
 
 /// The place that a label has within what it stands in.
-fn pose(e: Element<'_>) -> Result<Motion, ImportError> {
+fn pose(e: Element<'_>) -> Result<RigidMotion, ImportError> {
     let translation = has(e, "Position3D")?.text_numbers::<3>()?;
     let matrix = has(e, "RotationMatrix")?;
     let all = matrix.text_numbers::<9>()?;
     let rotation = [0, 3, 6].map(|i| [all[i], all[i + 1], all[i + 2]]);
-    let m = Motion {
+    let m = RigidMotion {
         rotation,
         translation,
     };
@@ -154,12 +154,12 @@ fn determinant([a, b, c]: &[[f64; 3]; 3]) -> f64 {
 }
 
 /// The part and the place of each marker, by its path.
-type Markers = BTreeMap<String, (usize, Motion)>;
+type Markers = BTreeMap<String, (usize, RigidMotion)>;
 
 fn collect(
     e: Element<'_>,
     part: usize,
-    place: &Motion,
+    place: &RigidMotion,
     path: &str,
     out: &mut Markers,
 ) -> Result<(), ImportError> {

@@ -1,6 +1,6 @@
 //! An assembly as read, and the robot that it is: parts where they stand, joints where their frames are.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::model::joint_type::JointType;
 use crate::robots::cad::coupled::coupling;
@@ -8,7 +8,7 @@ use crate::robots::cad::holds::Holds;
 use crate::robots::cad::meet::{Meeting, meeting};
 use crate::robots::description::parts::{Part, Robot, Unit, free};
 use crate::robots::options::Options;
-use crate::robots::warning::Count;
+use crate::robots::warning::CadCount;
 
 /// Frames that are apart by less than this, as a share of the assembly's size and in radians, meet: solvers leave so much.
 const MEET: f64 = 1e-4;
@@ -31,7 +31,7 @@ pub(crate) struct Connection {
     /// The parts of I and J.
     pub(crate) parts: [usize; 2],
     /// I and J in the assembly.
-    pub(crate) frames: [Motion; 2],
+    pub(crate) frames: [RigidMotion; 2],
     pub(crate) holds: Holds,
     /// The element that says so.
     pub(crate) element: usize,
@@ -43,7 +43,7 @@ pub(crate) struct Assembly {
     pub(crate) name: String,
     pub(crate) unit: Unit,
     /// Names and places.
-    pub(crate) parts: Vec<(String, Motion)>,
+    pub(crate) parts: Vec<(String, RigidMotion)>,
     pub(crate) connections: Vec<Connection>,
 }
 
@@ -76,7 +76,7 @@ impl Assembly {
             couple(c, *links, &mut robot);
         }
         let moving = tied.iter().filter(|t| **t).count() - 1;
-        robot.report.count = Some(Count {
+        robot.report.count = Some(CadCount {
             parts: moving,
             constraints: rows,
         });
@@ -193,7 +193,7 @@ fn part(
     c: &Connection,
     links: [usize; 2],
     m: &Meeting,
-    places: &[Motion],
+    places: &[RigidMotion],
     options: &Options,
 ) -> Part {
     let apart = m.near.inverse().then(&m.far);

@@ -1,7 +1,7 @@
 //! Gears, racks and screws as couplings of the joints that bear their parts, where both hang on one part by joints of one
 //! freedom; the ratio then holds over the motion.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, cross, dot, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::cad::meet::Meeting;
@@ -26,7 +26,7 @@ fn held(m: &Meeting, velocity: Vector, turn: Vector) -> f64 {
 }
 
 /// The rate of what is held where a joint moves its second link at rate 1.
-fn rate(m: &Meeting, joint: &Part, places: &[Motion]) -> Option<f64> {
+fn rate(m: &Meeting, joint: &Part, places: &[RigidMotion]) -> Option<f64> {
     let frame = places[joint.links[0]].then(&joint.sides[0]);
     let d = frame.direction(joint.axis);
     Some(match joint.joint_type {
@@ -41,7 +41,7 @@ pub(crate) fn coupling(
     m: &Meeting,
     [i, j]: [usize; 2],
     joints: &[Part],
-    places: &[Motion],
+    places: &[RigidMotion],
     said: (&str, usize),
 ) -> Option<Ratio> {
     let at = |link: usize| {

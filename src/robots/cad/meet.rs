@@ -1,6 +1,6 @@
 //! A joint of an assembly at a pose: its type, its frame as I has it and as J has it. The two differ by the misfit.
 
-use crate::geom::rigid::{Motion, perpendicular, towards};
+use crate::geom::rigid::{RigidMotion, perpendicular, towards};
 use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::cad::holds::Holds;
@@ -13,9 +13,9 @@ const FLAT: f64 = 1e-6;
 pub(crate) struct Meeting {
     pub(super) kind: JointType,
     /// The joint's frame by I.
-    pub(super) near: Motion,
+    pub(super) near: RigidMotion,
     /// The same by J: where all fits, the same place.
-    pub(super) far: Motion,
+    pub(super) far: RigidMotion,
     /// Translation per radian of a screw.
     pub(super) pitch: f64,
     /// Whether the type is right at this pose only: what is held turns or wanders as the parts move.
@@ -23,7 +23,7 @@ pub(crate) struct Meeting {
 }
 
 /// A frame at a point, with a z and an x made square to it.
-fn frame(point: Vector, z: Vector, x: Vector) -> Motion {
+fn frame(point: Vector, z: Vector, x: Vector) -> RigidMotion {
     let z = towards(z);
     let x = sub(x, scale(z, dot(x, z)));
     let x = if length(x) > FLAT {
@@ -32,36 +32,36 @@ fn frame(point: Vector, z: Vector, x: Vector) -> Motion {
         perpendicular(z)
     };
     let y = cross(z, x);
-    Motion {
+    RigidMotion {
         rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),
         translation: point,
     }
 }
 
-fn axis(m: &Motion, k: usize) -> Vector {
+fn axis(m: &RigidMotion, k: usize) -> Vector {
     m.rotation.map(|row| row[k])
 }
 
 /// A frame leant over by the least turn so that its z is another.
-fn leaning(m: &Motion, z: Vector) -> Motion {
+fn leaning(m: &RigidMotion, z: Vector) -> RigidMotion {
     let from = axis(m, 2);
     let about = cross(from, z);
     let turn = match length(about) {
-        sine if sine > 0.0 => Motion::turn(about, sine.atan2(dot(from, z))),
-        _ => Motion::IDENTITY,
+        sine if sine > 0.0 => RigidMotion::turn(about, sine.atan2(dot(from, z))),
+        _ => RigidMotion::IDENTITY,
     };
-    let turned = Motion {
+    let turned = RigidMotion {
         translation: [0.0; 3],
         ..*m
     };
-    Motion {
+    RigidMotion {
         translation: m.translation,
         ..turn.then(&turned)
     }
 }
 
 /// The turn of J that is nearest I among those that lie along the same lines: a cosine that must be 0 is so of a flipped part.
-fn nearest(i: &Motion, j: &Motion) -> [Vector; 3] {
+fn nearest(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
     let [x, y] = [0, 1].map(|k| {
         let a = axis(j, k);
         scale(a, dot(a, axis(i, k)).signum())
@@ -73,7 +73,11 @@ fn nearest(i: &Motion, j: &Motion) -> [Vector; 3] {
 ///
 /// # Errors
 /// Why it holds nothing that can be told at this pose, in words.
-pub(crate) fn meeting(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+pub(crate) fn meeting(
+    holds: Holds,
+    i: &RigidMotion,
+    j: &RigidMotion,
+) -> Result<Meeting, &'static str> {
     let (x, z) = (axis(i, 0), axis(i, 2));
     let (oi, oj) = (i.translation, j.translation);
     let d = sub(oj, oi);
@@ -84,7 +88,7 @@ pub(crate) fn meeting(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
     let at = |point| frame(point, z, x);
     let tilted = |point| leaning(&at(point), zj);
-    let as_j = |point| Motion {
+    let as_j = |point| RigidMotion {
         rotation: nearest(i, j),
         translation: point,
     };
@@ -132,7 +136,7 @@ pub(crate) fn meeting(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &
 
 impl Meeting {
     /// A joint that is the same at any pose.
-    pub(super) fn new(kind: JointType, near: Motion, far: Motion) -> Meeting {
+    pub(super) fn new(kind: JointType, near: RigidMotion, far: RigidMotion) -> Meeting {
         Meeting {
             kind,
             near,
@@ -162,7 +166,7 @@ fn three_slides() -> JointType {
 }
 
 /// The two z at a right angle, and the origins together or J's line in a plane: z is I's, x is J's z.
-fn square(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+fn square(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     let (z, line, oj) = (axis(i, 2), axis(j, 2), j.translation);
     if length(cross(z, line)) < FLAT {
         return Err("its two axes are parallel where they are to be at a right angle");
@@ -181,18 +185,18 @@ fn square(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str>
 }
 
 /// Ix·Jy + Iy·Jx = 0 holds the turn about one line, which goes round as the joint turns.
-fn bisected(i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+fn bisected(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     let n = add(cross(axis(j, 1), axis(i, 0)), cross(axis(j, 0), axis(i, 1)));
     if length(n) < FLAT {
         return Err("its two shafts stand so that it holds no turn");
     }
     let sum = dot(axis(i, 0), axis(j, 1)) + dot(axis(i, 1), axis(j, 0));
     let near = frame(i.translation, n, axis(i, 0));
-    let off = Motion::turn(n, sum / length(n)).then(&Motion {
+    let off = RigidMotion::turn(n, sum / length(n)).then(&RigidMotion {
         translation: [0.0; 3],
         ..near
     });
-    let far = Motion {
+    let far = RigidMotion {
         translation: j.translation,
         ..off
     };
@@ -201,7 +205,7 @@ fn bisected(i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
 }
 
 /// The angle between the two z is held by a turn about what is square to both.
-fn angle(i: &Motion, j: &Motion, cosine: f64) -> Result<Meeting, &'static str> {
+fn angle(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let (a, b) = (axis(i, 2), axis(j, 2));
     let n = cross(a, b);
@@ -212,9 +216,9 @@ fn angle(i: &Motion, j: &Motion, cosine: f64) -> Result<Meeting, &'static str> {
     }
     let off = length(n).atan2(dot(a, b)) - cosine.clamp(-1.0, 1.0).acos();
     let near = frame(i.translation, n, a);
-    let far = Motion {
+    let far = RigidMotion {
         translation: i.translation,
-        ..Motion::turn(n, off).then(&Motion {
+        ..RigidMotion::turn(n, off).then(&RigidMotion {
             translation: [0.0; 3],
             ..near
         })
@@ -224,7 +228,7 @@ fn angle(i: &Motion, j: &Motion, cosine: f64) -> Result<Meeting, &'static str> {
 }
 
 /// A distance of points or of lines: held along the way from one to the other.
-fn apart(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> {
+fn apart(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     use Freedom::{Rz, Ty, Tz};
     let (z, oj) = (axis(i, 2), j.translation);
     let d = sub(oj, i.translation);
@@ -246,7 +250,7 @@ fn apart(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> 
     let zj = scale(zj, if dot(zj, z) < 0.0 { -1.0 } else { 1.0 });
     let lines = |kind, slip: f64| {
         let near = frame(add_scaled(point, -slip, z), z, u);
-        let far = Motion {
+        let far = RigidMotion {
             translation: oj,
             ..leaning(&near, zj)
         };
@@ -265,7 +269,7 @@ fn apart(holds: Holds, i: &Motion, j: &Motion) -> Result<Meeting, &'static str> 
 
 /// Two gears touch at the pitch point of the line of centres and do not slip there across that line; so does a belt, whose
 /// pitch point is outside.
-fn gear(i: &Motion, j: &Motion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
+fn gear(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let z = axis(i, 2);
     let d = sub(j.translation, i.translation);
@@ -296,9 +300,9 @@ mod tests {
 
     #[test]
     fn a_hinge_that_is_turned_and_flipped_still_fits() {
-        let i = Motion::shift([1.0, 2.0, 3.0]);
-        let flipped = i.then(&Motion::turn(X, std::f64::consts::PI));
-        let j = flipped.then(&Motion::turn(Z, 0.7));
+        let i = RigidMotion::shift([1.0, 2.0, 3.0]);
+        let flipped = i.then(&RigidMotion::turn(X, std::f64::consts::PI));
+        let j = flipped.then(&RigidMotion::turn(Z, 0.7));
         let m = meeting(Holds::Revolute, &i, &j).unwrap_or_else(|e| panic!("{e}"));
         assert!(misfit(&m).iter().all(|x| *x < 1e-12), "{m:?}");
         // A slider holds the turn, too: so much is it out.
@@ -308,7 +312,7 @@ mod tests {
 
     #[test]
     fn a_tilted_hinge_is_out_by_its_tilt_and_its_way() {
-        let j = Motion::shift([0.0, 0.3, 0.4]).then(&Motion::turn(Y, 0.02));
+        let j = RigidMotion::shift([0.0, 0.3, 0.4]).then(&RigidMotion::turn(Y, 0.02));
         for (holds, wanted) in [
             (Holds::Revolute, [0.5, 0.02]),
             (Holds::Cylindrical, [0.3, 0.02]),
@@ -321,7 +325,7 @@ mod tests {
             (Holds::LineLine(0.3), [0.0, 0.02]),
             (Holds::Hinges(0.3), [0.4, 0.02]),
         ] {
-            let m = meeting(holds, &Motion::IDENTITY, &j).unwrap_or_else(|e| panic!("{e}"));
+            let m = meeting(holds, &RigidMotion::IDENTITY, &j).unwrap_or_else(|e| panic!("{e}"));
             let found = misfit(&m);
             for k in 0..2 {
                 assert!((found[k] - wanted[k]).abs() < 1e-9, "{holds:?} {found:?}");
@@ -332,9 +336,9 @@ mod tests {
 
     #[test]
     fn an_angle_between_parallel_axes_holds_nothing() {
-        let i = Motion::IDENTITY;
+        let i = RigidMotion::IDENTITY;
         assert!(meeting(Holds::Angle(0.9), &i, &i).is_err());
-        let j = Motion::turn(Y, 0.5);
+        let j = RigidMotion::turn(Y, 0.5);
         let m = meeting(Holds::Angle(0.3_f64.cos()), &i, &j).unwrap_or_else(|e| panic!("{e}"));
         assert!((misfit(&m)[1] - 0.2).abs() < 1e-12);
     }

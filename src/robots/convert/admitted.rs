@@ -2,7 +2,7 @@
 
 use crate::robots::convert::lost::Lost;
 use crate::robots::convert::payload::Weight;
-use crate::robots::convert::scene::Scene;
+use crate::robots::convert::scene::RobotScene;
 use ozols_dense::{Matrix, symmetric_eigen};
 
 /// What is less is nothing to MuJoCo, which refuses it.
@@ -11,7 +11,7 @@ const NOTHING: f64 = 1e-14;
 const BOUND: f64 = 1e-10;
 const THIN: f64 = 1e-4;
 
-impl Scene<'_> {
+impl RobotScene<'_> {
     /// The weight of a link with a tensor that engines take, and whether it is; what is changed is noted. Thin plates are at the
     /// bound, give or take rounding.
     pub(crate) fn admitted(

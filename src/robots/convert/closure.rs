@@ -1,13 +1,13 @@
 //! The ways to close a loop, and a robot with one of its loops closed in another.
 
-use crate::geom::rigid::{Motion, perpendicular};
+use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, Z, add, cross, length, scale, unit};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::Robot;
 
 /// A way to close a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Closure {
+pub enum LoopClosure {
     /// As the file has it.
     AsGiven,
     /// A point of one link stays at a point of the other: 3 constraints.
@@ -26,40 +26,43 @@ pub enum Closure {
     Weld,
 }
 
-impl Closure {
+impl LoopClosure {
     /// All, with the words for them, those that come first preferred.
-    pub const ALL: [(&'static str, Closure); 8] = [
-        ("as-given", Closure::AsGiven),
-        ("connect", Closure::Connect),
-        ("universal", Closure::Universal),
-        ("cylinder", Closure::Cylinder),
-        ("hinge", Closure::Hinge),
-        ("line", Closure::Line),
-        ("weld", Closure::Weld),
-        ("two-points", Closure::TwoPoints),
+    pub const ALL: [(&'static str, LoopClosure); 8] = [
+        ("as-given", LoopClosure::AsGiven),
+        ("connect", LoopClosure::Connect),
+        ("universal", LoopClosure::Universal),
+        ("cylinder", LoopClosure::Cylinder),
+        ("hinge", LoopClosure::Hinge),
+        ("line", LoopClosure::Line),
+        ("weld", LoopClosure::Weld),
+        ("two-points", LoopClosure::TwoPoints),
     ];
 
     /// The word for it.
     #[must_use]
     pub fn word(self) -> &'static str {
-        let own = |(_, c): &&(&str, Closure)| *c == self;
-        Closure::ALL.iter().find(own).map_or("", |c| c.0)
+        let own = |(_, c): &&(&str, LoopClosure)| *c == self;
+        LoopClosure::ALL.iter().find(own).map_or("", |c| c.0)
     }
 
     /// Whether it has an axis.
     pub(super) fn is_directed(self) -> bool {
-        !matches!(self, Closure::AsGiven | Closure::Connect | Closure::Weld)
+        !matches!(
+            self,
+            LoopClosure::AsGiven | LoopClosure::Connect | LoopClosure::Weld
+        )
     }
 
     fn joint_type(self) -> Option<JointType> {
         Some(match self {
-            Closure::AsGiven => return None,
-            Closure::Connect | Closure::TwoPoints => JointType::Spherical,
-            Closure::Line => JointType::SphereInCylinder,
-            Closure::Universal => JointType::Universal,
-            Closure::Cylinder => JointType::Cylindrical,
-            Closure::Hinge => JointType::Revolute,
-            Closure::Weld => JointType::Fixed,
+            LoopClosure::AsGiven => return None,
+            LoopClosure::Connect | LoopClosure::TwoPoints => JointType::Spherical,
+            LoopClosure::Line => JointType::SphereInCylinder,
+            LoopClosure::Universal => JointType::Universal,
+            LoopClosure::Cylinder => JointType::Cylindrical,
+            LoopClosure::Hinge => JointType::Revolute,
+            LoopClosure::Weld => JointType::Fixed,
         })
     }
 }
@@ -70,7 +73,7 @@ const ALIKE: f64 = 1e-6;
 const MOST: usize = 4;
 
 /// Directions in the world that the axis of a closure may have: its own, and those of the joints beside it.
-pub(super) fn directions(robot: &Robot, places: &[Motion], j: usize) -> Vec<Vector> {
+pub(super) fn directions(robot: &Robot, places: &[RigidMotion], j: usize) -> Vec<Vector> {
     // What is fixed together is one body.
     let mut body: Vec<usize> = (0..robot.links.len()).collect();
     for p in robot
@@ -113,9 +116,9 @@ pub(super) fn directions(robot: &Robot, places: &[Motion], j: usize) -> Vec<Vect
 /// The robot, in its pose, with a loop closed in another way about an axis in the world; `far` is how far apart two points are.
 pub(super) fn applied(
     robot: &Robot,
-    places: &[Motion],
+    places: &[RigidMotion],
     j: usize,
-    closure: Closure,
+    closure: LoopClosure,
     [axis, second]: [Vector; 2],
     far: f64,
 ) -> Robot {
@@ -126,9 +129,9 @@ pub(super) fn applied(
     let p = &robot.joints[j];
     let at = places[p.links[0]].then(&p.sides[0]).translation;
     let put = |off: f64| {
-        let frame = Motion {
+        let frame = RigidMotion {
             translation: add(at, scale(unit(axis), off)),
-            ..Motion::z_to(axis)
+            ..RigidMotion::z_to(axis)
         };
         let mut part = p.clone();
         part.sides = p.links.map(|l| places[l].inverse().then(&frame));
@@ -145,7 +148,7 @@ pub(super) fn applied(
         part.closes = true;
         part
     };
-    if closure == Closure::TwoPoints {
+    if closure == LoopClosure::TwoPoints {
         let mut other = put(-far);
         other.id = format!("{}~2", p.id);
         out.joints[j] = put(far);

@@ -3,14 +3,14 @@
 
 use crate::closure::matrix::Closure as Contours;
 use crate::file::problem::ImportError;
-use crate::geom::rigid::{Motion, perpendicular};
+use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::scalars::Reals;
 use crate::geom::vector::Vector;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled};
 use crate::rank::rounded::verdict::verdict;
-use crate::robots::convert::closure::{Closure, applied, directions};
-use crate::robots::convert::plan::Plan;
+use crate::robots::convert::closure::{LoopClosure, applied, directions};
+use crate::robots::convert::plan::TreePlan;
 use crate::robots::description::parts::Robot;
 use crate::robots::import::{Imported, mechanism};
 use crate::robots::mechanism::loop_closing::size;
@@ -22,16 +22,16 @@ use std::collections::BTreeSet;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// Of all; the best for each where this says so.
-    pub all: Option<Option<Closure>>,
+    pub all: Option<Option<LoopClosure>>,
     /// Of single ones by name, before all.
-    pub each: Vec<(String, Option<Closure>)>,
+    pub each: Vec<(String, Option<LoopClosure>)>,
 }
 
 /// What a closure makes of the robot, the other loops closed as they are then.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
     /// The closure.
-    pub closure: Closure,
+    pub closure: LoopClosure,
     /// Its axis in the world, where it has one.
     pub axis: Option<Vector>,
     /// W and σ.
@@ -65,7 +65,7 @@ impl Motions {
 
 /// What was found for a loop.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Judged {
+pub struct JudgedLoop {
     /// The closure's name.
     pub joint: String,
     /// What was tried, each kind about its best axis.
@@ -75,14 +75,14 @@ pub struct Judged {
 }
 
 /// The robot with its closures as asked.
-pub(super) struct Outcome {
+pub(super) struct JudgedRobot {
     pub(super) robot: Robot,
-    pub(super) closures: Vec<Judged>,
+    pub(super) closures: Vec<JudgedLoop>,
     pub(super) figures: Option<(usize, usize)>,
 }
 
 /// How far W, σ and the motion are known.
-struct Seen {
+struct KnownMotion {
     figures: (usize, usize),
     decided: bool,
     /// Speeds of the freedoms that are no closure's, by name, for each motion: orthonormal.
@@ -94,10 +94,10 @@ const NOTHING: f64 = 1e-3;
 const ALIKE: f64 = 0.03;
 
 /// Judges the closures, and takes those asked for.
-pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<Outcome, ImportError> {
+pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<JudgedRobot, ImportError> {
     let origin = &imported.origin;
     let mut robot = origin.robot.clone();
-    let plan = Plan::new(&robot, origin.frame);
+    let plan = TreePlan::new(&robot, origin.frame);
     let names: Vec<String> = plan
         .loops
         .iter()
@@ -115,7 +115,7 @@ pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<Outcome, Imp
         .any(|&j| asked(&robot.joints[j].id).is_some());
     if !judged {
         let figures = figures(&imported.mechanism);
-        return Ok(Outcome {
+        return Ok(JudgedRobot {
             robot,
             closures,
             figures,
@@ -134,13 +134,13 @@ pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<Outcome, Imp
         let joint = robot.joints[j].id.clone();
         robot = options[chosen].1.clone();
         let options = options.into_iter().map(|o| o.0).collect();
-        closures.push(Judged {
+        closures.push(JudgedLoop {
             joint,
             options,
             chosen,
         });
     }
-    Ok(Outcome {
+    Ok(JudgedRobot {
         robot,
         closures,
         figures,
@@ -162,7 +162,11 @@ fn every_name_is_known(wanted: &Wanted, names: &[String]) -> Result<(), ImportEr
 }
 
 /// The option that is asked for; where the best is, one that keeps the motion and W, then the one with least σ.
-fn taken(choice: Option<Closure>, options: &[(Judgement, Robot, bool)], mobility: usize) -> usize {
+fn taken(
+    choice: Option<LoopClosure>,
+    options: &[(Judgement, Robot, bool)],
+    mobility: usize,
+) -> usize {
     let place = match choice {
         Some(closure) => options.iter().position(|o| o.0.closure == closure),
         None => (0..options.len()).min_by_key(|&i| {
@@ -186,13 +190,13 @@ fn options(
     robot: &Robot,
     imported: &Imported,
     (j, closing): (usize, &BTreeSet<String>),
-    given: &Seen,
+    given: &KnownMotion,
 ) -> Result<Vec<(Judgement, Robot, bool)>, ImportError> {
-    let places: &[Motion] = &imported.origin.places;
+    let places: &[RigidMotion] = &imported.origin.places;
     let all = directions(robot, places, j);
     let far = size(robot) * 0.1;
     let mut out = Vec::new();
-    for (_, closure) in Closure::ALL {
+    for (_, closure) in LoopClosure::ALL {
         let mut tried: Vec<(Judgement, Robot, bool)> = Vec::new();
         for axes in axes(closure, &all) {
             let with = applied(robot, places, j, closure, axes, far);
@@ -219,10 +223,10 @@ fn options(
 }
 
 /// The axes to try: pairs for what has two.
-fn axes(closure: Closure, all: &[Vector]) -> Vec<[Vector; 2]> {
+fn axes(closure: LoopClosure, all: &[Vector]) -> Vec<[Vector; 2]> {
     let first = all[0];
     match closure {
-        Closure::Universal => {
+        LoopClosure::Universal => {
             let pairs = all
                 .iter()
                 .flat_map(|a| all.iter().filter(move |b| *b != a).map(|b| [*a, *b]));
@@ -242,7 +246,7 @@ fn seen(
     robot: &Robot,
     imported: &Imported,
     closing: &BTreeSet<String>,
-) -> Result<Seen, ImportError> {
+) -> Result<KnownMotion, ImportError> {
     let m = mechanism(
         robot.clone(),
         imported.origin.frame,
@@ -254,7 +258,7 @@ fn seen(
     let geometry = found.mechanism().unwrap_or(&m);
     let closure =
         Contours::new(&Reals, geometry, StateId::FREE).map_err(|e| problem(e.to_string()))?;
-    Ok(Seen {
+    Ok(KnownMotion {
         figures: found.figures(rank),
         decided: found.is_decided(),
         motions: motions(geometry, &closure, rank, closing),

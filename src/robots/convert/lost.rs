@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// What is lost of one kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Kind {
+pub struct LostKind {
     /// How many.
     pub count: usize,
     /// The first of them by name; nothing where none has one.
@@ -17,7 +17,7 @@ pub struct Kind {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Lost {
     /// The kinds.
-    pub kinds: BTreeMap<String, Kind>,
+    pub kinds: BTreeMap<String, LostKind>,
     /// Rows of couplings among them: W of what is written is up to so many more.
     pub coupling_rows: usize,
 }
@@ -25,11 +25,14 @@ pub struct Lost {
 impl Lost {
     /// One more of a kind.
     pub(crate) fn one(&mut self, kind: &str, name: Option<&str>, why: &str) {
-        let found = self.kinds.entry(kind.to_owned()).or_insert_with(|| Kind {
-            count: 0,
-            example: None,
-            why: why.to_owned(),
-        });
+        let found = self
+            .kinds
+            .entry(kind.to_owned())
+            .or_insert_with(|| LostKind {
+                count: 0,
+                example: None,
+                why: why.to_owned(),
+            });
         found.count += 1;
         if found.example.is_none() {
             found.example = name.map(str::to_owned);

@@ -1,7 +1,7 @@
 //! Couplings as mimic joints: each joint follows one other at most, and none itself by way of others.
 
 use crate::robots::convert::lost::Lost;
-use crate::robots::convert::scene::Scene;
+use crate::robots::convert::scene::RobotScene;
 use crate::robots::description::parts::Ratio;
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ pub(crate) struct Follows {
 /// For each joint that follows another what that is. `fits` says which joints may; `from_pose` whether values count from the pose
 /// that is written. What cannot be said so is lost.
 pub(crate) fn mimics(
-    scene: &Scene<'_>,
+    scene: &RobotScene<'_>,
     fits: impl Fn(usize) -> bool,
     from_pose: bool,
     lost: &mut Lost,
@@ -55,7 +55,7 @@ pub(crate) fn mimics(
 
 /// The coupling as its follower has it, or as its leader has it turned round.
 fn either(
-    scene: &Scene<'_>,
+    scene: &RobotScene<'_>,
     c: &Ratio,
     [a, b]: [usize; 2],
     from_pose: bool,

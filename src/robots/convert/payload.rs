@@ -1,7 +1,7 @@
 //! What links and joints carry besides kinematics, whatever the format: weights, shapes by reference, dynamics of joints,
 //! actuators, named frames.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use crate::robots::convert::lost::Lost;
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ pub(crate) type Words = Vec<(String, String)>;
 pub(crate) struct Weight {
     pub(crate) mass: f64,
     /// Place of the centre, with the axes that the tensor is given in.
-    pub(crate) place: Motion,
+    pub(crate) place: RigidMotion,
     /// xx, yy, zz, xy, xz, yz about the centre.
     pub(crate) tensor: [f64; 6],
 }
@@ -58,10 +58,10 @@ impl Use {
 
 /// A shape on a link.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Shape {
+pub(crate) struct LinkShape {
     pub(crate) name: Option<String>,
     pub(crate) solid: Solid,
-    pub(crate) place: Motion,
+    pub(crate) place: RigidMotion,
     pub(crate) colour: Option<[f64; 4]>,
     pub(crate) use_: Use,
     /// Words of MJCF that say how it touches.
@@ -127,7 +127,7 @@ pub(crate) struct Actuator {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Payload {
     pub(crate) weights: BTreeMap<usize, Weight>,
-    pub(crate) shapes: BTreeMap<usize, Vec<Shape>>,
+    pub(crate) shapes: BTreeMap<usize, Vec<LinkShape>>,
     /// By joint, for each of its freedoms, or once for all.
     pub(crate) dynamics: BTreeMap<usize, Vec<Dynamics>>,
     pub(crate) actuators: Vec<Actuator>,
@@ -137,7 +137,7 @@ pub(crate) struct Payload {
     /// By joint that closes a loop: MJCF's words for its solver.
     pub(crate) closures: BTreeMap<usize, Words>,
     /// Sites and frames: name, link and place.
-    pub(crate) frames: Vec<(String, usize, Motion)>,
+    pub(crate) frames: Vec<(String, usize, RigidMotion)>,
     /// MJCF's words for the whole model.
     pub(crate) option: Words,
     pub(crate) lost: Lost,
@@ -154,9 +154,9 @@ impl Payload {
     }
 
     /// Takes in a shape; one that is seen and another alike that is touched are one.
-    pub(crate) fn shape(&mut self, link: usize, shape: Shape) {
+    pub(crate) fn shape(&mut self, link: usize, shape: LinkShape) {
         let all = self.shapes.entry(link).or_default();
-        let alike = |s: &&mut Shape| {
+        let alike = |s: &&mut LinkShape| {
             s.solid == shape.solid
                 && s.place == shape.place
                 && matches!((s.use_, shape.use_), (Use::Seen, Use::Touched))

@@ -1,7 +1,7 @@
 //! A robot as bodies that hang on one another: which joints hold, which close loops, and what each is made of.
 
-use crate::closure::tree::{Step, forest};
-use crate::geom::rigid::{Motion, towards};
+use crate::closure::tree::{TreeStep, forest};
+use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, scale};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::description::parts::{Part, Robot};
@@ -28,12 +28,12 @@ pub(crate) struct Single {
 
 impl Single {
     /// Where it takes what hangs on it.
-    pub(crate) fn displacement(&self) -> Motion {
-        let turn = Motion::turn(self.axis, self.value);
+    pub(crate) fn displacement(&self) -> RigidMotion {
+        let turn = RigidMotion::turn(self.axis, self.value);
         match self.moves {
             Moves::Turn => turn,
-            Moves::Slide => Motion::shift(scale(self.axis, self.value)),
-            Moves::Screw(pitch) => Motion {
+            Moves::Slide => RigidMotion::shift(scale(self.axis, self.value)),
+            Moves::Screw(pitch) => RigidMotion {
                 translation: scale(self.axis, self.value * pitch),
                 ..turn
             },
@@ -55,8 +55,8 @@ pub(crate) struct Branch {
     pub(crate) joint: usize,
     pub(crate) from: usize,
     pub(crate) link: usize,
-    pub(crate) near: Motion,
-    pub(crate) far: Motion,
+    pub(crate) near: RigidMotion,
+    pub(crate) far: RigidMotion,
     pub(crate) singles: Vec<Single>,
     /// Whether the link that it holds is the first of the joint's two.
     pub(crate) backward: bool,
@@ -64,14 +64,14 @@ pub(crate) struct Branch {
 
 impl Branch {
     /// The place of the held link on the other, in the pose that is written.
-    pub(crate) fn across(&self) -> Motion {
-        let moved = |at: Motion, s: &Single| at.then(&s.displacement());
+    pub(crate) fn across(&self) -> RigidMotion {
+        let moved = |at: RigidMotion, s: &Single| at.then(&s.displacement());
         let moved = self.singles.iter().fold(self.near, moved);
         moved.then(&self.far.inverse())
     }
 
     /// The same where all freedoms are at zero.
-    pub(crate) fn at_zero(&self) -> Motion {
+    pub(crate) fn at_zero(&self) -> RigidMotion {
         self.near.then(&self.far.inverse())
     }
 
@@ -91,7 +91,7 @@ pub(crate) struct Ending {
 
 /// The tree and the loops of a robot.
 #[derive(Debug)]
-pub(crate) struct Plan {
+pub(crate) struct TreePlan {
     pub(crate) root: usize,
     /// What holds each link, those that bear others first.
     pub(crate) branches: Vec<Branch>,
@@ -139,10 +139,10 @@ pub(crate) fn ending(part: &Part) -> Ending {
     }
 }
 
-impl Plan {
+impl TreePlan {
     /// The tree of a robot from the link that stands still. Loops are cut where the file says so, else at balls and welds, which
     /// every format has words for.
-    pub(crate) fn new(robot: &Robot, root: usize) -> Plan {
+    pub(crate) fn new(robot: &Robot, root: usize) -> TreePlan {
         let rank = |p: &Part| match p.joint_type {
             _ if p.closes => 2,
             JointType::Spherical | JointType::Fixed => 1,
@@ -163,7 +163,7 @@ impl Plan {
         let edges = tree.iter().map(|&j| robot.joints[j].links);
         let (_, steps) = forest(robot.links.len(), edges, |_| false, [root]);
         let branches = steps.iter().map(|s| branch(robot, tree[s.joint], s));
-        Plan {
+        TreePlan {
             root,
             branches: branches.collect(),
             loops: (0..holds.len()).filter(|&j| !holds[j]).collect(),
@@ -181,7 +181,7 @@ impl Plan {
     }
 }
 
-fn branch(robot: &Robot, joint: usize, s: &Step<usize, usize>) -> Branch {
+fn branch(robot: &Robot, joint: usize, s: &TreeStep<usize, usize>) -> Branch {
     let part = &robot.joints[joint];
     let [a, b] = part.sides;
     let (near, far) = if s.forward { (a, b) } else { (b, a) };

@@ -1,19 +1,19 @@
 //! What a writer is given, and what it gives back.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::convert::lost::Lost;
-use crate::robots::convert::payload::{Payload, Shape, Weight};
-use crate::robots::convert::plan::{Branch, Plan};
+use crate::robots::convert::payload::{LinkShape, Payload, Weight};
+use crate::robots::convert::plan::{Branch, TreePlan};
 use crate::robots::description::massless::Light;
 use crate::robots::description::parts::{Part, Robot};
 
 /// A robot to be written.
-pub(crate) struct Scene<'a> {
+pub(crate) struct RobotScene<'a> {
     pub(crate) robot: &'a Robot,
     pub(crate) payload: &'a Payload,
-    pub(crate) plan: &'a Plan,
+    pub(crate) plan: &'a TreePlan,
     /// Places of the links in the pose that is written.
-    pub(crate) places: &'a [Motion],
+    pub(crate) places: &'a [RigidMotion],
     /// What stands between joints in series.
     pub(crate) light: Light,
     /// How well places are known, as a comment.
@@ -36,13 +36,13 @@ pub(crate) struct Text {
 }
 
 /// Limits of a joint of one freedom, as far as they hold.
-pub(crate) fn limits(scene: &Scene<'_>, joint: usize) -> Option<(f64, f64)> {
+pub(crate) fn limits(scene: &RobotScene<'_>, joint: usize) -> Option<(f64, f64)> {
     let part = &scene.robot.joints[joint];
     let free = scene.payload.of(joint, 0).unlimited;
     part.limits.filter(|_| !free && part.values.len() == 1)
 }
 
-impl Scene<'_> {
+impl RobotScene<'_> {
     pub(crate) fn part(&self, joint: usize) -> &Part {
         &self.robot.joints[joint]
     }
@@ -51,7 +51,7 @@ impl Scene<'_> {
         self.payload.weights.get(&link).filter(|w| w.mass > 0.0)
     }
 
-    pub(crate) fn shapes(&self, link: usize) -> &[Shape] {
+    pub(crate) fn shapes(&self, link: usize) -> &[LinkShape] {
         self.payload.shapes.get(&link).map_or(&[], Vec::as_slice)
     }
 

@@ -1,6 +1,6 @@
 //! Masses and inertias of shapes filled evenly.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
 use crate::robots::convert::payload::{Solid, Weight};
 use std::f64::consts::PI;
@@ -46,7 +46,7 @@ fn matrix([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [Vector; 3] {
 }
 
 /// A tensor in the axes that a place has, seen from outside.
-pub(crate) fn turned(tensor: [f64; 6], place: &Motion) -> [f64; 6] {
+pub(crate) fn turned(tensor: [f64; 6], place: &RigidMotion) -> [f64; 6] {
     let r = &place.rotation;
     let half = r.map(|row| {
         let m = matrix(tensor);
@@ -85,7 +85,7 @@ pub(crate) fn together(all: &[Weight]) -> Option<Weight> {
             *t += o + w.mass * f;
         }
     }
-    let place = Motion::shift(centre);
+    let place = RigidMotion::shift(centre);
     Some(Weight {
         mass,
         place,
@@ -164,14 +164,14 @@ mod tests {
     fn weights_add_up() {
         let end = |x: f64| Weight {
             mass: 1.0,
-            place: Motion::shift([x, 0.0, 0.0]).then(&Motion::turn(Z, x)),
+            place: RigidMotion::shift([x, 0.0, 0.0]).then(&RigidMotion::turn(Z, x)),
             tensor: [0.0; 6],
         };
         let whole = together(&[end(0.0), end(1.0)]);
         let found = whole.map(|w| (w.mass, w.place.translation, w.tensor));
         let tensor = [0.0, 0.5, 0.5, 0.0, 0.0, 0.0];
         assert_eq!(found, Some((2.0, [0.5, 0.0, 0.0], tensor)));
-        let quarter = Motion::turn(X, std::f64::consts::FRAC_PI_2);
+        let quarter = RigidMotion::turn(X, std::f64::consts::FRAC_PI_2);
         let turned = turned([1.0, 2.0, 3.0, 0.0, 0.0, 0.0], &quarter);
         assert_eq!(turned, [1.0, 3.0, 2.0, 0.0, 0.0, 0.0]);
         assert_eq!(together(&[]), None);

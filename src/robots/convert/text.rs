@@ -1,11 +1,11 @@
 //! Places as the formats write them.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length, sub};
 use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 
 /// Fixed-axis roll, pitch and yaw of a turn.
-pub(crate) fn roll_pitch_yaw(m: &Motion) -> Vector {
+pub(crate) fn roll_pitch_yaw(m: &RigidMotion) -> Vector {
     let r = &m.rotation;
     let level = r[0][0].hypot(r[1][0]);
     // Below the rounding of the entries any yaw will do, and none is the plainest; above it, leaving it out would turn by as much.
@@ -22,7 +22,7 @@ pub(crate) fn roll_pitch_yaw(m: &Motion) -> Vector {
 }
 
 /// A quaternion w, x, y, z of a turn, w not negative.
-pub(crate) fn quaternion(m: &Motion) -> [f64; 4] {
+pub(crate) fn quaternion(m: &RigidMotion) -> [f64; 4] {
     let v = m.rotation_vector();
     let angle = length(v);
     let (s, c) = (angle / 2.0).sin_cos();
@@ -31,25 +31,25 @@ pub(crate) fn quaternion(m: &Motion) -> [f64; 4] {
 }
 
 /// Whether a turn is none but for rounding.
-pub(crate) fn is_straight(m: &Motion) -> bool {
+pub(crate) fn is_straight(m: &RigidMotion) -> bool {
     [X, Y]
         .iter()
         .all(|d| length(sub(m.direction(*d), *d)) < 1e-15)
 }
 
 /// `xyz="..." rpy="..."`.
-pub(crate) fn xyz_rpy(m: &Motion) -> String {
+pub(crate) fn xyz_rpy(m: &RigidMotion) -> String {
     let at = numbers(m.translation);
     format!("xyz=\"{at}\" rpy=\"{}\"", numbers(roll_pitch_yaw(m)))
 }
 
 /// Six numbers of SDF's `<pose>`.
-pub(crate) fn pose(m: &Motion) -> String {
+pub(crate) fn pose(m: &RigidMotion) -> String {
     format!("{} {}", numbers(m.translation), numbers(roll_pitch_yaw(m)))
 }
 
 /// ` pos="..." xyaxes="..."`, as far as it is not zero: two axes of a turn by a quarter are whole numbers.
-pub(crate) fn pos_axes(m: &Motion) -> String {
+pub(crate) fn pos_axes(m: &RigidMotion) -> String {
     let at = match m.translation.map(number) {
         [0.0, 0.0, 0.0] => String::new(),
         at => format!(" pos=\"{}\"", numbers(at)),
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn apart(a: &Motion, b: &Motion) -> f64 {
+    fn apart(a: &RigidMotion, b: &RigidMotion) -> f64 {
         let rows = a.rotation.iter().zip(b.rotation);
         rows.map(|(a, b)| length(sub(*a, b))).fold(0.0, f64::max)
     }
@@ -83,10 +83,10 @@ mod tests {
             // Pitches at, and next to, a quarter turn among them.
             let off = 10f64.powi(-near) * lean;
             for pitch in [lean, std::f64::consts::FRAC_PI_2 + off] {
-                let m = Motion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
-                let again = Motion::roll_pitch_yaw([0.0; 3], roll_pitch_yaw(&m));
+                let m = RigidMotion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
+                let again = RigidMotion::roll_pitch_yaw([0.0; 3], roll_pitch_yaw(&m));
                 prop_assert!(apart(&m, &again) < 1e-14);
-                let again = Motion::quaternion([0.0; 3], quaternion(&m));
+                let again = RigidMotion::quaternion([0.0; 3], quaternion(&m));
                 prop_assert!(apart(&m, &again) < 1e-7);
             }
         }

@@ -8,7 +8,7 @@ mod geom;
 use crate::model::joint_type::JointType;
 use crate::robots::convert::payload::{Actuator, Command};
 use crate::robots::convert::plan::Moves;
-use crate::robots::convert::scene::{Scene, Text, name_of};
+use crate::robots::convert::scene::{RobotScene, Text, name_of};
 use crate::robots::convert::text::attributes;
 use crate::robots::description::parts::Ratio;
 use crate::robots::mechanism::series_of_single_joints::{Names, escape, number};
@@ -16,8 +16,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What the file collects while its bodies are written.
-struct Writer<'a> {
-    scene: &'a Scene<'a>,
+struct ToMjcf<'a> {
+    scene: &'a RobotScene<'a>,
     names: BTreeMap<usize, String>,
     bodies: Names,
     joints: Names,
@@ -40,8 +40,8 @@ struct Writer<'a> {
 }
 
 /// Writes it.
-pub(crate) fn mjcf(scene: &Scene<'_>) -> Text {
-    let mut w = Writer {
+pub(crate) fn mjcf(scene: &RobotScene<'_>) -> Text {
+    let mut w = ToMjcf {
         scene,
         names: BTreeMap::new(),
         bodies: Names::default(),
@@ -81,7 +81,7 @@ pub(crate) fn mjcf(scene: &Scene<'_>) -> Text {
     w.whole(&bodies)
 }
 
-impl Writer<'_> {
+impl ToMjcf<'_> {
     /// Names of all freedoms, in the order of the robot's joints, so that the first of a name keeps it.
     fn name_joints(&mut self) {
         for (j, part) in self.scene.robot.joints.iter().enumerate() {

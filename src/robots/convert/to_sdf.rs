@@ -3,13 +3,13 @@
 
 mod link;
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use crate::model::joint_type::JointType;
 use crate::robots::convert::mimics::{Follows, mimics};
 use crate::robots::convert::payload::Dynamics;
 use crate::robots::convert::plan::{Moves, Single, singles};
-use crate::robots::convert::scene::{Scene, Text, limits, name_of};
+use crate::robots::convert::scene::{RobotScene, Text, limits, name_of};
 use crate::robots::convert::text::pose;
 use crate::robots::mechanism::series_of_single_joints::{Names, escape, number, numbers};
 use std::collections::BTreeMap;
@@ -17,8 +17,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// What a file collects.
-struct Writer<'a> {
-    scene: &'a Scene<'a>,
+struct ToSdf<'a> {
+    scene: &'a RobotScene<'a>,
     names: Names,
     links: BTreeMap<usize, String>,
     joints: BTreeMap<usize, String>,
@@ -33,8 +33,8 @@ struct Writer<'a> {
 }
 
 /// Writes it.
-pub(crate) fn sdf(scene: &Scene<'_>) -> Text {
-    let mut w = Writer {
+pub(crate) fn sdf(scene: &RobotScene<'_>) -> Text {
+    let mut w = ToSdf {
         scene,
         names: Names::default(),
         links: BTreeMap::new(),
@@ -74,7 +74,7 @@ pub(crate) fn sdf(scene: &Scene<'_>) -> Text {
     if robot.world != Some(plan.root) {
         let name = w.fit(&format!("world-{}", robot.links[plan.root]));
         let ends = ["world".to_owned(), w.links[&plan.root].clone()];
-        w.put(&name, "fixed", &ends, &Motion::IDENTITY, "");
+        w.put(&name, "fixed", &ends, &RigidMotion::IDENTITY, "");
     }
     for j in 0..robot.joints.len() {
         w.joint(j);
@@ -106,7 +106,7 @@ fn thread(s: &Single) -> String {
     format!("      <screw_thread_pitch>{turn}</screw_thread_pitch>\n")
 }
 
-impl Writer<'_> {
+impl ToSdf<'_> {
     /// A name that no other link or joint has; what SDF keeps for itself is changed.
     fn fit(&mut self, wanted: &str) -> String {
         let plain = if wanted.starts_with("__") && wanted.ends_with("__") {
@@ -173,8 +173,8 @@ impl Writer<'_> {
         j: usize,
         all: &[Single],
         [from, to]: [String; 2],
-        near: Motion,
-        end: Motion,
+        near: RigidMotion,
+        end: RigidMotion,
     ) {
         let name = self.joints[&j].clone();
         let (mut from, mut at) = (from, near);
@@ -198,7 +198,7 @@ impl Writer<'_> {
                 );
                 light
             };
-            let far = if last { end } else { Motion::IDENTITY };
+            let far = if last { end } else { RigidMotion::IDENTITY };
             let mut more = self.axis(j, s.freedom, s.axis, false);
             more += &thread(s);
             self.put(&own, kind(s), &[from, held.clone()], &far, &more);
@@ -282,11 +282,11 @@ impl Writer<'_> {
         name: &str,
         kind: &str,
         [parent, child]: &[String; 2],
-        at: &Motion,
+        at: &RigidMotion,
         more: &str,
     ) {
         let [parent, child] = [parent, child].map(|l| escape(l));
-        let place = if *at == Motion::IDENTITY {
+        let place = if *at == RigidMotion::IDENTITY {
             String::new()
         } else {
             format!("      <pose>{}</pose>\n", pose(at))

@@ -5,10 +5,10 @@ mod closing;
 mod link;
 mod tree;
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::convert::mimics::mimics;
 use crate::robots::convert::payload::{Actuator, Command};
-use crate::robots::convert::scene::{Scene, Text, moves, name_of};
+use crate::robots::convert::scene::{RobotScene, Text, moves, name_of};
 use crate::robots::mechanism::series_of_single_joints::{Names, escape, number};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -25,14 +25,14 @@ pub(crate) enum Loops {
 const ENDLESS: f64 = 1e10;
 
 /// What a file collects.
-struct Writer<'a> {
-    scene: &'a Scene<'a>,
+struct ToUrdf<'a> {
+    scene: &'a RobotScene<'a>,
     loops: Loops,
     links: Names,
     joints: Names,
     names: BTreeMap<usize, String>,
     /// The frame of each link in the file, in that of the robot's link.
-    frames: BTreeMap<usize, Motion>,
+    frames: BTreeMap<usize, RigidMotion>,
     /// Names of freedoms that are joints of the tree.
     single: BTreeMap<(usize, usize), String>,
     /// What a joint follows, by name: the leader, the rate and the value where the leader is at zero.
@@ -44,8 +44,8 @@ struct Writer<'a> {
 }
 
 /// Writes it.
-pub(crate) fn urdf(scene: &Scene<'_>, loops: Loops) -> Text {
-    let mut w = Writer {
+pub(crate) fn urdf(scene: &RobotScene<'_>, loops: Loops) -> Text {
+    let mut w = ToUrdf {
         scene,
         loops,
         links: Names::default(),
@@ -79,7 +79,7 @@ pub(crate) fn urdf(scene: &Scene<'_>, loops: Loops) -> Text {
     }
     let root = plan.root;
     let name = w.links.fit(&scene.robot.links[root]);
-    w.frames.insert(root, Motion::IDENTITY);
+    w.frames.insert(root, RigidMotion::IDENTITY);
     w.names.insert(root, name);
     for b in &plan.branches {
         let name = w.links.fit(&scene.robot.links[b.link]);
@@ -102,7 +102,7 @@ pub(crate) fn urdf(scene: &Scene<'_>, loops: Loops) -> Text {
     w.whole()
 }
 
-impl Writer<'_> {
+impl ToUrdf<'_> {
     /// The name of a joint.
     fn id(&self, j: usize) -> String {
         self.single[&(j, usize::MAX)].clone()

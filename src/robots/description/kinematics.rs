@@ -1,7 +1,7 @@
 //! The spanning tree of a robot and the places of its links.
 
-use crate::closure::tree::{Step, forest};
-use crate::geom::rigid::{Motion, towards};
+use crate::closure::tree::{TreeStep, forest};
+use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, scale};
 use crate::model::joint_type::Freedom;
 use crate::robots::description::parts::{Part, Robot};
@@ -12,7 +12,7 @@ pub(crate) struct Tree {
     /// Roots, the frame first.
     pub(in crate::robots) roots: Vec<usize>,
     /// The joints of the tree, roots first: the joint, the link it leads to, and whether that is its child.
-    pub(in crate::robots) steps: Vec<Step<usize, usize>>,
+    pub(in crate::robots) steps: Vec<TreeStep<usize, usize>>,
     /// For each link the step that leads to it.
     pub(in crate::robots) into: Vec<Option<usize>>,
     /// The joints that close loops.
@@ -46,31 +46,31 @@ pub(crate) fn spanning_tree(robot: &Robot, frame: usize) -> Tree {
 }
 
 /// The displacement of one freedom.
-fn elementary(part: &Part, freedom: Freedom, value: f64) -> Motion {
+fn elementary(part: &Part, freedom: Freedom, value: f64) -> RigidMotion {
     let d = towards(part.direction(freedom));
     match freedom {
-        Freedom::Rx | Freedom::Ry | Freedom::Rz => Motion::turn(d, value),
-        Freedom::Tx | Freedom::Ty | Freedom::Tz => Motion::shift(scale(d, value)),
-        Freedom::Screw => Motion {
+        Freedom::Rx | Freedom::Ry | Freedom::Rz => RigidMotion::turn(d, value),
+        Freedom::Tx | Freedom::Ty | Freedom::Tz => RigidMotion::shift(scale(d, value)),
+        Freedom::Screw => RigidMotion {
             translation: scale(d, value * part.pitch),
-            ..Motion::turn(d, value)
+            ..RigidMotion::turn(d, value)
         },
     }
 }
 
 /// The displacement of a joint: its child's side in its parent's.
-pub(crate) fn displacement(part: &Part) -> Motion {
+pub(crate) fn displacement(part: &Part) -> RigidMotion {
     part.joint_type
         .freedoms()
         .iter()
         .zip(&part.values)
-        .fold(Motion::IDENTITY, |pose, (&f, &v)| {
+        .fold(RigidMotion::IDENTITY, |pose, (&f, &v)| {
             pose.then(&elementary(part, f, v))
         })
 }
 
 /// The places of all links.
-pub(crate) fn places(robot: &Robot, tree: &Tree) -> Vec<Motion> {
+pub(crate) fn places(robot: &Robot, tree: &Tree) -> Vec<RigidMotion> {
     let mut out = robot.places.clone();
     for s in &tree.steps {
         let p = &robot.joints[s.joint];
@@ -96,7 +96,7 @@ pub(crate) struct WorldAxis {
 }
 
 /// The freedoms of a joint in the world; each is carried along by those before it.
-pub(crate) fn world_axes(part: &Part, places: &[Motion]) -> Vec<WorldAxis> {
+pub(crate) fn world_axes(part: &Part, places: &[RigidMotion]) -> Vec<WorldAxis> {
     let mut pose = places[part.links[0]].then(&part.sides[0]);
     let mut out = Vec::new();
     for (&freedom, &value) in part.joint_type.freedoms().iter().zip(&part.values) {

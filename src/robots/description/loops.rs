@@ -7,7 +7,7 @@
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Robot};
@@ -89,7 +89,7 @@ fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, RobotProblem> {
 }
 
 /// The link and place of a name: of a link or frame, or of the child's side of a joint.
-fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, Motion), RobotProblem> {
+fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, RigidMotion), RobotProblem> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
     }
@@ -121,7 +121,7 @@ fn joint_type(element: &str, word: &str) -> Result<JointType, RobotProblem> {
 
 fn put(
     element: &str,
-    ends: [(usize, Motion); 2],
+    ends: [(usize, RigidMotion); 2],
     kind: JointType,
     robot: &mut Robot,
 ) -> Result<(), RobotProblem> {
@@ -212,7 +212,7 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> 
             None => JointType::Fixed,
             Some(t) => joint_type(&element, word(Some(t), "type")?)?,
         };
-        let mut ends = [(0, Motion::IDENTITY); 2];
+        let mut ends = [(0, RigidMotion::IDENTITY); 2];
         for (end, name) in ends.iter_mut().zip([a, b]) {
             *end = place(&element, word(Some(name), "the end of a loop")?, robot)?;
         }
@@ -252,7 +252,7 @@ fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, RobotProblem>
 
 fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
     let element = format!("ball-{}", i + 1);
-    let mut ends = [(0, Motion::IDENTITY); 2];
+    let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (end, (body, point)) in ends
         .iter_mut()
         .zip([("body_A", "p_AP"), ("body_B", "p_BQ")])
@@ -267,7 +267,7 @@ fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
             robot,
         )?;
         let at = vector(item.get(&point), &format!("{point} of {element}"))?.unwrap_or([0.0; 3]);
-        *end = (link, frame.then(&Motion::shift(at)));
+        *end = (link, frame.then(&RigidMotion::shift(at)));
     }
     put(&element, ends, JointType::Spherical, robot)
 }
@@ -291,7 +291,7 @@ fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
         None => JointType::Spherical,
         some => joint_type(&element, word(some, "type")?)?,
     };
-    let mut ends = [(0, Motion::IDENTITY); 2];
+    let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (end, side) in ends.iter_mut().zip(["a", "b"]) {
         let (link, frame) = place(
             &element,
@@ -309,7 +309,9 @@ fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
         }
         *end = (
             link,
-            frame.then(&Motion::shift(at)).then(&Motion::z_to(axis)),
+            frame
+                .then(&RigidMotion::shift(at))
+                .then(&RigidMotion::z_to(axis)),
         );
     }
     put(&element, ends, kind, robot)

@@ -1,6 +1,6 @@
 //! Where in a description the parts of the mechanism stand.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::JointId;
 use crate::motion::pose::Pose;
 use crate::robots::cad::archive::Archive;
@@ -20,7 +20,7 @@ pub struct Origin {
     /// The link that stands still.
     pub(in crate::robots) frame: usize,
     /// Places of the robot's links in the pose found.
-    pub(in crate::robots) places: Vec<Motion>,
+    pub(in crate::robots) places: Vec<RigidMotion>,
     /// The robot's joints that the mechanism's are.
     pub(in crate::robots) joints: Vec<usize>,
     /// The elements that the mechanism's couplings are.
@@ -29,7 +29,7 @@ pub struct Origin {
 
 /// The place of an element.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct ElementPlace {
     /// Name of the file.
     pub file: String,
     /// Line and column, from 1.
@@ -49,13 +49,13 @@ impl Origin {
 
     /// The element that a joint is; none where a file beside the description says that it is there.
     #[must_use]
-    pub fn joint(&self, joint: JointId) -> Option<Place> {
+    pub fn joint(&self, joint: JointId) -> Option<ElementPlace> {
         self.part(joint).element.map(|e| self.place(e))
     }
 
     /// The element that a coupling is, by its place among the mechanism's.
     #[must_use]
-    pub fn coupling(&self, coupling: usize) -> Option<Place> {
+    pub fn coupling(&self, coupling: usize) -> Option<ElementPlace> {
         self.couplings.get(coupling).map(|&e| self.place(e))
     }
 
@@ -123,12 +123,12 @@ impl Origin {
         element.is_some_and(|e| ["joint", "connect", "weld", "loop_joint"].contains(&e))
     }
 
-    fn place(&self, id: usize) -> Place {
+    fn place(&self, id: usize) -> ElementPlace {
         let node = self.element(id).node();
         let source = &self.document.sources[node.source];
         let before = &source.text[..node.span.start];
         let line = before.rfind('\n').map_or(0, |n| n + 1);
-        Place {
+        ElementPlace {
             file: source.name.clone(),
             at: [
                 before.matches('\n').count() + 1,

@@ -1,6 +1,6 @@
 //! What the formats have in common: links, joints with a place on either side, named frames.
 
-use crate::geom::rigid::{Motion, perpendicular};
+use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::warning::Report;
@@ -15,7 +15,7 @@ pub(crate) struct Part {
     /// Parent and child.
     pub(in crate::robots) links: [usize; 2],
     /// The joint's place on the parent and on the child.
-    pub(in crate::robots) sides: [Motion; 2],
+    pub(in crate::robots) sides: [RigidMotion; 2],
     pub(in crate::robots) joint_type: JointType,
     /// Direction of z in the joint's own frame, of any length.
     pub(in crate::robots) axis: Vector,
@@ -47,7 +47,7 @@ impl Part {
     pub(crate) fn new(
         id: &str,
         links: [usize; 2],
-        sides: [Motion; 2],
+        sides: [RigidMotion; 2],
         joint_type: JointType,
     ) -> Part {
         Part {
@@ -145,9 +145,9 @@ pub(crate) struct Robot {
     /// Links with a shape or a site: parts that are more than kinematics.
     pub(in crate::robots) shown: BTreeSet<usize>,
     /// Named frames: the link they are fixed to and their place on it.
-    pub(in crate::robots) frames: BTreeMap<String, (usize, Motion)>,
+    pub(in crate::robots) frames: BTreeMap<String, (usize, RigidMotion)>,
     /// Places of links in the file, for those that nothing else places.
-    pub(in crate::robots) places: Vec<Motion>,
+    pub(in crate::robots) places: Vec<RigidMotion>,
     /// The unit of its lengths.
     pub(in crate::robots) unit: Unit,
     /// How well places are known, in its unit and in radians, where that is known better than by the digits of its numbers.
@@ -219,11 +219,12 @@ impl Robot {
     }
 
     /// Adds a link; its frame gets its name.
-    pub(crate) fn link(&mut self, name: &str, place: Motion) -> usize {
+    pub(crate) fn link(&mut self, name: &str, place: RigidMotion) -> usize {
         let l = self.links.len();
         self.links.push(name.to_owned());
         self.places.push(place);
-        self.frames.insert(name.to_owned(), (l, Motion::IDENTITY));
+        self.frames
+            .insert(name.to_owned(), (l, RigidMotion::IDENTITY));
         l
     }
 
@@ -233,7 +234,7 @@ impl Robot {
     }
 
     /// The link or frame of a name.
-    pub(crate) fn frame(&self, name: &str) -> Option<(usize, Motion)> {
+    pub(crate) fn frame(&self, name: &str) -> Option<(usize, RigidMotion)> {
         self.frames.get(name).copied()
     }
 }

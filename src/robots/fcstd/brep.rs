@@ -2,7 +2,7 @@
 
 /// What an element of a shape is. Lengths in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum ShapeKind {
     Vertex,
     Line,
     Circle(f64),
@@ -16,7 +16,7 @@ pub(crate) enum Kind {
 }
 
 /// The kind of an element, such as `Face3`; none where the shape does not tell.
-pub(crate) fn kind(shape: &str, element: &str) -> Option<Kind> {
+pub(crate) fn kind(shape: &str, element: &str) -> Option<ShapeKind> {
     let number = |prefix: &str| element.strip_prefix(prefix)?.parse::<usize>().ok();
     let (tag, place) = match (number("Face"), number("Edge")) {
         (Some(n), _) => ("Fa", n),
@@ -31,7 +31,7 @@ pub(crate) fn kind(shape: &str, element: &str) -> Option<Kind> {
 }
 
 /// A shape of the list: its tag, the shapes it is made of, and the surface or curve it lies on.
-struct Shape<'a> {
+struct BrepShape<'a> {
     tag: &'a str,
     parts: Vec<usize>,
     geometry: Option<usize>,
@@ -53,13 +53,13 @@ fn section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
 }
 
 /// The shapes in the order of the file: parts come before what they are part of, and are called by their place from the end.
-fn shapes(text: &str) -> Option<Vec<Shape<'_>>> {
+fn shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
     let (count, body) = section(text, "TShapes")?;
     // Each takes three lines at least.
     if count > body.len() / 3 {
         return None;
     }
-    let mut out: Vec<Shape<'_>> = Vec::new();
+    let mut out: Vec<BrepShape<'_>> = Vec::new();
     let mut lines = body.lines();
     while out.len() < count {
         let tag = lines.next()?.trim();
@@ -93,7 +93,7 @@ fn shapes(text: &str) -> Option<Vec<Shape<'_>>> {
                 }
             }
         }
-        out.push(Shape {
+        out.push(BrepShape {
             tag,
             parts,
             geometry,
@@ -103,7 +103,7 @@ fn shapes(text: &str) -> Option<Vec<Shape<'_>>> {
 }
 
 /// The place of the n-th shape of a tag, from 1, as they are met from the whole down, each once.
-fn nth(shapes: &[Shape<'_>], tag: &str, n: usize) -> Option<usize> {
+fn nth(shapes: &[BrepShape<'_>], tag: &str, n: usize) -> Option<usize> {
     let mut met = vec![false; shapes.len()];
     let mut stack = vec![shapes.len().checked_sub(1)?];
     let mut left = n;
@@ -143,7 +143,7 @@ fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> 
     lines.next()
 }
 
-fn of_geometry(heading: &str, line: &str) -> Option<Kind> {
+fn of_geometry(heading: &str, line: &str) -> Option<ShapeKind> {
     let words: Vec<f64> = line
         .split_whitespace()
         .filter_map(|w| w.parse().ok())
@@ -155,14 +155,14 @@ fn of_geometry(heading: &str, line: &str) -> Option<Kind> {
     )]
     let kind = *words.first()? as i64;
     Some(match (heading, kind) {
-        ("Surfaces", 1) => Kind::Plane,
-        ("Surfaces", 2) => Kind::Cylinder(last),
-        ("Surfaces", 3) => Kind::Cone,
-        ("Surfaces", 4) => Kind::Sphere(last),
-        ("Surfaces", 5) => Kind::Torus(last),
-        ("Surfaces", _) => Kind::Surface,
-        (_, 1) => Kind::Line,
-        (_, 2) => Kind::Circle(last),
-        _ => Kind::Curve,
+        ("Surfaces", 1) => ShapeKind::Plane,
+        ("Surfaces", 2) => ShapeKind::Cylinder(last),
+        ("Surfaces", 3) => ShapeKind::Cone,
+        ("Surfaces", 4) => ShapeKind::Sphere(last),
+        ("Surfaces", 5) => ShapeKind::Torus(last),
+        ("Surfaces", _) => ShapeKind::Surface,
+        (_, 1) => ShapeKind::Line,
+        (_, 2) => ShapeKind::Circle(last),
+        _ => ShapeKind::Curve,
     })
 }

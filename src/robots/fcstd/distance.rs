@@ -1,9 +1,9 @@
 //! What a distance joint holds, by the kinds of the two elements it stands between.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{add_scaled, cross, dot, length, sub};
 use crate::robots::cad::holds::Holds;
-use crate::robots::fcstd::brep::Kind;
+use crate::robots::fcstd::brep::ShapeKind;
 
 /// Below this two directions are one, and a line lies in a plane.
 const SINE: f64 = 1e-3;
@@ -17,25 +17,29 @@ pub(crate) struct Distance {
 }
 
 /// The kind of an element by its name and that of the object it is of, where its shape does not tell.
-pub(crate) fn by_name(element: &str, object: &str) -> Option<Kind> {
+pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
     if element.starts_with("Vertex") {
-        return Some(Kind::Vertex);
+        return Some(ShapeKind::Vertex);
     }
     let flat = ["App::Plane", "PartDesign::Plane", "Part::DatumPlane"];
     let straight = ["App::Line", "PartDesign::Line", "Part::DatumLine"];
     let point = ["App::Point", "PartDesign::Point", "Part::DatumPoint"];
     let is = |list: [&str; 3]| element.is_empty() && list.contains(&object);
     match () {
-        () if is(flat) => Some(Kind::Plane),
-        () if is(straight) => Some(Kind::Line),
-        () if is(point) => Some(Kind::Vertex),
+        () if is(flat) => Some(ShapeKind::Plane),
+        () if is(straight) => Some(ShapeKind::Line),
+        () if is(point) => Some(ShapeKind::Vertex),
         () => None,
     }
 }
 
 /// What is held between two kinds, at frames in the assembly and with the distance of the joint.
-pub(crate) fn distance(kinds: [Option<Kind>; 2], frames: &[Motion; 2], value: f64) -> Distance {
-    use Kind::{Circle, Cone, Curve, Cylinder, Line, Plane, Sphere, Surface, Torus, Vertex};
+pub(crate) fn distance(
+    kinds: [Option<ShapeKind>; 2],
+    frames: &[RigidMotion; 2],
+    value: f64,
+) -> Distance {
+    use ShapeKind::{Circle, Cone, Curve, Cylinder, Line, Plane, Sphere, Surface, Torus, Vertex};
     let [a, b] = kinds.map(|k| k.unwrap_or(Surface));
     let one = |swap: bool, holds: Holds| Distance {
         holds,
@@ -95,15 +99,15 @@ pub(crate) fn distance(kinds: [Option<Kind>; 2], frames: &[Motion; 2], value: f6
     }
 }
 
-fn radius(k: Kind) -> f64 {
+fn radius(k: ShapeKind) -> f64 {
     match k {
-        Kind::Circle(r) => r,
+        ShapeKind::Circle(r) => r,
         _ => 0.0,
     }
 }
 
 /// Where a shape does not tell what a face is: at a solved pose the directions of the two frames do, as far as they can.
-fn unknown(kinds: [Option<Kind>; 2], frames: &[Motion; 2], found: Distance) -> Distance {
+fn unknown(kinds: [Option<ShapeKind>; 2], frames: &[RigidMotion; 2], found: Distance) -> Distance {
     let [a, b] = frames;
     let [z, line] = [a, b].map(|m| m.rotation.map(|row| row[2]));
     let there = |swap: bool| {
@@ -111,7 +115,7 @@ fn unknown(kinds: [Option<Kind>; 2], frames: &[Motion; 2], found: Distance) -> D
         let z = plane.rotation.map(|row| row[2]);
         dot(sub(other.translation, plane.translation), z)
     };
-    let swap = kinds[1] == Some(Kind::Plane);
+    let swap = kinds[1] == Some(ShapeKind::Plane);
     if length(cross(z, line)) > 1.0 - SINE {
         // A plane and a cylinder, the first of the two as the plane where nothing says otherwise.
         return Distance {
@@ -133,7 +137,7 @@ fn unknown(kinds: [Option<Kind>; 2], frames: &[Motion; 2], found: Distance) -> D
 }
 
 /// The frame of a rack, its x along the way that it slides and its y away from the pinion.
-pub(crate) fn rack(rack: &Motion, pinion: &Motion, slide: [f64; 3]) -> Motion {
+pub(crate) fn rack(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
     let z = pinion.rotation.map(|row| row[2]);
     let x = crate::geom::rigid::towards(add_scaled(slide, -dot(slide, z), z));
     let y = cross(z, x);
@@ -144,7 +148,7 @@ pub(crate) fn rack(rack: &Motion, pinion: &Motion, slide: [f64; 3]) -> Motion {
     } else {
         (x, y)
     };
-    Motion {
+    RigidMotion {
         rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),
         translation: rack.translation,
     }

@@ -1,10 +1,10 @@
 //! Joints of FreeCAD's Assembly workbench as connections.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{cross, length};
 use crate::robots::cad::holds::Holds;
-use crate::robots::fcstd::brep::{Kind, kind};
+use crate::robots::fcstd::brep::{ShapeKind, kind};
 use crate::robots::fcstd::distance::{Distance, by_name, distance, rack};
 use crate::robots::fcstd::objects::Object;
 use crate::robots::fcstd::reference::Reference;
@@ -16,7 +16,7 @@ pub(crate) type Shapes<'a> = &'a dyn Fn(&str) -> Option<String>;
 #[derive(Debug)]
 pub(crate) struct Held {
     pub(crate) holds: Holds,
-    pub(crate) frames: [Motion; 2],
+    pub(crate) frames: [RigidMotion; 2],
     pub(crate) swap: bool,
     pub(crate) doubt: Option<&'static str>,
 }
@@ -31,11 +31,11 @@ pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
 pub(crate) fn frames(
     joint: &Object<'_>,
     ends: &[Reference<'_>; 2],
-) -> Result<[Motion; 2], ImportError> {
-    let mut out = [Motion::IDENTITY; 2];
+) -> Result<[RigidMotion; 2], ImportError> {
+    let mut out = [RigidMotion::IDENTITY; 2];
     for (i, end) in ends.iter().enumerate() {
         let own = joint.placement(&format!("Placement{}", i + 1))?;
-        let own = own.unwrap_or(Motion::IDENTITY);
+        let own = own.unwrap_or(RigidMotion::IDENTITY);
         out[i] = end.place.then(&end.inner).then(&own);
     }
     Ok(out)
@@ -102,7 +102,7 @@ pub(crate) fn held(
 }
 
 /// The kind of the element that a joint holds on to.
-fn of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<Kind> {
+fn of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<ShapeKind> {
     by_name(end.element, end.object).or_else(|| kind(&shapes(end.shape?)?, end.element))
 }
 
@@ -110,7 +110,7 @@ fn of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<Kind> {
 fn pinion(
     radius: f64,
     ends: &[Reference<'_>; 2],
-    frames: [Motion; 2],
+    frames: [RigidMotion; 2],
     slides: &[Slide<'_>],
 ) -> Held {
     let slide = |i: usize| {

@@ -1,7 +1,7 @@
 //! The objects of a FreeCAD document and their properties.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
@@ -132,7 +132,7 @@ impl<'a> Object<'a> {
     ///
     /// # Errors
     /// Where numbers are no numbers, or the quaternion is none.
-    pub(crate) fn placement(&self, name: &str) -> Result<Option<Motion>, ImportError> {
+    pub(crate) fn placement(&self, name: &str) -> Result<Option<RigidMotion>, ImportError> {
         let Some(e) = self.value(name) else {
             return Ok(None);
         };
@@ -152,7 +152,7 @@ impl<'a> Object<'a> {
             };
             return Err(e.fail(Some("Q0"), problem));
         }
-        Ok(Some(Motion::quaternion(translation, q)))
+        Ok(Some(RigidMotion::quaternion(translation, q)))
     }
 
     /// The word that an enumeration has, by the list that stands beside its index.

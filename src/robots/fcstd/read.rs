@@ -1,7 +1,7 @@
 //! Reads a FreeCAD document: the parts of an assembly where they stand, and its joints.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::assembly::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::parts::{Robot, Unit};
@@ -201,8 +201,8 @@ impl<'a> Assembling<'a, '_> {
     ) -> Result<Assembly, ImportError> {
         let ended = self.ended(robot)?;
         let grounded = self.grounded(&ended, robot);
-        let mut parts: Vec<(String, Motion)> =
-            vec![(self.assembly.label().to_owned(), Motion::IDENTITY)];
+        let mut parts: Vec<(String, RigidMotion)> =
+            vec![(self.assembly.label().to_owned(), RigidMotion::IDENTITY)];
         let mut place: BTreeMap<&str, usize> = BTreeMap::new();
         let ends = ended.iter().flat_map(|(_, _, ends)| ends);
         for (end, part) in ends.filter_map(|e| Some((e, e.part?))) {

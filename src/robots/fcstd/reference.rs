@@ -1,7 +1,7 @@
 //! What a joint refers to: the part that moves, the frame's place in it, and the element of its shape.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
@@ -28,9 +28,9 @@ pub(crate) struct Reference<'a> {
     /// The name of the part below the assembly, or none where it is what stands still.
     pub(crate) part: Option<&'a str>,
     /// The place of the part in the assembly.
-    pub(crate) place: Motion,
+    pub(crate) place: RigidMotion,
     /// The place in the part of the object that the frame is given in.
-    pub(crate) inner: Motion,
+    pub(crate) inner: RigidMotion,
     /// Why that is not known for sure.
     pub(crate) doubt: Option<String>,
     /// Member of the archive with the shape that the element is of.
@@ -116,7 +116,7 @@ fn follow<'a>(
     documents: &Documents<'a>,
 ) -> Result<Result<Reference<'a>, Broken>, ImportError> {
     let main = &documents.main;
-    let mut place = Motion::IDENTITY;
+    let mut place = RigidMotion::IDENTITY;
     let mut array = false;
     let mut rest = names.iter();
     let part = loop {
@@ -139,12 +139,16 @@ fn follow<'a>(
             break o;
         }
         array = o.is_array();
-        place = place.then(&o.placement("Placement")?.unwrap_or(Motion::IDENTITY));
+        place = place.then(&o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY));
     };
     let mut out = Reference {
         part: Some(part.name),
-        place: place.then(&part.placement("Placement")?.unwrap_or(Motion::IDENTITY)),
-        inner: Motion::IDENTITY,
+        place: place.then(
+            &part
+                .placement("Placement")?
+                .unwrap_or(RigidMotion::IDENTITY),
+        ),
+        inner: RigidMotion::IDENTITY,
         doubt: None,
         shape: part.shape(),
         object: part.kind,
@@ -174,7 +178,7 @@ fn follow<'a>(
         }
         match documents.of(at.1).and_then(|o| o.get(name)) {
             Some(o) => {
-                let there = o.placement("Placement")?.unwrap_or(Motion::IDENTITY);
+                let there = o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY);
                 out.inner = out.inner.then(&there);
                 out.shape = o.shape().filter(|_| at.1.is_empty());
                 out.object = o.kind;
@@ -224,7 +228,9 @@ fn resolved<'a>(
             break;
         };
         if turns {
-            let there = target.placement("Placement")?.unwrap_or(Motion::IDENTITY);
+            let there = target
+                .placement("Placement")?
+                .unwrap_or(RigidMotion::IDENTITY);
             out.inner = out.inner.then(&there);
         }
         out.shape = target.shape();

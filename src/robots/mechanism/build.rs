@@ -4,7 +4,7 @@ use crate::file::read::value::limits::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
 use crate::format::phrase::plural;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::coupling;
 use crate::robots::description::kinematics::{Tree, places, spanning_tree};
@@ -74,13 +74,13 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, R
     }
     let world = match robot.world {
         Some(w) => w,
-        None => robot.link("world", Motion::IDENTITY),
+        None => robot.link("world", RigidMotion::IDENTITY),
     };
     robot.world = Some(world);
     // Every tree of links that the world does not hold floats by itself.
     let tree = spanning_tree(robot, world);
     for &r in tree.roots.iter().skip(1) {
-        let sides = [robot.places[r], Motion::IDENTITY];
+        let sides = [robot.places[r], RigidMotion::IDENTITY];
         let id = format!("floating-{}", robot.links[r]);
         robot.joints.push(Part::new(&id, [world, r], sides, free()));
         robot.report.map("floating base");
@@ -229,7 +229,7 @@ pub(crate) struct Entries {
     /// What is to be said above its entries.
     pub(in crate::robots) comments: Vec<Comment>,
     /// Places of the links in the pose found.
-    pub(in crate::robots) places: Vec<Motion>,
+    pub(in crate::robots) places: Vec<RigidMotion>,
     /// The robot's joints that its joints are.
     pub(in crate::robots) joints: Vec<usize>,
     /// The elements that its couplings are.

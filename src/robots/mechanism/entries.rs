@@ -5,7 +5,7 @@ use crate::file::schema::{
     SearchEntry,
 };
 use crate::file::write::Comment;
-use crate::geom::rigid::{Motion, towards};
+use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::description::coupling::Usable;
@@ -71,7 +71,7 @@ pub(crate) struct Content<'a> {
     /// Name of the file read, and of its format.
     pub(in crate::robots) file: &'a str,
     pub(in crate::robots) format: &'static str,
-    pub(in crate::robots) places: &'a [Motion],
+    pub(in crate::robots) places: &'a [RigidMotion],
     pub(in crate::robots) bodies: &'a Bodies,
     pub(in crate::robots) frame: usize,
     /// Bodies that are outputs.

@@ -1,6 +1,6 @@
 //! Closing loops: damped least squares over all joint values, from the pose of the file.
 
-use crate::geom::rigid::{Motion, towards};
+use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
 use crate::model::joint_type::Freedom;
 use crate::robots::description::kinematics::{Tree, displacement, places, world_axes};
@@ -40,7 +40,7 @@ pub(crate) fn size(robot: &Robot) -> f64 {
 }
 
 /// How the two sides of a loop joint differ: a shift and a rotation vector, in the world.
-fn mismatch(robot: &Robot, places: &[Motion], j: usize) -> (Vector, Vector) {
+fn mismatch(robot: &Robot, places: &[RigidMotion], j: usize) -> (Vector, Vector) {
     let p = &robot.joints[j];
     let near = places[p.links[0]].then(&p.sides[0]).then(&displacement(p));
     let far = places[p.links[1]].then(&p.sides[1]);

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// A joint's place: origin in metres, unit axes x, y, z.
-pub(crate) struct Place {
+pub(crate) struct JointAxes {
     pub(in crate::robots) point: Vector,
     pub(in crate::robots) axes: [Vector; 3],
     /// Metres per radian.
@@ -22,12 +22,12 @@ pub(crate) enum Single {
     Screw(Vector, f64),
 }
 
-pub(crate) fn place(m: &Mechanism, j: &Joint) -> Place {
+pub(crate) fn place(m: &Mechanism, j: &Joint) -> JointAxes {
     let metres = m.length_unit.metres;
     let z = unit(real(&j.frame.axis));
     let x = unit(across(real(&j.frame.reference), z));
     let y = cross(z, x);
-    Place {
+    JointAxes {
         point: real(&j.frame.point).map(|c| c * metres),
         axes: [x, y, z],
         pitch: j.frame.pitch.to_f64() * metres,
@@ -35,7 +35,7 @@ pub(crate) fn place(m: &Mechanism, j: &Joint) -> Place {
 }
 
 /// The freedoms one by one.
-pub(crate) fn singles(j: &JointType, p: &Place) -> Vec<Single> {
+pub(crate) fn singles(j: &JointType, p: &JointAxes) -> Vec<Single> {
     let [x, y, z] = p.axes;
     j.freedoms()
         .iter()

@@ -1,7 +1,7 @@
 //! What the sections of an MJCF file share: settings, default classes and sites.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::{Motion, towards};
+use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::problem::RobotProblem;
@@ -22,7 +22,7 @@ pub(super) struct Context<'a> {
     pub(super) compiler: Compiler,
     pub(crate) defaults: Defaults<'a>,
     /// Sites by name: the link and the place on it.
-    pub(crate) sites: BTreeMap<String, (usize, Motion)>,
+    pub(crate) sites: BTreeMap<String, (usize, RigidMotion)>,
 }
 
 pub(super) fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
@@ -56,15 +56,15 @@ pub(super) fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
 
 impl Compiler {
     /// The place that `pos` and one of the five ways to give an orientation stand for.
-    pub(super) fn place(&self, e: Element<'_>) -> Result<Motion, ImportError> {
-        Ok(Motion {
+    pub(super) fn place(&self, e: Element<'_>) -> Result<RigidMotion, ImportError> {
+        Ok(RigidMotion {
             translation: e.vector("pos", [0.0; 3])?,
             ..self.turned(e)?
         })
     }
 
     /// The turn that one of the five ways stands for.
-    pub(super) fn turned(&self, e: Element<'_>) -> Result<Motion, ImportError> {
+    pub(super) fn turned(&self, e: Element<'_>) -> Result<RigidMotion, ImportError> {
         let zero = |name: &str| {
             e.fail(
                 Some(name),
@@ -85,17 +85,17 @@ impl Compiler {
             let why = format!("it has two orientations, {}", given.join(" and "));
             return Err(e.unsupported(&why, "keep one"));
         }
-        let mut pose = Motion::IDENTITY;
+        let mut pose = RigidMotion::IDENTITY;
         if let Some(q) = e.numbers::<4>("quat")? {
             if q.iter().all(|x| x.abs() < 1e-9) {
                 return Err(zero("quat"));
             }
-            pose = Motion::quaternion([0.0; 3], q);
+            pose = RigidMotion::quaternion([0.0; 3], q);
         } else if let Some([x, y, z, angle]) = e.numbers::<4>("axisangle")? {
             if length([x, y, z]) < 1e-9 {
                 return Err(zero("axisangle"));
             }
-            pose = pose.then(&Motion::turn([x, y, z], angle * self.angle));
+            pose = pose.then(&RigidMotion::turn([x, y, z], angle * self.angle));
         } else if let Some([a, b, c, d, f, g]) = e.numbers::<6>("xyaxes")? {
             let x = towards([a, b, c]);
             let y = sub([d, f, g], scale(x, dot(x, [d, f, g])));
@@ -108,16 +108,16 @@ impl Compiler {
             if length(z) < 1e-9 {
                 return Err(zero("zaxis"));
             }
-            pose = pose.then(&Motion::z_to(z));
+            pose = pose.then(&RigidMotion::z_to(z));
         } else if let Some(angles) = e.numbers::<3>("euler")? {
-            let mut turn = Motion::IDENTITY;
+            let mut turn = RigidMotion::IDENTITY;
             for (axis, angle) in self.eulerseq.chars().zip(angles) {
                 let about = match axis.to_ascii_lowercase() {
                     'x' => X,
                     'y' => Y,
                     _ => Z,
                 };
-                let step = Motion::turn(about, angle * self.angle);
+                let step = RigidMotion::turn(about, angle * self.angle);
                 // Small letters turn with the frame, capitals about the fixed axes.
                 turn = if axis.is_lowercase() {
                     turn.then(&step)

@@ -1,7 +1,7 @@
 //! Equality constraints: the loops and couplings of MJCF.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::displacement;
 use crate::robots::description::parts::{Part, Ratio, Robot};
@@ -36,7 +36,7 @@ pub(crate) fn read(
                 let scale = look.numbers::<1>("torquescale")?;
                 if scale == Some([0.0]) {
                     // Nothing holds its turns: a ball at its anchor, which is given in the second body.
-                    let at = Motion::shift(look.vector("anchor", [0.0; 3])?);
+                    let at = RigidMotion::shift(look.vector("anchor", [0.0; 3])?);
                     let [(one, first), (two, second)] = ends;
                     let ends = match e.attribute("site1") {
                         Some(_) => ends,
@@ -68,7 +68,7 @@ pub(crate) fn read(
     Ok(())
 }
 
-type End = (usize, Motion);
+type End = (usize, RigidMotion);
 
 fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2], ImportError> {
     if e.attribute("site1").is_some() || e.attribute("site2").is_some() {
@@ -93,23 +93,26 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2]
         })
     };
     let (one, two) = (body("body1")?, body("body2")?);
-    let as_drawn = |at: Motion| {
+    let as_drawn = |at: RigidMotion| {
         robot.places[two]
             .inverse()
             .then(&robot.places[one].then(&at))
     };
     if e.name() == "connect" {
         e.required("anchor")?;
-        let at = Motion::shift(e.vector("anchor", [0.0; 3])?);
+        let at = RigidMotion::shift(e.vector("anchor", [0.0; 3])?);
         return Ok([(one, at), (two, as_drawn(at))]);
     }
     // The place of body 2 in body 1; a zero quaternion stands for that of the model as drawn.
     match e.numbers::<7>("relpose")? {
         Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
-            (one, Motion::quaternion([x, y, z], quat)),
-            (two, Motion::IDENTITY),
+            (one, RigidMotion::quaternion([x, y, z], quat)),
+            (two, RigidMotion::IDENTITY),
         ]),
-        _ => Ok([(one, Motion::IDENTITY), (two, as_drawn(Motion::IDENTITY))]),
+        _ => Ok([
+            (one, RigidMotion::IDENTITY),
+            (two, as_drawn(RigidMotion::IDENTITY)),
+        ]),
     }
 }
 

@@ -2,7 +2,7 @@
 //! `<connect>` or `<weld>` holds together. Keyframes get the numbers of the new joints.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
@@ -20,7 +20,7 @@ pub(crate) fn free(
     edits: &mut Edits<'_>,
 ) -> Result<(), ImportError> {
     let root = origin.element(origin.root);
-    let mut file = File {
+    let mut file = MjcfFile {
         origin,
         defaults: Defaults::read(root)?,
         parents: parents(origin),
@@ -58,7 +58,7 @@ pub(crate) fn uncouple(
 
 /// Where new joints stand among those of a keyframe.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Mark {
+enum KeyframeMark {
     /// Behind a joint.
     Joint(usize),
     /// Behind all that is within a body or the world.
@@ -67,15 +67,15 @@ enum Mark {
     Site(usize),
 }
 
-struct File<'a> {
+struct MjcfFile<'a> {
     origin: &'a Origin,
     defaults: Defaults<'a>,
     parents: Vec<Option<usize>>,
     /// Joints put in.
-    inserted: Vec<(Mark, usize)>,
+    inserted: Vec<(KeyframeMark, usize)>,
 }
 
-impl<'a> File<'a> {
+impl<'a> MjcfFile<'a> {
     fn parent(&self, e: Element<'a>) -> Element<'a> {
         let parent = self.parents[e.id].unwrap_or(self.origin.root);
         self.origin.element(parent)
@@ -127,7 +127,7 @@ impl<'a> File<'a> {
         &self,
         id: &str,
         point: Vector,
-        frame: &Motion,
+        frame: &RigidMotion,
         (around, freed): (Element<'a>, Freed<'_>),
         edits: &mut Edits<'_>,
     ) -> Result<Vec<String>, ImportError> {
@@ -178,7 +178,8 @@ impl<'a> File<'a> {
             .translation;
         let lines = self.joints(&part.id, point, &frame, (body, freed), edits)?;
         edits.after(last, &lines);
-        self.inserted.push((Mark::Joint(last.id), freed.len()));
+        self.inserted
+            .push((KeyframeMark::Joint(last.id), freed.len()));
         Ok(())
     }
 
@@ -215,7 +216,8 @@ impl<'a> File<'a> {
         let inner = self.joints(&part.id, point, &frame, (body, freed), edits)?;
         edits.within(body, &self.whole(&between, inner, None));
         edits.set(e, "body1", &between)?;
-        self.inserted.push((Mark::Within(body.id), freed.len()));
+        self.inserted
+            .push((KeyframeMark::Within(body.id), freed.len()));
         Ok(())
     }
 
@@ -250,7 +252,8 @@ impl<'a> File<'a> {
         let copied = format!("{before}{}{after}", escape(&copy));
         edits.after(found, &self.whole(&between, inner, Some(copied)));
         edits.set(e, "site1", &copy)?;
-        self.inserted.push((Mark::Site(found.id), freed.len()));
+        self.inserted
+            .push((KeyframeMark::Site(found.id), freed.len()));
         Ok(())
     }
 
@@ -337,10 +340,10 @@ fn parents(origin: &Origin) -> Vec<Option<usize>> {
 
 /// Bodies in the order of MuJoCo, depth first, each with its own joints first.
 struct Walk<'f, 'a> {
-    file: &'f File<'a>,
+    file: &'f MjcfFile<'a>,
     /// Numbers of `qpos` and of `qvel` so far.
     sizes: [usize; 2],
-    marks: Vec<(Mark, [usize; 2])>,
+    marks: Vec<(KeyframeMark, [usize; 2])>,
 }
 
 impl<'a> Walk<'_, 'a> {
@@ -356,15 +359,15 @@ impl<'a> Walk<'_, 'a> {
             // A ball's and a free joint's turns are quaternions.
             self.sizes[0] += freedoms + usize::from(freedoms > 1);
             self.sizes[1] += freedoms;
-            self.marks.push((Mark::Joint(j.id), self.sizes));
+            self.marks.push((KeyframeMark::Joint(j.id), self.sizes));
         }
         for c in e.children() {
             match c.name() {
                 "body" | "frame" => self.below(c),
-                "site" => self.marks.push((Mark::Site(c.id), self.sizes)),
+                "site" => self.marks.push((KeyframeMark::Site(c.id), self.sizes)),
                 _ => {}
             }
         }
-        self.marks.push((Mark::Within(e.id), self.sizes));
+        self.marks.push((KeyframeMark::Within(e.id), self.sizes));
     }
 }

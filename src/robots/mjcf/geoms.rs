@@ -1,9 +1,9 @@
 //! The shapes of MJCF.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, add, length, scale, sub};
-use crate::robots::convert::payload::{Payload, Shape, Solid, Use, Weight};
+use crate::robots::convert::payload::{LinkShape, Payload, Solid, Use, Weight};
 use crate::robots::convert::solid::filled;
 use crate::robots::mjcf::context::Context;
 use crate::robots::mjcf::defaults::Lookup;
@@ -92,7 +92,7 @@ pub(super) fn geom<'a>(
     look: &Lookup<'a>,
     (context, geoms): (&Context<'a>, &Geoms<'a>),
     out: &mut Payload,
-) -> Result<Option<(Shape, Option<Weight>)>, ImportError> {
+) -> Result<Option<(LinkShape, Option<Weight>)>, ImportError> {
     let name = e.attribute("name");
     let word = look.attribute("type").map(|a| a.1);
     let word = word.unwrap_or(if look.attribute("mesh").is_some() {
@@ -108,7 +108,7 @@ pub(super) fn geom<'a>(
         None => Vec::new(),
     };
     let size = |i: usize| sizes.get(i).copied().unwrap_or(0.0);
-    let mut place = Motion {
+    let mut place = RigidMotion {
         translation: look.vector("pos", [0.0; 3])?,
         ..orientation(look, context)?
     };
@@ -118,9 +118,9 @@ pub(super) fn geom<'a>(
         let (from, to) = ([a, b, c], [d, f, g]);
         half = length(sub(to, from)) / 2.0;
         (deep, long) = (size(0), half);
-        place = Motion {
+        place = RigidMotion {
             translation: scale(add(from, to), 0.5),
-            ..Motion::z_to(sub(from, to))
+            ..RigidMotion::z_to(sub(from, to))
         };
     }
     let solid = match word {
@@ -161,7 +161,7 @@ pub(super) fn geom<'a>(
             .map(|(_, v)| ((*k).to_owned(), v.to_owned()))
     });
     Ok(Some((
-        Shape {
+        LinkShape {
             name: name.map(str::to_owned),
             solid,
             place,
@@ -174,17 +174,17 @@ pub(super) fn geom<'a>(
 }
 
 /// The turn that one of the five ways stands for, of the element or of its class.
-fn orientation<'a>(look: &Lookup<'a>, context: &Context<'a>) -> Result<Motion, ImportError> {
+fn orientation<'a>(look: &Lookup<'a>, context: &Context<'a>) -> Result<RigidMotion, ImportError> {
     let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
     match ways.iter().find_map(|w| look.attribute(w)) {
         Some((e, _)) => context.compiler.turned(e),
-        None => Ok(Motion::IDENTITY),
+        None => Ok(RigidMotion::IDENTITY),
     }
 }
 
 fn weigh(
     solid: &Solid,
-    place: Motion,
+    place: RigidMotion,
     look: &Lookup<'_>,
     geoms: &Geoms<'_>,
 ) -> Result<Option<Weight>, ImportError> {

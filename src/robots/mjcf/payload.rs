@@ -1,7 +1,7 @@
 //! What the bodies and joints of an MJCF file carry.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::convert::payload::{Actuator, Command, Dynamics, Payload, Weight, Words};
 use crate::robots::convert::solid::together;
 use crate::robots::description::parts::Robot;
@@ -145,7 +145,7 @@ fn settings(root: Element<'_>, out: &mut Payload) -> Result<Settings, ImportErro
 struct Waiting<'a> {
     element: Element<'a>,
     link: usize,
-    place: Motion,
+    place: RigidMotion,
     class: Option<&'a str>,
 }
 
@@ -162,7 +162,7 @@ fn bodies<'a>(
     let mut stack = vec![Waiting {
         element: w,
         link: 0,
-        place: Motion::IDENTITY,
+        place: RigidMotion::IDENTITY,
         class: w.attribute("childclass"),
     }];
     let mut of_shapes: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
@@ -177,7 +177,7 @@ fn bodies<'a>(
             match e.name() {
                 "body" => {
                     if let Some(&link) = robot.said.get(&e.id) {
-                        stack.push(inner(link, Motion::IDENTITY));
+                        stack.push(inner(link, RigidMotion::IDENTITY));
                         let words = e
                             .attributes()
                             .filter(|(k, _)| ["gravcomp", "user"].contains(k));
@@ -264,7 +264,7 @@ fn weigh(
         if mass > 0.0 || inertia > 0.0 {
             let empty = Weight {
                 mass: 0.0,
-                place: Motion::IDENTITY,
+                place: RigidMotion::IDENTITY,
                 tensor: [0.0; 6],
             };
             let w = out.weights.entry(l).or_insert(empty);

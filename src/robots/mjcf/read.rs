@@ -1,7 +1,7 @@
 //! MJCF: bodies with joints in series, sites, equality constraints, default classes and includes.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Robot, free};
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 struct Waiting<'a> {
     element: Element<'a>,
     link: usize,
-    place: Motion,
+    place: RigidMotion,
     class: Option<&'a str>,
 }
 
@@ -38,14 +38,14 @@ pub(crate) fn read(
         defaults: Defaults::read(root)?,
         sites: BTreeMap::new(),
     };
-    let world = robot.link("world", Motion::IDENTITY);
+    let world = robot.link("world", RigidMotion::IDENTITY);
     robot.world = Some(world);
     for w in root.named("worldbody") {
         robot.said_by(world, w);
         let start = Waiting {
             element: w,
             link: world,
-            place: Motion::IDENTITY,
+            place: RigidMotion::IDENTITY,
             class: w.attribute("childclass"),
         };
         bodies(start, &mut context, &mut robot)?;
@@ -128,7 +128,7 @@ fn bodies<'a>(
                     let place = w.place.then(&context.compiler.place(e)?);
                     let link = body(e, w.link, place, inner(0, place).class, context, robot)?;
                     robot.said_by(link, e);
-                    here.push(inner(link, Motion::IDENTITY));
+                    here.push(inner(link, RigidMotion::IDENTITY));
                 }
                 "frame" => {
                     here.push(inner(w.link, w.place.then(&context.compiler.place(e)?)));
@@ -190,7 +190,7 @@ fn site(
 fn body<'a>(
     e: Element<'a>,
     parent: usize,
-    place: Motion,
+    place: RigidMotion,
     class: Option<&'a str>,
     context: &Context<'a>,
     robot: &mut Robot,
@@ -206,14 +206,14 @@ fn body<'a>(
     e.room("joints", robot.joints.len())?;
     let world = robot.places[parent].then(&place);
     let mut joints = Vec::new();
-    own_joints(e, Motion::IDENTITY, class, context, &mut joints)?;
+    own_joints(e, RigidMotion::IDENTITY, class, context, &mut joints)?;
     robot.report.map("body");
     if joints.is_empty() {
         let link = robot.link(&name, world);
         // What a hand or a recording moves in all six ways: a drive, and no part of the frame.
         let mocap = e.attribute("mocap") == Some("true");
         let kind = if mocap { free() } else { JointType::Fixed };
-        let sides = [place, Motion::IDENTITY];
+        let sides = [place, RigidMotion::IDENTITY];
         let mut part = Part::new(&name, [parent, link], sides, kind).said_by(e);
         if mocap {
             part.drive = true;
@@ -232,7 +232,7 @@ fn body<'a>(
         };
         let part = joint(j, &name, [from, link], at, context, robot)?;
         robot.joints.push(part);
-        (from, at) = (link, Motion::IDENTITY);
+        (from, at) = (link, RigidMotion::IDENTITY);
     }
     if joints.len() > 1 {
         robot.report.map("body on joints in series");
@@ -241,12 +241,12 @@ fn body<'a>(
 }
 
 /// A joint of a body: its element, the place of the frames around it in the body, and their class.
-type Own<'a> = (Element<'a>, Motion, Option<&'a str>);
+type Own<'a> = (Element<'a>, RigidMotion, Option<&'a str>);
 
 /// The joints of a body, those in frames in it among them.
 fn own_joints<'a>(
     e: Element<'a>,
-    place: Motion,
+    place: RigidMotion,
     class: Option<&'a str>,
     context: &Context<'a>,
     out: &mut Vec<Own<'a>>,
@@ -269,7 +269,7 @@ fn joint<'a>(
     &(e, inner, class): &Own<'a>,
     body: &str,
     links: [usize; 2],
-    place: Motion,
+    place: RigidMotion,
     context: &Context<'a>,
     robot: &mut Robot,
 ) -> Result<Part, ImportError> {
@@ -296,9 +296,9 @@ fn joint<'a>(
     };
     let pos = look.vector("pos", [0.0; 3])?;
     let at = if word == "free" {
-        Motion::IDENTITY
+        RigidMotion::IDENTITY
     } else {
-        Motion::shift(inner.point(pos))
+        RigidMotion::shift(inner.point(pos))
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {

@@ -1,7 +1,7 @@
 //! `<replicate>`: what it holds, again and again, each time moved on and with a number behind its names.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::mjcf::context::{Compiler, compiler};
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::{Document, MAX_ELEMENTS};
@@ -54,7 +54,7 @@ fn copies(
         reason = "whole, from 1 to 10000"
     )]
     let count = count as usize;
-    let step = Motion {
+    let step = RigidMotion {
         translation: e.vector("offset", [0.0; 3])?,
         ..compiler.turned(e)?
     };
@@ -62,7 +62,7 @@ fn copies(
     let digits = (count - 1).to_string().len();
     let (inner, mut place, mut out) = (
         document.nodes[id].children.clone(),
-        Motion::IDENTITY,
+        RigidMotion::IDENTITY,
         Vec::new(),
     );
     for i in 0..count {

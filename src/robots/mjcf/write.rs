@@ -8,7 +8,7 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::robots::description::massless::Light;
 use crate::robots::description::physical::{GRAM, head, left_out, moving};
-use crate::robots::formats::Written;
+use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
@@ -23,8 +23,8 @@ use std::fmt::Write;
 ///
 /// # Errors
 /// Never, as far as is known.
-pub(crate) fn mjcf(m: &Mechanism) -> Result<Written, ExportError> {
-    let mut w = Writer {
+pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
+    let mut w = MjcfWriter {
         m,
         bodies: vec![None; m.links.len()],
         between: BTreeMap::new(),
@@ -82,10 +82,10 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<Written, ExportError> {
         let _ = writeln!(out, "  <actuator>\n{motors}  </actuator>");
     }
     out += "</mujoco>\n";
-    Ok(Written { text: out, told })
+    Ok(FormattedFile { text: out, told })
 }
 
-struct Writer<'a> {
+struct MjcfWriter<'a> {
     m: &'a Mechanism,
     /// Names and origins of the links.
     bodies: Vec<Option<(String, Vector)>>,
@@ -100,7 +100,7 @@ struct Writer<'a> {
     joint_names: Names,
 }
 
-impl Writer<'_> {
+impl MjcfWriter<'_> {
     /// The joints of one freedom each that a joint becomes, or a ball.
     fn joints(&mut self, j: JointId, sign: f64, pos: Vector) -> Vec<String> {
         let joint = &self.m.joints[j];

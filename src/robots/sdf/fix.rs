@@ -1,7 +1,7 @@
 //! Joints of one more freedom in an SDF file: a link and a joint put in between a joint and its child.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::parts::Part;
@@ -73,7 +73,7 @@ fn axes_frame(
     origin: &Origin,
     model: Element<'_>,
     (part, e): (&Part, Element<'_>),
-) -> Result<Motion, ImportError> {
+) -> Result<RigidMotion, ImportError> {
     // A joint with two axes that are not square is two parts; its child hangs on the last.
     let mut parts = origin.robot.joints.iter().rev();
     let last = parts.find(|p| p.element == Some(e.id)).unwrap_or(part);
@@ -84,6 +84,6 @@ fn axes_frame(
     let back = origin.robot.places[to].then(&origin.places[to].inverse());
     let pose = model.child("pose").map(|p| p.text_numbers::<6>());
     let [_, _, _, roll, pitch, yaw] = pose.transpose()?.unwrap_or_default();
-    let model = Motion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
+    let model = RigidMotion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
     Ok(back.inverse().then(&model))
 }

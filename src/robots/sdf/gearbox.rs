@@ -1,12 +1,12 @@
 //! `<joint type="gearbox">`: no joint of its own, but a ratio of the turns of two hinges on one body.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{cross, dot, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Ratio, Robot};
 use crate::robots::sdf::joints::axis;
-use crate::robots::sdf::scene::{Scene, absolute, end, located, of_joint};
+use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::Element;
 
 /// Couples the hinges of its parent and of its child on the body that it refers to: the child turns the other way, so many times
@@ -14,11 +14,11 @@ use crate::robots::xml::Element;
 pub(crate) fn gearbox(
     e: Element<'_>,
     scope: &str,
-    scene: &Scene<'_>,
+    scene: &SdfScene<'_>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
     let name = format!("{scope}{}", e.required("name")?);
-    let world = of_joint(scene, e, &name).unwrap_or(Motion::IDENTITY);
+    let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
     let times = match e.child("gearbox_ratio") {
         Some(r) => r.text_numbers::<1>()?[0],
         None => 1.0,

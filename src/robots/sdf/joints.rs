@@ -1,12 +1,12 @@
 //! The joints and constraints of an SDF file.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::{Motion, towards};
+use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
-use crate::robots::sdf::scene::{Scene, absolute, end, located, of_joint};
+use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::urdf::read::{same_link, unknown_type};
 use crate::robots::xml::Element;
 
@@ -20,8 +20,8 @@ pub(crate) fn axis(
     e: Element<'_>,
     tag: &str,
     scope: &str,
-    scene: &Scene<'_>,
-    at: &Motion,
+    scene: &SdfScene<'_>,
+    at: &RigidMotion,
 ) -> Result<Vector, ImportError> {
     let Some(a) = e.child(tag) else {
         let what = format!("<{tag}>");
@@ -67,7 +67,7 @@ pub(crate) fn axis(
 pub(crate) fn joint(
     e: Element<'_>,
     scope: &str,
-    scene: &Scene<'_>,
+    scene: &SdfScene<'_>,
     size: f64,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
@@ -80,7 +80,7 @@ pub(crate) fn joint(
     if parent == child {
         return Err(same_link(e));
     }
-    let world = of_joint(scene, e, &name).unwrap_or(Motion::IDENTITY);
+    let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
     let local = |d: Vector| world.inverse().direction(d);
     let joint_type = joint_type(e, word)?;
     // A parent that is a frame away from the joint: by the specification the frame only names its link, and the model is
@@ -91,7 +91,7 @@ pub(crate) fn joint(
         .is_some_and(|p| p.link.is_none());
     let apart = is_frame && length(sub(parent_world.translation, world.translation)) > APART * size;
     let on_parent = if apart && scene.assemble {
-        Motion {
+        RigidMotion {
             translation: parent_world.translation,
             ..world
         }
@@ -265,18 +265,18 @@ pub(crate) fn two_axes(
         robot.joints.push(part);
         return Ok(());
     }
-    let between = robot.link(&format!("{}~1", part.id), Motion::IDENTITY);
+    let between = robot.link(&format!("{}~1", part.id), RigidMotion::IDENTITY);
     let [parent, child] = part.links;
     let one = Part::new(
         &part.id,
         [parent, between],
-        [part.sides[0], Motion::IDENTITY],
+        [part.sides[0], RigidMotion::IDENTITY],
         JointType::Revolute,
     );
     let two = Part::new(
         &format!("{}~2", part.id),
         [between, child],
-        [Motion::IDENTITY, part.sides[1]],
+        [RigidMotion::IDENTITY, part.sides[1]],
         JointType::Revolute,
     );
     // Axes that are not square: two hinges in series are the same.
@@ -290,10 +290,10 @@ pub(crate) fn two_axes(
 pub(crate) fn weld(
     e: Element<'_>,
     scope: &str,
-    scene: &Scene<'_>,
+    scene: &SdfScene<'_>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
-    let mut ends = [(0, Motion::IDENTITY); 2];
+    let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
         let (c, name) = end(e, tag)?;
         let (link, world) = located(c, &absolute(scope, name), scene)?;

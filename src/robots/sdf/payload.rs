@@ -1,8 +1,8 @@
 //! What the links and joints of an SDF file carry.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
-use crate::robots::convert::payload::{Dynamics, Payload, Shape, Solid, Use, Weight, Words};
+use crate::geom::rigid::RigidMotion;
+use crate::robots::convert::payload::{Dynamics, LinkShape, Payload, Solid, Use, Weight, Words};
 use crate::robots::description::parts::Robot;
 use crate::robots::sdf::read::pose;
 use crate::robots::xml::Element;
@@ -84,7 +84,7 @@ fn on_link(
     l: usize,
     scope: &str,
     robot: &Robot,
-) -> Result<Option<Motion>, ImportError> {
+) -> Result<Option<RigidMotion>, ImportError> {
     let (at, relative) = pose(e)?;
     Ok(match relative {
         None => Some(at),
@@ -106,7 +106,7 @@ fn link(
     // Without a word a link weighs 1 kg.
     let mut weight = Weight {
         mass: 1.0,
-        place: Motion::IDENTITY,
+        place: RigidMotion::IDENTITY,
         tensor: [1.0, 1.0, 1.0, 0.0, 0.0, 0.0],
     };
     for c in e.children() {
@@ -173,16 +173,16 @@ fn solid(e: Element<'_>) -> Result<Option<Solid>, ImportError> {
     }))
 }
 
-fn shape(e: Element<'_>, mut place: Motion, solid: Solid) -> Result<Shape, ImportError> {
+fn shape(e: Element<'_>, mut place: RigidMotion, solid: Solid) -> Result<LinkShape, ImportError> {
     let colour = e.child("material").and_then(|m| m.child("diffuse"));
     let normal = e
         .child("geometry")
         .and_then(|g| g.child("plane"))
         .and_then(|p| p.child("normal"));
     if let Some(n) = normal {
-        place = place.then(&Motion::z_to(n.text_numbers::<3>()?));
+        place = place.then(&RigidMotion::z_to(n.text_numbers::<3>()?));
     }
-    Ok(Shape {
+    Ok(LinkShape {
         name: e.attribute("name").map(str::to_owned),
         solid,
         place,

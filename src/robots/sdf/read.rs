@@ -1,7 +1,7 @@
 //! SDF: models with links, frames and joints, places relative to each other, loops closed by joints as they stand.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Robot};
@@ -11,7 +11,7 @@ use crate::robots::sdf::gearbox::gearbox;
 use crate::robots::sdf::include::{self, Expanded};
 use crate::robots::sdf::joints::{joint, weld};
 use crate::robots::sdf::scene::{
-    BESIDE, Placed, Scene, absolute, end, insert, moves_with, resolve,
+    BESIDE, Placed, SdfScene, absolute, end, insert, moves_with, resolve,
 };
 use crate::robots::urdf::read::ball_constraint;
 use crate::robots::xml::{Document, Element};
@@ -29,12 +29,12 @@ pub(crate) fn read(
     for uri in &scenery {
         robot.report.drop("include of a light or floor", Some(uri));
     }
-    robot.world = Some(robot.link("world", Motion::IDENTITY));
+    robot.world = Some(robot.link("world", RigidMotion::IDENTITY));
     robot.floats = true;
-    let mut scene = Scene {
+    let mut scene = SdfScene {
         old_axes: old,
         assemble: options.assemble,
-        ..Scene::default()
+        ..SdfScene::default()
     };
     let among = of_worlds(root, &mut robot);
     models(root, among.is_empty(), &mut scene, &mut robot)?;
@@ -65,7 +65,7 @@ fn of_worlds<'a>(root: Element<'a>, robot: &mut Robot) -> Vec<Element<'a>> {
 fn models<'a>(
     root: Element<'a>,
     nothing_else: bool,
-    scene: &mut Scene<'a>,
+    scene: &mut SdfScene<'a>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
     let of_worlds = root.named("world").flat_map(|w| w.named("model"));
@@ -96,7 +96,7 @@ fn models<'a>(
 }
 
 /// Places of links and frames in the world, and a fixed joint for each link of a static model.
-fn place_links(scene: &Scene<'_>, robot: &mut Robot) {
+fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
     for p in scene.placed.values() {
         if let (Some(l), Some(w)) = (p.link, p.world) {
             robot.places[l] = w;
@@ -104,7 +104,7 @@ fn place_links(scene: &Scene<'_>, robot: &mut Robot) {
     }
     for &link in &scene.fixed {
         let id = format!("static-{}", robot.links[link]);
-        let sides = [robot.places[link], Motion::IDENTITY];
+        let sides = [robot.places[link], RigidMotion::IDENTITY];
         let fixed = Part::new(&id, [0, link], sides, JointType::Fixed);
         robot.joints.push(fixed);
     }
@@ -117,7 +117,7 @@ fn place_links(scene: &Scene<'_>, robot: &mut Robot) {
 }
 
 /// All joints, what couples them, and Drake's constraints.
-fn joints(mut scene: Scene<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     let far = |p: &Placed<'_>| length(p.raw.translation);
     let size = scene.placed.values().map(far).fold(1e-3, f64::max);
     let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
@@ -140,20 +140,20 @@ fn joints(mut scene: Scene<'_>, robot: &mut Robot) -> Result<(), ImportError> {
 }
 
 /// The pose child: numbers, what it is relative to, and in which unit.
-pub(crate) fn pose(e: Element<'_>) -> Result<(Motion, Option<&str>), ImportError> {
+pub(crate) fn pose(e: Element<'_>) -> Result<(RigidMotion, Option<&str>), ImportError> {
     let Some(p) = e.child("pose") else {
-        return Ok((Motion::IDENTITY, None));
+        return Ok((RigidMotion::IDENTITY, None));
     };
     let relative = p
         .attribute("relative_to")
         .or(p.attribute("frame"))
         .filter(|r| !r.is_empty());
     if p.text().is_empty() {
-        return Ok((Motion::IDENTITY, relative));
+        return Ok((RigidMotion::IDENTITY, relative));
     }
     if p.attribute("rotation_format") == Some("quat_xyzw") {
         let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
-        return Ok((Motion::quaternion([a, b, c], [w, x, y, z]), relative));
+        return Ok((RigidMotion::quaternion([a, b, c], [w, x, y, z]), relative));
     }
     let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
     let degrees = p
@@ -167,7 +167,7 @@ pub(crate) fn pose(e: Element<'_>) -> Result<(Motion, Option<&str>), ImportError
             1.0
         },
     );
-    Ok((Motion::roll_pitch_yaw([x, y, z], turn), relative))
+    Ok((RigidMotion::roll_pitch_yaw([x, y, z], turn), relative))
 }
 
 /// Takes in what a model holds; places are worked out afterwards.
@@ -175,7 +175,7 @@ fn model<'a>(
     m: Element<'a>,
     outer: &str,
     scope: &str,
-    scene: &mut Scene<'a>,
+    scene: &mut SdfScene<'a>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
     let own = own_frame(m, outer, scope, scene)?;
@@ -216,7 +216,7 @@ fn own_frame<'a>(
     m: Element<'a>,
     outer: &str,
     scope: &str,
-    scene: &mut Scene<'a>,
+    scene: &mut SdfScene<'a>,
 ) -> Result<String, ImportError> {
     let (raw, relative) = pose(m)?;
     let own = format!("{scope}__model__");
@@ -233,7 +233,7 @@ fn own_frame<'a>(
     insert(scene, own.clone(), frame)?;
     if !scope.is_empty() {
         let alias = scope.trim_end_matches("::").to_owned();
-        let frame = Placed::new(m, own.clone(), Motion::IDENTITY, own.clone());
+        let frame = Placed::new(m, own.clone(), RigidMotion::IDENTITY, own.clone());
         insert(scene, alias, frame)?;
     }
     Ok(own)
@@ -245,7 +245,7 @@ fn link<'a>(
     scope: &str,
     own: &str,
     is_static: bool,
-    scene: &mut Scene<'a>,
+    scene: &mut SdfScene<'a>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
     e.room("links", robot.links.len())?;
@@ -253,7 +253,7 @@ fn link<'a>(
     let (raw, relative) = pose(e)?;
     if name == "world" {
         // Joints that name it mean the world.
-        if raw != Motion::IDENTITY {
+        if raw != RigidMotion::IDENTITY {
             let why = "a link that is the world is not in its place";
             return Err(e.unsupported(why, "remove its pose, or give it another name"));
         }
@@ -261,7 +261,7 @@ fn link<'a>(
         robot.said_by(0, e);
         return Ok(());
     }
-    let link = robot.link(&name, Motion::IDENTITY);
+    let link = robot.link(&name, RigidMotion::IDENTITY);
     robot.said_by(link, e);
     let to = relative.map_or_else(|| own.to_owned(), |r| absolute(scope, r));
     let mut placed = Placed::new(e, to, raw, name.clone());
@@ -286,7 +286,7 @@ fn named_place<'a>(
     scope: &str,
     own: &str,
     shared: bool,
-    scene: &mut Scene<'a>,
+    scene: &mut SdfScene<'a>,
 ) -> Result<(), ImportError> {
     let mut name = format!("{scope}{}", e.required("name")?);
     let (raw, relative) = pose(e)?;

@@ -1,7 +1,7 @@
 //! What has a place in an SDF file, and where that is.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
@@ -12,11 +12,11 @@ pub(crate) struct Placed<'a> {
     /// The name of the thing its place is relative to.
     pub(super) relative_to: String,
     /// Place in that.
-    pub(super) raw: Motion,
+    pub(super) raw: RigidMotion,
     /// What it moves with: itself for links, another name for frames, the child for joints.
     pub(super) attached_to: String,
     /// Its place in the world, once known.
-    pub(super) world: Option<Motion>,
+    pub(super) world: Option<RigidMotion>,
     pub(super) link: Option<usize>,
 }
 
@@ -25,7 +25,7 @@ impl<'a> Placed<'a> {
     pub(super) fn new(
         element: Element<'a>,
         relative_to: String,
-        raw: Motion,
+        raw: RigidMotion,
         attached_to: String,
     ) -> Placed<'a> {
         Placed {
@@ -40,7 +40,7 @@ impl<'a> Placed<'a> {
 }
 
 #[derive(Default)]
-pub(crate) struct Scene<'a> {
+pub(crate) struct SdfScene<'a> {
     pub(super) placed: BTreeMap<String, Placed<'a>>,
     pub(super) joints: Vec<(Element<'a>, String)>,
     pub(crate) constraints: Vec<(Element<'a>, String)>,
@@ -56,7 +56,7 @@ pub(crate) struct Scene<'a> {
 pub(crate) const BESIDE: &str = "~joint";
 
 /// The place of a joint, once known.
-pub(crate) fn of_joint(scene: &Scene<'_>, e: Element<'_>, name: &str) -> Option<Motion> {
+pub(crate) fn of_joint(scene: &SdfScene<'_>, e: Element<'_>, name: &str) -> Option<RigidMotion> {
     let own = |p: &&Placed<'_>| p.element.id == e.id;
     let found = scene.placed.get(name).filter(own);
     let found = found.or_else(|| scene.placed.get(&format!("{name}{BESIDE}")));
@@ -73,7 +73,7 @@ pub(crate) fn absolute(scope: &str, name: &str) -> String {
 }
 
 pub(crate) fn insert<'a>(
-    scene: &mut Scene<'a>,
+    scene: &mut SdfScene<'a>,
     name: String,
     p: Placed<'a>,
 ) -> Result<(), ImportError> {
@@ -89,7 +89,7 @@ pub(crate) fn insert<'a>(
     Ok(())
 }
 
-pub(crate) fn unknown(e: Element<'_>, name: &str, scene: &Scene<'_>) -> ImportError {
+pub(crate) fn unknown(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> ImportError {
     let known = known("names", scene.placed.keys().map(String::as_str));
     let (element, name) = (e.label(), name.to_owned());
     e.fail(
@@ -104,7 +104,7 @@ pub(crate) fn unknown(e: Element<'_>, name: &str, scene: &Scene<'_>) -> ImportEr
 }
 
 /// Works out all places in the world.
-pub(crate) fn resolve(scene: &mut Scene<'_>) -> Result<(), ImportError> {
+pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Result<(), ImportError> {
     let names: Vec<String> = scene.placed.keys().cloned().collect();
     for name in names {
         // Down to something whose place is known, then back.
@@ -112,12 +112,12 @@ pub(crate) fn resolve(scene: &mut Scene<'_>) -> Result<(), ImportError> {
         let mut at = name;
         let mut base = loop {
             if at == "world" {
-                break Motion::IDENTITY;
+                break RigidMotion::IDENTITY;
             }
             let from = path.last().map(|p| scene.placed[p].element);
             let Some(p) = scene.placed.get(&at) else {
                 let Some(e) = from else {
-                    break Motion::IDENTITY;
+                    break RigidMotion::IDENTITY;
                 };
                 return Err(unknown(e, &at, scene));
             };
@@ -144,15 +144,18 @@ pub(crate) fn resolve(scene: &mut Scene<'_>) -> Result<(), ImportError> {
 }
 
 /// The link that a name moves with, and the name's place in the world.
-pub(crate) fn moves_with(scene: &Scene<'_>, name: &str) -> Result<(usize, Motion), Option<String>> {
+pub(crate) fn moves_with(
+    scene: &SdfScene<'_>,
+    name: &str,
+) -> Result<(usize, RigidMotion), Option<String>> {
     if name == "world" {
-        return Ok((0, Motion::IDENTITY));
+        return Ok((0, RigidMotion::IDENTITY));
     }
     let first = scene
         .placed
         .get(name)
         .ok_or_else(|| Some(name.to_owned()))?;
-    let world = first.world.unwrap_or(Motion::IDENTITY);
+    let world = first.world.unwrap_or(RigidMotion::IDENTITY);
     let mut at = first;
     for _ in 0..=scene.placed.len() {
         if let Some(l) = at.link {
@@ -172,8 +175,8 @@ pub(crate) fn moves_with(scene: &Scene<'_>, name: &str) -> Result<(usize, Motion
 pub(crate) fn located(
     e: Element<'_>,
     name: &str,
-    scene: &Scene<'_>,
-) -> Result<(usize, Motion), ImportError> {
+    scene: &SdfScene<'_>,
+) -> Result<(usize, RigidMotion), ImportError> {
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown(e, &n, scene),
         None => e.unsupported(

@@ -5,14 +5,14 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::robots::description::massless::Light;
 use crate::robots::description::mimic::{Follows, mimics, settled, stand_in};
 use crate::robots::description::physical::{head, left_out, moving};
-use crate::robots::formats::Written;
+use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
-    Names, Place, Single, comment, escape, number, numbers, place, singles,
+    JointAxes, Names, Single, comment, escape, number, numbers, place, singles,
 };
 use std::fmt::Write;
 
 /// What a file collects.
-struct Writer<'a> {
+struct SdfWriter<'a> {
     m: &'a Mechanism,
     names: Names,
     /// Names of the links that joints connect, and of the joints.
@@ -29,7 +29,7 @@ const WORLD: &str = "world";
 
 /// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
 /// know become joints in series through light links.
-pub(crate) fn sdf(m: &Mechanism) -> Written {
+pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
     let (follows, unsaid) = mimics(m, &written);
@@ -38,7 +38,7 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
     if m.links.iter().any(|l| l.mass.is_none()) {
         told.push("links without a mass weigh 1 kg, as SDF has it".to_owned());
     }
-    let mut w = Writer {
+    let mut w = SdfWriter {
         m,
         names: Names::default(),
         links: vec![None; m.links.len()],
@@ -68,10 +68,10 @@ pub(crate) fn sdf(m: &Mechanism) -> Written {
     let text = format!(
         "<?xml version=\"1.0\"?>\n<sdf version=\"{version}\">\n  <model name=\"{name}\">\n{above}{links}{body}  </model>\n</sdf>\n"
     );
-    Written { text, told }
+    FormattedFile { text, told }
 }
 
-impl Writer<'_> {
+impl SdfWriter<'_> {
     fn name_links(&mut self, joints: &[JointId]) {
         let m = self.m;
         self.names.fit(WORLD);
@@ -192,7 +192,7 @@ fn axis(tag: &str, d: [f64; 3]) -> String {
 }
 
 /// The SDF joint of a type, where there is one, and what goes into it; `back` where it is passed from its second link.
-fn known(t: &JointType, p: &Place, back: bool) -> Option<(&'static str, String)> {
+fn known(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, String)> {
     let [x, _, z] = p.axes;
     let (first, second) = if back { (x, z) } else { (z, x) };
     Some(match t {

@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::robots::convert::payload::{
-    Actuator, Command, Dynamics, Payload, Shape, Solid, Use, Weight, Words,
+    Actuator, Command, Dynamics, LinkShape, Payload, Solid, Use, Weight, Words,
 };
 use crate::robots::description::parts::Robot;
 use crate::robots::urdf::read::origin;
@@ -105,7 +105,7 @@ fn inertial(e: Element<'_>) -> Result<Option<Weight>, ImportError> {
     Ok((mass > 0.0 || tensor != [0.0; 6]).then_some(weight))
 }
 
-fn shape(e: Element<'_>, materials: &Materials<'_>) -> Result<Option<Shape>, ImportError> {
+fn shape(e: Element<'_>, materials: &Materials<'_>) -> Result<Option<LinkShape>, ImportError> {
     let Some(g) = e.child("geometry").and_then(|g| g.children().next()) else {
         return Ok(None);
     };
@@ -126,7 +126,7 @@ fn shape(e: Element<'_>, materials: &Materials<'_>) -> Result<Option<Shape>, Imp
         Some(m) => colour(m)?.or_else(|| materials.get(m.attribute("name")?).copied()),
         None => None,
     };
-    Ok(Some(Shape {
+    Ok(Some(LinkShape {
         name: e.attribute("name").map(str::to_owned),
         solid,
         place: origin(e)?,

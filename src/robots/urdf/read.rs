@@ -1,7 +1,7 @@
 //! URDF: a tree of links and joints, with mimic joints, transmissions and the loop extensions in use.
 
 use crate::file::problem::ImportError;
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Ratio, Robot, free};
@@ -31,7 +31,7 @@ pub(crate) fn read(
                 },
             ));
         }
-        let l = robot.link(name, Motion::IDENTITY);
+        let l = robot.link(name, RigidMotion::IDENTITY);
         robot.said_by(l, link);
         for c in link.children() {
             if ["visual", "collision"].contains(&c.name()) {
@@ -46,7 +46,7 @@ pub(crate) fn read(
         parent.is_some_and(|p| p.attribute("link") == Some("world"))
     };
     if robot.frame("world").is_none() && root.named("joint").any(on_world) {
-        robot.link("world", Motion::IDENTITY);
+        robot.link("world", RigidMotion::IDENTITY);
         robot.report.map("world");
     }
     for e in root.children() {
@@ -82,17 +82,17 @@ pub(crate) fn read(
     Ok(robot)
 }
 
-pub(crate) fn origin(e: Element<'_>) -> Result<Motion, ImportError> {
+pub(crate) fn origin(e: Element<'_>) -> Result<RigidMotion, ImportError> {
     let Some(o) = e.child("origin") else {
-        return Ok(Motion::IDENTITY);
+        return Ok(RigidMotion::IDENTITY);
     };
     if let Some(q) = o.numbers::<4>("quat_xyzw")? {
-        return Ok(Motion::quaternion(
+        return Ok(RigidMotion::quaternion(
             o.vector("xyz", [0.0; 3])?,
             [q[3], q[0], q[1], q[2]],
         ));
     }
-    Ok(Motion::roll_pitch_yaw(
+    Ok(RigidMotion::roll_pitch_yaw(
         o.vector("xyz", [0.0; 3])?,
         o.vector("rpy", [0.0; 3])?,
     ))
@@ -151,7 +151,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let sides = [origin(e)?, Motion::IDENTITY];
+    let sides = [origin(e)?, RigidMotion::IDENTITY];
     let joint_type = match word {
         "revolute" | "continuous" => JointType::Revolute,
         "prismatic" => JointType::Prismatic,
@@ -236,10 +236,11 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let mut sides = [Motion::IDENTITY; 2];
+    let mut sides = [RigidMotion::IDENTITY; 2];
     for (side, tag) in sides.iter_mut().zip(["link1", "link2"]) {
         if let Some(c) = e.child(tag) {
-            *side = Motion::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
+            *side =
+                RigidMotion::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
         }
     }
     let word = e.required("type")?;
@@ -267,7 +268,7 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
 
 /// Drake's ball constraint: a point of one body held to a point of another.
 pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
-    let (mut links, mut sides) = ([0; 2], [Motion::IDENTITY; 2]);
+    let (mut links, mut sides) = ([0; 2], [RigidMotion::IDENTITY; 2]);
     for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
         let part = |k: &str| {
             let tag = format!("drake:ball_constraint_{k}");
@@ -288,7 +289,7 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
             None => p.text_numbers()?,
         };
         links[i] = link;
-        sides[i] = frame.then(&Motion::shift(at));
+        sides[i] = frame.then(&RigidMotion::shift(at));
     }
     if links[0] == links[1] {
         return Err(same_link(e));

@@ -1,13 +1,13 @@
 //! URDF: a spanning tree of the free state; the joints that close loops are `<loop_joint>`s.
 
-use crate::closure::tree::{Step, spanning_tree};
+use crate::closure::tree::{TreeStep, spanning_tree};
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use crate::robots::description::massless::Light;
 use crate::robots::description::mimic::{mimics, settled, stand_in};
 use crate::robots::description::physical::{self, GRAM, inertial, left_out, moving};
-use crate::robots::formats::Written;
+use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
@@ -15,7 +15,7 @@ use crate::robots::problem::ExportError;
 use std::fmt::Write;
 
 /// What a file collects.
-struct Writer<'a> {
+struct UrdfWriter<'a> {
     m: &'a Mechanism,
     /// A link without a mass of its own.
     light: String,
@@ -35,8 +35,8 @@ struct Writer<'a> {
 ///
 /// # Errors
 /// Where a joint screws: URDF has no such joint.
-pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
-    let mut w = Writer {
+pub(crate) fn urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
+    let mut w = UrdfWriter {
         m,
         light: Light::in_mechanism(m).urdf(),
         links: Names::default(),
@@ -59,7 +59,7 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<Written, ExportError> {
     Ok(w.whole())
 }
 
-impl Writer<'_> {
+impl UrdfWriter<'_> {
     /// A link with its frame at a point; its name.
     fn link(&mut self, l: LinkId, at: [f64; 3]) -> String {
         let name = self.links.fit(&self.m.links[l].id);
@@ -107,7 +107,7 @@ impl Writer<'_> {
     }
 
     /// A joint of the tree with the link that hangs on it.
-    fn branch(&mut self, step: &Step) -> Result<(), ExportError> {
+    fn branch(&mut self, step: &TreeStep) -> Result<(), ExportError> {
         let j = step.joint;
         let (mut holder, origin) = self.placed[step.from].clone().unwrap_or_default();
         let p = place(self.m, &self.m.joints[j]);
@@ -182,7 +182,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn whole(self) -> Written {
+    fn whole(self) -> FormattedFile {
         let m = self.m;
         let (follows, unsaid) = mimics(m, &self.single);
         let mut told = left_out(m);
@@ -208,7 +208,7 @@ impl Writer<'_> {
         let text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n"
         );
-        Written { text, told }
+        FormattedFile { text, told }
     }
 }
 

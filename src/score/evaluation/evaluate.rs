@@ -6,7 +6,7 @@ use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
 use crate::score::evaluation::elimination::{Ended, Scratch};
 use crate::score::evaluation::load_cases::{CaseError, Cases, cases};
-use crate::score::evaluation::pose_tables::Table;
+use crate::score::evaluation::pose_tables::PoseTable;
 use crate::score::evaluation::terms::{ErrorSum, Peak, Scores, output_points};
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
@@ -37,7 +37,7 @@ pub enum ScoreError {
 
 /// What a joint bears in one pose, without what its drive does.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::score) struct Load {
+pub(in crate::score) struct PoseLoad {
     pub(in crate::score) joint: JointId,
     /// `[N]`
     pub(in crate::score) force: f64,
@@ -61,7 +61,7 @@ pub struct Evaluator<'s> {
     /// The poses looked at with their loads.
     pub cases: Cases,
     pub(in crate::score) outputs: Vec<(LinkId, [f64; 3])>,
-    tables: Vec<Table>,
+    tables: Vec<PoseTable>,
     working: i64,
 }
 
@@ -102,7 +102,7 @@ impl<'s> Evaluator<'s> {
         let tables = cases
             .list
             .iter()
-            .map(|case| Table::new(search, &types, &outputs, &drives, case))
+            .map(|case| PoseTable::new(search, &types, &outputs, &drives, case))
             .collect::<Result<_, _>>()?;
         let states = analyse(m, &[StateId::FREE], Method::Modular)?;
         let working = states
@@ -138,7 +138,7 @@ impl<'s> Evaluator<'s> {
         &self,
         variant: &Assignment,
         scratch: &mut Scratch,
-        each: &mut dyn FnMut(Load),
+        each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Scores, Unsolved> {
         let mut worst: Option<Scores> = None;
         for table in &self.tables {
@@ -153,7 +153,7 @@ impl<'s> Evaluator<'s> {
         worst.map_or_else(|| self.slowly_with(variant, each), Ok)
     }
 
-    pub(in crate::score) fn tables(&self) -> &[Table] {
+    pub(in crate::score) fn tables(&self) -> &[PoseTable] {
         &self.tables
     }
 
@@ -174,15 +174,15 @@ impl<'s> Evaluator<'s> {
 
     fn at(
         &self,
-        table: &Table,
+        table: &PoseTable,
         variant: &Assignment,
         scratch: &mut Scratch,
-        each: &mut dyn FnMut(Load),
+        each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Option<Scores>, Unsolved> {
         let dim = table.basis.len();
         let unknowns = dim * table.contours;
         let width = unknowns + table.cases;
-        let cell = |p: &crate::score::evaluation::pose_tables::Place| {
+        let cell = |p: &crate::score::evaluation::pose_tables::PlacedJoint| {
             &table.cells[p.variable][variant.choices[p.variable]][p.slot]
         };
         scratch.rows.clear();
@@ -234,7 +234,7 @@ impl<'s> Evaluator<'s> {
             let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
             for &capacity in &cell(place).bears {
                 let (force, moment) = capacity;
-                each(Load {
+                each(PoseLoad {
                     joint: place.joint,
                     force: f,
                     moment: m,

@@ -1,7 +1,7 @@
 //! What each joint of a variant bears.
 
 use crate::score::evaluation::elimination::Scratch;
-use crate::score::evaluation::evaluate::{Evaluator, Load, ScoreError};
+use crate::score::evaluation::evaluate::{Evaluator, PoseLoad, ScoreError};
 use crate::score::evaluation::load_cases::is_loaded;
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
@@ -24,7 +24,7 @@ pub struct Bearing {
 }
 
 impl Bearing {
-    fn raise(&mut self, load: &Load) {
+    fn raise(&mut self, load: &PoseLoad) {
         let (force, moment) = load.capacity;
         self.force = self.force.max(load.force);
         self.moment = self.moment.max(load.moment);

@@ -51,7 +51,7 @@ pub enum CaseError {
 
 /// A pose with its loads.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub struct LoadCase {
     /// Position of the first drive since the pose of the file: `[rad]`, or the file's unit.
     pub drive: f64,
     /// The pose of the mechanism as it is.
@@ -75,7 +75,7 @@ pub struct Gripped {
 #[derive(Debug, Clone, Default)]
 pub struct Cases {
     /// The cases.
-    pub list: Vec<Case>,
+    pub list: Vec<LoadCase>,
     /// How many of them, the first, are of the free state.
     pub free: usize,
     /// The first position of the stroke that could not be reached.
@@ -100,7 +100,7 @@ pub fn is_loaded(m: &Mechanism) -> bool {
 /// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
 /// conditioned over or nothing else is loaded.
 #[must_use]
-pub fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
+pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
     let gripped = m.state_ids().skip(1).filter(|&s| grip_of(m, s).is_some());
     let gripped: Vec<StateId> = gripped.collect();
     let free = gripped.is_empty() || free_is_loaded(m) || m.loads.stroke.is_some();
@@ -126,7 +126,7 @@ pub fn cases(m: &Mechanism, drives: &[Driven], states: &[StateId]) -> Result<Cas
             let followed = follow(m, StateId::FREE, drives, m.loads.stroke)?;
             out.stopped = followed.stopped;
             out.free = followed.poses.len();
-            let each = followed.poses.into_iter().map(|(drive, pose)| Case {
+            let each = followed.poses.into_iter().map(|(drive, pose)| LoadCase {
                 drive,
                 pose,
                 loads: m.loads.in_state(StateId::FREE),
@@ -172,7 +172,7 @@ fn grip_cases(
         let Some((_, pose)) = followed.poses.into_iter().next() else {
             return Err(CaseError::OutOfReach(drive));
         };
-        out.list.push(Case { drive, pose, loads });
+        out.list.push(LoadCase { drive, pose, loads });
     }
     if of_grip.held.is_empty() {
         return Err(CaseError::NotHeld(name()));

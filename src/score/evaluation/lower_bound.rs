@@ -9,7 +9,7 @@
 use crate::geom::vector::{dot, length};
 use crate::model::ranking::{ClearanceSum, Ranking, Term};
 use crate::score::evaluation::evaluate::Evaluator;
-use crate::score::evaluation::pose_tables::{Place, Table};
+use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use ozols_dense::{Matrix, svd, thin_svd};
 
 /// Steps of each problem.
@@ -45,7 +45,7 @@ impl Floor {
 }
 
 /// A vector at each of some joints, an affine function of what the common equations leave open, with a limit or weight.
-struct Part {
+struct AffineLoads {
     /// Its capacity, or its clearance.
     limit: f64,
     /// The vector where the open coordinates are 0.
@@ -74,11 +74,11 @@ impl Evaluator<'_> {
             let Some(common) = common(table) else {
                 continue;
             };
-            let parts = |of: &dyn Fn(&Place) -> Option<f64>, case: usize, moment: bool| {
+            let parts = |of: &dyn Fn(&PlacedJoint) -> Option<f64>, case: usize, moment: bool| {
                 let places = table.places.iter();
                 let parts =
                     places.filter_map(|p| Some(part(table, &common, p, case, moment, of(p)?)));
-                parts.collect::<Vec<Part>>()
+                parts.collect::<Vec<AffineLoads>>()
             };
             let force = parts(&|p| capacity(table, p, |(f, _)| Some(f)), 0, false);
             let moment = parts(&|p| capacity(table, p, |(_, m)| m), 0, true);
@@ -108,8 +108,8 @@ impl Evaluator<'_> {
 
 /// The greatest capacity that a choice gives a place; `None` where a choice bears nothing of the kind that counts.
 fn capacity(
-    table: &Table,
-    place: &Place,
+    table: &PoseTable,
+    place: &PlacedJoint,
     of: impl Fn((f64, Option<f64>)) -> Option<f64>,
 ) -> Option<f64> {
     let mut best: Option<f64> = None;
@@ -121,17 +121,17 @@ fn capacity(
     best
 }
 
-fn clearance(table: &Table, place: &Place) -> f64 {
+fn clearance(table: &PoseTable, place: &PlacedJoint) -> f64 {
     let choices = table.cells[place.variable].iter();
     let least = choices.map(|c| c[place.slot].clearance).reduce(f64::min);
     least.unwrap_or(0.0)
 }
 
 /// The equations that hold for every variant: rows in the span of those of each choice.
-fn common(table: &Table) -> Option<Common> {
+fn common(table: &PoseTable) -> Option<Common> {
     let dim = table.basis.len();
     let unknowns = dim * table.contours;
-    let mut rows: Vec<(&Place, &Vec<f64>)> = Vec::new();
+    let mut rows: Vec<(&PlacedJoint, &Vec<f64>)> = Vec::new();
     for place in &table.places {
         let choices = &table.cells[place.variable];
         let Some(first) = choices.first() else {
@@ -194,13 +194,13 @@ fn within(row: &[f64], others: &[Vec<f64>], dim: usize) -> bool {
 
 /// What a place bears in one load case, as far as the common equations tell.
 fn part(
-    table: &Table,
+    table: &PoseTable,
     common: &Common,
-    place: &Place,
+    place: &PlacedJoint,
     case: usize,
     moment: bool,
     limit: f64,
-) -> Part {
+) -> AffineLoads {
     let borne = |x: &[f64]| {
         let (force, turning) = table.borne(place, &table.wrench(place, case, x));
         if moment { turning } else { force }
@@ -215,11 +215,11 @@ fn part(
         [0, 1, 2].map(|i| there[i] - fixed[i])
     });
     let open = open.collect();
-    Part { limit, fixed, open }
+    AffineLoads { limit, fixed, open }
 }
 
 /// The vectors at which Σ weight · |vector|² is least.
-fn weighted_least(parts: &[Part], weights: &[f64]) -> Option<Vec<[f64; 3]>> {
+fn weighted_least(parts: &[AffineLoads], weights: &[f64]) -> Option<Vec<[f64; 3]>> {
     let open = parts.first()?.open.len();
     let mut out: Vec<[f64; 3]> = parts.iter().map(|p| p.fixed).collect();
     if open == 0 {
@@ -246,7 +246,7 @@ fn weighted_least(parts: &[Part], weights: &[f64]) -> Option<Vec<[f64; 3]>> {
 
 /// A bound below the greatest |vector| / limit: for z = weight · vector at the least squares, Σ z · vector is the same for
 /// all that is open, and at most Σ |z| limit · peak.
-fn least_peak(parts: &[Part]) -> f64 {
+fn least_peak(parts: &[AffineLoads]) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     let mut share = vec![1.0 / parts.len().max(1) as f64; parts.len()];
     let mut best = 0.0;
@@ -278,7 +278,7 @@ fn least_peak(parts: &[Part]) -> f64 {
 }
 
 /// A bound below Σ limit · |vector|, by a z of the same kind with |z| at most the limit.
-fn least_sum(parts: &[Part]) -> f64 {
+fn least_sum(parts: &[AffineLoads]) -> f64 {
     let mut weights: Vec<f64> = parts.iter().map(|p| p.limit).collect();
     let mut best = 0.0;
     for _ in 0..STEPS {
@@ -306,7 +306,7 @@ fn least_sum(parts: &[Part]) -> f64 {
 }
 
 /// The least Σ (limit · |vector|)².
-fn least_square(parts: &[Part]) -> f64 {
+fn least_square(parts: &[AffineLoads]) -> f64 {
     let weights: Vec<f64> = parts.iter().map(|p| p.limit.powi(2)).collect();
     let at = weighted_least(parts, &weights).unwrap_or_default();
     weights.iter().zip(&at).map(|(w, v)| w * dot(*v, *v)).sum()

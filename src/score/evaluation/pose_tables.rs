@@ -6,7 +6,7 @@ use crate::geom::vector::{across, cross};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::score::evaluation::load_cases::Case;
+use crate::score::evaluation::load_cases::LoadCase;
 use crate::score::evaluation::terms::axis_of;
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
@@ -30,10 +30,10 @@ pub(in crate::score) struct Cell {
 
 /// A joint's place.
 #[derive(Debug, Clone)]
-pub(in crate::score) struct Place {
+pub(in crate::score) struct PlacedJoint {
     pub(in crate::score) joint: JointId,
     pub(in crate::score) variable: usize,
-    /// Place in the variable's list of joints.
+    /// PlacedJoint in the variable's list of joints.
     pub(in crate::score) slot: usize,
     /// Contours through it, with their directions.
     pub(in crate::score) contours: Vec<(usize, f64)>,
@@ -46,27 +46,27 @@ pub(in crate::score) struct Place {
 
 /// A pose.
 #[derive(Debug, Clone)]
-pub(in crate::score) struct Table {
+pub(in crate::score) struct PoseTable {
     pub(in crate::score) basis: Vec<Six>,
     pub(in crate::score) contours: usize,
     pub(in crate::score) size: f64,
     /// Load cases: the loads, then a unit force along each axis on each output.
     pub(in crate::score) cases: usize,
-    pub(in crate::score) places: Vec<Place>,
+    pub(in crate::score) places: Vec<PlacedJoint>,
     /// By variable, choice, joint of the variable.
     pub(in crate::score) cells: Vec<Vec<Vec<Cell>>>,
     /// Greatest component of the first case's wrenches.
     pub(in crate::score) scale: f64,
 }
 
-impl Table {
+impl PoseTable {
     pub(in crate::score) fn new(
         search: &Search,
         types: &JointTypes,
         outputs: &[(LinkId, [f64; 3])],
         drives: &[Driven],
-        Case { drive, pose, loads }: &Case,
-    ) -> Result<Table, Unsolved> {
+        LoadCase { drive, pose, loads }: &LoadCase,
+    ) -> Result<PoseTable, Unsolved> {
         let m = &*search.mechanism;
         let geometry = Geometry::new(m, StateId::FREE, pose)?;
         let mut cases = vec![link_loads(
@@ -102,7 +102,7 @@ impl Table {
                 if !geometry.joints.contains(&joint) {
                     continue;
                 }
-                let place = Place {
+                let place = PlacedJoint {
                     joint,
                     variable: v,
                     slot: of_variable.first().map_or(0, Vec::len),
@@ -138,7 +138,7 @@ impl Table {
             }
             cells.push(of_variable);
         }
-        Ok(Table {
+        Ok(PoseTable {
             basis: geometry.basis.clone(),
             contours: geometry.contours.len(),
             size: geometry.size,
@@ -150,7 +150,7 @@ impl Table {
     }
 
     /// Wrench of a place in a load case, for the contours' wrenches `x`, unknowns × cases.
-    pub(in crate::score) fn wrench(&self, place: &Place, case: usize, x: &[f64]) -> Six {
+    pub(in crate::score) fn wrench(&self, place: &PlacedJoint, case: usize, x: &[f64]) -> Six {
         let dim = self.basis.len();
         let mut w = place.along_tree[case];
         for &(k, sign) in &place.contours {
@@ -165,7 +165,11 @@ impl Table {
     }
 
     /// Force `[N]` and moment about the place `[N·m]` of a wrench, without what a drive bears.
-    pub(in crate::score) fn borne(&self, place: &Place, wrench: &Six) -> ([f64; 3], [f64; 3]) {
+    pub(in crate::score) fn borne(
+        &self,
+        place: &PlacedJoint,
+        wrench: &Six,
+    ) -> ([f64; 3], [f64; 3]) {
         let w = about(wrench, place.point);
         let (mut f, mut m) = ([w[3], w[4], w[5]], [w[0], w[1], w[2]]);
         if let Some((axis, shift)) = place.held {
@@ -185,7 +189,7 @@ fn cell<'o>(
     pose: &Pose,
     types: &JointTypes,
     drives: &[Driven],
-    place: &Place,
+    place: &PlacedJoint,
     series: impl Iterator<Item = (&'o JointOption, bool)>,
 ) -> Result<Cell, Unsolved> {
     let dim = geometry.basis.len();
@@ -229,7 +233,7 @@ fn option_twists(
     m: &Mechanism,
     geometry: &Geometry,
     pose: &Pose,
-    place: &Place,
+    place: &PlacedJoint,
     option: &JointOption,
 ) -> Result<Vec<(Freedom, Six)>, Unsolved> {
     let space = MotionSpace::new(&Reals, &m.mode)?;

@@ -5,13 +5,13 @@ use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
 use crate::model::mechanism::{JointId, StateId};
 use crate::score::evaluation::evaluate::Evaluator;
-use crate::score::evaluation::evaluate::Load;
+use crate::score::evaluation::evaluate::PoseLoad;
 use crate::score::evaluation::terms::{ErrorSum, Scores, axis_of};
 use crate::score::joint_types::JointType;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
 use crate::statics::reactions::follow::follow_to;
-use crate::statics::reactions::{Choice, JointReaction, Reactions, Unsolved};
+use crate::statics::reactions::{JointReaction, Reactions, Uniqueness, Unsolved};
 
 /// Force and moment of a joint without what its drive bears.
 fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
@@ -41,7 +41,7 @@ impl Evaluator<'_> {
     pub(in crate::score) fn slowly_with(
         &self,
         variant: &Assignment,
-        each: &mut dyn FnMut(Load),
+        each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Scores, Unsolved> {
         let m = variant_mechanism::realize(self.search, &variant.choices);
         let types = self.realized_types(&variant.choices);
@@ -58,11 +58,11 @@ impl Evaluator<'_> {
             let solution = solve(&case.loads)?;
             let mut now = self.plain(variant);
             now.conditioning = 1.0 / solution.condition;
-            now.minimum_norm = solution.choice == Choice::MinimumNorm;
+            now.minimum_norm = solution.choice == Uniqueness::MinimumNorm;
             for r in &solution.reactions {
                 let (at, t) = &types[r.joint];
                 let (f, moment) = borne(r);
-                each(Load {
+                each(PoseLoad {
                     joint: *at,
                     force: length(f),
                     moment: length(moment),

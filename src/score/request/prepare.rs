@@ -5,7 +5,7 @@ use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::rounded::intended::Settled;
-use crate::rank::rounded::verdict::{Meant, Verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict};
 use crate::search::question::as_written::Written;
 use crate::search::question::rounded_rank::Digits;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub(in crate::score) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
 
 /// Why a geometry looks rounded, with the verdicts on its states.
-pub type LooksRounded = (Rounded, Vec<Verdict>);
+pub type LooksRounded = (Rounded, Vec<RankVerdict>);
 
 /// A mechanism made ready for a search.
 #[derive(Debug)]
@@ -87,8 +87,8 @@ pub(in crate::score) fn tell_moved(m: &Mechanism, settled: &Settled, tell: &mut 
 }
 
 /// What the digits of a mechanism tell of ranks, by the verdicts on it.
-pub(in crate::score) fn digits(verdicts: &[Verdict]) -> Digits {
-    let tolerance = |a: f64, v: &Verdict| a.max(v.tolerance);
+pub(in crate::score) fn digits(verdicts: &[RankVerdict]) -> Digits {
+    let tolerance = |a: f64, v: &RankVerdict| a.max(v.tolerance);
     Digits {
         tolerance: verdicts.iter().fold(DEFAULT_TOLERANCE, tolerance),
         undecided: verdicts.iter().any(|v| !v.is_decided()),
@@ -97,8 +97,8 @@ pub(in crate::score) fn digits(verdicts: &[Verdict]) -> Digits {
 
 /// The mechanism nearest to the one that is written that has the rank meant, where a verdict found one; options that shared a
 /// joint's frame share it still.
-pub(in crate::score) fn nearest(m: &Mechanism, verdicts: &[Verdict]) -> Option<Mechanism> {
-    let near = |v: &Verdict| match &v.meant {
+pub(in crate::score) fn nearest(m: &Mechanism, verdicts: &[RankVerdict]) -> Option<Mechanism> {
+    let near = |v: &RankVerdict| match &v.meant {
         Meant::Near { mechanism, .. } => Some(mechanism.as_ref().clone()),
         _ => None,
     };
@@ -130,7 +130,7 @@ impl Prepared {
         let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
         let Some((v, has)) = settled.open.map(|(i, has)| (&settled.verdicts[i], has)) else {
             let measured = |w: &Rounded| w.digits.is_some();
-            let meant = settled.verdicts.iter().all(Verdict::is_as_written);
+            let meant = settled.verdicts.iter().all(RankVerdict::is_as_written);
             if let (Some(w), true, false) = (why.as_ref().filter(|w| measured(w)), meant, snapped) {
                 tell(if w.pi {
                     format!(

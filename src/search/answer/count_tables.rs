@@ -67,7 +67,7 @@ impl Key {
 
     /// Packs the redundancy of a whole variant.
     #[must_use]
-    pub fn of_redundancy(r: Redundancy) -> Key {
+    pub(crate) fn of_redundancy(r: Redundancy) -> Key {
         // Fewer than none are written as a complement: only one of the keys that are added up has any.
         let external = u128::from(r.external.cast_unsigned() & 0xffff);
         Key(u128::from(r.internal) << 32 | external << 16 | u128::from(r.harmful))

@@ -7,7 +7,7 @@ use crate::model::mechanism::JointId;
 use crate::redundancy::stress::harmful_count;
 use crate::search::answer::count_tables::Key;
 use crate::search::answer::counts::Counts;
-use crate::search::check::full_matrices::{Layout, WrittenOut};
+use crate::search::check::full_matrices::{RowLayout, WrittenOut};
 use crate::search::check::variant_mechanism::realize;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
@@ -57,7 +57,7 @@ impl Matrices {
     #[must_use]
     pub fn new(question: &Question) -> Matrices {
         let (f, variables) = (question.field().field(), &question.space.variables);
-        let layout = Layout::new(question);
+        let layout = RowLayout::new(question);
         let fixed = variables.iter().filter(|v| v.choices.len() == 1);
         let whole = fixed.flat_map(|v| &v.joints).map(|&j| {
             let rates = question.mechanism.couplings_of(j).count();

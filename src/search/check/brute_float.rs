@@ -8,15 +8,15 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::numeric::Elimination;
 use crate::rank::numeric::scaling::Scaling;
 use crate::search::check::brute::Seen;
-use crate::search::check::full_matrices::{Layout, Spans, WrittenOut};
+use crate::search::check::full_matrices::{RowLayout, Spans, WrittenOut};
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use crate::search::question::space::{Choice, columns};
 use ozols_dense::{Matrix, singular_values};
 
-/// Rows of a variant's matrix that have a rank of their own.
+/// RankedRows of a variant's matrix that have a rank of their own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rows {
+pub enum RankedRows {
     /// The closure equations of the free state.
     Free,
     /// These, and the motion of the kept links.
@@ -85,7 +85,7 @@ impl Approximate {
         Ok(Approximate {
             elimination,
             tolerance,
-            all: WrittenOut::new(&Reals, question, &Layout::new(question), &spans),
+            all: WrittenOut::new(&Reals, question, &RowLayout::new(question), &spans),
         })
     }
 
@@ -96,19 +96,19 @@ impl Approximate {
     #[must_use]
     pub fn look(&self, choices: &[usize]) -> Option<Seen> {
         let [_, kept, state] = self.all.rows;
-        let rank = |rows: Rows| {
+        let rank = |rows: RankedRows| {
             let matrix = self.matrix(choices, rows);
             let rank = self.elimination.rank_of(&matrix, self.tolerance);
             rank.ok().map(|r| r.rank)
         };
-        let inside = rank(Rows::Free)?;
+        let inside = rank(RankedRows::Free)?;
         let with_kept = match kept {
             0 => inside,
-            _ => rank(Rows::WithKept)?,
+            _ => rank(RankedRows::WithKept)?,
         };
         let of_state = match state {
             0 => None,
-            _ => Some(rank(Rows::State)?),
+            _ => Some(rank(RankedRows::State)?),
         };
         Some(Seen::of_ranks(self.all.rows, [inside, with_kept], of_state))
     }
@@ -125,17 +125,17 @@ impl Approximate {
     /// # Complexity
     /// One decomposition.
     #[must_use]
-    pub fn range(&self, choices: &[usize], rows: Rows, digits: Digits) -> Option<RankRange> {
+    pub fn range(&self, choices: &[usize], rows: RankedRows, digits: Digits) -> Option<RankRange> {
         let values = singular_values(&self.matrix(choices, rows))?;
         Some(RankRange::of(&values, digits))
     }
 
-    fn matrix(&self, choices: &[usize], rows: Rows) -> Matrix {
+    fn matrix(&self, choices: &[usize], rows: RankedRows) -> Matrix {
         let [free, kept, state] = self.all.rows;
         let (from, to) = match rows {
-            Rows::Free => (0, free),
-            Rows::WithKept => (0, free + kept),
-            Rows::State => (free + kept, free + kept + state),
+            RankedRows::Free => (0, free),
+            RankedRows::WithKept => (0, free + kept),
+            RankedRows::State => (free + kept, free + kept + state),
         };
         let chosen: Vec<&Vec<f64>> = self.all.chosen(choices).collect();
         Matrix::from_fn(to - from, chosen.len(), |r, c| chosen[c][from + r])

@@ -14,7 +14,7 @@ pub type Spans<N> = Vec<Vec<Vec<N>>>;
 
 /// What the rows of the matrices are: contours and couplings of the free state, motions of the kept links, and contours and
 /// couplings of the searched state, all of them once more.
-pub(in crate::search) struct Layout<'a> {
+pub(in crate::search) struct RowLayout<'a> {
     mechanism: &'a Mechanism,
     dim: usize,
     free: Vec<Contour>,
@@ -25,8 +25,8 @@ pub(in crate::search) struct Layout<'a> {
     coupled_in_state: Vec<usize>,
 }
 
-impl Layout<'_> {
-    pub(in crate::search) fn new(question: &Question) -> Layout<'_> {
+impl RowLayout<'_> {
+    pub(in crate::search) fn new(question: &Question) -> RowLayout<'_> {
         let mechanism = &*question.mechanism;
         let kept = question.kept.0.iter();
         let paths = kept.map(|&l| path_from_frame(mechanism, StateId::FREE, l));
@@ -37,7 +37,7 @@ impl Layout<'_> {
             (0..mechanism.couplings.len()).filter(present).collect()
         };
         let state = question.space.state;
-        Layout {
+        RowLayout {
             mechanism,
             dim: question.space.dim,
             free: contour_basis(mechanism, StateId::FREE),
@@ -101,7 +101,7 @@ pub struct WrittenOut<N> {
 impl WrittenOut<Residue> {
     /// The columns of a search's space over its prime.
     #[must_use]
-    pub(in crate::search) fn modulo_prime(question: &Question, layout: &Layout<'_>) -> Self {
+    pub(in crate::search) fn modulo_prime(question: &Question, layout: &RowLayout<'_>) -> Self {
         let spans = |v: &Variable| v.choices.iter().map(|c| c.spans.clone()).collect();
         let spans: Vec<_> = question.space.variables.iter().map(spans).collect();
         WrittenOut::new(question.field(), question, layout, &spans)
@@ -114,7 +114,7 @@ impl<N: Clone + Default> WrittenOut<N> {
     pub(in crate::search) fn new<S: Scalars<Number = N>>(
         s: &S,
         question: &Question,
-        layout: &Layout<'_>,
+        layout: &RowLayout<'_>,
         spans: &[Vec<Spans<N>>],
     ) -> WrittenOut<N> {
         let of_choice = |joints: &[JointId], spans: &Spans<N>| {

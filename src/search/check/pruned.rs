@@ -6,7 +6,7 @@
 
 use crate::linalg::modp::{Field, Residue};
 use crate::search::check::brute::{Seen, eliminate};
-use crate::search::check::full_matrices::{Layout, WrittenOut};
+use crate::search::check::full_matrices::{RowLayout, WrittenOut};
 use crate::search::question::Question;
 
 /// A depth-first search over the variables of a question.
@@ -57,7 +57,7 @@ impl Pruned {
     #[must_use]
     pub fn new(question: &Question, order: &[usize]) -> Pruned {
         let field = question.field().field();
-        let all = WrittenOut::modulo_prime(question, &Layout::new(question));
+        let all = WrittenOut::modulo_prime(question, &RowLayout::new(question));
         let free = all.rows[0];
         let mut to_come = vec![Echelon::default()];
         for &v in order.iter().rev() {

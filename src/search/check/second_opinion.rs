@@ -9,7 +9,7 @@ use crate::rank::numeric::Elimination;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute::Matrices;
-use crate::search::check::brute_float::{Approximate, Rows};
+use crate::search::check::brute_float::{Approximate, RankedRows};
 use crate::search::numeric::at_tolerance::{below, choices};
 use crate::search::question::Question;
 use crate::search::question::as_written::Written;
@@ -199,7 +199,7 @@ pub fn second_opinion(
         }
         out
     });
-    let present = of_file.range(&nothing, Rows::Free, digits);
+    let present = of_file.range(&nothing, RankedRows::Free, digits);
     let below_present = present
         .filter(|_| written.only_adds)
         .and_then(|p| less_than_present(question, p, determinate));
@@ -246,15 +246,15 @@ fn compare(
     digits: Digits,
 ) -> Option<Said> {
     let [rows, state_rows] = of_file.equations();
-    let free = of_file.range(&e.choices, Rows::Free, digits)?;
+    let free = of_file.range(&e.choices, RankedRows::Free, digits)?;
     let rank = rows.saturating_sub(e.internal);
     let mut all = vec![(free, rank)];
     if let Some(motion) = e.motion.filter(|_| question.conditions.keep_output) {
-        let kept = of_file.range(&e.choices, Rows::WithKept, digits)?;
+        let kept = of_file.range(&e.choices, RankedRows::WithKept, digits)?;
         all.push((kept, rank + motion));
     }
     if let Some(redundant) = e.in_state {
-        let state = of_file.range(&e.choices, Rows::State, digits)?;
+        let state = of_file.range(&e.choices, RankedRows::State, digits)?;
         all.push((state, state_rows.saturating_sub(redundant)));
     }
     let decided = all.iter().filter(|(r, _)| r.is_decided());

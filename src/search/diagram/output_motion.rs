@@ -31,7 +31,7 @@ pub struct Lookahead {
     clippy::too_many_arguments,
     reason = "the parts of a node, and what is asked of it"
 )]
-pub fn lookahead(
+pub(crate) fn lookahead(
     exact: &ExactField,
     mechanism: &Mechanism,
     dim: usize,

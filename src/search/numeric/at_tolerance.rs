@@ -18,7 +18,7 @@ use crate::search::answer::count_tables::Key;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::Digits;
-use found::{BLOCK, List, Met, order};
+use found::{BLOCK, Met, VariantList, order};
 use judge::{Judge, Standing};
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
@@ -102,6 +102,6 @@ fn whole(
         } else {
             Stop::Interrupted
         },
-        list: List::Numbers(list),
+        list: VariantList::Numbers(list),
     }
 }

@@ -11,9 +11,9 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{CostSpec, JointOption};
 
 /// Default cost of changing a joint at all, in thousandths.
-pub const CHANGE: i64 = 1000;
+pub(crate) const CHANGE: i64 = 1000;
 /// Default cost of changing a driven joint besides, in thousandths: its motor is mounted and guided anew.
-pub const DRIVEN: i64 = 2000;
+pub(crate) const DRIVEN: i64 = 2000;
 /// Default cost of the extra link of an unloading joint, in thousandths.
 pub const LINK: i64 = 1000;
 /// The costs in force for one mechanism, in thousandths.

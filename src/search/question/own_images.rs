@@ -26,7 +26,7 @@ const NEAR: f64 = 1e-6;
 /// # Complexity
 /// O(joints²) candidates, each for some distances, and a dozen exact proofs at most.
 #[must_use]
-pub fn own_images(
+pub(crate) fn own_images(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: Option<StateId>,

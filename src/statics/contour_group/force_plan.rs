@@ -3,7 +3,7 @@
 
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::GroupSolutions;
-use crate::statics::kinetostatics::Source;
+use crate::statics::kinetostatics::LoadSource;
 use crate::statics::pose::{length, minus, quarter};
 
 /// A force of a plan.
@@ -21,7 +21,7 @@ pub struct PlanForce {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlanKind {
     /// A load.
-    Load(Source),
+    Load(LoadSource),
     /// A reaction across its line to δ or along its rod, found from moments.
     Tangential,
     /// A reaction that the plan finds, or a whole one.
@@ -44,9 +44,9 @@ fn loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
     let own = g.pose.loads.iter().filter(|l| links.contains(&l.body));
     let named = own.filter(|l| l.force != [0.0; 2]).map(|l| PlanForce {
         name: match l.source {
-            Source::Gravity => format!("G{}", LINKS[l.body]),
-            Source::Inertia => format!("Fи{}", LINKS[l.body]),
-            Source::External => format!("P{}", LINKS[l.body]),
+            LoadSource::Gravity => format!("G{}", LINKS[l.body]),
+            LoadSource::Inertia => format!("Fи{}", LINKS[l.body]),
+            LoadSource::External => format!("P{}", LINKS[l.body]),
         },
         force: l.force,
         kind: PlanKind::Load(l.source),

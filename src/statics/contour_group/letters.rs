@@ -29,7 +29,7 @@ pub struct ContourGroup {
 
 /// Finds the letters in a group; `None` for groups of another kind, and those with a drive inside.
 #[must_use]
-pub fn recognise(m: &PlanarMechanism, group: &Group) -> Option<ContourGroup> {
+pub(crate) fn recognise(m: &PlanarMechanism, group: &Group) -> Option<ContourGroup> {
     if group.class.kind != Kind::FourLinkContour || !group.locked.is_empty() {
         return None;
     }

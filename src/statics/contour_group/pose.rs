@@ -1,7 +1,7 @@
 //! The group in one pose: points, guide and loads, and the reactions found there.
 
 use crate::statics::contour_group::letters::ContourGroup;
-use crate::statics::kinetostatics::{Load, Source};
+use crate::statics::kinetostatics::{Load, LoadSource};
 use crate::statics::planar::{BodyId, PairId};
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, quarter};
 
@@ -59,14 +59,14 @@ impl GroupPose {
 
     /// Sum of the forces on a link `[N]`.
     #[must_use]
-    pub fn force_on(&self, link: usize) -> [f64; 2] {
+    pub(crate) fn force_on(&self, link: usize) -> [f64; 2] {
         let own = self.loads.iter().filter(|l| l.body == link);
         own.fold([0.0; 2], |s, l| [s[0] + l.force[0], s[1] + l.force[1]])
     }
 
     /// Moment of a link's loads about a point `[N·m]`.
     #[must_use]
-    pub fn moment_on(&self, link: usize, about: [f64; 2]) -> f64 {
+    pub(crate) fn moment_on(&self, link: usize, about: [f64; 2]) -> f64 {
         let own = self.loads.iter().filter(|l| l.body == link);
         own.map(|l| l.moment_about(about)).sum()
     }
@@ -75,7 +75,7 @@ impl GroupPose {
     pub fn push(&mut self, link: usize, point: [f64; 2], force: [f64; 2]) {
         self.loads.push(Load {
             body: link,
-            source: Source::External,
+            source: LoadSource::External,
             point,
             force,
             moment: 0.0,

@@ -54,7 +54,7 @@ pub type ByMethod = [f64; 3];
 
 /// Errors at one distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct DistanceErrors {
     /// The distance from the failure.
     pub distance: f64,
     /// Greatest error of a reaction over the greatest reaction.
@@ -111,7 +111,7 @@ fn relative(found: f64, exact: f64) -> f64 {
 
 /// Errors of the three methods on one group; `None` where its equilibrium is singular.
 #[must_use]
-pub fn errors(g: &GroupPose, distance: f64) -> Option<Sample> {
+pub fn errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
     let reference = exact(g)?;
     let by_lu = solve(g);
     let found: [Option<GroupReactions>; 3] = [
@@ -120,7 +120,7 @@ pub fn errors(g: &GroupPose, distance: f64) -> Option<Sample> {
         by_lu.map(|x| x.0),
     ];
     let measure = |f: &dyn Fn(GroupReactions) -> f64| found.map(|r| r.map_or(f64::INFINITY, f));
-    Some(Sample {
+    Some(DistanceErrors {
         distance,
         forces: measure(&|r| r.distance(&reference, g)),
         arm: measure(&|r| relative(r.arm, reference.arm)),
@@ -157,16 +157,16 @@ pub fn samples(
     distances: &[f64],
     groups: usize,
     seed: u64,
-) -> Vec<Sample> {
+) -> Vec<DistanceErrors> {
     let mut out = Vec::new();
     for &distance in distances {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let all: Vec<Sample> = (0..groups)
+        let all: Vec<DistanceErrors> = (0..groups)
             .filter_map(|_| at_distance(&shifted(base, &mut rng), failure, distance))
             .filter_map(|g| errors(&g, distance))
             .collect();
-        let of = |f: &dyn Fn(&Sample) -> f64| median(all.iter().map(f).collect());
-        out.push(Sample {
+        let of = |f: &dyn Fn(&DistanceErrors) -> f64| median(all.iter().map(f).collect());
+        out.push(DistanceErrors {
             distance,
             forces: [0, 1, 2].map(|k| of(&|s| s.forces[k])),
             arm: [0, 1, 2].map(|k| of(&|s| s.arm[k])),
@@ -178,7 +178,7 @@ pub fn samples(
 
 /// Median errors near every failure at distances 1 down to 1e-15, of [`GROUPS`] groups near `base` each.
 #[must_use]
-pub fn study(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<Sample>)> {
+pub fn study(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
     let distances = distances();
     Failure::ALL
         .par_iter()

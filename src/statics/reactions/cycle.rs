@@ -38,7 +38,7 @@ pub fn cycle(m: &Mechanism, state: StateId, stroke: Option<Stroke>) -> Result<Cy
 ///
 /// # Errors
 /// As [`cycle`].
-pub fn cycle_with(
+pub(crate) fn cycle_with(
     m: &Mechanism,
     state: StateId,
     stroke: Option<Stroke>,

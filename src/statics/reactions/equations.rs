@@ -1,7 +1,7 @@
 //! The transposed closure equations of the freedoms, solved by their singular values.
 
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{Column, Geometry, Six, TOLERANCE, about, power};
+use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, about, power};
 use crate::statics::reactions::unsolved::Unsolved;
 use ozols_dense::{Matrix, Svd, svd};
 
@@ -17,7 +17,7 @@ pub(crate) struct System<'g> {
 
 impl<'g> System<'g> {
     pub(crate) fn new(geometry: &'g Geometry, drives: &[Driven]) -> Result<Self, Unsolved> {
-        let held = |c: &Column| drives.contains(&(c.joint, c.freedom));
+        let held = |c: &FreedomColumn| drives.contains(&(c.joint, c.freedom));
         let equations: Vec<usize> = (0..geometry.columns.len())
             .filter(|&c| !held(&geometry.columns[c]))
             .collect();

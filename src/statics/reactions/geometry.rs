@@ -5,7 +5,7 @@
 //! times the size.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::closure::tree::{Step, spanning_tree};
+use crate::closure::tree::{TreeStep, spanning_tree};
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::halves;
@@ -52,7 +52,7 @@ pub fn about(w: &Six, point: [f64; 3]) -> Six {
 
 /// A freedom of a joint.
 #[derive(Debug, Clone, Copy)]
-pub struct Column {
+pub struct FreedomColumn {
     /// The joint.
     pub joint: JointId,
     /// The freedom in the joint's frame.
@@ -77,7 +77,7 @@ pub struct Geometry {
     /// Joints of the state, in file order.
     pub joints: Vec<JointId>,
     /// The freedoms, grouped by joint.
-    pub columns: Vec<Column>,
+    pub columns: Vec<FreedomColumn>,
     /// By joint: its point now, from the middle, in the size.
     pub points: Vec<[f64; 3]>,
     /// By joint: unit vectors x, y, z of its frame now (it moves with the joint's first link).
@@ -85,7 +85,7 @@ pub struct Geometry {
     /// The contours.
     pub contours: Vec<Contour>,
     /// The links but the frame, each after the one it hangs on.
-    pub tree: Vec<Step>,
+    pub tree: Vec<TreeStep>,
     /// Middle and half diagonal of the pose, in the file's unit.
     pose: ([f64; 3], f64),
 }
@@ -136,7 +136,7 @@ impl Geometry {
                 let v = [0, 1, 2].map(|i| (v[i] * pose.length + lever[i]) / spread);
                 [w[0], w[1], w[2], v[0], v[1], v[2]]
             };
-            Column {
+            FreedomColumn {
                 joint: c.joint,
                 freedom: c.freedom,
                 twist,
@@ -207,7 +207,7 @@ impl Geometry {
     pub fn along_tree(&self, joints: usize, loads: &[Six]) -> Vec<Six> {
         let mut hanging = loads.to_vec();
         let mut out = vec![[0.0; 6]; joints];
-        for &Step {
+        for &TreeStep {
             link,
             from,
             joint,
@@ -224,7 +224,7 @@ impl Geometry {
     }
 
     /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints.
-    pub fn add_round(&self, coefficients: &[f64], wrenches: &mut [Six]) {
+    pub(crate) fn add_round(&self, coefficients: &[f64], wrenches: &mut [Six]) {
         let dim = self.basis.len();
         for (k, contour) in self.contours.iter().enumerate() {
             let mut round = [0.0; 6];
@@ -243,7 +243,7 @@ impl Geometry {
 
     /// The row of the transposed closure matrix that belongs to a column: its power on a unit of each contour's wrenches.
     #[must_use]
-    pub fn row(&self, column: &Column) -> Vec<f64> {
+    pub fn row(&self, column: &FreedomColumn) -> Vec<f64> {
         let dim = self.basis.len();
         let mut out = vec![0.0; dim * self.contours.len()];
         for (k, contour) in self.contours.iter().enumerate() {
@@ -267,7 +267,7 @@ impl Geometry {
             }
         }
         let mut out = vec![[0.0; 6]; links];
-        for &Step {
+        for &TreeStep {
             link,
             from,
             joint,

@@ -5,13 +5,13 @@
 //! [Müller 2018, "Screw and Lie group theory in multibody kinematics", sec. 4]. Idle freedoms take the least speeds and rates
 //! that close. Then, by D'Alembert, a link carries -m a at its mass centre and -(I α + ω × I ω) besides.
 
-use crate::closure::tree::Step;
+use crate::closure::tree::TreeStep;
 use crate::geom::vector::{cross, dot};
 use crate::model::loads::{Inertia, Loads};
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{Column, Geometry, Six, TOLERANCE, power, wrench};
+use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, power, wrench};
 use crate::statics::reactions::unsolved::Unsolved;
 use ozols_dense::{Matrix, svd};
 
@@ -22,7 +22,7 @@ const PARALLEL: f64 = 1e-9;
 
 /// Velocities and accelerations of the links, as twists and their rates about the geometry's middle, lengths in its size.
 #[derive(Debug, Clone)]
-pub struct Motion {
+pub struct LinkMotions {
     /// (ω; velocity of the link's point at the middle) by link.
     pub velocity: Vec<Six>,
     /// The rate of that twist by link.
@@ -87,10 +87,10 @@ pub fn motion(
     geometry: &Geometry,
     drives: &[Driven],
     speeds: &[f64],
-) -> Result<Motion, Unsolved> {
+) -> Result<LinkMotions, Unsolved> {
     let f = geometry.columns.len();
-    let held = |c: &Column| drives.iter().position(|d| *d == (c.joint, c.freedom));
-    let given = |c: &Column| {
+    let held = |c: &FreedomColumn| drives.iter().position(|d| *d == (c.joint, c.freedom));
+    let given = |c: &FreedomColumn| {
         let speed = held(c).and_then(|i| speeds.get(i)).copied().unwrap_or(0.0);
         let slides = c.twist[..3] == [0.0; 3];
         speed
@@ -135,11 +135,11 @@ pub fn motion(
     for (&c, x) in free.iter().zip(&found) {
         rates[c] = *x;
     }
-    let mut out = Motion {
+    let mut out = LinkMotions {
         velocity: vec![[0.0; 6]; m.links.len()],
         rate: vec![[0.0; 6]; m.links.len()],
     };
-    for &Step {
+    for &TreeStep {
         link,
         from,
         joint,
@@ -182,7 +182,7 @@ fn times(pose: &Pose, link: LinkId, inertia: &Inertia, v: [f64; 3]) -> [f64; 3] 
 ///
 /// # Errors
 /// Where the drives cannot go at the stated speeds, and where a link that states its inertia for a plane turns in space.
-pub fn inertia_loads(
+pub(crate) fn inertia_loads(
     m: &Mechanism,
     loads: &Loads,
     geometry: &Geometry,

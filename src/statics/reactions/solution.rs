@@ -58,7 +58,7 @@ pub const NEARLY_SINGULAR: f64 = 1e4;
 
 /// Whether reactions are the only ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Choice {
+pub enum Uniqueness {
     /// They are: the mechanism is determinate.
     Unique,
     /// Those of minimum norm in a family.
@@ -73,7 +73,7 @@ pub struct Solution {
     /// By joint of the state, in file order.
     pub reactions: Vec<JointReaction>,
     /// Whether they are the only ones.
-    pub choice: Choice,
+    pub choice: Uniqueness,
     /// Reactions that load nothing from outside, one set for each redundant constraint (with drives held), greatest
     /// force, or moment by size, 1 N.
     pub self_stresses: Vec<Vec<JointReaction>>,

@@ -10,7 +10,7 @@ use crate::statics::reactions::equations::System;
 use crate::statics::reactions::family;
 use crate::statics::reactions::geometry::{Geometry, Six, power};
 use crate::statics::reactions::inertia::inertia_loads;
-use crate::statics::reactions::solution::{Choice, Solution, open, present, residual};
+use crate::statics::reactions::solution::{Solution, Uniqueness, open, present, residual};
 use crate::statics::reactions::unilateral::pushing;
 use crate::statics::reactions::unsolved::{Unsolved, no_couplings};
 
@@ -130,9 +130,9 @@ impl Reactions {
         let self_stresses: Vec<_> = stresses.iter().map(|s| present(s)).collect();
         Ok(Solution {
             choice: match of_contacts {
-                _ if stresses.is_empty() => Choice::Unique,
-                Contacts::AsJoints => Choice::MinimumNorm,
-                Contacts::Pushing => Choice::Pushing,
+                _ if stresses.is_empty() => Uniqueness::Unique,
+                Contacts::AsJoints => Uniqueness::MinimumNorm,
+                Contacts::Pushing => Uniqueness::Pushing,
             },
             contacts: faces.iter().map(|c| c.force(geometry, &wrenches)).collect(),
             reactions: present(&wrenches),

@@ -4,7 +4,7 @@ use crate::file::read::value::parameters::Domain;
 use crate::shard::Shard;
 use crate::sweep::Sweep;
 use crate::sweep::redesigns::as_searched;
-use crate::sweep::space::{Axis, Sampling};
+use crate::sweep::space::{Sampling, VaryingParameter};
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
@@ -46,7 +46,7 @@ impl Head {
     #[must_use]
     pub fn new(sweep: &Sweep, shard: Shard) -> Head {
         let spec = &sweep.spec;
-        let domain = |a: &Axis| match &a.domain {
+        let domain = |a: &VaryingParameter| match &a.domain {
             Domain::Range([from, to]) => vec![format!("from {from}"), format!("to {to}")],
             Domain::Values(_) | Domain::Constant => {
                 a.grid.iter().map(ToString::to_string).collect()

@@ -5,7 +5,7 @@ use super::head::Head;
 use super::rows::{Table, line};
 use crate::file::bounded;
 use crate::shard::Digest;
-use crate::sweep::row::Row;
+use crate::sweep::row::SampleRow;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
@@ -25,7 +25,7 @@ pub(super) struct Output {
     path: PathBuf,
     file: File,
     digest: Digest,
-    rows: Vec<Row>,
+    rows: Vec<SampleRow>,
     /// Whether it was whole already.
     pub(super) finished: bool,
 }
@@ -90,7 +90,7 @@ impl Output {
     }
 
     /// The rows that were there, and their digest.
-    pub(super) fn there(&mut self) -> (Vec<Row>, Digest) {
+    pub(super) fn there(&mut self) -> (Vec<SampleRow>, Digest) {
         (std::mem::take(&mut self.rows), self.digest.clone())
     }
 
@@ -131,7 +131,7 @@ const LONGEST: usize = 1 << 26;
 /// The lines of a table as far as they are whole.
 struct Lines {
     head: Head,
-    rows: Vec<Row>,
+    rows: Vec<SampleRow>,
     digest: Digest,
     finished: bool,
     /// Bytes up to the end of the last row.

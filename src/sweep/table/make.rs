@@ -6,12 +6,12 @@ use super::lines::Output;
 use super::rows::Table;
 use crate::shard::Shard;
 use crate::sweep::Sweep;
-use crate::sweep::row::Row;
+use crate::sweep::row::SampleRow;
 use rayon::prelude::*;
 use std::path::Path;
 
 /// Says how far a sweep has come, samples done and in all; and whether to end early.
-pub trait Watch {
+pub trait SweepWatch {
     /// Hears how far.
     fn done(&mut self, done: usize, of: usize);
     /// Whether to end.
@@ -29,7 +29,7 @@ pub fn make(
     sweep: &Sweep,
     shard: Shard,
     path: Option<&Path>,
-    watch: &mut (dyn Watch + Send),
+    watch: &mut (dyn SweepWatch + Send),
 ) -> Result<Table, TableError> {
     let head = Head::new(sweep, shard);
     let mut out = match path {
@@ -70,7 +70,7 @@ pub fn make(
             return Ok(table);
         }
         let each = numbers.par_iter();
-        let rows: Vec<Row> = each.map(|&n| sweep.row(&sweep.space.sample(n))).collect();
+        let rows: Vec<SampleRow> = each.map(|&n| sweep.row(&sweep.space.sample(n))).collect();
         let text = table.add(rows);
         if let Some(out) = &mut out {
             out.add(&text)?;

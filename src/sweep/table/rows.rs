@@ -2,7 +2,7 @@
 
 use super::head::Head;
 use crate::shard::Digest;
-use crate::sweep::row::Row;
+use crate::sweep::row::SampleRow;
 use serde::Serialize;
 
 /// A table that was read or made.
@@ -11,7 +11,7 @@ pub struct Table {
     /// What it is of.
     pub head: Head,
     /// The rows, by number of their samples.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SampleRow>,
     /// Whether it has all of its rows.
     pub finished: bool,
     /// How many rows were added now.
@@ -22,7 +22,7 @@ pub struct Table {
 
 impl Table {
     /// Takes in rows; their lines.
-    pub(super) fn add(&mut self, rows: Vec<Row>) -> String {
+    pub(super) fn add(&mut self, rows: Vec<SampleRow>) -> String {
         let mut text = String::new();
         for row in &rows {
             let line = line(row);

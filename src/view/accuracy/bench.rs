@@ -2,7 +2,7 @@
 
 use crate::accuracy::searching::pictures::{ranking, wrong};
 use crate::accuracy::searching::record::{Record, Share, Trial};
-use crate::accuracy::searching::table::{Row, rows};
+use crate::accuracy::searching::table::{TrialRow, rows};
 use crate::accuracy::timing::{Machine, Timing};
 use crate::format::number::{duration, grouped};
 use crate::view::terminal::layout::{fit, table};
@@ -14,7 +14,7 @@ use std::fmt::Write;
 pub struct BenchData<'a> {
     machine: MachineData<'a>,
     mechanisms: Vec<TrialData<'a>>,
-    ways: Vec<Row<'a>>,
+    ways: Vec<TrialRow<'a>>,
 }
 
 #[derive(Debug, Serialize)]

@@ -1,6 +1,6 @@
 //! A survey of the methods for people.
 
-use crate::accuracy::Verdict;
+use crate::accuracy::AnswerVerdict;
 use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::Machine;
@@ -88,8 +88,8 @@ fn failures(survey: &Survey, m: usize) -> String {
     let mut wrong: Vec<(u64, &Case, String)> = survey
         .of_method(m)
         .filter_map(|(case, reply)| match reply.verdict {
-            Verdict::Wrong(by) => Some((by.unsigned_abs(), case, signed(by))),
-            Verdict::Failed => Some((u64::MAX, case, "fails".to_owned())),
+            AnswerVerdict::Wrong(by) => Some((by.unsigned_abs(), case, signed(by))),
+            AnswerVerdict::Failed => Some((u64::MAX, case, "fails".to_owned())),
             _ => None,
         })
         .collect();

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// Rows of some contours for some motions.
 #[derive(Debug, Serialize)]
-pub struct Part {
+pub struct ContourRows {
     /// The contours.
     pub contours: Vec<String>,
     /// `any`, `group`, `in plane` or `out of plane`.
@@ -28,7 +28,7 @@ pub struct Part {
 
 /// Those of a state; none where all rows are taken as they are, and where rounded coordinates do not decide the rank.
 #[must_use]
-pub fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<Part> {
+pub fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<ContourRows> {
     let found = s.least_rows.as_ref().filter(|l| !LeastRows::is_all(l));
     let Some(found) = found.filter(|_| s.at_most().is_none()) else {
         return Vec::new();
@@ -45,7 +45,7 @@ pub fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<Part> {
                 Motions::InPlane(d) => ("in plane", normal(d)),
                 Motions::OutOfPlane(d) => ("out of plane", normal(d)),
             };
-            Part {
+            ContourRows {
                 contours: contours.clone(),
                 motions,
                 of,

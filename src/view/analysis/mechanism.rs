@@ -3,7 +3,7 @@
 use crate::format::number::{grouped, significant};
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
-use crate::view::analysis::mobility::Size;
+use crate::view::analysis::mobility::StructureSize;
 use itertools::Itertools;
 use num_bigint::BigUint;
 
@@ -74,7 +74,7 @@ fn joints(m: &Mechanism) -> String {
 
 fn states(m: &Mechanism) -> String {
     let one = |s: StateId| {
-        let k = usize::try_from(Size::of(m, s).contours).unwrap_or(0);
+        let k = usize::try_from(StructureSize::of(m, s).contours).unwrap_or(0);
         format!("{} with {}", m.states[s], plural(k, "contour"))
     };
     let states = m.state_ids().map(one).join(", ");

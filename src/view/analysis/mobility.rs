@@ -30,7 +30,7 @@ pub struct ByMethod<'a> {
 pub struct StateByMethod<'a> {
     pub state: &'a str,
     #[serde(flatten)]
-    pub size: Size,
+    pub size: StructureSize,
     pub mobility: i64,
     pub redundant: i64,
     pub method: &'static str,
@@ -46,7 +46,7 @@ impl<'a> ByMethod<'a> {
         answers: &[(StateId, Answer)],
     ) -> ByMethod<'a> {
         let states = answers.iter().map(|(s, answer)| {
-            let size = Size::of(mechanism, *s);
+            let size = StructureSize::of(mechanism, *s);
             StateByMethod {
                 state: &mechanism.states[*s],
                 redundant: answer.mobility + size.rows - size.freedoms,
@@ -88,7 +88,7 @@ impl<'a> ByMethod<'a> {
 
 /// The numbers of a structure that need no rank.
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct Size {
+pub struct StructureSize {
     /// n.
     pub links: i64,
     /// p.
@@ -102,10 +102,10 @@ pub struct Size {
     pub rows: i64,
 }
 
-impl Size {
+impl StructureSize {
     /// The numbers of a state.
     #[must_use]
-    pub fn of(mechanism: &Mechanism, state: StateId) -> Size {
+    pub fn of(mechanism: &Mechanism, state: StateId) -> StructureSize {
         let mut links: Vec<_> = mechanism
             .joints_in(state)
             .flat_map(|j| mechanism.joints[j].links)
@@ -124,7 +124,7 @@ impl Size {
             Ok(closure) => int(closure.columns.len()),
             Err(_) => 0,
         };
-        Size {
+        StructureSize {
             links,
             joints,
             contours,

@@ -4,12 +4,17 @@ use super::State;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::search::answer::single_changes::{USUAL, USUAL_UNLOADING};
 use crate::view::analysis::suggestions::Suggestions;
-use crate::view::terminal::next_commands::{Step, file_name, word};
+use crate::view::terminal::next_commands::{NextCommand, file_name, word};
 use itertools::Itertools;
 
 /// What to do after an analysis of `file`; `snap` is the tolerance its coordinates were snapped by, where they were.
 #[must_use]
-pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) -> Vec<Step> {
+pub fn next(
+    m: &Mechanism,
+    states: &[State<'_>],
+    file: &str,
+    snap: Option<f64>,
+) -> Vec<NextCommand> {
     let snap = snap.map_or(String::new(), |t| format!("--snap {t:e}"));
     let joined = |more: &str| format!("{more} {snap}").trim().to_owned();
     let mut steps = Vec::new();
@@ -19,7 +24,7 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
         };
         let of = found.of;
         match (found.options == "usual", found.state) {
-            (false, StateId::FREE) => steps.push(Step::new(
+            (false, StateId::FREE) => steps.push(NextCommand::new(
                 "search",
                 file,
                 &joined(""),
@@ -27,7 +32,7 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
             )),
             (true, StateId::FREE) => {
                 let names = USUAL.iter().map(|t| format!("\"{}\"", t.name())).join(", ");
-                steps.push(Step {
+                steps.push(NextCommand {
                     command: format!("Write under [search]: options = [{names}]"),
                     gives:
                         "so that joints have a choice; then `ozols search` finds what removes all"
@@ -41,14 +46,14 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
                 } else {
                     format!(" --state {}", word(s.state))
                 };
-                steps.push(Step::new(
+                steps.push(NextCommand::new(
                     "search",
                     file,
                     &joined(&format!("--max-external {left}{state}")),
                     &format!("redesigns that leave at most {left} of the {of} external, too"),
                 ));
             }
-            (true, _) if !found.changes.is_empty() => steps.push(Step {
+            (true, _) if !found.changes.is_empty() => steps.push(NextCommand {
                 command: format!(
                     "Write at a contact of state {}: unloading = [\"{}\"]",
                     s.state,
@@ -65,7 +70,7 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
     }
     let loaded = m.loads.acts_from_outside(StateId::FREE) || m.loads.gravity.is_some();
     if loaded {
-        steps.push(Step::new(
+        steps.push(NextCommand::new(
             "statics",
             file,
             "",
@@ -73,7 +78,7 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str, snap: Option<f64>) 
         ));
     }
     let svg = file_name(&m.name, "svg");
-    steps.push(Step::new(
+    steps.push(NextCommand::new(
         "draw",
         file,
         &format!("-o {svg}"),

@@ -81,12 +81,12 @@ pub enum Suggestions<'a> {
         changes: [(); 0],
     },
     /// What was found.
-    Found(Found<'a>),
+    Found(SuggestionsFound<'a>),
 }
 
 /// The single changes found.
 #[derive(Debug, Serialize)]
-pub struct Found<'a> {
+pub struct SuggestionsFound<'a> {
     /// How many redundant constraints they are about.
     pub of: usize,
     /// Whether these are those that the state adds.
@@ -99,7 +99,7 @@ pub struct Found<'a> {
     pub found: usize,
     /// Those that remove most first, then the cheaper, then in file order; the first of them as data.
     #[serde(serialize_with = "first_entries")]
-    pub changes: Vec<Change<'a>>,
+    pub changes: Vec<SuggestedChange<'a>>,
     /// The state, 0 for the free one.
     #[serde(skip)]
     pub(in crate::view) state: StateId,
@@ -107,7 +107,7 @@ pub struct Found<'a> {
 
 /// One change.
 #[derive(Debug, Serialize)]
-pub struct Change<'a> {
+pub struct SuggestedChange<'a> {
     /// The joint.
     pub joint: &'a str,
     /// What it is.
@@ -128,7 +128,7 @@ pub struct Change<'a> {
     cost_milli: i64,
 }
 
-fn first_entries<S: Serializer>(changes: &[Change<'_>], to: S) -> Result<S::Ok, S::Error> {
+fn first_entries<S: Serializer>(changes: &[SuggestedChange<'_>], to: S) -> Result<S::Ok, S::Error> {
     changes[..changes.len().min(ENTRIES)].serialize(to)
 }
 
@@ -147,7 +147,7 @@ impl<'a> Suggestions<'a> {
             Advice::Changes(found) => found,
         };
         let (of, external) = (concerned(s), s.external.is_some());
-        Suggestions::Found(Found {
+        Suggestions::Found(SuggestionsFound {
             of,
             external,
             options: if found.usual { "usual" } else { "file" },
@@ -156,7 +156,7 @@ impl<'a> Suggestions<'a> {
             changes: found
                 .list
                 .iter()
-                .map(|x| Change::new(m, x, of, external))
+                .map(|x| SuggestedChange::new(m, x, of, external))
                 .collect(),
             state: found.state,
         })
@@ -175,11 +175,11 @@ impl<'a> Suggestions<'a> {
     }
 }
 
-impl<'a> Change<'a> {
-    fn new(m: &'a Mechanism, s: &'a Suggestion, of: usize, external: bool) -> Change<'a> {
+impl<'a> SuggestedChange<'a> {
+    fn new(m: &'a Mechanism, s: &'a Suggestion, of: usize, external: bool) -> SuggestedChange<'a> {
         let joint = &m.joints[s.joint];
         let present = joint.options.first();
-        let mut change = Change {
+        let mut change = SuggestedChange {
             joint: &joint.id,
             from: present.map_or(joint.joint_type.name(), |o| &o.name),
             to: s.to.as_ref().map(|o| o.name.as_str()),
@@ -215,7 +215,7 @@ fn kind(external: bool) -> &'static str {
     if external { " external" } else { "" }
 }
 
-impl Found<'_> {
+impl SuggestionsFound<'_> {
     fn text(&self, width: Option<u16>) -> String {
         let source = match (self.options, self.state) {
             ("file", _) => "the file's options",

@@ -121,7 +121,7 @@ impl State<'_> {
 
     /// W, a range where rounded coordinates do not decide.
     #[must_use]
-    pub fn mobility_figure(&self) -> String {
+    pub(crate) fn mobility_figure(&self) -> String {
         range(
             self.mobility,
             self.mobility_at_most.unwrap_or(self.mobility),

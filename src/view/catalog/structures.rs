@@ -13,17 +13,17 @@ use std::path::Path;
 
 /// The answer to a question: as JSON a list of objects.
 #[derive(Debug, Clone)]
-pub struct Answer {
+pub struct QueryAnswer {
     /// The columns.
     pub names: Vec<String>,
     /// The rows.
     pub rows: Vec<Vec<Value>>,
 }
 
-impl Serialize for Answer {
+impl Serialize for QueryAnswer {
     fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-        struct Row<'a>(&'a [String], &'a [Value]);
-        impl Serialize for Row<'_> {
+        struct QueryRow<'a>(&'a [String], &'a [Value]);
+        impl Serialize for QueryRow<'_> {
             fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
                 let mut map = s.serialize_map(Some(self.0.len()))?;
                 for (name, value) in self.0.iter().zip(self.1) {
@@ -34,7 +34,7 @@ impl Serialize for Answer {
         }
         let mut list = s.serialize_seq(Some(self.rows.len()))?;
         for row in &self.rows {
-            list.serialize_element(&Row(&self.names, row))?;
+            list.serialize_element(&QueryRow(&self.names, row))?;
         }
         list.end()
     }
@@ -63,7 +63,7 @@ fn cell(value: &Value) -> String {
     }
 }
 
-impl Answer {
+impl QueryAnswer {
     /// As a table for people.
     #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
@@ -312,7 +312,7 @@ pub fn built_text(
          ORDER BY 1, 2, 3",
         None,
     )?;
-    let table = Answer { names, rows }.text(width);
+    let table = QueryAnswer { names, rows }.text(width);
     let n = grouped(&added.to_string());
     let path = file.display().to_string();
     let path = plain(&path);

@@ -25,7 +25,7 @@ pub fn feed_moments(module: &Module) -> Vec<FeedMoment> {
 
 /// The cam: its spring by equation (14), and by the simulation where any is enough; its electromagnets and its profile.
 #[derive(Debug, Serialize)]
-pub struct Cam {
+pub struct CamData {
     /// By the equation.
     pub spring: Spring,
     /// By the simulation.
@@ -85,11 +85,11 @@ pub struct Profile {
     pub profile: Vec<[f64; 2]>,
 }
 
-impl Cam {
+impl CamData {
     /// The cam of a drive.
     #[must_use]
     pub fn new(c: &CamDesign) -> Self {
-        Cam {
+        CamData {
             spring: Spring::new(&c.spring),
             needed: c.needed.as_ref().map(Spring::new),
             fitted: Spring::new(&c.fitted),

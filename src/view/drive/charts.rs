@@ -2,7 +2,7 @@
 
 use crate::chart::{Axis, Chart, Outline, Scale, Series, Style};
 use crate::drive::driving::PROFILE_POINTS;
-use crate::drive::programme::Sample;
+use crate::drive::programme::RunMoment;
 use crate::format::csv;
 use crate::view::drive::Drive;
 
@@ -70,7 +70,7 @@ pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
         return Vec::new();
     };
     let samples = found.module.samples(&found.run, PER_SWING);
-    let series = |name: &str, style, y: &dyn Fn(&Sample) -> f64| Series {
+    let series = |name: &str, style, y: &dyn Fn(&RunMoment) -> f64| Series {
         name: name.to_owned(),
         points: samples.iter().map(|s| (s.time, y(s))).collect(),
         style,

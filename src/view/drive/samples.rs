@@ -1,7 +1,7 @@
 //! What became of drives out of true: one value from which text and JSON are made.
 
 use crate::drive::programme::PATIENCE;
-use crate::drive::tolerance_samples::Shares;
+use crate::drive::tolerance_samples::RunShares;
 use crate::format::number::significant;
 use crate::format::phrase::plural;
 use serde::Serialize;
@@ -54,7 +54,7 @@ pub struct FirstFailure {
 impl Samples {
     /// What became of samples.
     #[must_use]
-    pub fn new(s: &Shares) -> Self {
+    pub fn new(s: &RunShares) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "counts of samples")]
         let share = |n: usize, of: usize| n as f64 / of as f64;
         let (samples, once) = (s.long_runs.len(), s.discs.len());

@@ -7,7 +7,7 @@ use crate::drive::torsion::stored_energy;
 use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::view::claims;
-use crate::view::drive::cam::{Cam, FeedMoment};
+use crate::view::drive::cam::{CamData, FeedMoment};
 use crate::view::drive::{Design, Drive, Endurance, Remedies};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
@@ -277,7 +277,7 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
 }
 
 /// When the electromagnets are on, what that takes, and what the cam looks like.
-fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &Cam) -> std::fmt::Result {
+fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamData) -> std::fmt::Result {
     let m = &cam.electromagnet;
     let times = m.pulses.iter().map(|p| p.off - p.on);
     let least = times.clone().fold(f64::INFINITY, f64::min);

@@ -4,11 +4,11 @@ use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::number::significant;
 use crate::grip::arm_curves::{Varied, arm_curve};
 use crate::grip::lever_arm::Arms;
-use crate::view::grip::{Diameter, Grip};
+use crate::view::grip::{Diameter, GripReport};
 
 /// Every chart with the name of its file.
 #[must_use]
-pub fn charts(g: &Grip<'_>) -> Vec<(String, Chart)> {
+pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
     let (metres, symbol) = (g.file.length_unit.metres, g.file.length_unit.symbol);
     let series = |name: &str, style, y: &dyn Fn(&Diameter) -> Option<f64>| Series {
         name: name.to_owned(),
@@ -66,7 +66,7 @@ fn linear(label: String) -> Axis {
 
 /// The arms over one figure of the levers, on the smallest, the nominal and the largest part; on the nominal one with the parts
 /// that the arms are made of.
-fn arms_over(g: &Grip<'_>, varied: Varied) -> (String, Chart) {
+fn arms_over(g: &GripReport<'_>, varied: Varied) -> (String, Chart) {
     type Part = (&'static str, fn(&Arms) -> f64);
     const WHOLE: [Part; 2] = [("l1", |a| a.l1), ("l2", |a| a.l2)];
     const PARTS: [Part; 3] = [

@@ -3,7 +3,7 @@
 
 use crate::format::number::significant;
 use crate::grip::clamped;
-use crate::grip::clamping::{Hardest, Row, Verdict};
+use crate::grip::clamping::{DiameterRow, Hardest, HoldVerdict};
 use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::GripLoad;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -33,11 +33,11 @@ pub struct Clamped<'a> {
     /// What one drive of both levers takes, `[N]` or `[N·m]`.
     pub drive_effort: Option<f64>,
     /// The contact forces.
-    pub contacts: Option<Vec<Contact<'a>>>,
+    pub contacts: Option<Vec<JointContact<'a>>>,
     #[serde(skip)]
     grip: &'a Gripping,
     #[serde(skip)]
-    row: &'a Row,
+    row: &'a DiameterRow,
     /// Whether that drive slides.
     #[serde(skip)]
     slides: bool,
@@ -45,7 +45,7 @@ pub struct Clamped<'a> {
 
 /// A contact as a joint of the mechanism, and its force on the part.
 #[derive(Debug, Serialize)]
-pub struct Contact<'a> {
+pub struct JointContact<'a> {
     /// The joint.
     pub contact: &'a str,
     /// The link that touches.
@@ -88,7 +88,7 @@ fn load(g: &Gripping) -> Option<&GripLoad> {
     g.mechanism.loads.grip.as_ref()?.load.as_ref()
 }
 
-fn diameter(g: &Gripping, row: &Row) -> String {
+fn diameter(g: &Gripping, row: &DiameterRow) -> String {
     let unit = g.mechanism.length_unit;
     let figure = significant(row.diameter / unit.metres);
     format!("D = {figure} {}", unit.symbol)
@@ -96,13 +96,13 @@ fn diameter(g: &Gripping, row: &Row) -> String {
 
 /// The pose in a few words.
 #[must_use]
-pub fn pose(g: &Gripping, row: &Row) -> String {
+pub fn pose(g: &Gripping, row: &DiameterRow) -> String {
     format!("round a part of {}", diameter(g, row))
 }
 
 /// Every reason why a part is not held, one a line.
 #[must_use]
-pub fn not_held(g: &Gripping, row: &Row) -> String {
+pub fn not_held(g: &Gripping, row: &DiameterRow) -> String {
     let friction = load(g).map_or(0.0, |l| l.friction);
     let forces = row.hardest.as_ref().and_then(|h| reason(h, friction));
     let all = row.obstacles.iter().map(ToString::to_string).chain(forces);
@@ -151,19 +151,19 @@ impl<'a> NotHeld<'a> {
 impl<'a> Clamped<'a> {
     /// The grip's loads on a mechanism round the part of a row.
     #[must_use]
-    pub fn new(g: &'a Gripping, row: &'a Row, found: &clamped::Clamped) -> Self {
+    pub fn new(g: &'a Gripping, row: &'a DiameterRow, found: &clamped::Clamped) -> Self {
         let m = &g.mechanism;
         let hardest = row.hardest.as_ref();
         let held = match hardest {
             Some(Hardest {
-                verdict: Verdict::Held(held),
+                verdict: HoldVerdict::Held(held),
                 ..
             }) => Some(held),
             _ => None,
         };
         let contacts = held.map(|h| {
             let each = g.contacts.iter().enumerate().zip(&h.forces);
-            each.map(|((i, &j), f)| Contact {
+            each.map(|((i, &j), f)| JointContact {
                 contact: &m.joints[j].id,
                 jaw: &m.links[g.levers[i / 2]].id,
                 normal: f.normal,

@@ -5,7 +5,7 @@ use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
-use crate::grip::faces::Shape;
+use crate::grip::faces::PressureArea;
 use crate::grip::force_closure::{self, NOTHING};
 use crate::grip::tolerance_samples;
 use crate::model::mechanism::Mechanism;
@@ -15,7 +15,7 @@ use std::fmt::Write;
 
 /// What the contacts of a state hold.
 #[derive(Debug, Serialize)]
-pub struct Closure<'a> {
+pub struct ClosureData<'a> {
     /// Name of the mechanism.
     pub mechanism: &'a str,
     /// Its state.
@@ -29,7 +29,7 @@ pub struct Closure<'a> {
     /// Motions of the jaws with drives held and contacts let go.
     pub loose: usize,
     /// The contacts.
-    pub contacts: Vec<Contact<'a>>,
+    pub contacts: Vec<ClosureContact<'a>>,
     /// With friction.
     pub force_closure: Margin,
     /// Without.
@@ -42,7 +42,7 @@ pub struct Closure<'a> {
 
 /// A contact.
 #[derive(Debug, Serialize)]
-pub struct Contact<'a> {
+pub struct ClosureContact<'a> {
     /// The joint.
     pub contact: &'a str,
     /// `disc`, `line` or `point`.
@@ -53,7 +53,7 @@ pub struct Contact<'a> {
     pub friction: Option<f64>,
 }
 
-/// Closure, and how far from its loss.
+/// ClosureData, and how far from its loss.
 #[derive(Debug, Serialize)]
 pub struct Margin {
     /// Whether every small load is resisted; nothing where that is within the accuracy of the programmes.
@@ -63,14 +63,14 @@ pub struct Margin {
     /// At most; nothing where no load has a limit.
     pub at_most: Option<f64>,
     /// The load resisted least, of size 1; nothing where no load has a limit.
-    pub weakest: Option<Load>,
+    pub weakest: Option<PartLoad>,
     /// Loads along the axes.
-    pub along: Vec<Load>,
+    pub along: Vec<PartLoad>,
 }
 
 /// A load on the part.
 #[derive(Debug, Serialize)]
-pub struct Load {
+pub struct PartLoad {
     /// Its direction: force.
     pub force: [f64; 3],
     /// Moment over the size.
@@ -100,9 +100,9 @@ pub struct Samples {
     pub form_undecided: usize,
 }
 
-impl Load {
-    fn new(d: &[f64; 6], resisted: f64) -> Load {
-        Load {
+impl PartLoad {
+    fn new(d: &[f64; 6], resisted: f64) -> PartLoad {
+        PartLoad {
             force: [d[3], d[4], d[5]],
             moment: [d[0], d[1], d[2]],
             resisted: Some(resisted).filter(|x| x.is_finite()),
@@ -141,7 +141,7 @@ impl Load {
 }
 
 impl Margin {
-    fn new(c: &force_closure::Closure) -> Margin {
+    fn new(c: &force_closure::ForceClosure) -> Margin {
         let finite = c.at_most.is_finite();
         Margin {
             closed: c.closed,
@@ -151,8 +151,8 @@ impl Margin {
                 0.0
             },
             at_most: finite.then_some(c.at_most),
-            weakest: finite.then(|| Load::new(&c.weakest, c.at_most)),
-            along: c.along.iter().map(|(d, x)| Load::new(d, *x)).collect(),
+            weakest: finite.then(|| PartLoad::new(&c.weakest, c.at_most)),
+            along: c.along.iter().map(|(d, x)| PartLoad::new(d, *x)).collect(),
         }
     }
 
@@ -177,7 +177,7 @@ impl Margin {
                 let all = self.along.iter();
                 let open: Vec<String> = all
                     .filter(|l| l.resisted.is_some_and(|x| x <= NOTHING))
-                    .map(Load::words)
+                    .map(PartLoad::words)
                     .collect();
                 format!("{name}: no, nothing resists {}", open.join(", "))
             }
@@ -185,29 +185,29 @@ impl Margin {
     }
 }
 
-impl<'a> Closure<'a> {
+impl<'a> ClosureData<'a> {
     /// What was found of a part of a mechanism, with friction and without, and of parts out of true.
     #[must_use]
     pub fn new(
         m: &'a Mechanism,
         part: &ClampedPart,
-        [force, form]: [&force_closure::Closure; 2],
-        samples: Option<&tolerance_samples::Shares>,
+        [force, form]: [&force_closure::ForceClosure; 2],
+        samples: Option<&tolerance_samples::ClosureShares>,
     ) -> Self {
         let g = &part.geometry;
-        let contact = |f: &crate::grip::faces::Face| Contact {
+        let contact = |f: &crate::grip::faces::JawFace| ClosureContact {
             contact: &m.joints[f.joint].id,
             shape: match f.shape {
-                Shape::Disc(_) => "disc",
-                Shape::Line(_) => "line",
-                Shape::Point => "point",
+                PressureArea::Disc(_) => "disc",
+                PressureArea::Line(_) => "line",
+                PressureArea::Point => "point",
             },
             reach: f.reach().map(|r| r * g.size),
             friction: f.friction,
         };
         #[allow(clippy::cast_precision_loss, reason = "counts of samples")]
         let share = |n: usize, of: usize| n as f64 / of as f64;
-        Closure {
+        ClosureData {
             mechanism: &m.name,
             state: &m.states[part.state],
             object: &m.links[part.object].id,

@@ -3,8 +3,8 @@
 use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::number::significant;
 use crate::format::phrase::plural;
-use crate::grip::clamping::Verdict;
-use crate::grip::motion::Step as Found;
+use crate::grip::clamping::HoldVerdict;
+use crate::grip::motion::StepTaken as Found;
 use crate::model::mechanism::LengthUnit;
 use crate::view::terminal::layout::{fit, table};
 use serde::Serialize;
@@ -15,18 +15,18 @@ const SHOWN: usize = 40;
 
 /// A motion, step by step.
 #[derive(Debug, Serialize)]
-pub struct Motion {
+pub struct GripMotion {
     /// Whether the part can be held at every step.
     pub holds: bool,
     /// The steps.
-    pub steps: Vec<Step>,
+    pub steps: Vec<ClampingStep>,
     #[serde(skip)]
     unit: LengthUnit,
 }
 
 /// A step and the clamping it takes.
 #[derive(Debug, Serialize)]
-pub struct Step {
+pub struct ClampingStep {
     /// `[s]`, where stated.
     pub time: Option<f64>,
     /// `[m]`
@@ -48,18 +48,18 @@ pub struct Step {
     slides: bool,
 }
 
-impl Motion {
+impl GripMotion {
     /// What was found of a motion.
     #[must_use]
     pub fn new(found: &[Found], unit: LengthUnit) -> Self {
         let step = |s: &Found| {
             let (verdict, bound) = match &s.verdict {
-                Some(Verdict::Held(h)) => ("can hold", Some(h.lower_bound)),
-                Some(Verdict::Slips(_)) => ("slips", None),
-                Some(Verdict::Undecided(_)) => ("undecided", None),
+                Some(HoldVerdict::Held(h)) => ("can hold", Some(h.lower_bound)),
+                Some(HoldVerdict::Slips(_)) => ("slips", None),
+                Some(HoldVerdict::Undecided(_)) => ("undecided", None),
                 None => ("cannot be held", None),
             };
-            Step {
+            ClampingStep {
                 time: s.of.time,
                 diameter: s.diameter,
                 acceleration: s.of.acceleration,
@@ -71,7 +71,7 @@ impl Motion {
                 slides: s.effort.is_some_and(|e| e.1),
             }
         };
-        Motion {
+        GripMotion {
             holds: found.iter().all(|s| s.drive().is_some()),
             steps: found.iter().map(step).collect(),
             unit,
@@ -149,7 +149,7 @@ impl Motion {
     pub fn chart(&self, mechanism: &str) -> Chart {
         let timed = self.steps.iter().all(|s| s.time.is_some());
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
-        let at = |i: usize, s: &Step| s.time.filter(|_| timed).unwrap_or(i as f64 + 1.0);
+        let at = |i: usize, s: &ClampingStep| s.time.filter(|_| timed).unwrap_or(i as f64 + 1.0);
         let points = self.steps.iter().enumerate();
         let points = points.map(|(i, s)| (at(i, s), s.drive_moment_per_lever.unwrap_or(f64::NAN)));
         let linear = |label: &str| Axis {

@@ -4,13 +4,13 @@ use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::model::grip::{LeverDrive, PartMass, Pivots, Toward};
 use crate::view::claims;
-use crate::view::grip::{Contact, Diameter, Grip};
+use crate::view::grip::{Diameter, GripReport, PartContact};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
 /// The report, fitted to a terminal of `width` columns where one is given.
 #[must_use]
-pub fn grip(g: &Grip<'_>, width: Option<u16>) -> String {
+pub fn grip(g: &GripReport<'_>, width: Option<u16>) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = write(&mut out, g, width);
@@ -18,11 +18,11 @@ pub fn grip(g: &Grip<'_>, width: Option<u16>) -> String {
 }
 
 /// A length in the file's unit.
-fn length(g: &Grip<'_>, x: f64) -> String {
+fn length(g: &GripReport<'_>, x: f64) -> String {
     significant(x / g.file.length_unit.metres)
 }
 
-fn range(g: &Grip<'_>, rows: &[&Diameter<'_>]) -> String {
+fn range(g: &GripReport<'_>, rows: &[&Diameter<'_>]) -> String {
     let symbol = g.file.length_unit.symbol;
     let d = |r: &Diameter| length(g, r.diameter);
     match rows {
@@ -32,7 +32,7 @@ fn range(g: &Grip<'_>, rows: &[&Diameter<'_>]) -> String {
     }
 }
 
-fn write(out: &mut String, g: &Grip<'_>, width: Option<u16>) -> std::fmt::Result {
+fn write(out: &mut String, g: &GripReport<'_>, width: Option<u16>) -> std::fmt::Result {
     let (name, symbol) = (g.mechanism, g.file.length_unit.symbol);
     let (held, lost): (Vec<&Diameter>, Vec<&Diameter>) = g.diameters.iter().partition(|d| d.holds);
     // The forces found can balance the load; others may arise, and the safety factor is for those.
@@ -105,7 +105,7 @@ pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
     }
 }
 
-fn inputs(out: &mut String, g: &Grip<'_>) -> std::fmt::Result {
+fn inputs(out: &mut String, g: &GripReport<'_>) -> std::fmt::Result {
     let (spec, symbol) = (&g.file.spec, g.file.length_unit.symbol);
     let pivots = match (spec.pivots, g.diameters.first()) {
         (Pivots::Nominal, _) | (_, None) => "pivots set for each diameter".to_owned(),
@@ -168,7 +168,7 @@ fn inputs(out: &mut String, g: &Grip<'_>) -> std::fmt::Result {
     )
 }
 
-fn diameters(g: &Grip<'_>, width: Option<u16>) -> String {
+fn diameters(g: &GripReport<'_>, width: Option<u16>) -> String {
     let symbol = g.file.length_unit.symbol;
     let mut head: Vec<String> = ["D", "l1", "l2"].map(|n| format!("{n}, {symbol}")).to_vec();
     head.extend(["l1/l2".to_owned(), "turn, °".to_owned()]);
@@ -211,7 +211,7 @@ fn diameters(g: &Grip<'_>, width: Option<u16>) -> String {
 }
 
 /// Each arm as the part of the lever and the part of the prism.
-fn parts(g: &Grip<'_>, width: Option<u16>) -> String {
+fn parts(g: &GripReport<'_>, width: Option<u16>) -> String {
     let symbol = g.file.length_unit.symbol;
     let head = ["D", "l11", "l12", "l1", "l21", "l22", "l2"].map(|n| format!("{n}, {symbol}"));
     let line = |d: &Diameter| {
@@ -234,8 +234,8 @@ fn at_most(ratio: f64, limit: f64) -> String {
     }
 }
 
-fn contacts(all: &[Contact], limit: f64, width: Option<u16>) -> String {
-    let line = |c: &Contact| {
+fn contacts(all: &[PartContact], limit: f64, width: Option<u16>) -> String {
+    let line = |c: &PartContact| {
         let mut cells = vec![c.contact.to_owned()];
         cells.extend([c.normal, c.along_face, c.along_part].map(significant));
         cells.push(

@@ -1,4 +1,4 @@
-//! Joint reactions over a stroke.
+//! JointForces reactions over a stroke.
 
 use crate::format::csv::table;
 use crate::format::number::figure;
@@ -7,7 +7,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};
 use crate::view::reactions::text::NOTHING;
-use crate::view::reactions::{HEADS, Joint, Reactions};
+use crate::view::reactions::{HEADS, JointForces, Reactions};
 use crate::view::terminal::layout::table as text_table;
 use crate::view::terminal::si_prefix::prefix;
 use serde::Serialize;
@@ -15,7 +15,7 @@ use std::fmt::Write;
 
 /// Reactions by position of the first drive.
 #[derive(Debug, Serialize)]
-pub struct Stroke<'a> {
+pub struct ReactionsOverStroke<'a> {
     /// Name of the mechanism.
     pub mechanism: &'a str,
     /// Its state.
@@ -53,7 +53,7 @@ pub enum Position<'a> {
     },
 }
 
-impl<'a> Stroke<'a> {
+impl<'a> ReactionsOverStroke<'a> {
     /// What was found of a state.
     #[must_use]
     pub fn new(m: &'a Mechanism, state: StateId, c: &Cycle) -> Self {
@@ -67,7 +67,7 @@ impl<'a> Stroke<'a> {
                 error: e.to_string(),
             },
         });
-        Stroke {
+        ReactionsOverStroke {
             mechanism: &m.name,
             state: &m.states[state],
             positions: positions.collect(),
@@ -140,7 +140,7 @@ impl<'a> Stroke<'a> {
         let Some((_, first)) = all.first() else {
             return writeln!(out, "No pose was reached.");
         };
-        let greatest_of = |i: usize, size: fn(&Joint) -> f64| {
+        let greatest_of = |i: usize, size: fn(&JointForces) -> f64| {
             let each = all.iter().map(|(at, r)| (size(&r.reactions[i]), *at));
             each.max_by(|a, b| a.0.total_cmp(&b.0))
                 .unwrap_or((0.0, 0.0))

@@ -1,9 +1,9 @@
-//! Joint reactions in one pose for people.
+//! JointForces reactions in one pose for people.
 
 use crate::format::number::{figure, significant};
 use crate::format::phrase::{list, plural};
 use crate::statics::reactions::NEARLY_SINGULAR;
-use crate::view::reactions::{Contact, Joint, Reactions};
+use crate::view::reactions::{JointForces, ObjectContact, Reactions};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
 use std::fmt::Write;
@@ -14,7 +14,7 @@ const STRESSES: usize = 12;
 /// What a component is next to: below this fraction of the greatest it is rounding.
 pub(super) const NOTHING: f64 = 1e-12;
 
-fn joints(list: &[Joint<'_>], size: f64, rounding: f64, width: Option<u16>) -> String {
+fn joints(list: &[JointForces<'_>], size: f64, rounding: f64, width: Option<u16>) -> String {
     let greatest = list
         .iter()
         .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
@@ -42,7 +42,7 @@ fn joints(list: &[Joint<'_>], size: f64, rounding: f64, width: Option<u16>) -> S
 }
 
 /// What the faces on objects are asked to do.
-fn contacts(list: &[Contact<'_>], width: Option<u16>) -> String {
+fn contacts(list: &[ObjectContact<'_>], width: Option<u16>) -> String {
     let greatest = list.iter().map(|c| c.normal.abs().max(c.along_face));
     let greatest = greatest.fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
@@ -75,7 +75,7 @@ fn contacts(list: &[Contact<'_>], width: Option<u16>) -> String {
 
 /// Says first where contacts are asked for what faces cannot do.
 fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    let bad: Vec<&Contact> = s.contacts.iter().filter(|c| !c.holds()).collect();
+    let bad: Vec<&ObjectContact> = s.contacts.iter().filter(|c| !c.holds()).collect();
     for c in &bad {
         let (unit, prefix) = prefix(c.normal.abs().max(c.along_face));
         let force = |x: f64| format!("{} {prefix}N", significant(x / unit));
@@ -107,7 +107,7 @@ fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
 }
 
 /// Which components the choice within the family is about.
-fn left_open(reactions: &[Joint<'_>]) -> String {
+fn left_open(reactions: &[JointForces<'_>]) -> String {
     let mut alike: Vec<(&[&str], Vec<&str>)> = Vec::new();
     for r in reactions.iter().filter(|r| !r.open.is_empty()) {
         match alike.iter_mut().find(|(open, _)| *open == r.open) {
@@ -135,23 +135,55 @@ pub fn reactions(s: &Reactions<'_>, pose: &str, width: Option<u16>) -> String {
 }
 
 fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) -> std::fmt::Result {
-    let (m, loads) = (s.of, &s.of.loads);
-    let open = s.self_stresses.len();
-    let stresses = if open == 1 {
+    head(out, s, pose)?;
+    refuted(out, s)?;
+    writeln!(
+        out,
+        "First link on second, in the joint's own frame (z its axis), moments about its point\n"
+    )?;
+    if !s.unique {
+        writeln!(out, "{}\n", left_open(&s.reactions))?;
+    }
+    of_loads(out, s)?;
+    // A cone programme is solved to its tolerance, equations to rounding.
+    let rounding = if s.choice == "pushing" { 1e-7 } else { NOTHING };
+    writeln!(out, "{}\n", joints(&s.reactions, s.size, rounding, width))?;
+    if !s.contacts.is_empty() {
+        writeln!(out, "{}\n", contacts(&s.contacts, width))?;
+    }
+    drives(out, s, rounding)?;
+    equilibrium(out, s)?;
+    if !s.self_stresses.is_empty() {
+        family(out, s)?;
+    }
+    elastic(out, s, width)
+}
+
+/// What a number of self-stresses is called.
+fn stresses(n: usize) -> &'static str {
+    if n == 1 {
         "self-stress"
     } else {
         "self-stresses"
-    };
-    let what = match s.unique {
-        true => "the only ones in equilibrium".to_owned(),
-        false if s.choice == "pushing" => format!(
+    }
+}
+
+/// Which reactions these are, and whether numbers decide it.
+fn head(out: &mut String, s: &Reactions<'_>, pose: &str) -> std::fmt::Result {
+    let open = s.self_stresses.len();
+    let what = if s.unique {
+        "the only ones in equilibrium".to_owned()
+    } else if s.choice == "pushing" {
+        format!(
             "of minimum norm among those in which contacts only push: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
             figure(s.size)
-        ),
-        false => format!(
-            "of minimum norm among a family with {open} {stresses}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
+        )
+    } else {
+        format!(
+            "of minimum norm among a family with {open} {}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
+            stresses(open),
             figure(s.size)
-        ),
+        )
     };
     writeln!(
         out,
@@ -169,14 +201,12 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
             }
         )?;
     }
-    refuted(out, s)?;
-    writeln!(
-        out,
-        "First link on second, in the joint's own frame (z its axis), moments about its point\n"
-    )?;
-    if !s.unique {
-        writeln!(out, "{}\n", left_open(&s.reactions))?;
-    }
+    Ok(())
+}
+
+/// What the reactions answer to, where it is not what a reader would expect.
+fn of_loads(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
+    let (m, loads) = (s.of, &s.of.loads);
     if loads.drive_speeds.iter().any(|s| *s != 0.0) {
         writeln!(out, "Inertia forces of the stated drive speed included\n")?;
     }
@@ -190,32 +220,36 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
             "The file states no loads: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
         )?;
     }
-    // A cone programme is solved to its tolerance, equations to rounding.
-    let rounding = if s.choice == "pushing" { 1e-7 } else { NOTHING };
-    writeln!(out, "{}\n", joints(&s.reactions, s.size, rounding, width))?;
-    if !s.contacts.is_empty() {
-        writeln!(out, "{}\n", contacts(&s.contacts, width))?;
-    }
+    Ok(())
+}
+
+/// What the drives must do.
+fn drives(out: &mut String, s: &Reactions<'_>, rounding: f64) -> std::fmt::Result {
     for r in &s.reactions {
-        if let Some(d) = &r.drive {
-            let (what, unit) = if d.slides {
-                ("force", "N")
-            } else {
-                ("torque", "N·m")
-            };
-            writeln!(
-                out,
-                "Drive {} holds {}: {what} {} {unit}",
-                r.joint,
-                d.freedom,
-                figure(if d.effort.abs() <= rounding * r.force_magnitude {
-                    0.0
-                } else {
-                    d.effort
-                })
-            )?;
-        }
+        let Some(d) = &r.drive else { continue };
+        let (what, unit) = if d.slides {
+            ("force", "N")
+        } else {
+            ("torque", "N·m")
+        };
+        let effort = if d.effort.abs() <= rounding * r.force_magnitude {
+            0.0
+        } else {
+            d.effort
+        };
+        writeln!(
+            out,
+            "Drive {} holds {}: {what} {} {unit}",
+            r.joint,
+            d.freedom,
+            figure(effort)
+        )?;
     }
+    Ok(())
+}
+
+/// How well the equations are solved.
+fn equilibrium(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
     if s.undriven > 0 {
         writeln!(
             out,
@@ -235,27 +269,38 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
             "Warning: nearly singular (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
         )?;
     }
-    if open > 0 {
-        writeln!(
-            out,
-            "\nRedundant constraints leave these reactions open: any multiples of the {open} {stresses} may be added{}",
-            if s.choice == "pushing" {
-                " with which contacts still push"
-            } else {
-                ""
-            }
-        )?;
-        for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
-            let loaded = stress
-                .iter()
-                .filter(|r| r.force_magnitude > 1e-9 || r.moment_magnitude > 1e-9 * s.size);
-            let names: Vec<&str> = loaded.map(|r| r.joint).collect();
-            writeln!(out, "  {}: {}", i + 1, names.join(", "))?;
+    Ok(())
+}
+
+/// The self-stresses that may be added, by the joints each loads.
+fn family(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
+    let open = s.self_stresses.len();
+    writeln!(
+        out,
+        "\nRedundant constraints leave these reactions open: any multiples of the {open} {} may be added{}",
+        stresses(open),
+        if s.choice == "pushing" {
+            " with which contacts still push"
+        } else {
+            ""
         }
-        if open > STRESSES {
-            writeln!(out, "  and {} more", open - STRESSES)?;
-        }
+    )?;
+    for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
+        let loaded = stress
+            .iter()
+            .filter(|r| r.force_magnitude > 1e-9 || r.moment_magnitude > 1e-9 * s.size);
+        let names: Vec<&str> = loaded.map(|r| r.joint).collect();
+        writeln!(out, "  {}: {}", i + 1, names.join(", "))?;
     }
+    if open > STRESSES {
+        writeln!(out, "  and {} more", open - STRESSES)?;
+    }
+    Ok(())
+}
+
+/// Which of the family elastic joints choose, or what to state to see it.
+fn elastic(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> std::fmt::Result {
+    let (open, loads) = (s.self_stresses.len(), &s.of.loads);
     match &s.elastic {
         Some(list) => {
             let askew = match loads.misalignments.len() {
@@ -266,17 +311,16 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
                 out,
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
                 joints(list, s.size, NOTHING, width)
-            )?;
+            )
         }
         None if open > 0 && s.choice != "pushing" => writeln!(
             out,
             "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises."
-        )?,
+        ),
         None if open == 0 && !loads.misalignments.is_empty() => writeln!(
             out,
             "Misalignments cause no reactions here: the mechanism is determinate and assembles without strain."
-        )?,
-        None => {}
+        ),
+        None => Ok(()),
     }
-    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::format::phrase::plural;
 use crate::geom::vector::Vector;
-use crate::robots::convert::{Converted, Judged, Judgement};
+use crate::robots::convert::{Converted, JudgedLoop, Judgement};
 use crate::view::terminal::layout::table;
 use itertools::Itertools;
 use serde_json::{Value, json};
@@ -97,7 +97,7 @@ fn line(d: Vector) -> String {
 
 /// A table of what each closure of a loop makes of the robot.
 #[must_use]
-pub fn closures(all: &[Judged], width: Option<u16>) -> String {
+pub fn closures(all: &[JudgedLoop], width: Option<u16>) -> String {
     let mut out = String::new();
     for j in all {
         let rows = j.options.iter().enumerate().map(|(i, o)| {

@@ -4,7 +4,7 @@ mod assembly;
 mod passed_over;
 pub mod sarif;
 
-pub use assembly::{Change, Misfit};
+pub use assembly::{Misfit, TypeChange};
 pub use passed_over::PassedOver;
 
 use assembly::{count, then};
@@ -15,7 +15,7 @@ use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
-use crate::robots::{Count, Imported, Origin, Place};
+use crate::robots::{CadCount, ElementPlace, Imported, Origin};
 use itertools::Itertools;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -66,7 +66,7 @@ pub struct Lint {
     /// What a CAD program counts as freedoms, six a part less all constraints, where the file is one of its assemblies.
     pub counted: Option<i64>,
     /// Which joints to give another type, where they are those of a CAD program.
-    pub changes: Vec<Change>,
+    pub changes: Vec<TypeChange>,
     /// W then: more than now where a part may turn or slide without anything else moving.
     pub mobility_then: Option<usize>,
     /// Whether the file is a robot description, which can be mended.
@@ -110,7 +110,7 @@ impl Lint {
         let origin = read.map(|i| &i.origin);
         let report = read.map(|i| &i.report);
         let (least, most) = found.range();
-        let words = Words { m, found };
+        let words = LintWords { m, found };
         let finding = |(i, d): (usize, &Duplicate)| words.finding(d, i < found.lasting, origin);
         let whole = found.cheapest.len() == found.lasting;
         let certainty = &found.analysis.certainty;
@@ -147,7 +147,7 @@ impl Lint {
             } else {
                 Vec::new()
             },
-            counted: report.and_then(|r| r.count).map(Count::freedoms),
+            counted: report.and_then(|r| r.count).map(CadCount::freedoms),
             changes: Vec::new(),
             mobility_then: None,
             from_description: read.is_some(),
@@ -156,9 +156,9 @@ impl Lint {
 
     /// The same with the types that joints are to get, and W then: they go before single freedoms.
     #[must_use]
-    pub fn changing(mut self, found: Option<(Vec<Change>, usize)>) -> Lint {
+    pub fn changing(mut self, found: Option<(Vec<TypeChange>, usize)>) -> Lint {
         if let Some((changes, mobility)) = found {
-            self.cheapest = changes.iter().map(Change::words).collect();
+            self.cheapest = changes.iter().map(TypeChange::words).collect();
             (self.changes, self.mobility_then) = (changes, Some(mobility));
         }
         self
@@ -292,12 +292,12 @@ impl Lint {
     }
 }
 
-struct Words<'a> {
+struct LintWords<'a> {
     m: &'a Mechanism,
     found: &'a HeldTwice,
 }
 
-impl Words<'_> {
+impl LintWords<'_> {
     fn coupling(&self, q: usize) -> String {
         let found = self.m.couplings_in(StateId::FREE).nth(q);
         found.map_or(String::new(), |c| c.name(self.m))
@@ -328,7 +328,7 @@ impl Words<'_> {
                 (self.joint(joint).to_owned(), row, what)
             }
         };
-        let place: Option<Place> = origin.and_then(|o| match d.row {
+        let place: Option<ElementPlace> = origin.and_then(|o| match d.row {
             Release::Coupling(q) => o.coupling(q),
             Release::Freedom { joint, .. } => o.joint(joint),
         });
@@ -385,7 +385,7 @@ impl Words<'_> {
     /// "slide hinge along y: revolute -> cylindrical (cost 1.5)"; of an assembly, "hinge: Revolute -> Cylindrical (cost 1.5)".
     fn remedy(&self, i: usize, origin: Option<&Origin>) -> String {
         let (milli, release) = &self.found.releases[i];
-        let other = origin.and_then(|o| Change::of(self.m, o, release));
+        let other = origin.and_then(|o| TypeChange::of(self.m, o, release));
         let words = other.map_or_else(|| words(self.m, release), |c| c.words());
         format!("{words} (cost {})", cost(*milli))
     }

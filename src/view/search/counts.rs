@@ -1,37 +1,71 @@
-//! How many variants there are, as text: in a sentence, how that is known, and by mobility.
+//! The head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
 use crate::format::number::grouped;
 use crate::format::phrase::{plural, plural_of};
 use crate::score::outcome::Outcome;
 use crate::search::check::second_prime::Verdict;
 use crate::view::search::conditions::in_state;
-use crate::view::search::{ideas, numeric, second_opinion, stopped_early};
+use crate::view::search::ideas;
+use crate::view::search::numeric;
+use crate::view::search::second_opinion;
+use crate::view::search::stopped_early;
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
+use std::fmt::Write;
 
 /// Rows of mobilities told at most; JSON and the page have them all.
 const MOBILITIES: usize = 12;
+
+/// The verdict, how it was checked, and the counts by mobility.
+pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
+    let mut out = verdict(outcome);
+    let minimal = ideas::minimal(outcome).into_iter();
+    let lines = minimal.chain(numeric::lines(outcome));
+    // Writing to a string cannot fail.
+    for line in lines.chain(second_opinion::lines(outcome)) {
+        let _ = writeln!(out, "  {line}");
+    }
+    // Two primes that agree on rounded digits prove nothing.
+    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
+        let _ = match check.verdict {
+            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
+            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
+        };
+    }
+    let exact = outcome.numeric.is_none();
+    let cut_short = exact.then(|| stopped_early::stopped(outcome)).flatten();
+    for line in cut_short
+        .into_iter()
+        .chain(stopped_early::estimated(outcome))
+    {
+        let _ = writeln!(out, "  {line}");
+    }
+    out += &by_mobility(outcome, width);
+    fit(&out, width)
+}
 
 fn big(n: &BigUint) -> String {
     grouped(&n.to_string())
 }
 
-/// The condition on redundant constraints.
-fn redundancy(most: u32) -> String {
-    match most {
+/// "σ = 0", or the redundant constraints that are allowed.
+fn condition(outcome: &Outcome) -> String {
+    match outcome.search.conditions.max_redundant {
         0 => "σ = 0".to_owned(),
-        n => format!("σ ≤ {n}"),
+        most => format!("σ ≤ {most}"),
     }
 }
 
-/// The other conditions.
-fn beside(outcome: &Outcome) -> Vec<String> {
-    let conditions = &outcome.search.conditions;
-    let all = [
+/// How many variants do all that is asked, and how many are determinate whatever else they do.
+fn verdict(outcome: &Outcome) -> String {
+    let mut out = String::new();
+    let least = if outcome.is_counted() { "" } else { "at least " };
+    let (conditions, condition) = (&outcome.search.conditions, condition(outcome));
+    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
+    let more = [
         conditions
             .keep_output
             .then_some("keep the output motion".to_owned()),
@@ -41,21 +75,7 @@ fn beside(outcome: &Outcome) -> Vec<String> {
             .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
     ];
     let told = in_state(&outcome.search, false);
-    all.into_iter().flatten().chain(told).collect()
-}
-
-/// The verdict, how it was checked, and the counts by mobility.
-pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
-    let mut out = String::new();
-    let least = if outcome.is_counted() {
-        ""
-    } else {
-        "at least "
-    };
-    let conditions = &outcome.search.conditions;
-    let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
-    let condition = redundancy(conditions.max_redundant);
-    let more = beside(outcome);
+    let more = more.into_iter().flatten().chain(told).collect_vec();
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -98,43 +118,20 @@ pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
             "  {determinate} with {condition}, whatever else they do"
         );
     }
-    let minimal = ideas::minimal(outcome).into_iter();
-    let lines = minimal.chain(numeric::lines(outcome));
-    for line in lines.chain(second_opinion::lines(outcome)) {
-        let _ = writeln!(out, "  {line}");
-    }
-    // Two primes that agree on rounded digits prove nothing.
-    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
-        let _ = match check.verdict {
-            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
-            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
-        };
-    }
-    let cut_short = outcome
-        .numeric
-        .is_none()
-        .then(|| stopped_early::stopped(outcome));
-    for line in cut_short
-        .flatten()
-        .into_iter()
-        .chain(stopped_early::estimated(outcome))
-    {
-        let _ = writeln!(out, "  {line}");
-    }
-    if let Some(table) = by_mobility(outcome, width) {
-        let _ = writeln!(out, "\n{table}");
-    }
-    fit(&out, width)
+    out
 }
 
-/// The counts by mobility.
-fn by_mobility(outcome: &Outcome, width: Option<u16>) -> Option<String> {
+/// The counts by mobility; nothing where there are none.
+fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
     let exact = outcome.determinate.by_mobility.keys();
     let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();
     let mobilities: BTreeSet<i64> = match &outcome.numeric {
         Some(found) => numeric::mobilities(found),
         None => exact.collect(),
     };
+    if mobilities.is_empty() {
+        return String::new();
+    }
     // Mobilities that no admissible variant has are of no use to a designer: they are told in one row.
     let may = |w: &i64| {
         let found = outcome.numeric.as_ref();
@@ -176,8 +173,7 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> Option<String> {
         (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
         _ => None,
     };
-    let rows = each.chain(folded).chain(left_out);
-    let condition = redundancy(outcome.search.conditions.max_redundant);
-    let head = ["W", &condition, "admissible"];
-    (!mobilities.is_empty()).then(|| table(&head, rows.collect(), width))
+    let rows = each.chain(folded).chain(left_out).collect();
+    let heads = ["W", &condition(outcome), "admissible"];
+    format!("\n{}\n", table(&heads, rows, width))
 }

@@ -2,7 +2,7 @@
 
 use crate::format::number::cost;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::rank::rounded::verdict::Verdict;
+use crate::rank::rounded::verdict::RankVerdict;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::request::prepare::LooksRounded;
@@ -78,10 +78,10 @@ pub struct SearchData<'a> {
     nodes: Option<usize>,
     /// Rows of the closure equations for each contour, in each part that has diagrams of its own.
     rows_per_contour: Option<Vec<usize>>,
-    determinate_diagram: Size,
-    admissible_diagram: Size,
+    determinate_diagram: SizeData,
+    admissible_diagram: SizeData,
     stop: &'static str,
-    check: Option<Check>,
+    check: Option<CheckData>,
     measured: Option<Measured<'a>>,
     poses: Option<Poses>,
     ranking: Option<RankingData<'a>>,
@@ -95,13 +95,13 @@ pub struct SearchData<'a> {
 }
 
 #[derive(Debug, Serialize)]
-struct Size {
+struct SizeData {
     largest_layer: Option<usize>,
     nodes: Option<usize>,
 }
 
 #[derive(Debug, Serialize)]
-struct Check {
+struct CheckData {
     primes: [String; 2],
     agree: Option<bool>,
 }
@@ -130,8 +130,8 @@ struct Example<'a> {
 #[derive(Debug, Serialize)]
 struct Ranks<'a> {
     state: &'a str,
-    exact: Figures,
-    svd: Figures,
+    exact: FiguresData,
+    svd: FiguresData,
     smallest_kept: f64,
     largest_dropped: f64,
     /// Which mechanism is meant, and so searched: "as written", "snapped", "near", "undecided".
@@ -139,7 +139,7 @@ struct Ranks<'a> {
 }
 
 #[derive(Debug, Serialize)]
-struct Figures {
+struct FiguresData {
     mobility: usize,
     redundant: usize,
 }
@@ -151,7 +151,7 @@ impl<'a> SearchData<'a> {
         let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
         let sizes = |of: fn(&Diagrams) -> &Diagram| {
             let diagram = outcome.diagrams.as_ref().map(of);
-            Size {
+            SizeData {
                 largest_layer: diagram.map(|d| d.largest_layer),
                 nodes: diagram.map(|d| d.nodes),
             }
@@ -193,7 +193,7 @@ impl<'a> SearchData<'a> {
             determinate_diagram: first,
             admissible_diagram: second,
             stop: outcome.stop.word(),
-            check: outcome.check.map(|c| Check {
+            check: outcome.check.map(|c| CheckData {
                 primes: c.primes.map(|p| p.to_string()),
                 // Two primes that agree on rounded digits prove nothing.
                 agree: c.agree().filter(|_| outcome.is_confirmed()),
@@ -218,7 +218,7 @@ impl<'a> SearchData<'a> {
 
 impl<'a> Measured<'a> {
     fn new((why, verdicts): &'a LooksRounded) -> Self {
-        let figures = |(mobility, redundant)| Figures {
+        let figures = |(mobility, redundant)| FiguresData {
             mobility,
             redundant,
         };
@@ -237,7 +237,7 @@ impl<'a> Measured<'a> {
                 value: &why.value,
             },
             tolerance: verdicts.iter().fold(0.0, |a, v| a.max(v.tolerance)),
-            agree: verdicts.iter().all(Verdict::agrees),
+            agree: verdicts.iter().all(RankVerdict::agrees),
             states: states.collect(),
         }
     }

@@ -1,16 +1,14 @@
 //! A search as JSON, and its variants as JSON lines, written as they come.
 
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
-use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::score::outcome::{Outcome, WhyNone};
 use crate::search::diagram::Stop;
 use crate::view::contract;
 use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
 use crate::view::search::variant::VariantData;
 use crate::view::search::why;
-use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io::{self, Write};
 
@@ -32,7 +30,7 @@ pub fn each<'a, E>(
     })
 }
 
-/// Writes an outcome with its variants as one value; `eased` is told where there is none, `seconds` where somebody has a
+/// Writes an outcome with its variants as one value; `none` is told where there is none, `seconds` where somebody has a
 /// clock, asked once all else is written. No other key differs between runs.
 ///
 /// # Errors
@@ -41,7 +39,7 @@ pub fn write(
     out: &mut dyn Write,
     outcome: &Outcome,
     mut variants: Variants<'_>,
-    (eased, hopeless): (&[(Relaxation, BigUint)], &Hopeless),
+    none: &WhyNone,
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
@@ -54,8 +52,8 @@ pub fn write(
         Ok(serde_json::to_writer(&mut *out, &data)?)
     })?;
     let m = &outcome.search.mechanism;
-    let none = outcome.admissible.total.is_zero();
-    let none = none.then(|| NoneData::new(m, eased, hopeless));
+    let empty = outcome.admissible.total.is_zero();
+    let none = empty.then(|| NoneData::new(m, &none.eased, &none.hopeless));
     let seconds = seconds.map(|s| s());
     let tail = TailData::new(&variants, none, seconds);
     let text = serde_json::to_string_pretty(&tail)?;

@@ -3,11 +3,11 @@
 use crate::format::number::grouped;
 use crate::format::phrase::{plural, plural_of};
 use crate::robots::is_description;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
+use crate::score::outcome::{Outcome, WhyNone};
 use crate::score::request::{List, Request};
-use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::search::answer::why_none::Relaxation;
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
 use crate::view::search::conditions::hopeless;
 use crate::view::search::counts::counts;
@@ -18,17 +18,15 @@ use crate::view::search::stopped_early;
 use crate::view::search::table::{contours, variants};
 use crate::view::search::why;
 use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, Step, file_name};
+use crate::view::terminal::next_commands::{self, NextCommand, file_name};
 use itertools::Itertools;
-use num_bigint::BigUint;
 use num_traits::Zero;
 use std::io;
 
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Writes an outcome with its variants as they come, and what to do next; `eased` is told where there is none, and why there can be none. `file` is
-/// the argument that named the mechanism.
+/// Writes an outcome with its variants as they come, and what to do next; `none` is told where there is none. `file` is the argument that named the mechanism.
 ///
 /// # Errors
 /// Those of the writer.
@@ -36,13 +34,12 @@ pub fn write(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
-    (eased, why): (&[(Relaxation, BigUint)], &Hopeless),
+    none: &WhyNone,
     file: &str,
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
-    let helps = why.least_redundant.and_then(|_| outcome.would_help());
-    let why = hopeless(&outcome.search.mechanism, why);
+    let why = hopeless(&outcome.search.mechanism, &none.hopeless);
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = match &outcome.ranking {
@@ -97,12 +94,12 @@ pub fn write(
     let steps = if outcome.request.generic_only || undecided {
         Vec::new()
     } else {
-        next(
-            outcome,
-            (if sample { 0 } else { summary.given }, changed),
-            (eased, helps),
-            file,
-        )
+        let given = if sample { 0 } else { summary.given };
+        if given > 0 {
+            next_of_some(outcome, changed, file)
+        } else {
+            next_of_none(outcome, none, file)
+        }
     };
     write!(out, "{}", next_commands::text(&steps, width))
 }
@@ -185,57 +182,59 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
-fn next(
-    outcome: &Outcome,
-    (given, changed): (usize, bool),
-    (eased, helps): (&[(Relaxation, BigUint)], Option<Request>),
-    file: &str,
-) -> Vec<Step> {
-    // `--idea` says that ideas are meant.
+fn next_of_some(outcome: &Outcome, changed: bool, file: &str) -> Vec<NextCommand> {
+    let flags = &flags(outcome);
+    let number = outcome.request.one();
+    let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
+    let mechanism = &outcome.search.mechanism.name;
+    let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
+    let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
+    // Whose first variant changes nothing has nothing to mend.
+    let own = (changed && is_description(file)).then(|| {
+        NextCommand::mend(
+            file,
+            &joined(&format!("--{number} 1")),
+            "the first of the list in your own file",
+        )
+    });
+    let steps = [
+        NextCommand::new(
+            "draw",
+            file,
+            &joined(&format!("--{number} 1 -o {svg}")),
+            "the first of the list, its changes in colour",
+        ),
+        NextCommand::new(
+            "export",
+            file,
+            &joined(&format!("--{number} 1 --to toml -o {toml}")),
+            "the first of the list as a mechanism file of its own",
+        ),
+    ];
+    own.into_iter().chain(steps).collect()
+}
+
+/// The options that a search was asked with. `--idea` says that ideas are meant.
+fn flags(outcome: &Outcome) -> String {
     let request = Request {
         distinct: false,
         ..outcome.request.clone()
     };
-    let flags = &next_commands::flags(&outcome.search.mechanism, &request);
-    let number = outcome.request.one();
-    let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
-    let mechanism = &outcome.search.mechanism.name;
-    if given > 0 {
-        let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
-        let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
-        // Whose first variant changes nothing has nothing to mend.
-        let own = (changed && is_description(file)).then(|| {
-            Step::mend(
-                file,
-                &joined(&format!("--{number} 1")),
-                "the first of the list in your own file",
-            )
-        });
-        let steps = [
-            Step::new(
-                "draw",
-                file,
-                &joined(&format!("--{number} 1 -o {svg}")),
-                "the first of the list, its changes in colour",
-            ),
-            Step::new(
-                "export",
-                file,
-                &joined(&format!("--{number} 1 --to toml -o {toml}")),
-                "the first of the list as a mechanism file of its own",
-            ),
-        ];
-        return own.into_iter().chain(steps).collect();
-    }
+    next_commands::flags(&outcome.search.mechanism, &request)
+}
+
+/// What to do next where no variant is given: ask for some, or ease a condition.
+fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextCommand> {
+    let flags = &flags(outcome);
     if !outcome.admissible.total.is_zero() {
-        return vec![Step::new(
+        return vec![NextCommand::new(
             "search",
             file,
-            &joined("--top 10"),
+            format!("{flags} --top 10").trim(),
             "the cheapest of them",
         )];
     }
-    let steps = eased.iter().map(|(how, n)| {
+    let steps = none.eased.iter().map(|(how, n)| {
         let (condition, to) = condition(*how);
         let name = format!("--{condition}");
         let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
@@ -247,16 +246,17 @@ fn next(
         };
         // The flag replaces the one that was given.
         let kept = without(flags, &name);
-        Step::new("search", file, format!("{kept} {flag}").trim(), &least)
+        NextCommand::new("search", file, format!("{kept} {flag}").trim(), &least)
     });
-    let options = match helps {
-        Some(wider) => Step::new(
+    let some = none.hopeless.least_redundant;
+    let options = match some.and_then(|_| outcome.would_help()) {
+        Some(wider) => NextCommand::new(
             "search",
             file,
             &next_commands::flags(&outcome.search.mechanism, &wider),
             "Offer more options: with these joint types there are variants, and with others there may be",
         ),
-        None => Step {
+        None => NextCommand {
             command: "Offer more options under [search], or at the joints".to_owned(),
             gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
         },

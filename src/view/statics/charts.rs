@@ -1,14 +1,15 @@
 //! Charts of reactions over the cycle and of the methods' stability.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
+use crate::statics::contour_group::letters::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
-use crate::statics::contour_group::stability::{Failure, Sample};
+use crate::statics::contour_group::stability::{DistanceErrors, Failure};
 use crate::statics::cycle::Moment;
 use crate::statics::inertia::{LinkInertia, link_inertias};
-use crate::statics::kinetostatics::Source;
+use crate::statics::kinetostatics::LoadSource;
 use crate::statics::planar::PairId;
-use crate::view::statics::{Statics, magnitudes};
+use crate::view::statics::{StaticsData, magnitudes};
 use crate::view::terminal::si_prefix::prefix;
 use itertools::Itertools;
 
@@ -32,7 +33,7 @@ fn log(label: impl Into<String>) -> Axis {
     }
 }
 
-fn drive_axis(s: &Statics<'_>) -> Axis {
+fn drive_axis(s: &StaticsData<'_>) -> Axis {
     let name = s.drives.first().copied().unwrap_or("");
     let unit = if s.found.drive_slides() {
         "length units"
@@ -44,12 +45,12 @@ fn drive_axis(s: &Statics<'_>) -> Axis {
 
 /// How many forces from outside act.
 fn acting(x: &Moment) -> usize {
-    let outside = x.loads.iter().filter(|l| l.source == Source::External);
+    let outside = x.loads.iter().filter(|l| l.source == LoadSource::External);
     outside.count()
 }
 
 /// Values over the cycle, one series a name; where forces set in or end the lines are broken.
-fn over(s: &Statics<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
+fn over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
     let mut series: Vec<Series> = Vec::new();
     let mut before = s.found.moments.first().map_or(0, acting);
     for x in &s.found.moments {
@@ -84,163 +85,216 @@ fn scale(series: &mut [Series]) -> &'static str {
 
 /// Reactions of every group, where the guides' reactions act, the drives' effort, and how far the methods differ.
 #[must_use]
-pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
-    let (found, methods, name) = (s.found, s.methods, s.mechanism);
-    let (m, d) = (&found.linkage.mechanism, &found.decomposition);
-    let mut out = Vec::new();
-    let Some(&shown) = methods.last() else {
-        return out;
+pub fn cycle(s: &StaticsData<'_>) -> Vec<Named> {
+    let Some(&shown) = s.methods.last() else {
+        return Vec::new();
     };
-    let mut add = |file: String, title: String, subtitle: String, y: Axis, series: Vec<Series>| {
+    let mut out = Charts {
+        of: s,
+        shown,
+        list: Vec::new(),
+    };
+    for (i, (index, letters)) in s.found.contour_groups.iter().enumerate() {
+        out.contour_group(i, *index, letters);
+    }
+    for index in 0..s.found.decomposition.groups.len() {
+        if s.found.contour_groups.iter().all(|c| c.0 != index) {
+            out.other_group(index);
+        }
+    }
+    out.drive();
+    out.inertia();
+    if s.methods.len() > 1 && !s.found.contour_groups.is_empty() {
+        out.methods();
+    }
+    out.list
+}
+
+/// The charts of a cycle, one after another.
+struct Charts<'s, 'a> {
+    of: &'s StaticsData<'a>,
+    /// The method whose reactions are shown.
+    shown: GroupMethod,
+    list: Vec<Named>,
+}
+
+impl Charts<'_, '_> {
+    fn add(&mut self, file: String, [title, subtitle]: [String; 2], y: Axis, series: Vec<Series>) {
         let chart = Chart {
-            title: format!("{name}: {title}"),
+            title: format!("{}: {title}", self.of.mechanism),
             subtitle,
-            x: drive_axis(s),
+            x: drive_axis(self.of),
             y,
             series,
         };
-        out.push((file, chart));
-    };
-    for (i, (index, letters)) in found.contour_groups.iter().enumerate() {
-        let title = s.groups[*index].name();
-        let place = |p: PairId| m.pairs[p].name.as_str();
-        let solved = |x: &Moment, f: Figures<'_>| {
-            let found = x.groups.get(i).and_then(|g| Some(f(g, g.by(shown)?)));
+        self.list.push((file, chart));
+    }
+
+    /// Figures of a group with a closed contour over the cycle.
+    fn solved(&self, i: usize, f: Figures<'_>) -> Vec<Series> {
+        over(self.of, |x| {
+            let found = x.groups.get(i);
+            let found = found.and_then(|g| Some(f(g, g.by(self.shown)?)));
             let named = found.into_iter().flatten();
             named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
-        };
-        let mut series = over(s, |x| solved(x, &|g, r| magnitudes(&r, &g.pose).to_vec()));
+        })
+    }
+
+    /// A group with a closed contour: its reactions, the tangential ones, and where its guide bears.
+    fn contour_group(&mut self, i: usize, index: usize, letters: &ContourGroup) {
+        let (found, title) = (self.of.found, self.of.groups[index].name());
+        let m = &found.linkage.mechanism;
+        let place = |p: PairId| m.pairs[p].name.as_str();
+        let mut series = self.solved(i, &|g, r| magnitudes(&r, &g.pose).to_vec());
         let prefix = scale(&mut series);
-        let letters_named = [letters.d, letters.f, letters.k, letters.m, letters.l];
-        let key = "DFKML"
-            .chars()
-            .zip(letters_named)
-            .map(|(c, p)| format!("{c} = {}", place(p)))
-            .join(", ");
-        add(
+        let named = [letters.d, letters.f, letters.k, letters.m, letters.l];
+        let key = "DFKML".chars().zip(named);
+        let key = key.map(|(c, p)| format!("{c} = {}", place(p))).join(", ");
+        self.add(
             format!("group-{title}"),
-            format!("reactions of group {title}"),
-            format!("{key}; guide {} with its sign", place(letters.guide)),
+            [
+                format!("reactions of group {title}"),
+                format!("{key}; guide {} with its sign", place(letters.guide)),
+            ],
             linear(format!("reaction, {prefix}N")),
             series,
         );
-        let mut series = over(s, |x| {
-            solved(x, &|g, _| {
-                let steps = &g.steps;
-                vec![
-                    ("R46τ", steps.r46_tangential),
-                    ("R47τ", steps.r47_tangential),
-                    ("R34τ", steps.r34_tangential),
-                ]
-            })
+        let mut series = self.solved(i, &|g, _| {
+            let steps = &g.steps;
+            vec![
+                ("R46τ", steps.r46_tangential),
+                ("R47τ", steps.r47_tangential),
+                ("R34τ", steps.r34_tangential),
+            ]
         });
         let prefix = scale(&mut series);
-        add(
+        self.add(
             format!("tangential-{title}"),
-            format!("tangential reactions of group {title}"),
-            format!("By the δ-point method, across the rods and across Dδ; {key}"),
+            [
+                format!("tangential reactions of group {title}"),
+                format!("By the δ-point method, across the rods and across Dδ; {key}"),
+            ],
             linear(format!("reaction, {prefix}N")),
             series,
         );
         let far = 2.0 * found.linkage.size;
         // Far out the line only says that the reaction changes its sign.
         let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
-        let series = over(s, |x| {
+        let series = over(self.of, |x| {
             let guide = found.linkage.place(&x.instant.pose, letters.guide);
-            solved(x, &|g, r| {
-                let offset = r.guide_offset(&g.pose, guide);
-                vec![
+            let group = x.groups.get(i);
+            let solved = group.and_then(|g| Some((g, g.by(self.shown)?)));
+            let named = solved.map(|(g, r)| {
+                [
                     ("arm h about D", near(r.arm)),
-                    ("offset along the guide", near(offset)),
+                    (
+                        "offset along the guide",
+                        near(r.guide_offset(&g.pose, guide)),
+                    ),
                 ]
-            })
+            });
+            let named = named.into_iter().flatten();
+            named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
         });
-        add(
+        self.add(
             format!("guide-{title}"),
-            format!(
-                "where the guide bears link {}",
-                m.bodies[letters.slider].name
-            ),
-            format!(
-                "Point of application of the reaction of {}; broken where it vanishes",
-                place(letters.guide)
-            ),
+            [
+                format!(
+                    "where the guide bears link {}",
+                    m.bodies[letters.slider].name
+                ),
+                format!(
+                    "Point of application of the reaction of {}; broken where it vanishes",
+                    place(letters.guide)
+                ),
+            ],
             linear("m"),
             series,
         );
     }
-    for (index, g) in d.groups.iter().enumerate() {
-        if found.contour_groups.iter().any(|c| c.0 == index) {
-            continue;
-        }
-        let (title, pairs) = (s.groups[index].name(), g.pairs());
-        let mut series = over(s, |x| {
+
+    /// A group without a closed contour: its reactions.
+    fn other_group(&mut self, index: usize) {
+        let (found, title) = (self.of.found, self.of.groups[index].name());
+        let (m, g) = (&found.linkage.mechanism, &found.decomposition.groups[index]);
+        let pairs = g.pairs();
+        let mut series = over(self.of, |x| {
             let all = x.whole.iter().flat_map(|e| &e.reactions);
             let own = all.filter(|r| pairs.contains(&r.pair));
             own.map(|r| (m.pairs[r.pair].name.clone(), r.force[0].hypot(r.force[1])))
                 .collect()
         });
         let prefix = scale(&mut series);
-        add(
+        self.add(
             format!("group-{title}"),
-            format!("reactions of group {title}"),
-            g.class.to_string(),
+            [format!("reactions of group {title}"), g.class.to_string()],
             linear(format!("reaction, {prefix}N")),
             series,
         );
     }
-    let mut series = over(s, |x| {
-        let all = x.whole.iter().flat_map(|e| &e.reactions);
-        all.filter_map(|r| Some((m.pairs[r.pair].name.clone(), r.effort?)))
-            .collect()
-    });
-    if !series.is_empty() {
+
+    /// What the drives do.
+    fn drive(&mut self) {
+        let m = &self.of.found.linkage.mechanism;
+        let mut series = over(self.of, |x| {
+            let all = x.whole.iter().flat_map(|e| &e.reactions);
+            all.filter_map(|r| Some((m.pairs[r.pair].name.clone(), r.effort?)))
+                .collect()
+        });
+        if series.is_empty() {
+            return;
+        }
         let prefix = scale(&mut series);
-        let (what, unit) = if found.drive_slides() {
+        let (what, unit) = if self.of.found.drive_slides() {
             ("force", "N")
         } else {
             ("torque", "N·m")
         };
-        add(
+        self.add(
             "drive".to_owned(),
-            format!("{what} of the drive"),
-            String::new(),
+            [format!("{what} of the drive"), String::new()],
             linear(format!("{what}, {prefix}{unit}")),
             series,
         );
     }
-    let links = |x: &Moment, of: &dyn Fn(&LinkInertia) -> f64| -> Vec<(String, f64)> {
-        let all = link_inertias(&found.loads.masses, &found.linkage, &x.instant);
-        all.iter()
-            .map(|l| (m.bodies[l.body].name.clone(), of(l)))
-            .collect()
-    };
-    let size = |v: [f64; 2]| v[0].hypot(v[1]);
-    let moving = |series: &[Series]| series.iter().flat_map(|e| &e.points).any(|p| p.1 > 0.0);
-    let series = over(s, |x| links(x, &|l| size(l.acceleration)));
-    if moving(&series) {
-        let title = "accelerations of the links' mass centres".to_owned();
-        let axis = linear("acceleration, m/s²");
-        add(
+
+    /// Accelerations and inertia forces, where anything moves that has a mass.
+    fn inertia(&mut self) {
+        let found = self.of.found;
+        let m = &found.linkage.mechanism;
+        let links = |x: &Moment, of: &dyn Fn(&LinkInertia) -> f64| -> Vec<(String, f64)> {
+            let all = link_inertias(&found.loads.masses, &found.linkage, &x.instant);
+            all.iter()
+                .map(|l| (m.bodies[l.body].name.clone(), of(l)))
+                .collect()
+        };
+        let size = |v: [f64; 2]| v[0].hypot(v[1]);
+        let series = over(self.of, |x| links(x, &|l| size(l.acceleration)));
+        if series.iter().flat_map(|e| &e.points).all(|p| p.1 <= 0.0) {
+            return;
+        }
+        self.add(
             "accelerations".to_owned(),
-            title,
-            String::new(),
-            axis,
+            [
+                "accelerations of the links' mass centres".to_owned(),
+                String::new(),
+            ],
+            linear("acceleration, m/s²"),
             series,
         );
-        let mut series = over(s, |x| links(x, &|l| size(l.force)));
+        let mut series = over(self.of, |x| links(x, &|l| size(l.force)));
         let prefix = scale(&mut series);
-        let title = "inertia forces of the links".to_owned();
-        let axis = linear(format!("inertia force, {prefix}N"));
-        add(
+        self.add(
             "inertia-forces".to_owned(),
-            title,
-            String::new(),
-            axis,
+            ["inertia forces of the links".to_owned(), String::new()],
+            linear(format!("inertia force, {prefix}N")),
             series,
         );
     }
-    if methods.len() > 1 && !found.contour_groups.is_empty() {
+
+    /// How far the methods differ.
+    fn methods(&mut self) {
+        let (s, methods) = (self.of, self.of.methods);
         let series = over(s, |x| {
             let named = x.groups.iter().map(|g| {
                 let differ = g.disagreement(methods).unwrap_or(f64::NAN);
@@ -249,15 +303,16 @@ pub fn cycle(s: &Statics<'_>) -> Vec<Named> {
             });
             named.collect()
         });
-        add(
+        self.add(
             "methods".to_owned(),
-            "how far the methods differ".to_owned(),
-            methods.iter().map(|x| x.name()).join(", "),
+            [
+                "how far the methods differ".to_owned(),
+                methods.iter().map(|x| x.name()).join(", "),
+            ],
             log("greatest difference over the greatest reaction"),
             series,
         );
     }
-    out
 }
 
 /// What a stability chart shows: title, subtitle, axis.
@@ -288,7 +343,7 @@ fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
 
 /// Errors of the methods against the distance from a failure.
 #[must_use]
-pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
+pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
     // What is exact to the last bit is shown at the foot.
     let shown = |x: f64| {
         if x.is_finite() {
@@ -298,19 +353,19 @@ pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
         }
     };
     let arms = failure == Failure::NoGuideReaction;
-    let line = |name: &str, style, f: &dyn Fn(&Sample) -> f64| Series {
+    let line = |name: &str, style, f: &dyn Fn(&DistanceErrors) -> f64| Series {
         name: name.to_owned(),
         points: samples.iter().map(|s| (s.distance, shown(f(s)))).collect(),
         style,
     };
-    let of = |k: usize| move |s: &Sample| if arms { s.arm[k] } else { s.forces[k] };
+    let of = |k: usize| move |s: &DistanceErrors| if arms { s.arm[k] } else { s.forces[k] };
     let mut series = vec![
         line("δ-point", Style::Line, &of(0)),
         line("projective", Style::Line, &of(1)),
         line("equilibrium, LU", Style::Line, &of(2)),
     ];
     if arms {
-        let worst = |s: &Sample| s.forces.into_iter().fold(0.0, f64::max);
+        let worst = |s: &DistanceErrors| s.forces.into_iter().fold(0.0, f64::max);
         series.push(line("forces, worst of the three", Style::Dashed, &worst));
     } else {
         series.push(line(
@@ -332,10 +387,10 @@ pub fn stability(failure: Failure, samples: &[Sample]) -> Named {
 
 /// Rows of a table: failure, figure, method, and the errors at distances 1, 1e-3, ... 1e-15.
 #[must_use]
-pub fn stability_rows(failure: Failure, samples: &[Sample]) -> Vec<Vec<String>> {
+pub fn stability_rows(failure: Failure, samples: &[DistanceErrors]) -> Vec<Vec<String>> {
     let at = |decade: i32| {
         let wanted = 10f64.powi(-decade);
-        let near = |s: &&Sample| (s.distance.log10() - wanted.log10()).abs();
+        let near = |s: &&DistanceErrors| (s.distance.log10() - wanted.log10()).abs();
         samples.iter().min_by(|a, b| near(a).total_cmp(&near(b)))
     };
     let figures: &[(&str, bool)] = match failure {

@@ -1,15 +1,15 @@
-//! Statics as CSV, in SI units.
+//! StaticsData as CSV, in SI units.
 
 use crate::format::csv::table;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::cycle::Moment;
-use crate::view::statics::{Reaction, Statics};
+use crate::view::statics::{Reaction, StaticsData};
 
 /// One line a drive position, method and joint: every joint by the equilibrium, those of the four-link groups by the other
 /// methods too. The force is that on `on`; for sliding joints the moment is about (x, y).
 #[must_use]
-pub fn csv(s: &Statics<'_>) -> String {
+pub fn csv(s: &StaticsData<'_>) -> String {
     let mut rows = Vec::new();
     for (position, x) in s.positions.iter().zip(&s.found.moments) {
         let mut add = |method: GroupMethod, r: &Reaction| {
@@ -50,7 +50,12 @@ pub fn csv(s: &Statics<'_>) -> String {
 }
 
 /// What the six joints of a four-link group pass on by one method.
-fn of_group<'a>(s: &Statics<'a>, x: &Moment, at: usize, method: GroupMethod) -> Vec<Reaction<'a>> {
+fn of_group<'a>(
+    s: &StaticsData<'a>,
+    x: &Moment,
+    at: usize,
+    method: GroupMethod,
+) -> Vec<Reaction<'a>> {
     let (linkage, g, l) = (
         &s.found.linkage,
         &x.groups[at],

@@ -1,28 +1,28 @@
 //! Force plans of the four-link groups, drawn where forces from outside load them most.
 
-use crate::chart::{Arrow, Pair, Panel, Polygons};
+use crate::chart::{Panel, PanelPair, PlanArrow, Polygons};
 use crate::format::number::figure;
 use crate::statics::contour_group::force_plan::{
     Plan, PlanForce, PlanKind, force_plans, group_loads,
 };
 use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::cycle::Moment;
-use crate::statics::kinetostatics::Source;
-use crate::view::statics::Statics;
+use crate::statics::kinetostatics::LoadSource;
+use crate::view::statics::StaticsData;
 use crate::view::terminal::si_prefix::prefix;
 
 /// The drawing of each group, with the name of its file.
 #[must_use]
-pub fn plans(s: &Statics<'_>) -> Vec<(String, Polygons)> {
+pub fn plans(s: &StaticsData<'_>) -> Vec<(String, Polygons)> {
     let groups = 0..s.found.contour_groups.len();
     groups.filter_map(|i| plan(s, i)).collect()
 }
 
-fn plan(s: &Statics<'_>, i: usize) -> Option<(String, Polygons)> {
+fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
     let (index, letters) = &s.found.contour_groups[i];
     let outside = |x: &&Moment| -> f64 {
         let own = x.groups.get(i).into_iter().flat_map(|g| &g.pose.loads);
-        let forces = own.filter(|l| l.source == Source::External);
+        let forces = own.filter(|l| l.source == LoadSource::External);
         forces.map(|l| l.force[0].hypot(l.force[1])).sum()
     };
     let solved = s.found.moments.iter().filter(|x| x.groups.len() > i);
@@ -41,14 +41,14 @@ fn plan(s: &Statics<'_>, i: usize) -> Option<(String, Polygons)> {
         title: format!("{}, {by}", p.of),
         arrows: p.forces.iter().map(|f| arrow(f, unit)).collect(),
     };
-    let rows = pairs.into_iter().map(|[delta, full]| Pair {
+    let rows = pairs.into_iter().map(|[delta, full]| PanelPair {
         panels: [
             panel(delta, "δ-point method"),
             panel(full, "equilibrium of all links"),
         ],
         one_scale: true,
     });
-    let mut rows: Vec<Pair> = rows.collect();
+    let mut rows: Vec<PanelPair> = rows.collect();
     rows.push(own_loads(&heaviest.groups[i], unit));
     let name = s.groups[*index].name();
     let m = &s.found.linkage.mechanism;
@@ -82,7 +82,7 @@ fn plan(s: &Statics<'_>, i: usize) -> Option<(String, Polygons)> {
 
 /// The weights and the inertia forces of the group, each added up on its own, since beside forces from outside they are too
 /// short to be seen.
-fn own_loads(g: &GroupSolutions, unit: f64) -> Pair {
+fn own_loads(g: &GroupSolutions, unit: f64) -> PanelPair {
     let of = |source, title: &str, sum: &str| {
         let mut forces = group_loads(g);
         forces.retain(|f| f.kind == PlanKind::Load(source));
@@ -101,11 +101,11 @@ fn own_loads(g: &GroupSolutions, unit: f64) -> Pair {
                 .collect(),
         }
     };
-    Pair {
+    PanelPair {
         panels: [
-            of(Source::Gravity, "weights of the group, enlarged", "G"),
+            of(LoadSource::Gravity, "weights of the group, enlarged", "G"),
             of(
-                Source::Inertia,
+                LoadSource::Inertia,
                 "inertia forces of the group, enlarged",
                 "Fи",
             ),
@@ -114,14 +114,14 @@ fn own_loads(g: &GroupSolutions, unit: f64) -> Pair {
     }
 }
 
-fn arrow(f: &PlanForce, unit: f64) -> Arrow {
-    Arrow {
+fn arrow(f: &PlanForce, unit: f64) -> PlanArrow {
+    PlanArrow {
         name: f.name.clone(),
         vector: f.force.map(|x| x / unit),
         colour: match f.kind {
-            PlanKind::Load(Source::External) => 5,
-            PlanKind::Load(Source::Gravity) => 2,
-            PlanKind::Load(Source::Inertia) => 4,
+            PlanKind::Load(LoadSource::External) => 5,
+            PlanKind::Load(LoadSource::Gravity) => 2,
+            PlanKind::Load(LoadSource::Inertia) => 4,
             PlanKind::Tangential => 1,
             PlanKind::Reaction => 0,
         },

@@ -1,4 +1,4 @@
-//! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
+//! StaticsData for people: the groups, the reactions over the cycle, the greatest of each joint.
 
 use crate::format::number::figure;
 use crate::format::phrase::plural;
@@ -8,14 +8,14 @@ use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
 use crate::view::statics::link_motion::LinkMotion;
-use crate::view::statics::{Decomposed, Group, Statics, Structures, magnitudes};
+use crate::view::statics::{Decomposed, GroupData, StaticsData, Structures, magnitudes};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
 use itertools::Itertools;
 use std::fmt::Write;
 
 /// The groups as a table.
-fn groups(all: &[Group<'_>], width: Option<u16>) -> String {
+fn groups(all: &[GroupData<'_>], width: Option<u16>) -> String {
     let rows = all.iter().enumerate().map(|(i, g)| {
         vec![
             (i + 1).to_string(),
@@ -43,7 +43,7 @@ const SINGULAR: f64 = 1e12;
 /// The structure under every drive.
 #[must_use]
 pub fn structures(s: &Structures<'_>, width: Option<u16>) -> String {
-    let group = |g: &Group| {
+    let group = |g: &GroupData| {
         let inside = if g.locked.is_empty() {
             ""
         } else {
@@ -82,14 +82,14 @@ pub fn structures(s: &Structures<'_>, width: Option<u16>) -> String {
 
 /// The report, fitted to a terminal of `width` columns where one is given.
 #[must_use]
-pub fn statics(s: &Statics<'_>, width: Option<u16>) -> String {
+pub fn statics(s: &StaticsData<'_>, width: Option<u16>) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = write_statics(&mut out, s, width);
     fit(&out, width)
 }
 
-fn write_statics(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Result {
+fn write_statics(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> std::fmt::Result {
     let drives = if s.drives.is_empty() {
         "nothing".to_owned()
     } else {
@@ -139,7 +139,7 @@ fn write_statics(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::
 }
 
 /// The greatest reaction of the cycle, for the first line; nothing without loads.
-fn verdict(s: &Statics<'_>) -> String {
+fn verdict(s: &StaticsData<'_>) -> String {
     let all = s.positions.iter().flat_map(|x| {
         let found = x.reactions.iter();
         found.map(|r| (r.force[0].hypot(r.force[1]), r.joint, x.drive))
@@ -161,7 +161,7 @@ fn verdict(s: &Statics<'_>) -> String {
 
 fn group_table(
     out: &mut String,
-    s: &Statics<'_>,
+    s: &StaticsData<'_>,
     i: usize,
     width: Option<u16>,
 ) -> std::fmt::Result {
@@ -191,7 +191,7 @@ fn group_table(
     ];
     writeln!(
         out,
-        "Group {}: reactions in {prefix}N by the {} method; {}, guide = {}",
+        "GroupData {}: reactions in {prefix}N by the {} method; {}, guide = {}",
         s.groups[*index].name(),
         shown.name(),
         names.map(|(l, p)| format!("{l} = {}", name(p))).join(", "),
@@ -245,7 +245,7 @@ fn group_table(
 }
 
 /// The greatest reaction of every joint.
-fn joints(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Result {
+fn joints(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> std::fmt::Result {
     let m = &s.found.linkage.mechanism;
     let peak = |p: PairId| {
         let each = s.found.moments.iter().filter_map(|x| {
@@ -298,7 +298,7 @@ fn joints(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Re
 }
 
 /// The greatest acceleration and inertia force of every link, where drives have speeds.
-fn inertia(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::Result {
+fn inertia(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> std::fmt::Result {
     let size = |v: [f64; 2]| v[0].hypot(v[1]);
     let links = s.positions.first().map_or(0, |x| x.links.len());
     let peaks = (0..links).filter_map(|i| {
@@ -348,7 +348,7 @@ fn inertia(out: &mut String, s: &Statics<'_>, width: Option<u16>) -> std::fmt::R
     writeln!(out, "{}\n", table(&header, rows.collect(), width))
 }
 
-fn summary(out: &mut String, s: &Statics<'_>) -> std::fmt::Result {
+fn summary(out: &mut String, s: &StaticsData<'_>) -> std::fmt::Result {
     let (found, methods) = (s.found, s.methods);
     let what = if found.drive_slides() { "N" } else { "N·m" };
     for (&p, name) in found.decomposition.drives.iter().zip(&s.drives) {

@@ -1,11 +1,11 @@
 //! A sweep as a flat table, a line a sample.
 
-use super::Sweep;
+use super::SweepData;
 use crate::format::csv;
-use crate::sweep::row::Row;
+use crate::sweep::row::SampleRow;
 use itertools::Itertools;
 
-impl Sweep<'_> {
+impl SweepData<'_> {
     /// Numbers of samples, parameters, and figures by state; the table of JSON lines has all that is known.
     #[must_use]
     pub fn csv(&self) -> String {
@@ -42,7 +42,7 @@ impl Sweep<'_> {
     }
 }
 
-fn line(r: &Row, states: &[&str]) -> Vec<String> {
+fn line(r: &SampleRow, states: &[&str]) -> Vec<String> {
     let mut out = vec![r.sample.to_string()];
     out.extend(r.at.values().map(|x| format!("{x:?}")));
     for name in states {

@@ -1,15 +1,15 @@
 //! A quantity of a sweep over two of its parameters, or over its only one.
 
-use super::Sweep;
+use super::SweepData;
 use crate::chart::{Axis, Chart, Contours, Scale, Series, Style};
-use crate::sweep::row::Row;
+use crate::sweep::row::SampleRow;
 use itertools::Itertools;
 use std::collections::BTreeMap;
 use thiserror::Error;
 
 /// What is plotted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum PlottedQuantity {
     /// σ of the first state.
     Redundant,
     /// W of the first state.
@@ -20,40 +20,40 @@ pub enum Quantity {
     BestCost,
 }
 
-impl Quantity {
+impl PlottedQuantity {
     /// All, by their words.
-    pub const ALL: [(&'static str, Quantity); 4] = [
-        ("redundant", Quantity::Redundant),
-        ("mobility", Quantity::Mobility),
-        ("force", Quantity::PeakForce),
-        ("best-cost", Quantity::BestCost),
+    pub const ALL: [(&'static str, PlottedQuantity); 4] = [
+        ("redundant", PlottedQuantity::Redundant),
+        ("mobility", PlottedQuantity::Mobility),
+        ("force", PlottedQuantity::PeakForce),
+        ("best-cost", PlottedQuantity::BestCost),
     ];
 
     fn label(self) -> &'static str {
         match self {
-            Quantity::Redundant => "redundant constraints σ",
-            Quantity::Mobility => "mobility W",
-            Quantity::PeakForce => "peak force, N",
-            Quantity::BestCost => "cost of the best redesign",
+            PlottedQuantity::Redundant => "redundant constraints σ",
+            PlottedQuantity::Mobility => "mobility W",
+            PlottedQuantity::PeakForce => "peak force, N",
+            PlottedQuantity::BestCost => "cost of the best redesign",
         }
     }
 
     /// Whether it goes in steps, so that there is nothing between two of its values.
     fn is_count(self) -> bool {
-        self != Quantity::PeakForce
+        self != PlottedQuantity::PeakForce
     }
 
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    fn of(self, row: &Row) -> Option<f64> {
+    fn of(self, row: &SampleRow) -> Option<f64> {
         let count = |n: usize| n as f64;
         match self {
-            Quantity::Redundant => Some(count(row.states.first()?.redundant)),
-            Quantity::Mobility => Some(count(row.states.first()?.mobility)),
-            Quantity::PeakForce => {
+            PlottedQuantity::Redundant => Some(count(row.states.first()?.redundant)),
+            PlottedQuantity::Mobility => Some(count(row.states.first()?.mobility)),
+            PlottedQuantity::PeakForce => {
                 let found = row.forces.as_ref()?.get()?;
                 found.complete.then_some(found.peak_force)
             }
-            Quantity::BestCost => Some(row.redesigns.as_ref()?.get()?.ranking.first()?.cost),
+            PlottedQuantity::BestCost => Some(row.redesigns.as_ref()?.get()?.ranking.first()?.cost),
         }
     }
 }
@@ -86,13 +86,13 @@ pub struct NoPlot {
     known: String,
 }
 
-impl Sweep<'_> {
+impl SweepData<'_> {
     /// A quantity over two parameters, the first two that vary where none are named, or over one. Of samples that differ in other
     /// parameters alone the greatest value is shown.
     ///
     /// # Errors
     /// Where a name is none of a parameter that varies, or there are not one or two.
-    pub fn plot(&self, what: Quantity, over: &[String]) -> Result<Plotted, NoPlot> {
+    pub fn plot(&self, what: PlottedQuantity, over: &[String]) -> Result<Plotted, NoPlot> {
         let known: Vec<&String> = self.parameters.keys().collect();
         let named: Vec<&String> = match over {
             [] => known.iter().copied().take(2).collect(),

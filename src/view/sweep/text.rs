@@ -1,6 +1,8 @@
 //! A sweep for people.
 
-use super::{Change, Peak, State, Sweep, Told};
+use super::{
+    NeighbouringSamples, Peak, PeakForce, RedesignsData, StateOverSamples, SweepData, Told,
+};
 use crate::format::number::{significant, tooltip};
 use crate::format::phrase::plural;
 use crate::view::terminal::layout::{fit, table};
@@ -42,10 +44,42 @@ fn list(of: &[Told<'_>]) -> String {
     some(of.iter().map(one).collect(), "; ")
 }
 
-impl Sweep<'_> {
+/// A text made line by line, each fitted to a terminal of `width` columns where one is given.
+struct Text {
+    out: String,
+    width: Option<u16>,
+}
+
+impl Text {
+    fn say(&mut self, line: &str) {
+        self.out += &fit(&format!("{line}\n"), self.width);
+    }
+}
+
+impl SweepData<'_> {
     /// What was found, fitted to a terminal of `width` columns where one is given.
     #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
+        let mut text = Text {
+            out: String::new(),
+            width,
+        };
+        self.head(&mut text);
+        for state in &self.states {
+            of_state(&mut text, state);
+        }
+        if let Some(best) = &self.redesigns {
+            of_redesigns(&mut text, best);
+        }
+        if let Some(peaks) = &self.peak_force {
+            of_peaks(&mut text, peaks);
+        }
+        self.of_methods(&mut text);
+        text.out
+    }
+
+    /// What was sampled, and where there is no mechanism.
+    fn head(&self, text: &mut Text) {
         let domain = |(name, of): (&String, &Vec<String>)| match &of[..] {
             [from, to] if from.starts_with("from ") => format!("{name} {from} {to}"),
             values => format!("{name} one of {}", some(values.to_vec(), ", ")),
@@ -54,128 +88,125 @@ impl Sweep<'_> {
             "1/1" => String::new(),
             part => format!(" of part {part}"),
         };
-        let mut out = fit(
-            &format!(
-                "{}: {}, {}; {} of {} done{part}. What follows is of these samples; of what lies between them nothing is known.\n",
-                self.mechanism,
-                self.sampling,
-                self.parameters.iter().map(domain).join(", "),
-                self.done,
-                plural(self.samples, "sample"),
-            ),
-            width,
-        );
-        let mut say = |text: String| out += &fit(&format!("{text}\n"), width);
+        text.say(&format!(
+            "{}: {}, {}; {} of {} done{part}. What follows is of these samples; of what lies between them nothing is known.",
+            self.mechanism,
+            self.sampling,
+            self.parameters.iter().map(domain).join(", "),
+            self.done,
+            plural(self.samples, "sample"),
+        ));
         if !self.problems.is_empty() {
-            say(format!("\nNo mechanism: {}", list(&self.problems)));
+            text.say(&format!("\nNo mechanism: {}", list(&self.problems)));
         }
-        for state in &self.states {
-            say(format!("\nState {}: {}", state.state, redundant(state)));
-            let words = state.certainty.iter().map(|(w, n)| format!("{w} at {n}"));
-            say(format!("  How sure: {}", words.clone().join(", ")));
-            if !state.special.is_empty() {
-                let one = |s: &super::Special<'_>| format!("{} (σ = {})", place_of(s), s.redundant);
-                let all = state.special.iter().map(one).collect();
-                say(format!("  Unlike most: {}", some(all, "; ")));
-            }
-            if !state.changes.is_empty() {
-                let n = state.changes.len();
-                let times = if n == 1 {
-                    "once"
-                } else {
-                    &format!("{n} times")
-                };
-                let all = state.changes.iter().map(change).collect();
-                say(format!(
-                    "  From a sample to the next σ changes {times}: {}",
-                    some(all, "; ")
-                ));
-            }
+    }
+
+    /// What each method says against the proven mobility.
+    fn of_methods(&self, text: &mut Text) {
+        if self.methods.is_empty() {
+            return;
         }
-        if let Some(best) = &self.redesigns {
-            let mut line = format!("\nBest redesigns, at {}", plural(best.samples, "sample"));
-            if best.without > 0 {
-                line += &format!("; at {} more there is none", best.without);
-            }
-            if best.unproven > 0 {
-                line += &format!(
-                    "; at {} not proven to be all the best there are",
-                    best.unproven
-                );
-            }
-            say(line);
-            match &best.everywhere[..] {
-                _ if best.samples == 0 => {}
-                [] => say("  At all of these: none".to_owned()),
-                all => say(format!("  At all of these: {}", some(all.to_vec(), " | "))),
-            }
-            if best.anywhere.len() > best.everywhere.len() {
-                let row =
-                    |t: &Told<'_>| vec![t.samples.to_string(), t.what.clone(), place(t.first)];
-                let rows = best.anywhere.iter().take(TOLD).map(row).collect();
-                out += &format!(
-                    "{}\n",
-                    table(&["samples", "best there", "first at"], rows, width)
-                );
-                let more = best.anywhere.len().saturating_sub(TOLD);
-                if more > 0 {
-                    out += &format!("  and {more} more\n");
-                }
-            }
-            if !best.unsearched.is_empty() {
-                out += &fit(
-                    &format!("  Not searched: {}\n", list(&best.unsearched)),
-                    width,
-                );
-            }
+        let row = |(name, words): (&String, &BTreeMap<String, usize>)| {
+            let told = words.iter().map(|(w, n)| format!("{w} {n}"));
+            vec![name.clone(), told.clone().join(", ")]
+        };
+        let rows = self.methods.iter().map(row).collect();
+        let heads = ["method", "against the proven mobility"];
+        text.out += &format!("\n{}\n", table(&heads, rows, text.width));
+    }
+}
+
+/// The redundant constraints of a state, and where they are others.
+fn of_state(text: &mut Text, state: &StateOverSamples<'_>) {
+    text.say(&format!("\nState {}: {}", state.state, redundant(state)));
+    let words = state.certainty.iter().map(|(w, n)| format!("{w} at {n}"));
+    text.say(&format!("  How sure: {}", words.clone().join(", ")));
+    if !state.special.is_empty() {
+        let one = |s: &super::Special<'_>| format!("{} (σ = {})", place_of(s), s.redundant);
+        let all = state.special.iter().map(one).collect();
+        text.say(&format!("  Unlike most: {}", some(all, "; ")));
+    }
+    if !state.changes.is_empty() {
+        let n = state.changes.len();
+        let times = if n == 1 {
+            "once"
+        } else {
+            &format!("{n} times")
+        };
+        let all = state.changes.iter().map(change).collect();
+        text.say(&format!(
+            "  From a sample to the next σ changes {times}: {}",
+            some(all, "; ")
+        ));
+    }
+}
+
+/// Which redesigns are best, everywhere and somewhere.
+fn of_redesigns(text: &mut Text, best: &RedesignsData<'_>) {
+    let mut line = format!("\nBest redesigns, at {}", plural(best.samples, "sample"));
+    if best.without > 0 {
+        line += &format!("; at {} more there is none", best.without);
+    }
+    if best.unproven > 0 {
+        line += &format!(
+            "; at {} not proven to be all the best there are",
+            best.unproven
+        );
+    }
+    text.say(&line);
+    match &best.everywhere[..] {
+        _ if best.samples == 0 => {}
+        [] => text.say("  At all of these: none"),
+        all => text.say(&format!("  At all of these: {}", some(all.to_vec(), " | "))),
+    }
+    if best.anywhere.len() > best.everywhere.len() {
+        let row = |t: &Told<'_>| vec![t.samples.to_string(), t.what.clone(), place(t.first)];
+        let rows = best.anywhere.iter().take(TOLD).map(row).collect();
+        let heads = ["samples", "best there", "first at"];
+        text.out += &format!("{}\n", table(&heads, rows, text.width));
+        let more = best.anywhere.len().saturating_sub(TOLD);
+        if more > 0 {
+            text.out += &format!("  and {more} more\n");
         }
-        if let Some(p) = &self.peak_force {
-            let mut say = |text: String| out += &fit(&format!("{text}\n"), width);
-            let one = |p: &Peak<'_>| {
-                format!(
-                    "{} N in {} at {}",
-                    significant(p.force),
-                    p.joint,
-                    place(p.at)
-                )
-            };
-            if let (Some(least), Some(most)) = (&p.least, &p.greatest) {
-                say(format!(
-                    "\nPeak force as built: from {} to {}",
-                    one(least),
-                    one(most)
-                ));
-            } else {
-                say("\nPeak force as built: at no sample over the whole stroke".to_owned());
-            }
-            if p.open > 0 {
-                say(format!(
-                    "  At {} redundant constraints leave the reactions open: these are the ones of minimum norm",
-                    plural(p.open, "sample")
-                ));
-            }
-            if p.incomplete > 0 {
-                say(format!(
-                    "  At {} the stroke ends early; these are not counted",
-                    plural(p.incomplete, "sample")
-                ));
-            }
-            if !p.without.is_empty() {
-                say(format!("  None: {}", list(&p.without)));
-            }
-        }
-        if !self.methods.is_empty() {
-            let row = |(name, words): (&String, &BTreeMap<String, usize>)| {
-                let told = words.iter().map(|(w, n)| format!("{w} {n}"));
-                vec![name.clone(), told.clone().join(", ")]
-            };
-            let rows = self.methods.iter().map(row).collect();
-            out += &format!(
-                "\n{}\n",
-                table(&["method", "against the proven mobility"], rows, width)
-            );
-        }
-        out
+    }
+    if !best.unsearched.is_empty() {
+        text.say(&format!("  Not searched: {}", list(&best.unsearched)));
+    }
+}
+
+/// The least and the greatest peak force of the mechanism as it is.
+fn of_peaks(text: &mut Text, p: &PeakForce<'_>) {
+    let one = |p: &Peak<'_>| {
+        format!(
+            "{} N in {} at {}",
+            significant(p.force),
+            p.joint,
+            place(p.at)
+        )
+    };
+    if let (Some(least), Some(most)) = (&p.least, &p.greatest) {
+        text.say(&format!(
+            "\nPeak force as built: from {} to {}",
+            one(least),
+            one(most)
+        ));
+    } else {
+        text.say("\nPeak force as built: at no sample over the whole stroke");
+    }
+    if p.open > 0 {
+        text.say(&format!(
+            "  At {} redundant constraints leave the reactions open: these are the ones of minimum norm",
+            plural(p.open, "sample")
+        ));
+    }
+    if p.incomplete > 0 {
+        text.say(&format!(
+            "  At {} the stroke ends early; these are not counted",
+            plural(p.incomplete, "sample")
+        ));
+    }
+    if !p.without.is_empty() {
+        text.say(&format!("  None: {}", list(&p.without)));
     }
 }
 
@@ -188,7 +219,7 @@ fn place_of(s: &super::Special<'_>) -> String {
     s.at.iter().map(one).join(", ")
 }
 
-fn redundant(state: &State<'_>) -> String {
+fn redundant(state: &StateOverSamples<'_>) -> String {
     let one = |f: &super::Figure<'_>| {
         let sigma = match f.redundant_at_most {
             Some(most) => format!("{} to {most}", f.redundant),
@@ -199,7 +230,7 @@ fn redundant(state: &State<'_>) -> String {
     state.redundant.iter().map(one).join(", ")
 }
 
-fn change(c: &Change) -> String {
+fn change(c: &NeighbouringSamples) -> String {
     let [one, two] = c.redundant;
     let at = match place(&c.at) {
         at if at.is_empty() => at,

@@ -12,8 +12,8 @@ pub fn table(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> Str
     let Some(width) = width.map(usize::from) else {
         return render(header, rows, None);
     };
-    let columns: Vec<Column> = (0..header.len())
-        .map(|c| Column::new(header[c], rows.iter().filter_map(|r| r.get(c)), width / 2))
+    let columns: Vec<ColumnWidth> = (0..header.len())
+        .map(|c| ColumnWidth::new(header[c], rows.iter().filter_map(|r| r.get(c)), width / 2))
         .collect();
     let parts = parts(&columns, width);
     let part = |part: &Vec<usize>| {
@@ -22,7 +22,7 @@ pub fn table(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> Str
             let cells = part.iter().map(|&c| r.get(c).cloned().unwrap_or_default());
             cells.collect()
         });
-        let of_part: Vec<&Column> = part.iter().map(|&c| &columns[c]).collect();
+        let of_part: Vec<&ColumnWidth> = part.iter().map(|&c| &columns[c]).collect();
         render(&header, rows.collect(), Some(widths(&of_part, width)))
     };
     parts.iter().map(part).join("\n\n")
@@ -59,15 +59,19 @@ fn taken(widths: &[usize]) -> usize {
 }
 
 /// How wide a column is, and how narrow it may be: its longest word, where that is not wider than words may be.
-struct Column {
+struct ColumnWidth {
     most: usize,
     least: usize,
 }
 
-impl Column {
-    fn new<'a>(head: &'a str, cells: impl Iterator<Item = &'a String>, widest: usize) -> Column {
+impl ColumnWidth {
+    fn new<'a>(
+        head: &'a str,
+        cells: impl Iterator<Item = &'a String>,
+        widest: usize,
+    ) -> ColumnWidth {
         // No column of a table is narrower than this.
-        let mut out = Column { most: 1, least: 1 };
+        let mut out = ColumnWidth { most: 1, least: 1 };
         for text in std::iter::once(head).chain(cells.map(String::as_str)) {
             out.most = out.most.max(measure_text_width(text));
             let words = text.split_whitespace().map(measure_text_width);
@@ -78,7 +82,7 @@ impl Column {
 }
 
 /// The columns in parts that fit, the first column in each.
-fn parts(columns: &[Column], width: usize) -> Vec<Vec<usize>> {
+fn parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
     let mut out: Vec<Vec<usize>> = vec![Vec::new()];
     for c in 0..columns.len() {
         let last = out.len() - 1;
@@ -93,7 +97,7 @@ fn parts(columns: &[Column], width: usize) -> Vec<Vec<usize>> {
 }
 
 /// Widths of the columns such that all fit, if they can: the widest gives way first, none below its longest word.
-fn widths(columns: &[&Column], width: usize) -> Vec<usize> {
+fn widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
     let mut widths: Vec<usize> = columns.iter().map(|c| c.most).collect();
     while taken(&widths) > width {
         let can = (0..widths.len()).filter(|&c| widths[c] > columns[c].least);

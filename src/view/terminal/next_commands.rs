@@ -8,31 +8,31 @@ use itertools::Itertools;
 
 /// A command and what it gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Step {
+pub struct NextCommand {
     /// The command, ready to be typed; a sentence where no command will do.
     pub command: String,
     /// What it gives.
     pub gives: String,
 }
 
-impl Step {
+impl NextCommand {
     /// The command that mends a robot description in the owner's own file.
     #[must_use]
-    pub fn mend(file: &str, more: &str, gives: &str) -> Step {
+    pub fn mend(file: &str, more: &str, gives: &str) -> NextCommand {
         let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
         let out = format!("-o {}", word(&format!("{stem}-fixed.{ending}")));
-        Step::new("fix", file, format!("{more} {out}").trim(), gives)
+        NextCommand::new("fix", file, format!("{more} {out}").trim(), gives)
     }
 
     /// A command of this program about a file.
     #[must_use]
-    pub fn new(command: &str, file: &str, more: &str, gives: &str) -> Step {
+    pub fn new(command: &str, file: &str, more: &str, gives: &str) -> NextCommand {
         let more = if more.is_empty() {
             String::new()
         } else {
             format!(" {more}")
         };
-        Step {
+        NextCommand {
             command: format!("ozols {command} {}{more}", word(file)),
             gives: gives.to_owned(),
         }
@@ -42,7 +42,7 @@ impl Step {
 /// The steps as the end of a report, fitted to a terminal of `width` columns but for the commands: a command broken in two
 /// could not be copied. Nothing where there are none.
 #[must_use]
-pub fn text(steps: &[Step], width: Option<u16>) -> String {
+pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
     if steps.is_empty() {
         return String::new();
     }

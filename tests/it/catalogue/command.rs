@@ -152,7 +152,7 @@ fn what_cannot_be_done_is_said() {
         ("build --links 4 --ideas 2 -o DB", "ideas differs"),
         ("build --links 5 -o DB", "even number"),
         ("build --links 4..14 -o DB", "4 to 12"),
-        ("build --links 8..4 -o DB", "no range of even numbers"),
+        ("build --links 8..4 -o DB", "not a range of even numbers"),
         ("build --input push -o DB", "none of slide, turn"),
         (
             "build --input turn --symmetry mirror -o DB",

@@ -1,9 +1,9 @@
-//! Figures of a layout's motion against places solved afresh: transmission angles, forces, travel.
+//! LayoutFigures of a layout's motion against places solved afresh: transmission angles, forces, travel.
 
 use super::{each, form, moved, moved_points, plain};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::model::mechanism::Mechanism;
-use ozols::synthesis::figures::{Figures, figures};
+use ozols::synthesis::figures::{LayoutFigures, figures};
 use ozols::synthesis::layout::{Layout, layout};
 use ozols::synthesis::layout_quality::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
@@ -106,7 +106,7 @@ fn forces_are_the_drives_way_over_the_jaws() {
 }
 
 /// The force at the drawn place is among those of the stroke, and so is their mean over the opening, which this returns.
-pub(super) fn bracketed(s: &Structure, f: &Figures, pairs: f64, rate: f64) -> f64 {
+pub(super) fn bracketed(s: &Structure, f: &LayoutFigures, pairs: f64, rate: f64) -> f64 {
     let metre = match s.form.input {
         Input::Slide => 1.0,
         Input::Turn => 1000.0,

@@ -154,7 +154,10 @@ fn an_empty_file_is_a_catalogue_to_be_made() {
     // Pages, but no table: what a kill leaves that comes while it is being made.
     change(&file, "CREATE TABLE x (y); DROP TABLE x;");
     assert!(!fs::read(&file).unwrap().is_empty());
-    fails(&["catalog", "query", &file], "run it again, it carries on");
+    fails(
+        &["catalog", "query", &file],
+        "run it again and it carries on",
+    );
     tiny(&folder, "empty.db", &[]);
     // Some other program's database is not touched.
     let other = at(&folder, "other.db");

@@ -18,7 +18,8 @@ fn joints_stay_together_while_the_outputs_move() {
         let pose = Pose::of_file(&m, StateId::FREE).unwrap();
         let way = working_way(&m, StateId::FREE, &pose, 40).unwrap_or_else(|| panic!("{name}"));
         assert!(way.links.len() > 10, "{name}: {}", way.links.len());
-        let moved = |l: ozols::model::mechanism::LinkId, links: &[ozols::geom::rigid::Motion]| {
+        let moved = |l: ozols::model::mechanism::LinkId,
+                     links: &[ozols::geom::rigid::RigidMotion]| {
             let m = &links[l.index()];
             let turn = (0..3).map(|i| (m.rotation[i][i] - 1.0).abs());
             turn.chain(m.translation.map(f64::abs)).fold(0.0, f64::max)

@@ -6,7 +6,7 @@ mod repeated;
 use crate::common::near;
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::{Disc, End, Feed, Latch};
-use ozols::model::drive::Step;
+use ozols::model::drive::ProgrammeStep;
 
 /// Two discs on a latch at 0.8 rad, fed over the whole way.
 fn drive(inertias: [f64; 2], viscous: f64, coulomb: f64, capture: f64, feed: f64) -> Module {
@@ -31,17 +31,17 @@ fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
 #[test]
 fn taking_turns_steps_on_and_one_disc_reverses() {
     let m = module(0.0, 0.0, 0.0);
-    let turns: Vec<Step> = (0..6).map(|i| Step::Swing((i + 1) % 2)).collect();
+    let turns: Vec<ProgrammeStep> = (0..6).map(|i| ProgrammeStep::Swing((i + 1) % 2)).collect();
     let run = m.run(&turns).unwrap();
     assert!(run.complete());
     near(run.angles[0], 0.8 + 3.0 * 1.6, 1e-9);
     near(run.angles[1], 3.0 * 1.6, 1e-9);
     let run = m
         .run(&[
-            Step::Swing(1),
-            Step::Dwell(0.3),
-            Step::Swing(1),
-            Step::Swing(1),
+            ProgrammeStep::Swing(1),
+            ProgrammeStep::Dwell(0.3),
+            ProgrammeStep::Swing(1),
+            ProgrammeStep::Swing(1),
         ])
         .unwrap();
     near(run.angles[0], 0.8, 0.0);
@@ -63,11 +63,11 @@ fn energy_of_a_run_is_conserved() {
     let m = module(0.0, 0.0, 0.0);
     let run = m
         .run(&[
-            Step::Swing(1),
-            Step::Swing(0),
-            Step::Dwell(1.0),
-            Step::Swing(0),
-            Step::Swing(1),
+            ProgrammeStep::Swing(1),
+            ProgrammeStep::Swing(0),
+            ProgrammeStep::Dwell(1.0),
+            ProgrammeStep::Swing(0),
+            ProgrammeStep::Swing(1),
         ])
         .unwrap();
     for s in m.samples(&run, 50) {
@@ -81,10 +81,10 @@ fn energy_of_a_run_balances() {
     let m = module(0.02, 0.1, 0.37);
     let run = m
         .run(&[
-            Step::Swing(1),
-            Step::Swing(0),
-            Step::Swing(1),
-            Step::Swing(1),
+            ProgrammeStep::Swing(1),
+            ProgrammeStep::Swing(0),
+            ProgrammeStep::Swing(1),
+            ProgrammeStep::Swing(1),
         ])
         .unwrap();
     assert!(run.complete());
@@ -106,7 +106,7 @@ fn the_long_run_tells_enough_from_too_little() {
         feed: Feed::even(energy, 0.0),
         ..m
     };
-    let one = [Step::Swing(0)];
+    let one = [ProgrammeStep::Swing(0)];
     assert!(
         matches!(fed(1.001 * need).endurance(&one).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
     );
@@ -116,7 +116,7 @@ fn the_long_run_tells_enough_from_too_little() {
     // A run of as many swings is latched, and one more is not.
     let latched = |n: usize| {
         fed(0.97 * need)
-            .run(&vec![Step::Swing(0); n])
+            .run(&vec![ProgrammeStep::Swing(0); n])
             .unwrap()
             .latched
     };
@@ -138,7 +138,7 @@ fn the_long_run_tells_enough_from_too_little() {
         ..m
     };
     assert!(matches!(
-        both.endurance(&[0, 1].map(Step::Swing)).unwrap(),
+        both.endurance(&[0, 1].map(ProgrammeStep::Swing)).unwrap(),
         Endurance::Lasts { .. }
     ));
 }
@@ -147,7 +147,11 @@ fn the_long_run_tells_enough_from_too_little() {
 fn a_missed_latch_ends_the_run() {
     let m = module(0.05, 0.1, 0.0);
     let run = m
-        .run(&[Step::Swing(1), Step::Swing(0), Step::Swing(1)])
+        .run(&[
+            ProgrammeStep::Swing(1),
+            ProgrammeStep::Swing(0),
+            ProgrammeStep::Swing(1),
+        ])
         .unwrap();
     assert!(!run.complete() && run.steps.len() < 3 + 1);
     assert!(matches!(
@@ -161,7 +165,7 @@ fn a_missed_latch_ends_the_run() {
 #[test]
 fn samples_move_as_their_rates_say() {
     let m = module(0.01, 0.1, 0.4);
-    let run = m.run(&[0, 1, 0, 0, 1].map(Step::Swing)).unwrap();
+    let run = m.run(&[0, 1, 0, 0, 1].map(ProgrammeStep::Swing)).unwrap();
     assert!(run.complete());
     const PER_SWING: u32 = 500;
     let samples = m.samples(&run, PER_SWING);
@@ -170,7 +174,7 @@ fn samples_move_as_their_rates_say() {
         for w in swing.windows(3) {
             let step = w[1].time - w[0].time;
             for d in 0..2 {
-                let by = |of: &dyn Fn(&ozols::drive::programme::Sample) -> f64| {
+                let by = |of: &dyn Fn(&ozols::drive::programme::RunMoment) -> f64| {
                     (of(&w[2]) - of(&w[0])) / (2.0 * step)
                 };
                 let speed = by(&|s| s.angles[d]);
@@ -311,7 +315,7 @@ fn shortfalls_add_up_against_grooves_that_stay() {
             feed: Feed::even(feed, 0.0),
             ..built_in
         };
-        let steps: Vec<Step> = turns.iter().map(|&d| Step::Swing(d)).collect();
+        let steps: Vec<ProgrammeStep> = turns.iter().map(|&d| ProgrammeStep::Swing(d)).collect();
         let run = m.run(&steps).unwrap();
         let slow = by_steps(&m, turns);
         assert_eq!(run.steps.len(), most, "feed {feed}");
@@ -347,7 +351,7 @@ fn the_push_stays_with_the_grooves_of_the_disc_that_swings() {
             ..weak
         };
         let turns = [1, 0, 1, 0];
-        let run = m.run(&turns.map(Step::Swing)).unwrap();
+        let run = m.run(&turns.map(ProgrammeStep::Swing)).unwrap();
         let slow = by_steps(&m, &turns);
         assert_eq!((run.steps.len(), slow.len()), (4, 4));
         for (n, (step, slow)) in run.steps.iter().skip(1).zip(&slow).enumerate() {

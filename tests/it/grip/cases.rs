@@ -4,9 +4,9 @@ use super::{SMALL, lever};
 use crate::common::changed;
 use ozols::file::read::workload::grip_from_bytes;
 use ozols::geom::vector::unit;
-use ozols::grip::clamping::{Row, Verdict, study};
+use ozols::grip::clamping::{DiameterRow, HoldVerdict, study};
 use ozols::grip::contact::{Gripper, Unholdable};
-use ozols::grip::holding::{Load, Outcome, hold};
+use ozols::grip::holding::{HoldingOutcome, PartWrench, hold};
 use ozols::model::grip::{GripSpec, LeverDrive};
 use proptest::prelude::*;
 
@@ -18,12 +18,12 @@ fn spec(more: &str) -> GripSpec {
         .spec
 }
 
-fn only(spec: &GripSpec) -> Row {
+fn only(spec: &GripSpec) -> DiameterRow {
     study(spec).unwrap().rows.remove(0)
 }
 
 /// The drive moment that a pull on the mass takes.
-fn takes(row: &Row, pull: [f64; 3], load: (f64, [f64; 3], f64)) -> f64 {
+fn takes(row: &DiameterRow, pull: [f64; 3], load: (f64, [f64; 3], f64)) -> f64 {
     let (mass, centre, safety) = load;
     let force = pull.map(|x| mass * x * safety);
     // The moment of a force at the mass centre, component by component.
@@ -32,10 +32,10 @@ fn takes(row: &Row, pull: [f64; 3], load: (f64, [f64; 3], f64)) -> f64 {
         centre[2] * force[0] - centre[0] * force[2],
         centre[0] * force[1] - centre[1] * force[0],
     ];
-    let load = Load { force, moment };
+    let load = PartWrench { force, moment };
     match hold(row.pose.as_ref().unwrap(), &load, 0.4, LeverDrive::Coupled).unwrap() {
-        Outcome::Held(h) => h.drive,
-        Outcome::Slips(s) => panic!("{s:?}"),
+        HoldingOutcome::Held(h) => h.drive,
+        HoldingOutcome::Slips(s) => panic!("{s:?}"),
     }
 }
 
@@ -80,7 +80,7 @@ fn the_hardest_case_is_the_worst_of_all_directions() {
         let more = "centre_of_mass = [3, -5, 20]\nsafety = 1.7\n";
         let row = only(&spec(&format!("{file}{more}")));
         let hardest = row.hardest.as_ref().unwrap();
-        let Verdict::Held(found) = &hardest.verdict else {
+        let HoldVerdict::Held(found) = &hardest.verdict else {
             panic!("{:?}", hardest.verdict)
         };
         let load = (2.0, [0.003, -0.005, 0.02], 1.7);

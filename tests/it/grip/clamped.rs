@@ -7,7 +7,7 @@ use crate::common::{json, out};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
-use ozols::grip::clamping::{Row, Verdict};
+use ozols::grip::clamping::{DiameterRow, HoldVerdict};
 use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
@@ -40,7 +40,7 @@ fn number(v: &Value) -> f64 {
     v.as_f64().unwrap_or_else(|| panic!("{v}"))
 }
 
-fn solve(g: &Gripping, row: &Row) -> Solution {
+fn solve(g: &Gripping, row: &DiameterRow) -> Solution {
     let (fit, loads) = (g.fit(row).unwrap(), g.loads(row).unwrap());
     let home = Pose::of_file(&g.mechanism, StateId::new(1)).unwrap();
     let geometry = Geometry::new(&g.mechanism, StateId::new(1), &home).unwrap();
@@ -314,7 +314,7 @@ fn a_grip_without_load_has_no_forces() {
     let g = clamped(&m);
     assert!(matches!(
         g.study.rows[0].hardest.as_ref().unwrap().verdict,
-        Verdict::Held(_)
+        HoldVerdict::Held(_)
     ));
     m.loads.grip.as_mut().unwrap().load = None;
     let g = clamped(&m);

@@ -5,8 +5,8 @@ mod programme;
 use crate::common::{built_in, json, near, run_on};
 use ozols::Mechanism;
 use ozols::grip::clamped_part::{ClampedPart, PartError};
-use ozols::grip::force_closure::{Closure, closure};
-use ozols::grip::tolerance_samples::{Shares, shares};
+use ozols::grip::force_closure::{ForceClosure, closure};
+use ozols::grip::tolerance_samples::{ClosureShares, shares};
 use ozols::model::mechanism::StateId;
 use serde_json::Value;
 use std::fmt::Write;
@@ -67,7 +67,7 @@ pub(crate) fn part(text: &str) -> ClampedPart {
     ClampedPart::new(&m, state).unwrap()
 }
 
-fn found(text: &str) -> [Closure; 2] {
+fn found(text: &str) -> [ForceClosure; 2] {
     let part = part(text);
     [&part.faces, &part.smooth()].map(|faces| closure(&part, faces).unwrap())
 }
@@ -82,7 +82,7 @@ fn flat(y: f64, face: &str) -> At {
 }
 
 /// The load along an axis of (moment; force), the less of its two ways.
-fn along(c: &Closure, axis: usize) -> f64 {
+fn along(c: &ForceClosure, axis: usize) -> f64 {
     let own = c.along.iter().filter(|(d, _)| d[axis].abs() == 1.0);
     own.map(|(_, load)| *load).fold(f64::INFINITY, f64::min)
 }
@@ -263,8 +263,8 @@ fn every_clamped_mechanism_has_an_answer_for_parts_out_of_true() {
                 let all = shares(&part, tolerance * m.length_unit.metres, 4, seed);
                 all.unwrap_or_else(|e| panic!("{name}, seed {seed}: {e}"))
             });
-            let all: Vec<Shares> = all.collect();
-            let sum = |of: fn(&Shares) -> usize| all.iter().map(of).sum::<usize>();
+            let all: Vec<ClosureShares> = all.collect();
+            let sum = |of: fn(&ClosureShares) -> usize| all.iter().map(of).sum::<usize>();
             assert_eq!(sum(|s| s.force_undecided), 0, "{name} at {tolerance}");
             assert_eq!(sum(|s| s.form_undecided), 0, "{name} at {tolerance}");
             // A law: two normals never span the plane positively, however they are tipped.

@@ -4,8 +4,8 @@ mod polyhedral;
 
 use crate::common::near;
 use ozols::geom::vector::cross_plane as cross;
-use ozols::grip::contact::{Gripper, Pose, Unholdable};
-use ozols::grip::holding::{ContactForce, Holding, Load, Outcome, Spatial, hold};
+use ozols::grip::contact::{Gripper, TouchingPose, Unholdable};
+use ozols::grip::holding::{ContactForce, Holding, HoldingOutcome, PartWrench, Spatial, hold};
 use ozols::grip::lever_arm::Lever;
 use ozols::model::grip::LeverDrive;
 
@@ -19,28 +19,28 @@ fn lever(length: f64, prism: f64, mounting: f64) -> Lever {
     Lever::new(length, prism.to_radians(), mounting.to_radians()).unwrap()
 }
 
-fn pose() -> Pose {
+fn pose() -> TouchingPose {
     Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04)
         .pose(0.04)
         .unwrap()
 }
 
-fn pull(force: Spatial) -> Load {
-    Load {
+fn pull(force: Spatial) -> PartWrench {
+    PartWrench {
         force,
         moment: [0.0; 3],
     }
 }
 
-fn held(pose: &Pose, load: Load, friction: f64, coupling: LeverDrive) -> Holding {
+fn held(pose: &TouchingPose, load: PartWrench, friction: f64, coupling: LeverDrive) -> Holding {
     match hold(pose, &load, friction, coupling).unwrap() {
-        Outcome::Held(h) => h,
-        Outcome::Slips(s) => panic!("slips: {s:?}"),
+        HoldingOutcome::Held(h) => h,
+        HoldingOutcome::Slips(s) => panic!("slips: {s:?}"),
     }
 }
 
 /// Force of a contact in the gripper's axes.
-fn force(pose: &Pose, i: usize, f: &ContactForce) -> Spatial {
+fn force(pose: &TouchingPose, i: usize, f: &ContactForce) -> Spatial {
     let c = pose.contacts[i];
     [
         f.normal * c.normal[0] + f.along * c.tangent[0],
@@ -58,7 +58,7 @@ fn cross3(a: Spatial, b: Spatial) -> Spatial {
 }
 
 /// Equilibrium, friction and lever moments, from coordinates alone.
-fn assert_statics(pose: &Pose, load: &Load, friction: f64, h: &Holding) {
+fn assert_statics(pose: &TouchingPose, load: &PartWrench, friction: f64, h: &Holding) {
     let size = load
         .force
         .iter()
@@ -222,20 +222,20 @@ fn symmetric_axial_pull_has_the_textbook_moment() {
 fn without_friction_an_axial_pull_slips_along_the_axis() {
     for coupling in COUPLINGS {
         match hold(&pose(), &pull([0.0, 0.0, -5.0]), 0.0, coupling).unwrap() {
-            Outcome::Slips(s) => {
+            HoldingOutcome::Slips(s) => {
                 near(s.velocity[2], -1.0, 1e-6);
                 near(s.velocity[0].hypot(s.velocity[1]), 0.0, 1e-6);
                 s.rotation.iter().for_each(|r| near(*r, 0.0, 1e-6));
             }
-            Outcome::Held(h) => panic!("{h:?}"),
+            HoldingOutcome::Held(h) => panic!("{h:?}"),
         }
         // Nor can a frictionless part be kept from turning about its axis.
-        let twist = Load {
+        let twist = PartWrench {
             force: [0.0; 3],
             moment: [0.0, 0.0, 0.1],
         };
         assert!(
-            matches!(hold(&pose(), &twist, 0.0, coupling).unwrap(), Outcome::Slips(s) if s.rotation[2] > 0.99)
+            matches!(hold(&pose(), &twist, 0.0, coupling).unwrap(), HoldingOutcome::Slips(s) if s.rotation[2] > 0.99)
         );
     }
 }
@@ -254,7 +254,8 @@ fn slips_are_certificates() {
             [-3.0, 1.0, 1.0],
         ] {
             let Ok(pose) = g.pose(d) else { continue };
-            let Outcome::Slips(s) = hold(&pose, &pull(f), mu, LeverDrive::Coupled).unwrap() else {
+            let HoldingOutcome::Slips(s) = hold(&pose, &pull(f), mu, LeverDrive::Coupled).unwrap()
+            else {
                 continue;
             };
             slips += 1;

@@ -188,7 +188,7 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
 /// A group of fewer dimensions needs fewer rows, and the rank stays; the dimension is that of the span at random places.
 #[test]
 fn groups_need_no_more_rows_than_dimensions() {
-    use ozols::rank::finite::displacement_group::{Kind, whole_group};
+    use ozols::rank::finite::displacement_group::{GroupKind, whole_group};
     let mut fewer = 0;
     for name in builtin::names() {
         let m = built_in(name);
@@ -208,12 +208,12 @@ fn groups_need_no_more_rows_than_dimensions() {
     }
     assert!(fewer > 15, "{fewer}");
     for (name, kind) in [
-        ("four-bar", Kind::Planar),
-        ("spherical-four-bar", Kind::Spherical),
-        ("agile-eye", Kind::Spherical),
-        ("door-two-hinges", Kind::Rotation),
-        ("four-slides", Kind::Translation),
-        ("bennett", Kind::Other),
+        ("four-bar", GroupKind::Planar),
+        ("spherical-four-bar", GroupKind::Spherical),
+        ("agile-eye", GroupKind::Spherical),
+        ("door-two-hinges", GroupKind::Rotation),
+        ("four-slides", GroupKind::Translation),
+        ("bennett", GroupKind::Other),
     ] {
         let m = built_in(name);
         let exact = field_of(&m, StateId::FREE, 0).unwrap();

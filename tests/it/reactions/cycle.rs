@@ -10,7 +10,7 @@ use ozols::statics::cycle::statics;
 use ozols::statics::reactions::cycle::{Cycle, cycle};
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{cross, dot};
-use ozols::statics::reactions::{Choice, JointReaction, Unsolved};
+use ozols::statics::reactions::{JointReaction, Uniqueness, Unsolved};
 
 fn expr(x: f64) -> Expr {
     format!("{x:.9}").parse().unwrap()
@@ -96,7 +96,7 @@ fn inertia_is_that_of_the_planar_solver() {
             .zip(&planar.moments)
             .zip(solved(&at_rest))
         {
-            assert_eq!(s.choice, Choice::Unique);
+            assert_eq!(s.choice, Uniqueness::Unique);
             let whole = moment.whole.as_ref().unwrap();
             let greatest = s
                 .reactions

@@ -8,7 +8,7 @@ use ozols::model::loads::{ExternalForce, Inertia, MassProperties, Stroke};
 use ozols::model::mechanism::{Joint, Link, LinkId, Mechanism, Role, StateId};
 use ozols::statics::cycle::statics;
 use ozols::statics::reactions::cycle::{Cycle, cycle};
-use ozols::statics::reactions::{Choice, JointReaction, Solution};
+use ozols::statics::reactions::{JointReaction, Solution, Uniqueness};
 use proptest::prelude::*;
 
 /// Masses `[kg]` at points in the file's unit.
@@ -111,7 +111,7 @@ proptest! {
         let [a, b] = [&whole, &parts].map(|m| cycle(m, StateId::FREE, stroke).unwrap());
         prop_assert_eq!(a.positions.len(), 3);
         for ((_, x), (_, y)) in solved(&a).zip(solved(&b)) {
-            prop_assert_eq!((x.choice, y.choice), (Choice::Unique, Choice::Unique));
+            prop_assert_eq!((x.choice, y.choice), (Uniqueness::Unique, Uniqueness::Unique));
             let greatest = x.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
             for (r, s) in x.reactions.iter().zip(&y.reactions) {
                 prop_assert_eq!(r.joint, s.joint);

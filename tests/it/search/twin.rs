@@ -13,7 +13,7 @@ use ozols::model::coupling::CoupledFreedom;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::redundancy::stress::{SelfStress, Verdict};
+use ozols::redundancy::stress::{SelfStress, StressVerdict};
 use ozols::search::Search;
 use ozols::search::check::brute::brute;
 use ozols::search::question::conditions::{Conditions, InState, Symmetry};
@@ -321,7 +321,7 @@ fn agrees(text: &str, allowed: u32, keep: bool, hold: bool) -> Result<(), TestCa
     if clamped {
         let e = found[1].external.unwrap();
         prop_assert_eq!(e.redundant, i64::from(present.external));
-        let harmful = |s: &&SelfStress| s.external && s.verdict == Verdict::Harmful;
+        let harmful = |s: &&SelfStress| s.external && s.verdict == StressVerdict::Harmful;
         let found = found[1].self_stresses.iter().filter(harmful).count();
         prop_assert_eq!(found, present.harmful as usize);
         prop_assert_eq!(e.by_rank, i64::from(present.external));

@@ -7,7 +7,7 @@ use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::letters::ContourGroup;
 use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
 use ozols::statics::cycle::{Moment, Statics, statics};
-use ozols::statics::kinetostatics::{Equilibrium, Source};
+use ozols::statics::kinetostatics::{Equilibrium, LoadSource};
 use ozols::statics::planar::{BodyId, PairId};
 use ozols::statics::pose::{Linkage, cross, dot, minus};
 use proptest::prelude::*;
@@ -85,7 +85,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         let whole = m.whole.as_ref().unwrap();
         assert!(left_over(&s, m, whole) < 1e-12);
         assert!(whole.residual < 1e-12);
-        cutting += usize::from(m.loads.iter().any(|l| l.source == Source::External));
+        cutting += usize::from(m.loads.iter().any(|l| l.source == LoadSource::External));
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
             let exact = ozols::statics::contour_group::equilibrium::exact(&g.pose).unwrap();
@@ -423,7 +423,7 @@ fn forces_come_again_in_each_turn() {
     let cutting = |m: &Moment| {
         m.loads
             .iter()
-            .filter(|l| l.source == Source::External)
+            .filter(|l| l.source == LoadSource::External)
             .count()
     };
     for i in 0..72 {

@@ -4,7 +4,7 @@ use super::{mechanism, shears};
 use ozols::model::loads::Stroke;
 use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::pose::GroupPose;
-use ozols::statics::contour_group::stability::{Failure, Sample, at_distance, samples};
+use ozols::statics::contour_group::stability::{DistanceErrors, Failure, at_distance, samples};
 use ozols::statics::contour_group::{delta_point, equilibrium, projective};
 use ozols::statics::cycle::statics;
 
@@ -22,7 +22,7 @@ fn base() -> GroupPose {
         .clone()
 }
 
-fn at(failure: Failure, distances: &[f64]) -> Vec<Sample> {
+fn at(failure: Failure, distances: &[f64]) -> Vec<DistanceErrors> {
     samples(&base(), failure, distances, 5, 7)
 }
 

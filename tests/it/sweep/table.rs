@@ -3,16 +3,16 @@
 use super::{Works, all, asked, sweep, three_rods};
 use ozols::Request;
 use ozols::shard::Shard;
-use ozols::sweep::Asked;
+use ozols::sweep::SweepRequest;
 use ozols::sweep::space::Sampling;
-use ozols::sweep::table::{Watch, make, merge, read};
+use ozols::sweep::table::{SweepWatch, make, merge, read};
 use std::fs;
 use std::path::Path;
 
 /// Ends after so many calls.
 struct Ends(usize);
 
-impl Watch for Ends {
+impl SweepWatch for Ends {
     fn done(&mut self, _: usize, _: usize) {
         self.0 = self.0.saturating_sub(1);
     }
@@ -25,7 +25,7 @@ impl Watch for Ends {
 fn a_table_has_the_same_bytes_however_it_was_made() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let asked = Asked {
+    let asked = SweepRequest {
         search: Some(Request::default()),
         ..asked()
     };

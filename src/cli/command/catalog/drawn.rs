@@ -2,7 +2,7 @@
 
 use super::built::built;
 use crate::builtin;
-use crate::catalog::drawn::{Drawn, drawn, id};
+use crate::catalog::drawn::{DrawnMechanism, drawn, id};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
 use crate::cli::done::Done;
@@ -18,7 +18,7 @@ use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Search {
+pub(in crate::cli) struct SearchDrawn {
     /// Mechanism files, robot files, or names of built-in mechanisms. Each is searched with its own options and workload.
     #[arg(value_hint = ValueHint::FilePath)]
     files: Vec<Named>,
@@ -33,7 +33,7 @@ pub(in crate::cli) struct Search {
     output: PathBuf,
 }
 
-pub(super) fn search(args: &Global, a: &Search) -> anyhow::Result<Done> {
+pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
     let mut files = a.files.clone();
     if a.grippers {
         files.extend(builtin::grippers().into_iter().map(Named::from));
@@ -78,7 +78,7 @@ pub(super) fn search(args: &Global, a: &Search) -> anyhow::Result<Done> {
 }
 
 /// What a search of a mechanism finds; nothing where it is kept already.
-fn searched(store: &Store, m: Mechanism, ideas: usize) -> anyhow::Result<Option<Drawn>> {
+fn searched(store: &Store, m: Mechanism, ideas: usize) -> anyhow::Result<Option<DrawnMechanism>> {
     if store.has_drawn(&id(&m)?, ideas)? {
         return Ok(None);
     }

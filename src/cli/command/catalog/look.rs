@@ -11,7 +11,7 @@ use crate::redundancy::analysis::exact_field;
 use crate::search::Search;
 use crate::search::check::variant_mechanism;
 use crate::search::question::conditions::Conditions;
-use crate::view::catalog::structures::{Answer, StructureData, show_text};
+use crate::view::catalog::structures::{QueryAnswer, StructureData, show_text};
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
 pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
     let (names, rows) = store.query(a.sql.as_deref().unwrap_or(BEST), None)?;
-    let answer = Answer { names, rows };
+    let answer = QueryAnswer { names, rows };
     let path = a.output.as_deref();
     output::to(path, |out| {
         match a.format {

@@ -5,7 +5,7 @@ use crate::draw::kinematic::body::Body;
 use crate::draw::kinematic::marked::draw_mark;
 use crate::draw::kinematic::posed::Carried;
 use crate::draw::place::projection::{
-    Place, Vector, add as add3, cross, norm, scale as times, sub,
+    JointInSpace, Vector, add as add3, cross, norm, scale as times, sub,
 };
 use crate::draw::sheet::Sheet;
 use crate::geom::vector::{dot, unit};
@@ -20,11 +20,11 @@ const STILL: f64 = 2.0;
 const UPRIGHT: f64 = 0.05;
 
 /// One picture.
-pub(in crate::draw::kinematic) struct Frame {
+pub(in crate::draw::kinematic) struct MovingPicture {
     /// Where the points of interest are.
     pub(in crate::draw::kinematic) points: Vec<Point>,
     /// Where each joint stands, with its frame.
-    pub(in crate::draw::kinematic) places: Vec<Place>,
+    pub(in crate::draw::kinematic) places: Vec<JointInSpace>,
     pub(in crate::draw::kinematic) at: Vec<Point>,
     /// The shape of each link but the frame.
     pub(in crate::draw::kinematic) bodies: Vec<(usize, Body)>,
@@ -34,13 +34,13 @@ pub(in crate::draw::kinematic) struct Frame {
 }
 
 /// A line on a link that moves: what a block slides along, or a flag that shows it turn.
-pub(in crate::draw::kinematic) struct Line {
+pub(in crate::draw::kinematic) struct LinkLine {
     pub(in crate::draw::kinematic) class: &'static str,
     pub(in crate::draw::kinematic) link: LinkId,
     pub(in crate::draw::kinematic) ends: [Vector; 2],
 }
 
-impl Frame {
+impl MovingPicture {
     /// Every point of it that can move.
     pub(in crate::draw::kinematic) fn all(&mut self) -> impl Iterator<Item = &mut Point> {
         let bodies = self.bodies.iter_mut().flat_map(|(_, b)| &mut b.points);
@@ -86,7 +86,10 @@ impl Kinematic<'_> {
     }
 
     /// The lines on links that move over some poses; rails become as long as their blocks slide.
-    pub(in crate::draw::kinematic) fn moving_lines(&mut self, poses: &[Carried<'_>]) -> Vec<Line> {
+    pub(in crate::draw::kinematic) fn moving_lines(
+        &mut self,
+        poses: &[Carried<'_>],
+    ) -> Vec<LinkLine> {
         let slides = self.slides(poses);
         self.lengthen_rails(&slides);
         let mut lines = self.guides(&slides);
@@ -95,20 +98,20 @@ impl Kinematic<'_> {
     }
 
     /// What blocks slide along, on links that move.
-    fn guides(&self, slides: &[Option<[f64; 2]>]) -> Vec<Line> {
+    fn guides(&self, slides: &[Option<[f64; 2]>]) -> Vec<LinkLine> {
         let one = |(i, range): (usize, &Option<[f64; 2]>)| {
             let (range, axis) = ((*range)?, self.slide_axis(i)?);
             let (_, link) = self.carriers(i);
             let ends = range.map(|x| add3(self.places[i].point, times(axis, x)));
             let class = "guide";
             let there = !self.is_frame(link) && range[1] > range[0];
-            there.then_some(Line { class, link, ends })
+            there.then_some(LinkLine { class, link, ends })
         };
         slides.iter().enumerate().filter_map(one).collect()
     }
 
     /// A flag on each link that turns while nothing that is drawn of it moves: a rod about itself, a gear about its axle.
-    fn flags(&self, poses: &[Carried<'_>]) -> Vec<Line> {
+    fn flags(&self, poses: &[Carried<'_>]) -> Vec<LinkLine> {
         let one = |row: usize| {
             let link = self.links[row].0;
             let points = self.points_in_space(row);
@@ -137,15 +140,19 @@ impl Kinematic<'_> {
             let from = self.middle_in_space(row);
             let to = add3(from, times(out, FLAG / self.projection.scale));
             let (class, ends) = ("flag", [from, to]);
-            Some(Line { class, link, ends })
+            Some(LinkLine { class, link, ends })
         };
         (0..self.links.len()).filter_map(one).collect()
     }
 
     /// Where the joints are in a pose, with their frames.
-    pub(in crate::draw::kinematic) fn frame(&self, carried: &Carried<'_>, lines: &[Line]) -> Frame {
+    pub(in crate::draw::kinematic) fn frame(
+        &self,
+        carried: &Carried<'_>,
+        lines: &[LinkLine],
+    ) -> MovingPicture {
         let flat = |p: Vector| self.projection.flat(p);
-        let places: Vec<Place> = (0..self.spots.len())
+        let places: Vec<JointInSpace> = (0..self.spots.len())
             .map(|i| {
                 let (rides, guides) = self.carriers(i);
                 carried.place(rides, guides, &self.places[i])
@@ -162,9 +169,9 @@ impl Kinematic<'_> {
             let points: Vec<Point> = points.map(|p| flat(carried.point(link, p))).collect();
             (l, Body::new(&points).bowed(self.bows[l]))
         };
-        let on_paper = |l: &Line| (l.class, l.ends.map(|p| flat(carried.point(l.link, p))));
+        let on_paper = |l: &LinkLine| (l.class, l.ends.map(|p| flat(carried.point(l.link, p))));
         let m = self.subject.mechanism;
-        Frame {
+        MovingPicture {
             points: self
                 .points
                 .iter()

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// A piece of a symbol: the numbers of a [`Form`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(in crate::draw::kinematic) struct Part {
+pub(in crate::draw::kinematic) struct SymbolPart {
     form: &'static str,
     class: String,
     points: Vec<Vec<f64>>,
@@ -29,7 +29,7 @@ pub(in crate::draw::kinematic) fn tidy(x: f64) -> f64 {
 }
 
 /// A piece of a symbol.
-pub(in crate::draw::kinematic) fn part(p: &Piece, mark: &str, size: f64) -> Part {
+pub(in crate::draw::kinematic) fn part(p: &Piece, mark: &str, size: f64) -> SymbolPart {
     let three = |points: &[Vector]| points.iter().map(|p| p.to_vec()).collect();
     let (form, points, radius): (_, Vec<Vec<f64>>, f64) = match &p.form {
         Form::Hull(points, round) => ("hull", three(points), *round),
@@ -46,7 +46,7 @@ pub(in crate::draw::kinematic) fn part(p: &Piece, mark: &str, size: f64) -> Part
         }
     };
     let scaled = |p: Vec<f64>| p.iter().map(|x| tidy(x * size)).collect();
-    Part {
+    SymbolPart {
         form,
         class: format!("{}{mark}", p.class),
         points: points.into_iter().map(scaled).collect(),
@@ -55,8 +55,12 @@ pub(in crate::draw::kinematic) fn part(p: &Piece, mark: &str, size: f64) -> Part
     }
 }
 
-pub(in crate::draw::kinematic) fn paper(class: &str, points: Vec<Point>, closed: bool) -> Part {
-    Part {
+pub(in crate::draw::kinematic) fn paper(
+    class: &str,
+    points: Vec<Point>,
+    closed: bool,
+) -> SymbolPart {
+    SymbolPart {
         form: if closed { "loop" } else { "line" },
         class: class.to_owned(),
         points: points.iter().map(|p| p.map(tidy).to_vec()).collect(),
@@ -66,14 +70,14 @@ pub(in crate::draw::kinematic) fn paper(class: &str, points: Vec<Point>, closed:
 }
 
 /// A finished shape, turned to the reader always.
-pub(in crate::draw::kinematic) fn flat(shape: &Shape) -> Part {
+pub(in crate::draw::kinematic) fn flat(shape: &Shape) -> SymbolPart {
     match shape {
         Shape::Path {
             class,
             points,
             closed,
         } => paper(class, points.clone(), *closed),
-        Shape::Circle { at, radius, class } => Part {
+        Shape::Circle { at, radius, class } => SymbolPart {
             form: "ball",
             radius: tidy(*radius),
             ..paper(class, vec![*at], false)
@@ -82,7 +86,7 @@ pub(in crate::draw::kinematic) fn flat(shape: &Shape) -> Part {
 }
 
 /// The ground below a joint.
-pub(in crate::draw::kinematic) fn below(reach: f64) -> Vec<Part> {
+pub(in crate::draw::kinematic) fn below(reach: f64) -> Vec<SymbolPart> {
     let strokes = (0..5).map(|i| {
         let x = 10.0 - 5.0 * f64::from(i);
         paper("fine", vec![[x, reach], [x - 4.0, reach + 6.0]], false)

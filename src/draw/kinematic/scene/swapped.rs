@@ -1,7 +1,7 @@
 //! The symbols that a redesign puts into a scheme in space.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::kinematic::scene::part::{Part, flat, part};
+use crate::draw::kinematic::scene::part::{SymbolPart, flat, part};
 use crate::draw::kinematic::scene::{Scene, Swapped, fine};
 use crate::draw::place::projection;
 use crate::draw::subject::Mark;
@@ -19,7 +19,7 @@ impl Kinematic<'_> {
         of: &JointType,
         symbol: &Symbol,
         mark: Mark,
-    ) -> Vec<Part> {
+    ) -> Vec<SymbolPart> {
         let (below, above) = symbol.round(self.subject, joint, mark);
         let own = [symbols::pieces(of), symbol.arrow()].concat();
         let own = own.iter().map(|p| part(p, mark.class(), symbol.size));

@@ -1,13 +1,13 @@
 //! Where joints are drawn on their axes: those that meet in a point with axes of different directions stand apart.
 
-use super::{Place, extent, frame, middle, planar};
+use super::{JointInSpace, extent, frame, middle, planar};
 use crate::geom::vector::{Vector, add, cross, dot, length as norm, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism};
 
 /// Joints as they are shown: those that meet in a point with axes of different directions are moved along them.
-pub(crate) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Place> {
-    let mut out: Vec<Place> = joints.iter().map(|&j| frame(mechanism, j)).collect();
+pub(crate) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSpace> {
+    let mut out: Vec<JointInSpace> = joints.iter().map(|&j| frame(mechanism, j)).collect();
     if planar(&out).is_some() {
         return out;
     }
@@ -71,7 +71,12 @@ pub(crate) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Place> {
 }
 
 /// The middle between the other joints of the two bars that a sliding pair joins.
-fn between(mechanism: &Mechanism, joints: &[JointId], at: &[Place], i: usize) -> Option<Vector> {
+fn between(
+    mechanism: &Mechanism,
+    joints: &[JointId],
+    at: &[JointInSpace],
+    i: usize,
+) -> Option<Vector> {
     let ends = mechanism.joints[joints[i]].links.map(|l| {
         let mut others =
             (0..joints.len()).filter(|&k| k != i && mechanism.joints[joints[k]].links.contains(&l));

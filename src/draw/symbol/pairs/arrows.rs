@@ -18,7 +18,7 @@ const ROUND: f64 = 18.0;
 const END_ON: f64 = 0.3;
 
 /// An arrow on paper.
-pub(super) struct Arrow {
+pub(super) struct FreedomArrow {
     pub(super) freedom: Freedom,
     pub(super) lines: Vec<Vec<Point>>,
     /// What is filled: its heads, and the point of one that points at the reader.
@@ -29,18 +29,18 @@ pub(super) struct Arrow {
 }
 
 /// An axis of the frame on paper.
-pub(super) struct Axis {
+pub(super) struct PaperAxis {
     pub(super) name: &'static str,
     pub(super) lines: Vec<Vec<Point>>,
     pub(super) heads: Vec<Vec<Point>>,
     /// What its name stands beside, and where it is best.
     pub(super) end: Point,
     pub(super) beyond: Point,
-    pub(super) arrows: Vec<Arrow>,
+    pub(super) arrows: Vec<FreedomArrow>,
 }
 
 /// The axes round what covers these points of the paper.
-pub(super) fn axes(freedoms: &[Freedom], view: &View, covered: &[Point]) -> Vec<Axis> {
+pub(super) fn axes(freedoms: &[Freedom], view: &View, covered: &[Point]) -> Vec<PaperAxis> {
     let all = [("x", X), ("y", Y), ("z", Z)];
     let one = |(n, (name, axis)): (usize, (&'static str, _))| {
         let mut own: Vec<Freedom> = freedoms
@@ -81,7 +81,7 @@ fn beside(
     own: &[Freedom],
     (along, slim): (Point, f64),
     covered: &[Point],
-) -> Axis {
+) -> PaperAxis {
     let across = [-along[1], along[0]];
     let from = -reach(covered, scale(along, -1.0), 4.0) - 2.0 * GAP;
     let mut at = reach(covered, along, ROUND + 3.0) + GAP;
@@ -116,7 +116,7 @@ fn beside(
         arrows.push(headed(freedom, line, (scale(along, middle), clear)));
     }
     let [from, to] = [from, at + 2.0 * GAP].map(|x| scale(along, x));
-    Axis {
+    PaperAxis {
         name,
         lines: vec![vec![from, to]],
         heads: vec![head(to, along, 8.0)],
@@ -127,7 +127,7 @@ fn beside(
 }
 
 /// An axis that points at the reader: arrows lie round the bodies and beside them.
-fn end_on(name: &'static str, own: &[Freedom], covered: &[Point]) -> Axis {
+fn end_on(name: &'static str, own: &[Freedom], covered: &[Point]) -> PaperAxis {
     let to = |degrees: f64| {
         let angle = degrees.to_radians();
         [angle.cos(), -angle.sin()]
@@ -154,7 +154,7 @@ fn end_on(name: &'static str, own: &[Freedom], covered: &[Point]) -> Axis {
     };
     let upper_left = to(135.0);
     let end = scale(upper_left, reach(covered, upper_left, 8.0) + 2.0 * GAP);
-    Axis {
+    PaperAxis {
         name,
         lines: vec![ring(end, 5.0)],
         heads: vec![ring(end, 1.6)],
@@ -165,8 +165,8 @@ fn end_on(name: &'static str, own: &[Freedom], covered: &[Point]) -> Axis {
 }
 
 /// An arrow that points at the reader.
-fn toward(freedom: Freedom, middle: Point) -> Arrow {
-    Arrow {
+fn toward(freedom: Freedom, middle: Point) -> FreedomArrow {
+    FreedomArrow {
         freedom,
         lines: vec![ring(middle, 9.0)],
         heads: vec![ring(middle, 3.0)],
@@ -176,10 +176,10 @@ fn toward(freedom: Freedom, middle: Point) -> Arrow {
 }
 
 /// A line with a head beyond each end.
-fn headed(freedom: Freedom, line: Vec<Point>, (middle, clear): (Point, f64)) -> Arrow {
+fn headed(freedom: Freedom, line: Vec<Point>, (middle, clear): (Point, f64)) -> FreedomArrow {
     let ends = [[0, 1], [line.len() - 1, line.len() - 2]];
     let heads = ends.map(|[end, before]| head(line[end], unit(sub(line[end], line[before])), HEAD));
-    Arrow {
+    FreedomArrow {
         freedom,
         heads: heads.to_vec(),
         lines: vec![line],

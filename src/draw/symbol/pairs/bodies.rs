@@ -1,8 +1,8 @@
 //! What each type of joint is made of, in the frame of the joint.
 
 use super::solids::{
-    Face, HALF, Part, Solid, Turned, WHOLE, ball, cuboid, cylinder, lug, moved, prism, shell,
-    swung, tube, turned,
+    HALF, PairPart, Solid, SolidFace, Turned, WHOLE, ball, cuboid, cylinder, lug, moved, prism,
+    shell, swung, tube, turned,
 };
 use crate::geom::vector::{X, Y, Z, scale};
 use crate::model::joint_type::JointType;
@@ -16,14 +16,14 @@ const PLATE: f64 = 62.0;
 const THICK: f64 = 14.0;
 
 /// The faces of both links; none of a type that has no name of its own, or is drawn by its symbol.
-pub(super) fn bodies(of: &JointType) -> Vec<Face> {
+pub(super) fn bodies(of: &JointType) -> Vec<SolidFace> {
     match of {
         JointType::Revolute => hinge(),
         JointType::Prismatic => slide(),
         JointType::Helical => screw(),
         JointType::Cylindrical => [
-            cylinder(Part::A, 15.0, [-ROD, ROD]),
-            tube(Part::B, [16.0, 32.0], [-38.0, 38.0], HALF),
+            cylinder(PairPart::A, 15.0, [-ROD, ROD]),
+            tube(PairPart::B, [16.0, 32.0], [-38.0, 38.0], HALF),
         ]
         .concat(),
         JointType::Universal => universal(),
@@ -31,26 +31,26 @@ pub(super) fn bodies(of: &JointType) -> Vec<Face> {
         JointType::Spherical => ball_in_socket(),
         JointType::Planar => [
             plate(),
-            cylinder(Part::A, 30.0, [0.0, 16.0]),
-            cylinder(Part::A, 12.0, [16.0, 44.0]),
+            cylinder(PairPart::A, 30.0, [0.0, 16.0]),
+            cylinder(PairPart::A, 12.0, [16.0, 44.0]),
         ]
         .concat(),
         JointType::CylindricalUniversal => rod_in_cross(),
         JointType::SphereInCylinder => {
             let strip = with_stem(ball(25.0, 74.0), 84.0);
             [
-                turned(Part::A, &strip, WHOLE, 36),
-                tube(Part::B, [26.0, 36.0], [-62.0, 48.0], HALF),
+                turned(PairPart::A, &strip, WHOLE, 36),
+                tube(PairPart::B, [26.0, 36.0], [-62.0, 48.0], HALF),
             ]
             .concat()
         }
         JointType::CylinderOnPlane => {
-            let round = cylinder(Part::A, 24.0, [-50.0, 50.0]);
+            let round = cylinder(PairPart::A, 24.0, [-50.0, 50.0]);
             let lying = moved(swung(round, [Y, Z, X]), [0.0, 0.0, 24.0]);
             [plate(), lying].concat()
         }
         JointType::SphereOnPlane => {
-            let round = turned(Part::A, &ball(30.0, 90.0), WHOLE, 36);
+            let round = turned(PairPart::A, &ball(30.0, 90.0), WHOLE, 36);
             [plate(), moved(round, [0.0, 0.0, 30.0])].concat()
         }
         JointType::Fixed => bolted(),
@@ -61,11 +61,11 @@ pub(super) fn bodies(of: &JointType) -> Vec<Face> {
 /// A plate below the plane z = 0.
 fn plate() -> Solid {
     let side = [-PLATE, PLATE];
-    cuboid(Part::B, [side, side, [-THICK, 0.0]])
+    cuboid(PairPart::B, [side, side, [-THICK, 0.0]])
 }
 
 /// A fork round z: two cheeks so far from the plane z = 0, the bridge between them and a shaft, all towards -y.
-fn fork(part: Part, [inner, outer]: [f64; 2], radius: f64) -> Solid {
+fn fork(part: PairPart, [inner, outer]: [f64; 2], radius: f64) -> Solid {
     let (to, back) = (48.0, 60.0);
     let cheek = lug(radius, to);
     let shaft = cylinder(part, 12.0, [0.0, 28.0]);
@@ -80,7 +80,7 @@ fn fork(part: Part, [inner, outer]: [f64; 2], radius: f64) -> Solid {
 }
 
 /// Both ends of a pin along z.
-fn ends(part: Part, radius: f64, [from, to]: [f64; 2]) -> Solid {
+fn ends(part: PairPart, radius: f64, [from, to]: [f64; 2]) -> Solid {
     [
         cylinder(part, radius, [from, to]),
         cylinder(part, radius, [-to, -from]),
@@ -91,12 +91,12 @@ fn ends(part: Part, radius: f64, [from, to]: [f64; 2]) -> Solid {
 /// An eye between the cheeks of a fork, on a pin.
 fn hinge() -> Solid {
     // the eye goes along x, towards the reader, and the fork the other way
-    let eye = prism(Part::A, &lug(22.0, 84.0), [-13.0, 13.0]);
-    let fork = fork(Part::B, [14.0, 27.0], 22.0);
+    let eye = prism(PairPart::A, &lug(22.0, 84.0), [-13.0, 13.0]);
+    let fork = fork(PairPart::B, [14.0, 27.0], 22.0);
     [
         swung(eye, [Y, scale(X, -1.0), Z]),
         swung(fork, [scale(Y, -1.0), X, Z]),
-        ends(Part::B, 11.0, [27.0, 36.0]),
+        ends(PairPart::B, 11.0, [27.0, 36.0]),
     ]
     .concat()
 }
@@ -104,9 +104,9 @@ fn hinge() -> Solid {
 /// A square bar in a sleeve, of which two walls are left.
 fn slide() -> Solid {
     let half = 14.0;
-    let bar = cuboid(Part::A, [[-half, half], [-half, half], [-ROD, ROD]]);
+    let bar = cuboid(PairPart::A, [[-half, half], [-half, half], [-ROD, ROD]]);
     let strip = [-38.0, 38.0].map(|z| [15.0, 30.0].map(|r: f64| [r * 2f64.sqrt(), z]));
-    [bar, turned(Part::B, &strip, HALF, 2)].concat()
+    [bar, turned(PairPart::B, &strip, HALF, 2)].concat()
 }
 
 /// A threaded rod in a nut.
@@ -126,22 +126,22 @@ fn screw() -> Solid {
         rise: pitch,
     };
     let nut = [-26.0, 26.0].map(|z| [[20.0, z], [40.0, z]]);
-    [rod.of(Part::A), turned(Part::B, &nut, HALF, 3)].concat()
+    [rod.of(PairPart::A), turned(PairPart::B, &nut, HALF, 3)].concat()
 }
 
 /// Two forks on a cross.
 fn universal() -> Solid {
-    let other = fork(Part::A, [30.0, 40.0], 15.0);
+    let other = fork(PairPart::A, [30.0, 40.0], 15.0);
     let hub = [-10.0, 10.0];
     let arms = [
-        ends(Part::Between, 8.0, [10.0, 30.0]),
-        ends(Part::Between, 8.0, [40.0, 46.0]),
+        ends(PairPart::Between, 8.0, [10.0, 30.0]),
+        ends(PairPart::Between, 8.0, [40.0, 46.0]),
     ]
     .concat();
     [
-        fork(Part::B, [30.0, 40.0], 15.0),
+        fork(PairPart::B, [30.0, 40.0], 15.0),
         swung(other, [Z, scale(Y, -1.0), X]),
-        cuboid(Part::Between, [hub, hub, hub]),
+        cuboid(PairPart::Between, [hub, hub, hub]),
         arms.clone(),
         swung(arms, [Y, Z, X]),
     ]
@@ -152,15 +152,15 @@ fn universal() -> Solid {
 fn pin_in_slot() -> Solid {
     let (inner, outer, along, z) = (13.0, 28.0, 40.0, [-9.0, 9.0]);
     let end = |from: f64, x: f64| {
-        let round = tube(Part::B, [inner, outer], z, [from, from + 180.0]);
-        let round = round.into_iter().map(|f| Face { cut: false, ..f });
+        let round = tube(PairPart::B, [inner, outer], z, [from, from + 180.0]);
+        let round = round.into_iter().map(|f| SolidFace { cut: false, ..f });
         moved(round.collect(), [x, 0.0, 0.0])
     };
-    let side = |y: [f64; 2]| cuboid(Part::B, [[-along, along], y, z]);
-    let arm = prism(Part::A, &lug(17.0, 74.0), [-30.0, -12.0]);
+    let side = |y: [f64; 2]| cuboid(PairPart::B, [[-along, along], y, z]);
+    let arm = prism(PairPart::A, &lug(17.0, 74.0), [-30.0, -12.0]);
     [
         arm,
-        cylinder(Part::A, 12.0, [-12.0, 30.0]),
+        cylinder(PairPart::A, 12.0, [-12.0, 30.0]),
         end(-90.0, along),
         end(90.0, -along),
         side([inner, outer]),
@@ -181,8 +181,8 @@ fn ball_in_socket() -> Solid {
     let below = [[0.0, -ROD], [stem, -ROD]];
     let socket: Vec<[Point; 2]> = std::iter::once(below).chain(round).collect();
     [
-        turned(Part::A, &ball, WHOLE, 36),
-        turned(Part::B, &socket, HALF, 18),
+        turned(PairPart::A, &ball, WHOLE, 36),
+        turned(PairPart::B, &socket, HALF, 18),
     ]
     .concat()
 }
@@ -198,14 +198,19 @@ fn with_stem(mut of: Vec<[Point; 2]>, to: f64) -> Vec<[Point; 2]> {
 /// A rod that slides in the ring of a cross, whose pins turn in a fork.
 fn rod_in_cross() -> Solid {
     let pins = [
-        ends(Part::Between, 8.0, [27.0, 38.0]),
-        ends(Part::Between, 8.0, [48.0, 54.0]),
+        ends(PairPart::Between, 8.0, [27.0, 38.0]),
+        ends(PairPart::Between, 8.0, [48.0, 54.0]),
     ]
     .concat();
-    let fork = fork(Part::B, [38.0, 48.0], 15.0);
+    let fork = fork(PairPart::B, [38.0, 48.0], 15.0);
     [
-        cylinder(Part::A, 14.0, [-ROD, ROD]),
-        tube(Part::Between, [15.0, 27.0], [-17.0, 17.0], [150.0, 390.0]),
+        cylinder(PairPart::A, 14.0, [-ROD, ROD]),
+        tube(
+            PairPart::Between,
+            [15.0, 27.0],
+            [-17.0, 17.0],
+            [150.0, 390.0],
+        ),
         swung(pins, [Y, Z, X]),
         swung(fork, [scale(Z, -1.0), Y, X]),
     ]
@@ -222,10 +227,10 @@ fn bolted() -> Solid {
         })
         .collect();
     [
-        block(Part::A, [-40.0, 80.0], [0.0, 24.0]),
-        block(Part::B, [-80.0, 40.0], [-24.0, 0.0]),
-        prism(Part::Between, &head, [24.0, 36.0]),
-        cylinder(Part::Between, 9.0, [36.0, 42.0]),
+        block(PairPart::A, [-40.0, 80.0], [0.0, 24.0]),
+        block(PairPart::B, [-80.0, 40.0], [-24.0, 0.0]),
+        prism(PairPart::Between, &head, [24.0, 36.0]),
+        cylinder(PairPart::Between, 9.0, [36.0, 42.0]),
     ]
     .concat()
 }

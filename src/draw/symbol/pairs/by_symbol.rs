@@ -2,7 +2,7 @@
 
 use crate::draw::place::projection::{self, View};
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
-use crate::draw::symbol::pieces::Pose;
+use crate::draw::symbol::pieces::PaperPose;
 use crate::draw::symbol::symbols;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
@@ -53,7 +53,7 @@ pub(super) fn joint_type(of: &JointType) -> Drawing {
 
 fn draw(sheet: &mut Sheet, of: &JointType, view: &View, at: Point) {
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let shapes = symbols::symbol(of, &Pose::of_axes(axes, view), "", LARGE);
+    let shapes = symbols::symbol(of, &PaperPose::of_axes(axes, view), "", LARGE);
     for (n, axis) in axes.into_iter().enumerate() {
         let tip = scale(view.flat(axis), AXIS);
         if norm(tip) > 4.0 {

@@ -1,6 +1,6 @@
 //! Faces on paper: what covers what, from back to front, and which of their edges are drawn.
 
-use super::solids::{Face, Part};
+use super::solids::{PairPart, SolidFace};
 use crate::draw::place::projection::{Vector, View, bounds};
 use crate::draw::sheet::Sheet;
 use crate::draw::sheet::shapes::hatch_with;
@@ -19,7 +19,7 @@ const SMOOTH: f64 = 0.85;
 const PIECE: f64 = 6.0;
 
 /// A face on paper.
-pub(super) struct Seen {
+pub(super) struct PaperFace {
     /// Its corners.
     pub(super) points: Vec<Point>,
     class: String,
@@ -32,7 +32,7 @@ pub(super) struct Seen {
     off: f64,
 }
 
-impl Seen {
+impl PaperFace {
     /// How near its plane is to the reader at a point of the paper.
     fn depth(&self, [x, y]: Point) -> f64 {
         (self.off - self.normal[0] * x + self.normal[1] * y) / self.normal[2]
@@ -52,16 +52,16 @@ impl Seen {
 }
 
 /// The faces that look at the reader, from back to front.
-pub(super) fn seen(faces: &[Face], view: &View) -> Vec<Seen> {
+pub(super) fn seen(faces: &[SolidFace], view: &View) -> Vec<PaperFace> {
     let on_paper = |v: Vector| [view.right, view.up, view.toward].map(|a| dot(a, v));
-    let front: Vec<(&Face, Vector)> = faces
+    let front: Vec<(&SolidFace, Vector)> = faces
         .iter()
         .map(|f| (f, unit(f.normal())))
         .filter(|(_, n)| dot(*n, view.toward) > 1e-6)
         .collect();
     let all = front.iter().map(|&(f, n)| {
         let points: Vec<Point> = f.points.iter().map(|&p| view.flat(p)).collect();
-        Seen {
+        PaperFace {
             class: class(f, on_paper(n)),
             cut: f.cut,
             edges: edges(f, n, &front)
@@ -78,11 +78,11 @@ pub(super) fn seen(faces: &[Face], view: &View) -> Vec<Seen> {
 }
 
 /// The classes of a face: its link, and how much light it has.
-fn class(face: &Face, normal: Vector) -> String {
+fn class(face: &SolidFace, normal: Vector) -> String {
     let part = match face.part {
-        Part::A => "body-a",
-        Part::B => "body-b",
-        Part::Between => "body-c",
+        PairPart::A => "body-a",
+        PairPart::B => "body-b",
+        PairPart::Between => "body-c",
     };
     if face.cut {
         return "cut".to_owned();
@@ -95,8 +95,8 @@ fn class(face: &Face, normal: Vector) -> String {
 }
 
 /// The pieces of a face's outline beyond which its surface does not go on, straight or round, as far as it is seen.
-fn edges(face: &Face, normal: Vector, front: &[(&Face, Vector)]) -> Vec<[Vector; 2]> {
-    let near: Vec<&(&Face, Vector)> = front
+fn edges(face: &SolidFace, normal: Vector, front: &[(&SolidFace, Vector)]) -> Vec<[Vector; 2]> {
+    let near: Vec<&(&SolidFace, Vector)> = front
         .iter()
         .filter(|(f, n)| {
             !std::ptr::eq(*f, face)
@@ -129,7 +129,7 @@ fn edges(face: &Face, normal: Vector, front: &[(&Face, Vector)]) -> Vec<[Vector;
 }
 
 /// Whether a point is on a face, its outline included.
-fn holds(face: &Face, normal: Vector, p: Vector) -> bool {
+fn holds(face: &SolidFace, normal: Vector, p: Vector) -> bool {
     let next = face.points.iter().cycle().skip(1);
     // faces of a thread are not quite flat
     dot(normal, sub(p, face.points[0])).abs() < 0.6
@@ -140,8 +140,8 @@ fn holds(face: &Face, normal: Vector, p: Vector) -> bool {
 }
 
 /// Faces in an order in which each comes after those that it covers.
-fn ordered(mut all: Vec<Seen>) -> Vec<Seen> {
-    let depth = |s: &Seen| s.depth(mean(s.points.iter().copied()));
+fn ordered(mut all: Vec<PaperFace>) -> Vec<PaperFace> {
+    let depth = |s: &PaperFace| s.depth(mean(s.points.iter().copied()));
     all.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
     let n = all.len();
     // by face, those it covers
@@ -167,12 +167,12 @@ fn ordered(mut all: Vec<Seen>) -> Vec<Seen> {
         done[i] = true;
         order.push(i);
     }
-    let mut all: Vec<Option<Seen>> = all.into_iter().map(Some).collect();
+    let mut all: Vec<Option<PaperFace>> = all.into_iter().map(Some).collect();
     order.into_iter().filter_map(|i| all[i].take()).collect()
 }
 
 /// Whether the first of two faces is in front of the second; nothing where they are side by side on paper.
-fn covers(a: &Seen, b: &Seen) -> Option<bool> {
+fn covers(a: &PaperFace, b: &PaperFace) -> Option<bool> {
     if !a.room.overlaps(&b.room) {
         return None;
     }

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 /// The piece of a joint that a face belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum PairPart {
     /// One link.
     A,
     /// The other link.
@@ -18,14 +18,14 @@ pub(super) enum Part {
 
 /// A convex flat piece of a surface.
 #[derive(Debug, Clone)]
-pub(super) struct Face {
+pub(super) struct SolidFace {
     pub(super) points: Vec<Vector>,
-    pub(super) part: Part,
+    pub(super) part: PairPart,
     /// Whether it is where a solid is cut open.
     pub(super) cut: bool,
 }
 
-impl Face {
+impl SolidFace {
     /// The direction it faces, with a length of twice its area.
     pub(super) fn normal(&self) -> Vector {
         let next = self.points.iter().cycle().skip(1);
@@ -35,7 +35,7 @@ impl Face {
 }
 
 /// Several faces.
-pub(super) type Solid = Vec<Face>;
+pub(super) type Solid = Vec<SolidFace>;
 
 /// The half that is left where the other, towards the reader, is cut off by a plane through the axis z, in degrees.
 pub(super) const HALF: [f64; 2] = [135.0, 315.0];
@@ -43,13 +43,15 @@ pub(super) const HALF: [f64; 2] = [135.0, 315.0];
 pub(super) const WHOLE: [f64; 2] = [0.0, 360.0];
 
 /// A solid of uncut faces.
-fn solid(part: Part, faces: impl Iterator<Item = Vec<Vector>>) -> Solid {
+fn solid(part: PairPart, faces: impl Iterator<Item = Vec<Vector>>) -> Solid {
     let cut = false;
-    faces.map(|points| Face { points, part, cut }).collect()
+    faces
+        .map(|points| SolidFace { points, part, cut })
+        .collect()
 }
 
 /// A prism along z over a convex base whose corners run counter-clockwise.
-pub(super) fn prism(part: Part, base: &[Point], [low, high]: [f64; 2]) -> Solid {
+pub(super) fn prism(part: PairPart, base: &[Point], [low, high]: [f64; 2]) -> Solid {
     let at = |z: f64| base.iter().map(move |p| [p[0], p[1], z]);
     let next = base.iter().cycle().skip(1);
     let sides = base.iter().zip(next).map(|(a, b)| {
@@ -61,7 +63,7 @@ pub(super) fn prism(part: Part, base: &[Point], [low, high]: [f64; 2]) -> Solid 
 }
 
 /// A box between two bounds of each coordinate.
-pub(super) fn cuboid(part: Part, [x, y, z]: [[f64; 2]; 3]) -> Solid {
+pub(super) fn cuboid(part: PairPart, [x, y, z]: [[f64; 2]; 3]) -> Solid {
     let base = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
     prism(part, &base, z)
 }
@@ -88,7 +90,7 @@ pub(super) struct Turned<'a> {
 
 impl Turned<'_> {
     /// Its faces.
-    pub(super) fn of(&self, part: Part) -> Solid {
+    pub(super) fn of(&self, part: PairPart) -> Solid {
         let (inner, outer) = self.sides();
         let round = (0..self.steps).flat_map(|n| {
             let quad = move |[p, q]: [Point; 2]| {
@@ -120,7 +122,7 @@ impl Turned<'_> {
                         points.reverse();
                     }
                     let cut = true;
-                    Face { points, part, cut }
+                    SolidFace { points, part, cut }
                 }));
             }
         }
@@ -162,14 +164,24 @@ fn same(a: &Vector, b: &Vector) -> bool {
 }
 
 /// A tube round z, or a cylinder where the radius within is 0, between two angles.
-pub(super) fn tube(part: Part, [inner, outer]: [f64; 2], z: [f64; 2], angles: [f64; 2]) -> Solid {
+pub(super) fn tube(
+    part: PairPart,
+    [inner, outer]: [f64; 2],
+    z: [f64; 2],
+    angles: [f64; 2],
+) -> Solid {
     let strip = z.map(|z| [[inner, z], [outer, z]]);
     let steps = ((angles[1] - angles[0]) / 15.0).round() as usize;
     turned(part, &strip, angles, steps)
 }
 
 /// A solid of revolution in so many steps.
-pub(super) fn turned(part: Part, strip: &[[Point; 2]], angles: [f64; 2], steps: usize) -> Solid {
+pub(super) fn turned(
+    part: PairPart,
+    strip: &[[Point; 2]],
+    angles: [f64; 2],
+    steps: usize,
+) -> Solid {
     let rise = 0.0;
     Turned {
         strip,
@@ -181,7 +193,7 @@ pub(super) fn turned(part: Part, strip: &[[Point; 2]], angles: [f64; 2], steps: 
 }
 
 /// A cylinder round z.
-pub(super) fn cylinder(part: Part, radius: f64, z: [f64; 2]) -> Solid {
+pub(super) fn cylinder(part: PairPart, radius: f64, z: [f64; 2]) -> Solid {
     tube(part, [0.0, radius], z, WHOLE)
 }
 

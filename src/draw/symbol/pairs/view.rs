@@ -1,10 +1,10 @@
 //! One view of a joint type: its axes behind, its links, the arrows of its freedoms in front, and the names beside them.
 
-use super::arrows::{Axis, axes};
+use super::arrows::{PaperAxis, axes};
 use super::paint;
-use super::solids::Face;
+use super::solids::SolidFace;
 use crate::draw::place::projection::{View, bounds};
-use crate::draw::sheet::labels::{CROSSED, Line, Place, Wish, place};
+use crate::draw::sheet::labels::{AvoidedLine, CROSSED, LabelPlace, Wish, place};
 use crate::draw::sheet::shapes::grid;
 use crate::draw::sheet::{Anchor, SMALL, Sheet};
 use crate::model::joint_type::Freedom;
@@ -17,18 +17,18 @@ const NAME: f64 = 13.0;
 const FINE: f64 = 5.0;
 
 /// A view that is ready to be drawn round the origin of the joint's frame.
-pub(super) struct Seen {
-    faces: Vec<paint::Seen>,
-    axes: Vec<Axis>,
+pub(super) struct ReadyView {
+    faces: Vec<paint::PaperFace>,
+    axes: Vec<PaperAxis>,
     /// The names of freedoms and of axes: class, size, text and place.
-    names: Vec<(&'static str, f64, &'static str, Place)>,
+    names: Vec<(&'static str, f64, &'static str, LabelPlace)>,
     /// The room of all of it.
     pub(super) room: Rect,
 }
 
-impl Seen {
+impl ReadyView {
     /// Of these faces and freedoms from a side.
-    pub(super) fn new(faces: &[Face], freedoms: &[Freedom], view: &View) -> Seen {
+    pub(super) fn new(faces: &[SolidFace], freedoms: &[Freedom], view: &View) -> ReadyView {
         let faces = paint::seen(faces, view);
         let covered: Vec<Point> = faces.iter().flat_map(covered).collect();
         let axes = axes(freedoms, view, &covered);
@@ -37,7 +37,7 @@ impl Seen {
         let all: Vec<Point> = covered.iter().copied().chain(drawn).collect();
         let room = bounds(&all).grown(2.0);
         let room = names.iter().fold(room, |r, n| r.with(&n.3.rect));
-        Seen {
+        ReadyView {
             faces,
             axes,
             names,
@@ -79,7 +79,7 @@ impl Seen {
 }
 
 /// Points all over a face and round it.
-fn covered(face: &paint::Seen) -> Vec<Point> {
+fn covered(face: &paint::PaperFace) -> Vec<Point> {
     let room = bounds(&face.points);
     let size = (room.right - room.left).max(room.bottom - room.top);
     let mut round = face.points.clone();
@@ -100,7 +100,7 @@ fn along(line: &[Point]) -> Vec<Point> {
 }
 
 /// Points along all that an axis is drawn with.
-fn strokes(axis: &Axis) -> Vec<Vec<Point>> {
+fn strokes(axis: &PaperAxis) -> Vec<Vec<Point>> {
     let arrows = axis.arrows.iter();
     let own = arrows.flat_map(|a| a.lines.iter().chain(&a.heads));
     let all = axis.lines.iter().chain(&axis.heads).chain(own);
@@ -108,14 +108,20 @@ fn strokes(axis: &Axis) -> Vec<Vec<Point>> {
 }
 
 /// Where names go: beside what they name, and on nothing.
-fn names(axes: &[Axis], covered: &[Point]) -> Vec<(&'static str, f64, &'static str, Place)> {
+fn names(
+    axes: &[PaperAxis],
+    covered: &[Point],
+) -> Vec<(&'static str, f64, &'static str, LabelPlace)> {
     let box_of = |p: &Point| Rect::around(*p, FINE + 1.0, FINE + 1.0);
     let drawn: Vec<Vec<Point>> = axes.iter().flat_map(strokes).collect();
-    let lines = drawn.iter().flat_map(|l| l.windows(2)).map(|w| Line {
-        ends: (w[0], w[1]),
-        weight: CROSSED,
-    });
-    let lines: Vec<Line> = lines.collect();
+    let lines = drawn
+        .iter()
+        .flat_map(|l| l.windows(2))
+        .map(|w| AvoidedLine {
+            ends: (w[0], w[1]),
+            weight: CROSSED,
+        });
+    let lines: Vec<AvoidedLine> = lines.collect();
     let mut taken: Vec<Rect> = covered
         .iter()
         .chain(drawn.iter().flatten())

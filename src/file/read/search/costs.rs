@@ -1,7 +1,7 @@
 //! Costs by name: of joint types, of options, of a change itself.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, key};
+use crate::file::locate::{DocumentStep, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::cost;
 use crate::model::joint_type::JointType;
@@ -15,7 +15,7 @@ const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 pub(crate) fn costs(
     stated: &BTreeMap<String, f64>,
     mechanism: &Mechanism,
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> CostSpec {
     let mut spec = CostSpec::default();

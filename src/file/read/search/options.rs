@@ -1,7 +1,7 @@
 //! What a joint may become.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{contains, option};
 use crate::file::read::value::limits::LIMITS;
@@ -16,14 +16,14 @@ pub(crate) fn options(
     present: &JointOption,
     changeable: bool,
     states: &[String],
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> Vec<JointOption> {
-    let (list, from, own): (&[OptionEntry], Vec<Step>, bool) = match &entry.options {
+    let (list, from, own): (&[OptionEntry], Vec<DocumentStep>, bool) = match &entry.options {
         Some(list) => (list, key(at, "options"), true),
         None if changeable => (
             &file.search.options,
-            key(&[Step::Key("search".to_owned())], "options"),
+            key(&[DocumentStep::Key("search".to_owned())], "options"),
             false,
         ),
         None => (&[], Vec::new(), false),

@@ -1,7 +1,7 @@
 //! `[ranking]` and `[joint_types]`.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::cost;
 use crate::file::schema::MechanismFile;
@@ -13,7 +13,7 @@ use itertools::Itertools;
 /// Most terms and limits.
 const MOST: usize = 100;
 
-fn term(word: &str, at: &[Step], out: &mut Findings) -> Option<Term> {
+fn term(word: &str, at: &[DocumentStep], out: &mut Findings) -> Option<Term> {
     let found = Term::from_name(word);
     if found.is_none() {
         out.add(
@@ -28,7 +28,13 @@ fn term(word: &str, at: &[Step], out: &mut Findings) -> Option<Term> {
     found
 }
 
-fn bad(out: &mut Findings, at: &[Step], what: &'static str, value: f64, allowed: &'static str) {
+fn bad(
+    out: &mut Findings,
+    at: &[DocumentStep],
+    what: &'static str,
+    value: f64,
+    allowed: &'static str,
+) {
     let value = value.to_string();
     out.add(
         at,
@@ -47,7 +53,7 @@ pub(crate) fn ranking(
     out: &mut Findings,
 ) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
-    let at = [Step::Key("ranking".to_owned())];
+    let at = [DocumentStep::Key("ranking".to_owned())];
     for (what, count) in [("terms", entry.terms.len()), ("limits", entry.limits.len())] {
         if count > MOST {
             let limit = MOST;
@@ -170,7 +176,7 @@ pub(crate) fn joint_types(
     mechanism: &Mechanism,
     out: &mut Findings,
 ) -> (Vec<TypeOverride>, Vec<(String, i64)>) {
-    let root = [Step::Key("joint_types".to_owned())];
+    let root = [DocumentStep::Key("joint_types".to_owned())];
     let (mut found, mut costs) = (Vec::new(), Vec::new());
     let offered = |name: &str| {
         let mut all = mechanism.joints.iter().flat_map(Joint::offered);

@@ -1,7 +1,7 @@
 //! Names of links and joints: as they are declared, and as others refer to them.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Words;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
@@ -14,7 +14,7 @@ pub(crate) fn check_id(
     what: &'static str,
     id: &str,
     earlier: bool,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) {
     if id.is_empty() || id.chars().count() > 64 || id.chars().any(char::is_control) {
@@ -35,7 +35,7 @@ pub(crate) fn check_id(
 pub(crate) fn link_by_id(
     links: &[Link],
     id: &str,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<LinkId> {
     let found = links.iter().position(|l| l.id == *id).map(LinkId::new);
@@ -56,7 +56,7 @@ pub(crate) fn link_by_id(
 pub(crate) fn states_by_name(
     mechanism: &Mechanism,
     named: Option<&Words>,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<Vec<StateId>> {
     let words = match named? {
@@ -84,7 +84,7 @@ pub(crate) fn states_by_name(
 pub(crate) fn joint_by_id(
     mechanism: &Mechanism,
     id: &str,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<JointId> {
     let found = mechanism.joint(id);

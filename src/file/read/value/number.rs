@@ -1,10 +1,10 @@
 //! Numbers from their entries: lengths, directions, pitches.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Coordinate;
-use crate::geom::expr::{Expr, ExprError, Written};
+use crate::geom::expr::{Expr, ExprError, WrittenNumber};
 use itertools::Itertools;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -15,25 +15,30 @@ const RANGE: (f64, f64) = (1e-40, 1e12);
 const NOTHING: f64 = 1e-40;
 
 /// A number in the range of lengths.
-pub(crate) fn number(c: &Coordinate, path: &[Step], out: &mut Findings) -> Expr {
+pub(crate) fn number(c: &Coordinate, path: &[DocumentStep], out: &mut Findings) -> Expr {
     let read = read_number(c, false, path, out);
     in_range(read, path, out)
 }
 
 /// Three numbers in the range of lengths.
-pub(crate) fn vector(v: &[Coordinate; 3], path: &[Step], out: &mut Findings) -> [Expr; 3] {
+pub(crate) fn vector(v: &[Coordinate; 3], path: &[DocumentStep], out: &mut Findings) -> [Expr; 3] {
     [0, 1, 2].map(|i| number(&v[i], &index(path, i), out))
 }
 
 /// A direction of any length, made longer or shorter by a power of ten where its numbers are beyond the range of lengths.
-pub(crate) fn direction(v: &[Coordinate; 3], path: &[Step], out: &mut Findings) -> [Expr; 3] {
+pub(crate) fn direction(
+    v: &[Coordinate; 3],
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> [Expr; 3] {
     let read = [0, 1, 2].map(|i| read_number(&v[i], false, &index(path, i), out));
     let sizes = read.each_ref().map(|e| e.to_f64().abs());
     if sizes.iter().all(|&s| is_usual(s)) {
         return read;
     }
     let largest = sizes.into_iter().fold(0.0, f64::max);
-    let nothing = |e: &Expr, size: f64| e.written() != Written::No && size < NOTHING * largest;
+    let nothing =
+        |e: &Expr, size: f64| e.written() != WrittenNumber::No && size < NOTHING * largest;
     let mut kept =
         read.into_iter().zip(sizes).map(
             |(e, size)| {
@@ -54,7 +59,7 @@ pub(crate) fn direction(v: &[Coordinate; 3], path: &[Step], out: &mut Findings) 
 /// The pitch of a screw, per radian, from that or from its lead, which is per turn; none where neither stands.
 pub(crate) fn pitch(
     [pitch, lead]: [Option<&Coordinate>; 2],
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<Expr> {
     if pitch.is_some() && lead.is_some() {
@@ -83,7 +88,7 @@ fn is_usual(size: f64) -> bool {
     size == 0.0 || (RANGE.0..=RANGE.1).contains(&size)
 }
 
-fn in_range(e: Expr, path: &[Step], out: &mut Findings) -> Expr {
+fn in_range(e: Expr, path: &[DocumentStep], out: &mut Findings) -> Expr {
     let size = e.to_f64().abs();
     // An irrational expression may cancel to zero, and is then zero; a number that is too small for doubles is not.
     let lost = size == 0.0 && e.as_rational().is_some() && !e.is_zero_rational();
@@ -94,9 +99,14 @@ fn in_range(e: Expr, path: &[Step], out: &mut Findings) -> Expr {
     Expr::from(0)
 }
 
-fn read_number(c: &Coordinate, pi_is_a_number: bool, path: &[Step], out: &mut Findings) -> Expr {
+fn read_number(
+    c: &Coordinate,
+    pi_is_a_number: bool,
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> Expr {
     let parsed = match c {
-        Coordinate::Integer(i) => Ok(Expr::from(*i).written_as(Written::Whole)),
+        Coordinate::Integer(i) => Ok(Expr::from(*i).written_as(WrittenNumber::Whole)),
         Coordinate::Decimal(x) => Expr::from_f64(*x),
         Coordinate::Expression(s) => out.expression(s, pi_is_a_number),
     };

@@ -1,7 +1,7 @@
 //! `[parameter]`: what each may be, and what it is.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;
 use crate::file::schema::{Coordinate, MechanismFile, ParameterEntry, VariedEntry};
@@ -40,7 +40,7 @@ pub type Values = BTreeMap<String, Expr>;
 
 /// The parameters of a file by name, ascending.
 pub(crate) fn parameters(file: &MechanismFile, out: &mut Findings) -> Vec<Parameter> {
-    let at = [Step::Key("parameter".to_owned())];
+    let at = [DocumentStep::Key("parameter".to_owned())];
     if file.parameter.len() > MOST.0 {
         let (what, count) = ("parameters", file.parameter.len());
         let limit = MOST.0;
@@ -72,11 +72,11 @@ pub(crate) fn parameters(file: &MechanismFile, out: &mut Findings) -> Vec<Parame
 fn varied(
     name: &str,
     entry: &VariedEntry,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<(Domain, Expr)> {
     let own = || name.to_owned();
-    let mut read = |c: &Coordinate, at: &[Step]| number(c, at, out);
+    let mut read = |c: &Coordinate, at: &[DocumentStep]| number(c, at, out);
     let default = entry
         .default
         .as_ref()
@@ -162,7 +162,7 @@ pub(crate) fn knowing(file: &MechanismFile, values: &Values) -> Findings {
 /// Tells of parameters that nothing depends on.
 pub(crate) fn unused(out: &mut Findings) {
     for name in out.unused() {
-        let path = key(&[Step::Key("parameter".to_owned())], &name);
+        let path = key(&[DocumentStep::Key("parameter".to_owned())], &name);
         out.add(&path, ProblemKind::UnusedParameter { name });
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers with a meaning: angles, and values that must lie in a range.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, key};
+use crate::file::locate::{DocumentStep, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;
 use crate::file::schema::Coordinate;
@@ -9,9 +9,9 @@ use itertools::Itertools;
 use std::f64::consts::PI;
 
 /// Values of one table, each read under its key.
-pub(crate) struct Table<'a> {
+pub(crate) struct ValueTable<'a> {
     /// Path of the table.
-    pub(in crate::file::read) at: Vec<Step>,
+    pub(in crate::file::read) at: Vec<DocumentStep>,
     /// Where problems go.
     pub(in crate::file::read) out: &'a mut Findings,
 }
@@ -49,7 +49,7 @@ impl Bound {
     }
 }
 
-impl Table<'_> {
+impl ValueTable<'_> {
     /// A number, times `unit`; 1 where it is none.
     pub(crate) fn number(
         &mut self,
@@ -65,7 +65,7 @@ impl Table<'_> {
     /// A number at a path of its own.
     pub(crate) fn number_at(
         &mut self,
-        path: &[Step],
+        path: &[DocumentStep],
         what: &'static str,
         c: &Coordinate,
         unit: f64,
@@ -127,7 +127,12 @@ impl Table<'_> {
     }
 
     /// An angle at a path of its own.
-    pub(crate) fn angle_at(&mut self, path: &[Step], k: &'static str, c: &Coordinate) -> f64 {
+    pub(crate) fn angle_at(
+        &mut self,
+        path: &[DocumentStep],
+        k: &'static str,
+        c: &Coordinate,
+    ) -> f64 {
         let (inner, unit) = match c {
             Coordinate::Expression(text) => match angle_text(text) {
                 Some(found) => found,
@@ -166,7 +171,7 @@ impl Table<'_> {
     /// Notes a value that will not do.
     pub(crate) fn bad(
         &mut self,
-        path: &[Step],
+        path: &[DocumentStep],
         what: &'static str,
         value: String,
         allowed: &'static str,
@@ -188,7 +193,12 @@ impl Table<'_> {
     }
 
     /// Notes what a table lacks.
-    pub(crate) fn needs_at(&mut self, path: &[Step], what: &'static str, other: &'static str) {
+    pub(crate) fn needs_at(
+        &mut self,
+        path: &[DocumentStep],
+        what: &'static str,
+        other: &'static str,
+    ) {
         self.out
             .add(path, ProblemKind::KeyNeeds { key: what, other });
     }
@@ -236,7 +246,7 @@ fn angle_text(text: &str) -> Option<(Coordinate, f64)> {
 
 /// What a word stands for; the first of those known where none is given.
 pub(crate) fn word<T: Copy>(
-    t: &mut Table<'_>,
+    t: &mut ValueTable<'_>,
     k: &'static str,
     given: Option<&String>,
     known: &[(&'static str, T)],

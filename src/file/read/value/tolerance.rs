@@ -1,11 +1,11 @@
 //! How well numbers are known, where the file states it.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;
 use crate::file::schema::{Coordinate, MechanismFile};
-use crate::geom::expr::{End, Expr, Written};
+use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::geom::extent::diagonal;
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{Frame, Joint, Mechanism};
@@ -24,11 +24,11 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findi
     } else {
         f64::INFINITY
     };
-    let mut shift = |c: Option<&Coordinate>, path: &[Step]| {
+    let mut shift = |c: Option<&Coordinate>, path: &[DocumentStep]| {
         let allowed = "0, or at most a tenth of the distance across the joints";
         stated(c?, path, (most, allowed), out)
     };
-    let root = |k: &str| vec![Step::Key(k.to_owned())];
+    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
     let of_file = file.tolerance.as_ref();
     let lengths = shift(
         of_file.and_then(|t| t.length.as_ref()),
@@ -63,7 +63,7 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findi
 /// A tolerance, nothing where it is none.
 fn stated(
     c: &Coordinate,
-    path: &[Step],
+    path: &[DocumentStep],
     (most, allowed): (f64, &'static str),
     out: &mut Findings,
 ) -> Option<f64> {
@@ -127,7 +127,7 @@ fn turn(v: &mut [Expr; 3], half: f64) {
 
 /// A pitch, or what a lead makes it.
 fn pitch(e: &mut Expr, half: f64) {
-    let Written::Decimal(digits) = e.written() else {
+    let WrittenNumber::Decimal(digits) = e.written() else {
         return;
     };
     state(e, Some(half * digits.factor()));
@@ -140,13 +140,16 @@ fn state(e: &mut Expr, half: Option<f64>) {
 }
 
 fn is_number(e: &Expr) -> bool {
-    matches!(e.written(), Written::Decimal(_) | Written::Whole)
+    matches!(
+        e.written(),
+        WrittenNumber::Decimal(_) | WrittenNumber::Whole
+    )
 }
 
 fn is_whole(e: &Expr) -> bool {
     match e.written() {
-        Written::Whole => true,
-        Written::Decimal(digits) => digits.end == End::Float,
-        Written::No | Written::Stated(_) => false,
+        WrittenNumber::Whole => true,
+        WrittenNumber::Decimal(digits) => digits.end == End::Float,
+        WrittenNumber::No | WrittenNumber::Stated(_) => false,
     }
 }

@@ -1,7 +1,7 @@
 //! The file's unit of length.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::LengthUnit;
@@ -37,7 +37,7 @@ pub(crate) fn length_unit(file: &MechanismFile, out: &mut Findings) -> LengthUni
     found.unwrap_or_else(|| {
         let known = UNITS.iter().map(|u| u.symbol).join(", ");
         out.add(
-            &[Step::Key("length_unit".to_owned())],
+            &[DocumentStep::Key("length_unit".to_owned())],
             ProblemKind::UnknownWord {
                 what: "length unit",
                 word: symbol.to_owned(),

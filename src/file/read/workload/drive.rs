@@ -5,9 +5,9 @@ mod programme;
 mod push;
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step as Place;
+use crate::file::locate::DocumentStep as Place;
 use crate::file::locate::{index, key};
-use crate::file::read::value::quantity::{Bound, Table};
+use crate::file::read::value::quantity::{Bound, ValueTable};
 use crate::file::schema::{DriveEntry, MechanismFile};
 use crate::model::drive::{Cam, Damping, DriveSpec};
 use crate::model::mechanism::Mechanism;
@@ -16,7 +16,7 @@ pub use programme::regular;
 use programme::{MOST, programme};
 use push::push;
 
-fn damping(t: &mut Table<'_>, e: &DriveEntry) -> Option<Damping> {
+fn damping(t: &mut ValueTable<'_>, e: &DriveEntry) -> Option<Damping> {
     let viscous = t.not_negative("viscous_damping", &e.viscous_damping, 1.0);
     let coulomb = t.not_negative("friction_moment", &e.friction_moment, 1.0);
     (viscous.is_some() || coulomb.is_some()).then(|| Damping {
@@ -25,7 +25,7 @@ fn damping(t: &mut Table<'_>, e: &DriveEntry) -> Option<Damping> {
     })
 }
 
-fn cam(t: &mut Table<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
+fn cam(t: &mut ValueTable<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
     let stroke = t.positive("spring_stroke", &e.spring_stroke, unit);
     let mounting = t.not_negative("mounting_coefficient", &e.mounting_coefficient, 1.0);
     let efficiency = t.optional(
@@ -82,7 +82,7 @@ pub(crate) fn drive(
     let at = ["workload", "drive"]
         .map(|k| Place::Key(k.to_owned()))
         .to_vec();
-    let t = &mut Table { at, out };
+    let t = &mut ValueTable { at, out };
     let twist = t.angle_in(
         "swing_angle",
         &e.swing_angle,

@@ -1,9 +1,9 @@
 //! The `[workload.grip]` table.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::read::value::names::joint_by_id;
-use crate::file::read::value::quantity::{Bound, Table, word};
+use crate::file::read::value::quantity::{Bound, ValueTable, word};
 use crate::file::schema::{Diameters, Gravity, GripEntry, MechanismFile};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::{JointId, Mechanism, Role};
@@ -14,7 +14,7 @@ const GRAVITY: f64 = 9.80665;
 /// Most diameters and accelerations.
 const MOST: usize = 1000;
 
-fn diameters(t: &mut Table<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
+fn diameters(t: &mut ValueTable<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
     let at = key(&t.at, "diameters");
     let mut list = match &entry.diameters {
         None => return vec![nominal],
@@ -69,7 +69,7 @@ fn diameters(t: &mut Table<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> V
     list
 }
 
-fn load(t: &mut Table<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
+fn load(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let mass = t.optional("mass", e.mass.as_ref(), 1.0, Bound::Positive);
     let density = t.optional("density", e.density.as_ref(), 1.0, Bound::Positive);
     let length = t.optional("part_length", e.part_length.as_ref(), unit, Bound::Positive);
@@ -174,7 +174,7 @@ fn load(t: &mut Table<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
 }
 
 fn transmission(
-    t: &mut Table<'_>,
+    t: &mut ValueTable<'_>,
     e: &GripEntry,
     unit: f64,
     mechanism: Option<&Mechanism>,
@@ -207,7 +207,7 @@ fn transmission(
 }
 
 /// The joints that a list names; shorter than the list where some are not known.
-fn joints(t: &mut Table<'_>, k: &'static str, ids: &[String], m: &Mechanism) -> Vec<JointId> {
+fn joints(t: &mut ValueTable<'_>, k: &'static str, ids: &[String], m: &Mechanism) -> Vec<JointId> {
     let at = key(&t.at, k);
     let each = ids
         .iter()
@@ -218,7 +218,7 @@ fn joints(t: &mut Table<'_>, k: &'static str, ids: &[String], m: &Mechanism) -> 
 
 /// The joints that stand for the contacts: each joins the part to the lever that is to touch it there.
 fn contacts(
-    t: &mut Table<'_>,
+    t: &mut ValueTable<'_>,
     e: &GripEntry,
     spec: &GripSpec,
     m: &Mechanism,
@@ -317,9 +317,9 @@ pub(crate) fn grip(
 ) -> Option<GripSpec> {
     let e = file.workload.grip.as_ref()?;
     let at = ["workload", "grip"]
-        .map(|k| Step::Key(k.to_owned()))
+        .map(|k| DocumentStep::Key(k.to_owned()))
         .to_vec();
-    let t = &mut Table { at, out };
+    let t = &mut ValueTable { at, out };
     let prism_angle = t.angle_in(
         "prism_angle",
         &e.prism_angle,

@@ -1,11 +1,11 @@
 //! What `[workload]` says of moments, of the stiffness of joints, and of joints made askew.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::names::{joint_by_id, link_by_id, states_by_name};
 use crate::file::read::value::number::vector;
-use crate::file::read::value::quantity::{Bound, Table};
+use crate::file::read::value::quantity::{Bound, ValueTable};
 use crate::file::read::workload::motion::{MAX_FORCES, position, quantity};
 use crate::file::schema::WorkloadEntry;
 use crate::model::joint_type::JointType;
@@ -18,7 +18,7 @@ use itertools::Itertools;
 pub(crate) fn moments(
     entry: &WorkloadEntry,
     mechanism: &Mechanism,
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> Vec<ExternalMoment> {
     let mut found = Vec::new();
@@ -40,7 +40,7 @@ pub(crate) fn moments(
 pub(crate) fn faces(
     entry: &WorkloadEntry,
     mechanism: &Mechanism,
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> Vec<Face> {
     let mut found = Vec::new();
@@ -61,7 +61,7 @@ pub(crate) fn faces(
             };
             out.add(&key(&at, "joint"), kind);
         }
-        let t = &mut Table { at, out };
+        let t = &mut ValueTable { at, out };
         let range = Bound::Range(0.0, 10.0, "a number from 0 to 10");
         found.push(Face {
             joint,
@@ -75,7 +75,7 @@ pub(crate) fn faces(
 /// Stiffness by joint type.
 pub(crate) fn stiffness(
     entry: &WorkloadEntry,
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> Vec<(String, Stiffness)> {
     let at = key(at, "stiffness");
@@ -118,7 +118,7 @@ pub(crate) fn stiffness(
 pub(crate) fn misalignments(
     entry: &WorkloadEntry,
     mechanism: &Mechanism,
-    at: &[Step],
+    at: &[DocumentStep],
     out: &mut Findings,
 ) -> Vec<Misalignment> {
     let mut found = Vec::new();

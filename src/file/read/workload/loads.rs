@@ -1,7 +1,7 @@
 //! Masses of links and the `[workload]` table.
 
 use crate::file::findings::Findings;
-use crate::file::locate::{Step, index, key};
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::names::{link_by_id, states_by_name};
 use crate::file::read::value::number::vector;
@@ -16,7 +16,11 @@ use crate::model::loads::{ExternalForce, Inertia, Loads, MassProperties, Stroke}
 use crate::model::mechanism::Mechanism;
 
 /// The mass of a link, where its entry states one.
-pub(crate) fn mass(entry: &LinkEntry, at: &[Step], out: &mut Findings) -> Option<MassProperties> {
+pub(crate) fn mass(
+    entry: &LinkEntry,
+    at: &[DocumentStep],
+    out: &mut Findings,
+) -> Option<MassProperties> {
     let centre = entry
         .centre
         .as_ref()
@@ -82,7 +86,7 @@ pub(crate) fn mass(entry: &LinkEntry, at: &[Step], out: &mut Findings) -> Option
 
 /// The `[workload]` table.
 pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> Loads {
-    let at = [Step::Key("workload".to_owned())];
+    let at = [DocumentStep::Key("workload".to_owned())];
     let entry = &file.workload;
     if entry.force.len() > MAX_FORCES {
         out.add(
@@ -175,7 +179,7 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
     }
 }
 
-fn stroke(s: &StrokeEntry, at: &[Step], out: &mut Findings) -> Stroke {
+fn stroke(s: &StrokeEntry, at: &[DocumentStep], out: &mut Findings) -> Stroke {
     let from = quantity(
         &s.from,
         position,

@@ -1,7 +1,7 @@
 //! Positions and speeds of drives, with the units that files may write.
 
 use crate::file::findings::Findings;
-use crate::file::locate::Step;
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Quantity;
 use crate::model::loads::Stroke;
@@ -68,7 +68,7 @@ pub(crate) fn quantity(
     parse: fn(&str) -> Option<f64>,
     what: &'static str,
     allowed: &'static str,
-    path: &[Step],
+    path: &[DocumentStep],
     out: &mut Findings,
 ) -> f64 {
     let (value, shown) = match q {

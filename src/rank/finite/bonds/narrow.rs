@@ -1,6 +1,6 @@
 //! Groups held to the subgroup that instantaneous motions use.
 
-use super::{Bonds, Part, Twist};
+use super::{BondPart, Bonds, Twist};
 use crate::linalg::echelon::{Echelon, combination, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::LinkId;
@@ -30,7 +30,7 @@ impl Bonds<'_> {
                 if fewer && self.is_algebra(&used.iter().collect::<Vec<_>>()) {
                     narrowed = true;
                     if !used.is_empty() {
-                        kept.push(Part::group(used));
+                        kept.push(BondPart::group(used));
                     }
                 } else {
                     kept.push(part);
@@ -42,7 +42,11 @@ impl Bonds<'_> {
     }
 
     /// A basis of the twists of a part in some motions, given by the weights of its twists.
-    fn used<'a>(&self, part: &Part, motions: impl Iterator<Item = &'a [Residue]>) -> Vec<Twist> {
+    fn used<'a>(
+        &self,
+        part: &BondPart,
+        motions: impl Iterator<Item = &'a [Residue]>,
+    ) -> Vec<Twist> {
         let field = self.exact.field();
         let mut span = Echelon::new(field);
         motions

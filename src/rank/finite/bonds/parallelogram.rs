@@ -1,6 +1,6 @@
 //! Equal bars side by side on parallel hinges: what they carry slides on a circle.
 
-use super::{Bonds, Chain, Part, Twist};
+use super::{BondPart, Bonds, Chain, Twist};
 use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::rank;
 
@@ -26,7 +26,7 @@ impl Bonds<'_> {
     }
 
     /// The slide on a circle of two chains that are bars of a parallelogram.
-    fn circle(&self, a: &Chain, b: &Chain) -> Option<Part> {
+    fn circle(&self, a: &Chain, b: &Chain) -> Option<BondPart> {
         if a.ends != b.ends || a.is_closed() {
             return None;
         }
@@ -41,7 +41,7 @@ impl Bonds<'_> {
         let slides = |t: &Twist| t[..3].iter().all(|&x| x == 0);
         let equal = along == difference(&near_too, &far_too);
         let apart = rank(field, [&along[..], &across[..]]) == 2;
-        (slides(&along) && slides(&across) && equal && apart).then(|| Part {
+        (slides(&along) && slides(&across) && equal && apart).then(|| BondPart {
             span: vec![along.clone()],
             within: vec![along, across],
         })
@@ -53,7 +53,7 @@ impl Bonds<'_> {
             return None;
         };
         let field = self.exact.field();
-        let turn = |part: &Part| -> Option<Twist> {
+        let turn = |part: &BondPart| -> Option<Twist> {
             let [twist] = &part.span[..] else {
                 return None;
             };

@@ -25,7 +25,7 @@ pub(super) struct Solved<'a> {
 }
 
 /// One freedom passed by a contour: the displacement before it, and its own functions of t, as series.
-struct Step {
+struct FreedomPassed {
     column: usize,
     forward: bool,
     /// ω, v, ω × v and ω × (ω × v) of its twist.
@@ -45,19 +45,19 @@ struct Step {
 
 /// A turn and a shift of one order.
 #[derive(Clone, Copy)]
-struct Term {
+struct SeriesTerm {
     turn: [Three; 3],
     shift: Three,
 }
 
-impl Step {
-    fn new(f: Field, twist: &[Residue], column: usize, forward: bool) -> Step {
+impl FreedomPassed {
+    fn new(f: Field, twist: &[Residue], column: usize, forward: bool) -> FreedomPassed {
         let (w, v) = (
             [twist[0], twist[1], twist[2]],
             [twist[3], twist[4], twist[5]],
         );
         let once = cross(f, w, v);
-        Step {
+        FreedomPassed {
             column,
             forward,
             twist: [w, v, once, cross(f, w, once)],
@@ -72,7 +72,7 @@ impl Step {
     }
 
     /// Puts the displacement before it on record, of the next order.
-    fn enter(&mut self, f: Field, before: &Term) {
+    fn enter(&mut self, f: Field, before: &SeriesTerm) {
         for (i, row) in before.turn.iter().enumerate() {
             for (series, &x) in self.turn[i].iter_mut().zip(row) {
                 series.push(x);
@@ -83,7 +83,7 @@ impl Step {
     }
 
     /// Adds to the displacement before it what this freedom does to it at order `d`, its angle's coefficient being `x`.
-    fn pass(&mut self, f: Field, d: usize, x: Residue, at: &mut Term) {
+    fn pass(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
         let x = if self.forward { x } else { f.neg(x) };
         self.angle.push(x);
         let turns = self.twist[0] != [0; 3];
@@ -127,7 +127,7 @@ impl Step {
     }
 
     /// What a coefficient of order `d` that was taken for 0 adds, here and to all that comes after.
-    fn mend(&mut self, f: Field, d: usize, x: Residue, at: &mut Term) {
+    fn mend(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
         let x = if self.forward { x } else { f.neg(x) };
         for (i, row) in at.turn.iter().enumerate() {
             for (series, &more) in self.turn[i].iter_mut().zip(row) {
@@ -153,8 +153,8 @@ impl Step {
     }
 }
 
-impl Term {
-    const ZERO: Term = Term {
+impl SeriesTerm {
+    const ZERO: SeriesTerm = SeriesTerm {
         turn: [[0; 3]; 3],
         shift: [0; 3],
     };
@@ -239,7 +239,7 @@ pub(super) fn line(
             (*known, out.begun) = (true, d);
         }
         for walk in &mut walks {
-            let mut at = Term::ZERO;
+            let mut at = SeriesTerm::ZERO;
             for step in walk {
                 step.mend(f, d, more[step.column], &mut at);
             }
@@ -263,12 +263,12 @@ pub(super) fn second(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
 }
 
 /// The contours before anything moves.
-fn at_rest(of: &Solved<'_>) -> Vec<Vec<Step>> {
+fn at_rest(of: &Solved<'_>) -> Vec<Vec<FreedomPassed>> {
     let f = of.field;
-    let mut at = Term::ZERO;
+    let mut at = SeriesTerm::ZERO;
     (0..3).for_each(|i| at.turn[i][i] = f.one());
     let step = |&(c, forward): &(usize, bool)| {
-        let mut step = Step::new(f, &of.twists[c], c, forward);
+        let mut step = FreedomPassed::new(f, &of.twists[c], c, forward);
         step.enter(f, &at);
         step
     };
@@ -279,13 +279,13 @@ fn at_rest(of: &Solved<'_>) -> Vec<Vec<Step>> {
 /// The gaps of order `d`, six a contour, with these coefficients of the coordinates.
 fn pass(
     f: Field,
-    walks: &mut [Vec<Step>],
+    walks: &mut [Vec<FreedomPassed>],
     d: usize,
     given: impl Fn(usize) -> Residue,
 ) -> Vec<Residue> {
     let mut gaps = Vec::with_capacity(6 * walks.len());
     for walk in walks {
-        let mut at = Term::ZERO;
+        let mut at = SeriesTerm::ZERO;
         for step in walk {
             step.enter(f, &at);
             step.pass(f, d, given(step.column), &mut at);

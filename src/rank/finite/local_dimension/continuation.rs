@@ -6,7 +6,7 @@
 //! Coordinates are counted from one pose, so that gaps do not add up unseen.
 
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::finite::local_dimension::{Search, along, norm};
+use crate::rank::finite::local_dimension::{DimensionSearch, along, norm};
 use ozols_dense::svd;
 
 /// How far a motion must go on, by the coordinate that moves most from step to step: radians, or fractions of the size.
@@ -24,7 +24,7 @@ fn largest(q: &[f64]) -> f64 {
     q.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 
-impl Search {
+impl DimensionSearch {
     /// Whether a motion in a random direction of some orthonormal columns, all being motions, goes on; `None` where the budget
     /// is spent.
     pub(super) fn all_go_on(&mut self, pose: &Pose, span: &ozols_dense::Matrix) -> Option<bool> {

@@ -16,7 +16,7 @@ const DOUBLE: f64 = 1e-13;
 
 /// What of a joint's place matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum PlaceKind {
     /// Nothing: it only slides.
     Nowhere,
     /// The line of its axis.
@@ -26,18 +26,18 @@ pub(super) enum Kind {
 }
 
 /// What of a joint of a type matters.
-pub(super) fn kind(joint_type: &JointType) -> Kind {
+pub(super) fn kind(joint_type: &JointType) -> PlaceKind {
     let turns = |f: &&Freedom| f.turns() || **f == Freedom::Screw;
     let turning: Vec<&Freedom> = joint_type.freedoms().iter().filter(turns).collect();
     match turning[..] {
-        [] => Kind::Nowhere,
-        [Freedom::Rz | Freedom::Screw] => Kind::Line,
-        _ => Kind::Centre,
+        [] => PlaceKind::Nowhere,
+        [Freedom::Rz | Freedom::Screw] => PlaceKind::Line,
+        _ => PlaceKind::Centre,
     }
 }
 
 /// Joints on one line, or with one centre.
-struct Place {
+struct AlignedJoints {
     /// The first is the one the others are compared with.
     joints: Vec<JointId>,
     point: ExactVector,
@@ -47,7 +47,7 @@ struct Place {
     fixed: bool,
 }
 
-impl Place {
+impl AlignedJoints {
     fn distance(&self, p: Vector) -> f64 {
         let off = vector::sub(p, real(&self.point));
         match &self.along {
@@ -120,16 +120,16 @@ pub(super) fn places(m: &Mechanism, near: f64) -> Vec<Put> {
 }
 
 /// Lines and centres, those that coincide as one.
-fn gather(m: &Mechanism, near: f64) -> Vec<Place> {
-    let mut of: Vec<Place> = Vec::new();
+fn gather(m: &Mechanism, near: f64) -> Vec<AlignedJoints> {
+    let mut of: Vec<AlignedJoints> = Vec::new();
     for (j, joint) in m.joints_with_ids() {
         let along = match kind(&joint.joint_type) {
-            Kind::Nowhere => continue,
-            Kind::Line => Some(&joint.frame.axis),
-            Kind::Centre => None,
+            PlaceKind::Nowhere => continue,
+            PlaceKind::Line => Some(&joint.frame.axis),
+            PlaceKind::Centre => None,
         };
         let point = &joint.frame.point;
-        let same = |p: &&mut Place| {
+        let same = |p: &&mut AlignedJoints| {
             let parallel = match (&p.along, along) {
                 (Some(a), Some(b)) => is_zero(&cross(a, b)),
                 (None, None) => true,
@@ -139,7 +139,7 @@ fn gather(m: &Mechanism, near: f64) -> Vec<Place> {
         };
         match of.iter_mut().find(same) {
             Some(p) => p.joints.push(j),
-            None => of.push(Place {
+            None => of.push(AlignedJoints {
                 joints: vec![j],
                 point: point.clone(),
                 along: along.cloned(),
@@ -151,7 +151,7 @@ fn gather(m: &Mechanism, near: f64) -> Vec<Place> {
 }
 
 /// The centres, and where lines nearly meet.
-fn candidates(of: &[Place], near: f64) -> Vec<ExactVector> {
+fn candidates(of: &[AlignedJoints], near: f64) -> Vec<ExactVector> {
     let mut out: Vec<ExactVector> = Vec::new();
     out.extend(
         of.iter()
@@ -167,7 +167,7 @@ fn candidates(of: &[Place], near: f64) -> Vec<ExactVector> {
 }
 
 /// The point of line `a` that is nearest to line `b`, to a double, where the two nearly meet.
-fn crossing(a: &Place, b: &Place, near: f64) -> Option<ExactVector> {
+fn crossing(a: &AlignedJoints, b: &AlignedJoints, near: f64) -> Option<ExactVector> {
     let (along, other) = (a.along.as_ref()?, b.along.as_ref()?);
     let (u, w) = (real(along), unit(real(other)));
     let normal = vector::cross(u, w);
@@ -188,13 +188,13 @@ fn crossing(a: &Place, b: &Place, near: f64) -> Option<ExactVector> {
     Some(add_scaled(&a.point, &Expr::from_f64(t).ok()?, along))
 }
 
-fn through(of: &[Place], p: Vector, near: f64) -> Vec<usize> {
+fn through(of: &[AlignedJoints], p: Vector, near: f64) -> Vec<usize> {
     let near = |i: &usize| of[*i].distance(p) <= near;
     (0..of.len()).filter(near).collect()
 }
 
 /// Moves what is near a point there; what stays already decides where that is.
-fn meet(of: &mut [Place], x: &ExactVector, near: f64, met: &mut Vec<(JointId, JointId)>) {
+fn meet(of: &mut [AlignedJoints], x: &ExactVector, near: f64, met: &mut Vec<(JointId, JointId)>) {
     let mut here = through(of, real(x), near);
     // A fixed centre first, then a fixed line, then the others.
     here.sort_by_key(|&i| (!of[i].fixed, of[i].along.is_some()));

@@ -18,7 +18,7 @@ pub struct Reach {
 impl Reach {
     /// As far as the rounding of coordinates can have moved two joints of a mechanism of some size apart.
     #[must_use]
-    pub fn of_units(units: Units, size: f64) -> Reach {
+    pub(crate) fn of_units(units: Units, size: f64) -> Reach {
         Reach {
             length: 2.0 * (units.length + size * units.direction),
             angle: 2.0 * units.direction.max(units.length / size),

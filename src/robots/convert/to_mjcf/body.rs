@@ -1,13 +1,13 @@
 //! Bodies, each with the joints that hold it.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::convert::payload::Weight;
 use crate::robots::convert::plan::{Branch, Moves, Single};
 use crate::robots::convert::scene::{limits, moves};
 use crate::robots::convert::solid::turned;
 use crate::robots::convert::text::{attributes, is_straight, pos_axes, quaternion};
-use crate::robots::convert::to_mjcf::Writer;
+use crate::robots::convert::to_mjcf::ToMjcf;
 use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
@@ -30,7 +30,7 @@ enum Next {
     End,
 }
 
-impl Writer<'_> {
+impl ToMjcf<'_> {
     /// Writes the bodies from the root on, each link after the one that bears it.
     pub(super) fn written(&mut self) -> String {
         let mut bodies = Bodies::default();
@@ -108,7 +108,7 @@ impl Writer<'_> {
         let chain = self.chain(link);
         let at = chain
             .iter()
-            .fold(Motion::IDENTITY, |at, b| at.then(&b.at_zero()));
+            .fold(RigidMotion::IDENTITY, |at, b| at.then(&b.at_zero()));
         out.line(&format!(
             "<body name=\"{}\"{}>",
             escape(&self.names[&link]),
@@ -120,7 +120,7 @@ impl Writer<'_> {
             // Where the joint is on the body that they all hold, with those behind it at zero.
             let behind = chain[i + 1..]
                 .iter()
-                .fold(Motion::IDENTITY, |at, b| at.then(&b.at_zero()));
+                .fold(RigidMotion::IDENTITY, |at, b| at.then(&b.at_zero()));
             let place = behind.inverse().then(&b.far);
             self.joint(b, &place, &mut lines);
         }
@@ -169,7 +169,7 @@ impl Writer<'_> {
         let straight = w.tensor[3..] == [0.0; 3];
         if !straight {
             w.tensor = turned(w.tensor, &w.place);
-            w.place = Motion::shift(w.place.translation);
+            w.place = RigidMotion::shift(w.place.translation);
         }
         let tensor = w.tensor.map(|x| number(x).to_string());
         let inertia = if straight {
@@ -177,7 +177,7 @@ impl Writer<'_> {
         } else {
             format!("fullinertia=\"{}\"", tensor.join(" "))
         };
-        let at = pos_axes(&Motion {
+        let at = pos_axes(&RigidMotion {
             translation: [0.0; 3],
             ..w.place
         });
@@ -189,7 +189,7 @@ impl Writer<'_> {
     }
 
     /// The lines of a joint at a place of its body, and the numbers of the keyframe.
-    fn joint(&mut self, b: &Branch, place: &Motion, lines: &mut Vec<String>) {
+    fn joint(&mut self, b: &Branch, place: &RigidMotion, lines: &mut Vec<String>) {
         let part = self.scene.part(b.joint);
         let world = self.scene.robot.world == Some(b.from) && self.scene.plan.root == b.from;
         if b.is_free() && world {
@@ -215,7 +215,7 @@ impl Writer<'_> {
             let turn = b
                 .singles
                 .iter()
-                .fold(Motion::IDENTITY, |m, s| m.then(&s.displacement()));
+                .fold(RigidMotion::IDENTITY, |m, s| m.then(&s.displacement()));
             let turn = place.then(&turn).then(&place.inverse());
             self.moved |= b.singles.iter().any(|s| s.value != 0.0);
             self.qpos.extend(quaternion(&turn));
@@ -232,7 +232,7 @@ impl Writer<'_> {
         &mut self,
         joint: usize,
         s: &Single,
-        place: &Motion,
+        place: &RigidMotion,
         alone: bool,
         lines: &mut Vec<String>,
     ) {
@@ -312,7 +312,7 @@ impl Writer<'_> {
     }
 
     /// A site on a link.
-    pub(super) fn site(&mut self, link: usize, name: &str, place: &Motion) {
+    pub(super) fn site(&mut self, link: usize, name: &str, place: &RigidMotion) {
         let line = format!("<site name=\"{}\"{}/>", escape(name), pos_axes(place));
         self.beside.entry(link).or_default().push(line);
     }

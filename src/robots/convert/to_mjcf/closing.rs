@@ -1,12 +1,12 @@
 //! Joints that close loops: sites held together, with a small body on joints before one of them where the joint can move.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::robots::convert::plan::{Single, ending};
 use crate::robots::convert::text::{attributes, pos_axes};
-use crate::robots::convert::to_mjcf::Writer;
+use crate::robots::convert::to_mjcf::ToMjcf;
 use crate::robots::mechanism::series_of_single_joints::escape;
 
-impl Writer<'_> {
+impl ToMjcf<'_> {
     pub(super) fn closing(&mut self, j: usize) {
         let part = self.scene.part(j).clone();
         let end = ending(&part);
@@ -36,13 +36,13 @@ impl Writer<'_> {
     }
 
     /// A small body on a link that has the freedoms in series, and a site.
-    fn small(&mut self, joint: usize, link: usize, place: &Motion, on: &[Single], site: &str) {
+    fn small(&mut self, joint: usize, link: usize, place: &RigidMotion, on: &[Single], site: &str) {
         let name = self.bodies.fit(&format!("{site}~body"));
         let mut lines = Vec::new();
         let whole = self.scene.part(joint).values.len() == 1;
         let before = self.qpos.len();
         for s in on {
-            self.single_joint(joint, s, &Motion::IDENTITY, whole, &mut lines);
+            self.single_joint(joint, s, &RigidMotion::IDENTITY, whole, &mut lines);
         }
         // Their place in the keyframe is where the body stands in the file.
         let own: Vec<f64> = self.qpos.drain(before..).collect();

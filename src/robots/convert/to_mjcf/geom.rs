@@ -1,6 +1,6 @@
 //! Shapes as geoms, and the meshes that they name.
 
-use crate::robots::convert::payload::{Shape, Solid, Use};
+use crate::robots::convert::payload::{LinkShape, Solid, Use};
 use crate::robots::convert::text::{attributes, pos_axes};
 use crate::robots::mechanism::series_of_single_joints::{Names, escape, number, numbers};
 use std::fmt::Write;
@@ -47,7 +47,7 @@ impl Meshes {
     }
 
     /// The line of a shape.
-    pub(super) fn geom(&mut self, s: &Shape) -> String {
+    pub(super) fn geom(&mut self, s: &LinkShape) -> String {
         let sizes = |all: &[f64]| {
             let words: Vec<String> = all.iter().map(|x| number(*x).to_string()).collect();
             format!("size=\"{}\"", words.join(" "))

@@ -1,13 +1,13 @@
 //! Links of an SDF file: place, weight and shapes.
 
-use crate::geom::rigid::Motion;
-use crate::robots::convert::payload::{Shape, Solid};
+use crate::geom::rigid::RigidMotion;
+use crate::robots::convert::payload::{LinkShape, Solid};
 use crate::robots::convert::text::pose;
-use crate::robots::convert::to_sdf::Writer;
+use crate::robots::convert::to_sdf::ToSdf;
 use crate::robots::mechanism::series_of_single_joints::{Names, escape, number, numbers};
 use std::fmt::Write;
 
-impl Writer<'_> {
+impl ToSdf<'_> {
     pub(super) fn link(&mut self, l: usize) {
         if self.links[&l] == "world" {
             self.ground(l);
@@ -17,7 +17,7 @@ impl Writer<'_> {
         let mut inside = String::new();
         let mut names = Names::default();
         let at = &scene.places[l];
-        if *at != Motion::IDENTITY {
+        if *at != RigidMotion::IDENTITY {
             let _ = writeln!(inside, "      <pose>{}</pose>", pose(at));
         }
         match scene.weight(l) {
@@ -69,10 +69,10 @@ impl Writer<'_> {
         let joint = self.names.fit(&format!("world-{name}"));
         self.ground = Some(name.clone());
         let ends = ["world".to_owned(), name];
-        self.put(&joint, "fixed", &ends, &Motion::IDENTITY, "");
+        self.put(&joint, "fixed", &ends, &RigidMotion::IDENTITY, "");
     }
 
-    fn shape(&mut self, l: usize, s: &Shape, names: &mut Names, out: &mut String) {
+    fn shape(&mut self, l: usize, s: &LinkShape, names: &mut Names, out: &mut String) {
         if !s.words.is_empty() {
             self.out.lost.no_word(
                 "contact settings of a shape",

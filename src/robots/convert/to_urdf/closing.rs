@@ -1,17 +1,17 @@
 //! Joints that close loops, which a URDF has no word for: `<loop_joint>`, pairs of links in a file beside it, or Drake's balls.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, scale};
 use crate::robots::convert::plan::{Moves, Single, ending};
 use crate::robots::convert::text::xyz_rpy;
-use crate::robots::convert::to_urdf::{Loops, Writer};
+use crate::robots::convert::to_urdf::{Loops, ToUrdf};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use std::fmt::Write;
 
 /// An end of a loop: a link of the file and the place on it.
-type End = (String, Motion);
+type End = (String, RigidMotion);
 
-impl Writer<'_> {
+impl ToUrdf<'_> {
     pub(super) fn closing(&mut self, j: usize) {
         let part = self.scene.part(j).clone();
         let mut end = ending(&part);
@@ -48,7 +48,7 @@ impl Writer<'_> {
             } else {
                 let small = self.between(&format!("{id}~{}", ["a", "b"][side]));
                 self.series(j, &end.on[side], at, [name, small.clone()]);
-                (small, Motion::IDENTITY)
+                (small, RigidMotion::IDENTITY)
             });
         }
         match self.loops {

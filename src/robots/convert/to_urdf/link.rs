@@ -1,13 +1,13 @@
 //! Links of a URDF: weight and shapes.
 
-use crate::geom::rigid::Motion;
-use crate::robots::convert::payload::{Shape, Solid};
+use crate::geom::rigid::RigidMotion;
+use crate::robots::convert::payload::{LinkShape, Solid};
 use crate::robots::convert::text::xyz_rpy;
-use crate::robots::convert::to_urdf::{Loops, Writer};
+use crate::robots::convert::to_urdf::{Loops, ToUrdf};
 use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
-impl Writer<'_> {
+impl ToUrdf<'_> {
     /// A link and what it carries, its frame where the joint that holds it is.
     pub(super) fn link(&mut self, l: usize, moving: bool) {
         let back = self.frames[&l].inverse();
@@ -39,7 +39,7 @@ impl Writer<'_> {
         }
     }
 
-    fn shape(&mut self, l: usize, s: &Shape, back: &Motion, out: &mut String) {
+    fn shape(&mut self, l: usize, s: &LinkShape, back: &RigidMotion, out: &mut String) {
         let called = s.name.as_deref().unwrap_or(&self.scene.robot.links[l]);
         if !s.words.is_empty() {
             self.out
@@ -68,7 +68,12 @@ impl Writer<'_> {
     }
 
     /// What stands for a solid: one shape that URDF or Drake has, a few in its place, or none, which is told.
-    fn solids(&mut self, solid: &Solid, place: Motion, called: &str) -> Vec<(Motion, String)> {
+    fn solids(
+        &mut self,
+        solid: &Solid,
+        place: RigidMotion,
+        called: &str,
+    ) -> Vec<(RigidMotion, String)> {
         let drake = self.loops == Loops::Drake;
         let lost = &mut self.out.lost;
         let one = match solid {
@@ -79,7 +84,7 @@ impl Writer<'_> {
             Solid::Capsule(r, l) => {
                 let why = "a cylinder and two balls stand for it";
                 lost.one("capsule", Some(called), why);
-                let end = |z: f64| (place.then(&Motion::shift([0.0, 0.0, z])), ball(*r));
+                let end = |z: f64| (place.then(&RigidMotion::shift([0.0, 0.0, z])), ball(*r));
                 let middle = (place, round("cylinder", *r, *l));
                 return vec![middle, end(l / 2.0), end(-l / 2.0)];
             }

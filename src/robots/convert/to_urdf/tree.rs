@@ -1,16 +1,16 @@
 //! Joints of the tree of a URDF.
 
-use crate::geom::rigid::Motion;
+use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::convert::payload::Dynamics;
 use crate::robots::convert::plan::{Branch, Moves, Single};
 use crate::robots::convert::scene::{limits, name_of};
 use crate::robots::convert::text::xyz_rpy;
-use crate::robots::convert::to_urdf::{ENDLESS, Loops, Writer};
+use crate::robots::convert::to_urdf::{ENDLESS, Loops, ToUrdf};
 use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
-impl Writer<'_> {
+impl ToUrdf<'_> {
     /// The joints that hold a link.
     pub(super) fn branch(&mut self, b: &Branch) {
         let part = self.scene.part(b.joint);
@@ -58,7 +58,7 @@ impl Writer<'_> {
         &mut self,
         joint: usize,
         all: &[Single],
-        at: Motion,
+        at: RigidMotion,
         [from, to]: [String; 2],
     ) {
         let (mut from, mut at) = (from, at);
@@ -81,7 +81,7 @@ impl Writer<'_> {
             };
             let alone = all.len() == 1;
             self.single(joint, s, (&name, kind), &[from, held.clone()], &at, alone);
-            (from, at) = (held, Motion::IDENTITY);
+            (from, at) = (held, RigidMotion::IDENTITY);
             if let Moves::Screw(pitch) = s.moves {
                 let thread = self.joints.fit(&format!("{name}~thread"));
                 let held = if last {
@@ -126,7 +126,7 @@ impl Writer<'_> {
         s: &Single,
         (name, kind): (&str, &str),
         ends: &[String; 2],
-        at: &Motion,
+        at: &RigidMotion,
         alone: bool,
     ) {
         let mut more = format!("    <axis xyz=\"{}\"/>\n", numbers(s.axis));
@@ -197,7 +197,7 @@ impl Writer<'_> {
         name: &str,
         kind: &str,
         [parent, child]: &[String; 2],
-        at: &Motion,
+        at: &RigidMotion,
         more: &str,
     ) {
         let [parent, child] = [parent, child].map(|l| escape(l));

@@ -54,12 +54,12 @@ pub struct AtTolerance {
     /// Whether it was ended early.
     pub stop: Stop,
     /// The sure admissible ones, cheapest first.
-    pub(super) list: List,
+    pub(super) list: VariantList,
 }
 
 /// Variants in few bytes.
 #[derive(Debug, Clone)]
-pub(super) enum List {
+pub(super) enum VariantList {
     /// By number, where every variant has one.
     Numbers(Vec<(Key, u32)>),
     Variants(Vec<Assignment>),
@@ -76,11 +76,11 @@ impl AtTolerance {
     /// them.
     pub fn list<'a>(&'a self, question: &'a Question) -> Box<dyn Iterator<Item = Assignment> + 'a> {
         match &self.list {
-            List::Numbers(all) => Box::new(all.iter().map(|&(key, number)| Assignment {
+            VariantList::Numbers(all) => Box::new(all.iter().map(|&(key, number)| Assignment {
                 choices: choices(question, number),
                 key,
             })),
-            List::Variants(all) => Box::new(all.iter().cloned()),
+            VariantList::Variants(all) => Box::new(all.iter().cloned()),
         }
     }
 
@@ -93,14 +93,14 @@ impl AtTolerance {
     ) -> impl Iterator<Item = Assignment> + 'a {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         std::iter::from_fn(move || match &self.list {
-            List::Numbers(all) if !all.is_empty() => {
+            VariantList::Numbers(all) if !all.is_empty() => {
                 let (key, number) = all[below(&mut random, all.len())];
                 Some(Assignment {
                     choices: choices(question, number),
                     key,
                 })
             }
-            List::Variants(all) if !all.is_empty() => {
+            VariantList::Variants(all) if !all.is_empty() => {
                 Some(all[below(&mut random, all.len())].clone())
             }
             _ => None,

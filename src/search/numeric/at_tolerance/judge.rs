@@ -6,7 +6,7 @@ use crate::geom::exact::ExactError;
 use crate::rank::numeric::Elimination;
 use crate::search::answer::count_tables::Key;
 use crate::search::check::brute;
-use crate::search::check::brute_float::{Approximate, Rows};
+use crate::search::check::brute_float::{Approximate, RankedRows};
 use crate::search::check::variant_mechanism;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
@@ -48,8 +48,10 @@ impl<'s> Judge<'s> {
         let all = Approximate::new(question, Elimination::Svd, digits.tolerance)?;
         let nothing = vec![0; question.space.variables.len()];
         let unknown = RankRange::of(&[], digits);
-        let present = all.range(&nothing, Rows::Free, digits).unwrap_or(unknown);
-        let kept = all.range(&nothing, Rows::WithKept, digits);
+        let present = all
+            .range(&nothing, RankedRows::Free, digits)
+            .unwrap_or(unknown);
+        let kept = all.range(&nothing, RankedRows::WithKept, digits);
         let motion = motion(present, kept.unwrap_or(unknown));
         Ok(Judge {
             question,
@@ -86,7 +88,7 @@ impl<'s> Judge<'s> {
                 admissible: key,
             }
         };
-        let Some(free) = self.all.range(choices, Rows::Free, self.digits) else {
+        let Some(free) = self.all.range(choices, RankedRows::Free, self.digits) else {
             return doubtful();
         };
         let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
@@ -115,7 +117,7 @@ impl<'s> Judge<'s> {
         let determinate = standing(sure && least == most, within);
         let mut good = Answer::of(sure && least == most, true);
         if self.question.conditions.keep_output {
-            let kept = self.all.range(choices, Rows::WithKept, self.digits);
+            let kept = self.all.range(choices, RankedRows::WithKept, self.digits);
             let Some(kept) = kept else {
                 return Judged {
                     determinate,
@@ -147,7 +149,7 @@ impl<'s> Judge<'s> {
             .filter(|_| good != Answer::No)
         {
             let realized = variant_mechanism::realize(self.question, choices);
-            let of_state = self.all.range(choices, Rows::State, self.digits);
+            let of_state = self.all.range(choices, RankedRows::State, self.digits);
             let seen = of_state.and_then(|of_state| {
                 let surplus = |rank: usize| int32(state_rows) - int32(rank);
                 let external = [

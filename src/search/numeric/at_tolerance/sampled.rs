@@ -1,6 +1,6 @@
 //! Spaces too large to be looked at whole: the cheapest variants in order, and a sample of all.
 
-use super::found::{AtTolerance, BLOCK, List, Met, Sampled, Share, below, order};
+use super::found::{AtTolerance, BLOCK, Met, Sampled, Share, VariantList, below, order};
 use super::judge::{Judge, Standing};
 use crate::search::answer::k_best::Assignment;
 use crate::search::diagram::Stop;
@@ -107,7 +107,7 @@ pub(super) fn search(
         } else {
             Stop::NodeBudget
         },
-        list: List::Variants(list),
+        list: VariantList::Variants(list),
     }
 }
 

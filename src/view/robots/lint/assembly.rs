@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// Another type for a joint of a CAD assembly.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Change {
+pub struct TypeChange {
     /// The joint.
     pub joint: String,
     /// Its type, as the CAD program calls it.
@@ -17,9 +17,9 @@ pub struct Change {
     pub to: String,
 }
 
-impl Change {
+impl TypeChange {
     /// What a release makes of a joint of an assembly.
-    pub(super) fn of(m: &Mechanism, origin: &Origin, release: &Release) -> Option<Change> {
+    pub(super) fn of(m: &Mechanism, origin: &Origin, release: &Release) -> Option<TypeChange> {
         let Release::Freedom {
             joint,
             slides,
@@ -28,7 +28,7 @@ impl Change {
         else {
             return None;
         };
-        Change::at(m, origin, joint, &[(slides, direction)])
+        TypeChange::at(m, origin, joint, &[(slides, direction)])
     }
 
     /// What more freedoms make of one; none where it is no assembly, or has no such type.
@@ -38,12 +38,12 @@ impl Change {
         origin: &Origin,
         joint: JointId,
         more: &[(bool, Vector)],
-    ) -> Option<Change> {
+    ) -> Option<TypeChange> {
         if !origin.is_assembly() {
             return None;
         }
         let now = origin.becomes(joint, &[]);
-        Some(Change {
+        Some(TypeChange {
             joint: m.joints[joint].id.clone(),
             from: now.unwrap_or(m.joints[joint].joint_type.name()).to_owned(),
             to: origin.becomes(joint, more)?.to_owned(),

@@ -6,11 +6,11 @@ use crate::common::{json, near, out, ozols, run_on, text};
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::Feed;
 use ozols::drive::tolerance_samples::shares;
-use ozols::model::drive::Step;
+use ozols::model::drive::ProgrammeStep;
 use serde_json::Value;
 
-fn steps(discs: &[usize]) -> Vec<Step> {
-    discs.iter().map(|&d| Step::Swing(d)).collect()
+fn steps(discs: &[usize]) -> Vec<ProgrammeStep> {
+    discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect()
 }
 
 /// A drive that needs about 0.33 J of its cam.

@@ -6,7 +6,7 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::Feed;
-use ozols::model::drive::Step;
+use ozols::model::drive::ProgrammeStep;
 
 /// Discs in absolute angles, with grooves and cams cut where they are: what is left of the drive when formulas are.
 struct Bench<'a> {
@@ -151,7 +151,8 @@ fn the_long_run_is_that_of_the_programme_as_it_is_written() {
         let discs: Vec<usize> = (0..length)
             .map(|_| usize::from(any(0.0, 1.0) < 0.5))
             .collect();
-        let programme: Vec<Step> = discs.iter().map(|&d| Step::Swing(d)).collect();
+        let programme: Vec<ProgrammeStep> =
+            discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect();
         let said = m.endurance(&programme).unwrap();
         let (n, missed, margin) = latched(&m, &discs, 200);
         if margin < 1e-7 {
@@ -184,7 +185,8 @@ fn the_shortfall_of_the_long_run_is_the_largest_of_a_round() {
         (vec![0, 1, 1], 0.42),
     ] {
         let m = drive([0.23, 0.11], 0.05, 0.0, 0.4, feed);
-        let programme: Vec<Step> = discs.iter().map(|&d| Step::Swing(d)).collect();
+        let programme: Vec<ProgrammeStep> =
+            discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect();
         let Endurance::Lasts { missing } = m.endurance(&programme).unwrap() else {
             panic!("{discs:?}")
         };

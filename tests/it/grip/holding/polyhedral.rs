@@ -4,8 +4,8 @@ use super::{COUPLINGS, assert_statics, cross3, force, held, lever, pose, pull};
 use crate::common::near;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use ozols::geom::vector::cross_plane as cross;
-use ozols::grip::contact::{Gripper, Pose};
-use ozols::grip::holding::{ContactForce, Load, Outcome, Spatial, hold};
+use ozols::grip::contact::{Gripper, TouchingPose};
+use ozols::grip::holding::{ContactForce, HoldingOutcome, PartWrench, Spatial, hold};
 use ozols::model::grip::LeverDrive;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -13,8 +13,8 @@ use std::f64::consts::TAU;
 /// Drive moment with each friction cone replaced by `facets` edges on it (too few forces, so too much moment), or by edges
 /// outside it (`outer`); `None` where it cannot be held.
 fn polyhedral(
-    pose: &Pose,
-    load: &Load,
+    pose: &TouchingPose,
+    load: &PartWrench,
     friction: f64,
     coupling: LeverDrive,
     facets: usize,
@@ -115,13 +115,13 @@ proptest! {
         f in direction(), m in direction(), mu in 0.1..1.0f64, d in 0.03..0.05f64, by in coupling(),
     ) {
         let pose = Gripper::nominal(lever(0.1, 120.0, 30.0), 0.04).pose(d).unwrap();
-        let load = Load { force: f.map(|x| 10.0 * x), moment: m.map(|x| 0.05 * x) };
+        let load = PartWrench { force: f.map(|x| 10.0 * x), moment: m.map(|x| 0.05 * x) };
         let (inner, outer) = (
             polyhedral(&pose, &load, mu, by, 24, false),
             polyhedral(&pose, &load, mu, by, 24, true),
         );
         match hold(&pose, &load, mu, by).unwrap() {
-            Outcome::Held(h) => {
+            HoldingOutcome::Held(h) => {
                 assert_statics(&pose, &load, mu, &h);
                 if let Some(most) = inner {
                     prop_assert!(h.drive <= most * (1.0 + 1e-6) + 1e-9, "{} above {most}", h.drive);
@@ -132,7 +132,7 @@ proptest! {
                     prop_assert!(most <= least * 1.2 + 1e-6, "the bracket is tight: {least} {most}");
                 }
             }
-            Outcome::Slips(_) => prop_assert!(inner.is_none()),
+            HoldingOutcome::Slips(_) => prop_assert!(inner.is_none()),
         }
     }
 
@@ -176,11 +176,11 @@ proptest! {
         let pose = g.pose(d * other);
         if let (Ok(pose), true) = (pose, g.obstacles(d * other).is_empty()) {
             let strength = 10f64.powf(decade);
-            let load = Load { force: f.map(|x| x * strength), moment: m.map(|x| x * strength * l.length) };
+            let load = PartWrench { force: f.map(|x| x * strength), moment: m.map(|x| x * strength * l.length) };
             let mu = friction.map_or(0.0, |e| 10f64.powf(e));
             let outcome = hold(&pose, &load, mu, by);
             prop_assert!(outcome.is_ok(), "{outcome:?}");
-            if let Ok(Outcome::Held(h)) = outcome {
+            if let Ok(HoldingOutcome::Held(h)) = outcome {
                 let mut sum = load.force;
                 for (i, c) in h.forces.iter().enumerate() {
                     let w = force(&pose, i, c);

@@ -10,7 +10,7 @@ use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mode, StateId};
 use ozols::rank::exact::field::field_of;
-use ozols::rank::finite::displacement_group::{Kind, whole_group};
+use ozols::rank::finite::displacement_group::{GroupKind, whole_group};
 use ozols::rank::finite::independent_parts::lock_idle;
 use ozols::rank::finite::{Finite, How, Proof, followed};
 use std::fmt::Write;
@@ -162,8 +162,8 @@ fn most_built_ins_of_one_group_are_proven() {
         for state in m.state_ids() {
             let exact = field_of(&m, state, 0).unwrap();
             let kind = whole_group(&exact, &m, state).unwrap().kind();
-            let planar = matches!(m.mode, Mode::Planar { .. }) || kind == Kind::Planar;
-            if planar || kind == Kind::Spherical {
+            let planar = matches!(m.mode, Mode::Planar { .. }) || kind == GroupKind::Planar;
+            if planar || kind == GroupKind::Spherical {
                 all += 1;
                 if !judged_in(&m, state).1.is_proven() {
                     open.push(format!("{name}, {}", m.states[state]));

@@ -7,7 +7,7 @@
 use super::search_numeric::{plain, request, turned};
 use ozols::accuracy::stability::change::Noise;
 use ozols::accuracy::stability::said;
-use ozols::accuracy::stability::special::Kind;
+use ozols::accuracy::stability::special::SpecialKind;
 use ozols::builtin;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::auto::decide;
@@ -242,7 +242,7 @@ fn offsets_beyond_the_digits_are_kept() {
 #[test]
 fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
     let seed = std::env::var("OZOLS_FUZZ_SEED").map_or(3, |s| s.parse().unwrap());
-    for kind in Kind::ALL {
+    for kind in SpecialKind::ALL {
         for (i, decimals) in (3..=12).cycle().take(40).enumerate() {
             for (units, turned) in [
                 (1.6, false),
@@ -252,7 +252,7 @@ fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
                 (10.0, true),
             ] {
                 // Its axes are in all directions, turned or not.
-                if kind == Kind::Spherical && units < 3.0 {
+                if kind == SpecialKind::Spherical && units < 3.0 {
                     continue;
                 }
                 let text = kind.text(units, decimals, turned, &mut Noise::new(seed, i));

@@ -2,7 +2,7 @@
 
 use super::{again, taken};
 use ozols::robots::convert::{
-    Closure, Converted, Judged, Motions, Target, Wanted, convert, figures,
+    Converted, JudgedLoop, LoopClosure, Motions, Target, Wanted, convert, figures,
 };
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ fn auto() -> Wanted {
 }
 
 /// W, σ and motion by closure.
-fn table(j: &Judged) -> BTreeMap<&'static str, (usize, usize, Motions)> {
+fn table(j: &JudgedLoop) -> BTreeMap<&'static str, (usize, usize, Motions)> {
     let row = |o: &ozols::robots::convert::Judgement| {
         (o.closure.word(), (o.figures.0, o.figures.1, o.motion))
     };
@@ -61,7 +61,7 @@ fn a_planar_loop_wants_a_point_on_a_line() {
     // A weld holds the four-bar still: two of its six hold what hinges do not, and one more.
     assert_eq!(found.remove("weld"), Some((0, 3, Motions::Less)));
     assert_eq!(found, wanted);
-    assert_eq!(pin.options[pin.chosen].closure, Closure::Line);
+    assert_eq!(pin.options[pin.chosen].closure, LoopClosure::Line);
     assert_eq!(c.figures, Some((1, 0)));
     assert_eq!(figures(&again(&c).mechanism), Some((1, 0)));
 }
@@ -102,14 +102,14 @@ fn in_space_a_point_is_loose_and_a_weld_locks() {
 #[test]
 fn closures_are_taken_as_asked() {
     for (closure, figures_wanted) in [
-        (Closure::Connect, (1, 1)),
-        (Closure::Hinge, (1, 3)),
-        (Closure::TwoPoints, (1, 4)),
-        (Closure::Universal, (1, 2)),
-        (Closure::Cylinder, (1, 2)),
-        (Closure::Line, (1, 0)),
-        (Closure::Weld, (0, 3)),
-        (Closure::AsGiven, (1, 1)),
+        (LoopClosure::Connect, (1, 1)),
+        (LoopClosure::Hinge, (1, 3)),
+        (LoopClosure::TwoPoints, (1, 4)),
+        (LoopClosure::Universal, (1, 2)),
+        (LoopClosure::Cylinder, (1, 2)),
+        (LoopClosure::Line, (1, 0)),
+        (LoopClosure::Weld, (0, 3)),
+        (LoopClosure::AsGiven, (1, 1)),
     ] {
         let each = vec![("pin".to_owned(), Some(closure))];
         let wanted = Wanted { all: None, each };
@@ -134,18 +134,21 @@ fn closures_are_taken_as_asked() {
 fn every_loop_gets_its_own() {
     let i = super::read("gripper.xml", None);
     let c = convert(&i, Target::Mjcf, &auto()).unwrap_or_else(|e| panic!("{e}"));
-    let taken: Vec<Closure> = c
+    let taken: Vec<LoopClosure> = c
         .closures
         .iter()
         .map(|j| j.options[j.chosen].closure)
         .collect();
-    assert_eq!((c.figures, taken), (Some((1, 0)), vec![Closure::Line; 2]));
+    assert_eq!(
+        (c.figures, taken),
+        (Some((1, 0)), vec![LoopClosure::Line; 2])
+    );
     let c = convert(
         &i,
         Target::Mjcf,
         &Wanted {
             all: Some(None),
-            each: vec![("connect-1".to_owned(), Some(Closure::AsGiven))],
+            each: vec![("connect-1".to_owned(), Some(LoopClosure::AsGiven))],
         },
     );
     let c = c.unwrap_or_else(|e| panic!("{e}"));

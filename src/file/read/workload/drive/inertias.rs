@@ -2,7 +2,7 @@
 
 use crate::file::locate::key;
 use crate::file::read::value::names::link_by_id;
-use crate::file::read::value::quantity::Table;
+use crate::file::read::value::quantity::ValueTable;
 use crate::file::schema::DriveEntry;
 use crate::geom::expr::Expr;
 use crate::model::drive::Payload;
@@ -12,7 +12,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 
 /// Inertia of a link about the axis it turns on the frame about.
 fn link_inertia(
-    t: &mut Table<'_>,
+    t: &mut ValueTable<'_>,
     id: &str,
     unit: f64,
     mechanism: Option<&Mechanism>,
@@ -63,7 +63,7 @@ fn link_inertia(
 
 /// Inertias of the discs with what they carry, and the payload.
 pub(crate) fn inertias(
-    t: &mut Table<'_>,
+    t: &mut ValueTable<'_>,
     e: &DriveEntry,
     unit: f64,
     mechanism: Option<&Mechanism>,

@@ -1,26 +1,26 @@
 //! Swings and dwells in order.
 
 use crate::file::locate::{index, key};
-use crate::file::read::value::quantity::{Bound, Table, word};
+use crate::file::read::value::quantity::{Bound, ValueTable, word};
 use crate::file::schema::DriveEntry;
-use crate::model::drive::Step;
+use crate::model::drive::ProgrammeStep;
 
 /// Most steps of a programme.
 pub(in crate::file::read) const MOST: usize = 10_000;
 
 /// So many swings, of both discs in turn or of the second alone, with a dwell after each where one is given.
 #[must_use]
-pub fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<Step> {
+pub fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<ProgrammeStep> {
     let mut steps = Vec::new();
     for i in 0..swings {
         // The second disc goes first, so that the first, which is ahead, is followed.
-        steps.push(Step::Swing(if stepwise { (i + 1) % 2 } else { 1 }));
-        steps.extend(dwell.map(Step::Dwell));
+        steps.push(ProgrammeStep::Swing(if stepwise { (i + 1) % 2 } else { 1 }));
+        steps.extend(dwell.map(ProgrammeStep::Dwell));
     }
     steps
 }
 
-pub(crate) fn programme(t: &mut Table<'_>, e: &DriveEntry) -> Vec<Step> {
+pub(crate) fn programme(t: &mut ValueTable<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     let dwell = t.optional(
         "dwell",
         e.dwell.as_ref(),
@@ -64,8 +64,8 @@ pub(crate) fn programme(t: &mut Table<'_>, e: &DriveEntry) -> Vec<Step> {
         return Vec::new();
     }
     let step = |text: &str| match text.trim() {
-        "1" => Some(Step::Swing(0)),
-        "2" => Some(Step::Swing(1)),
+        "1" => Some(ProgrammeStep::Swing(0)),
+        "2" => Some(ProgrammeStep::Swing(1)),
         other => {
             let time = other
                 .strip_prefix("wait")?
@@ -74,7 +74,9 @@ pub(crate) fn programme(t: &mut Table<'_>, e: &DriveEntry) -> Vec<Step> {
                 .trim_end()
                 .parse::<f64>()
                 .ok()?;
-            (0.0..=1e6).contains(&time).then_some(Step::Dwell(time))
+            (0.0..=1e6)
+                .contains(&time)
+                .then_some(ProgrammeStep::Dwell(time))
         }
     };
     let mut steps = Vec::new();

@@ -1,7 +1,7 @@
 //! What the cam gives a swing, and where: one moment all along, or pieces.
 
 use crate::file::locate::{index, key};
-use crate::file::read::value::quantity::{Bound, Table};
+use crate::file::read::value::quantity::{Bound, ValueTable};
 use crate::file::schema::{Coordinate, DriveEntry};
 use crate::model::drive::Push;
 
@@ -9,7 +9,7 @@ use crate::model::drive::Push;
 const MOST: usize = 1000;
 
 /// The cam's push over a swing of half as much as twice `twist`.
-pub(crate) fn push(t: &mut Table<'_>, e: &DriveEntry, twist: f64) -> Push {
+pub(crate) fn push(t: &mut ValueTable<'_>, e: &DriveEntry, twist: f64) -> Push {
     if let Some(list) = &e.feed_moments {
         return pieces(t, e, list, twist);
     }
@@ -28,7 +28,7 @@ pub(crate) fn push(t: &mut Table<'_>, e: &DriveEntry, twist: f64) -> Push {
     Push::Even { energy, from }
 }
 
-fn pieces(t: &mut Table<'_>, e: &DriveEntry, list: &[[Coordinate; 2]], twist: f64) -> Push {
+fn pieces(t: &mut ValueTable<'_>, e: &DriveEntry, list: &[[Coordinate; 2]], twist: f64) -> Push {
     let beside = [
         ("feed_energy", e.feed_energy.is_some()),
         ("feed_from", e.feed_from.is_some()),

@@ -1,0 +1,95 @@
+//! What singular values, and other scenes that the digits do not rule out, say of a search.
+
+use crate::redundancy::analysis::exact_field;
+use crate::score::outcome::ranking::RankedPool;
+use crate::score::request::{List, Request};
+use crate::score::run::error::RunError;
+use crate::search::Search;
+use crate::search::answer::counts::Counts;
+use crate::search::answer::k_best::Assignment;
+use crate::search::build::Diagrams;
+use crate::search::check::second_opinion::{self, DRAWN, SecondOpinion};
+use crate::search::check::singular_values::CHECKED;
+use num_bigint::BigUint;
+
+/// Of so many ideas the first variants get a second opinion.
+const IDEAS: usize = 100;
+
+/// What singular values say of the counts, of the variants that are listed and of a sample, where coordinates look rounded.
+pub(super) fn second_opinion(
+    search: &Search,
+    diagrams: &Diagrams,
+    determinate: &Counts,
+    ranking: Option<&RankedPool>,
+    request: &Request,
+) -> Result<Option<SecondOpinion>, RunError> {
+    let Some(written) = &search.conditions.written else {
+        return Ok(None);
+    };
+    let mut listed: Vec<Assignment> = match (ranking, request.list) {
+        (Some(r), _) => r
+            .list
+            .iter()
+            .map(|r| r.variant.clone())
+            .take(CHECKED)
+            .collect(),
+        (_, List::Top(k)) => search.cheapest(diagrams, k.min(CHECKED)).collect(),
+        (_, List::All) => search.cheapest(diagrams, CHECKED).collect(),
+        (_, List::Sample(n)) => {
+            let drawn = search.sample(diagrams, request.seed);
+            drawn.take(n.min(CHECKED)).collect()
+        }
+        (_, List::Nothing) => Vec::new(),
+    };
+    // People are given the first of each idea.
+    if let (None, List::Top(k @ 1..=IDEAS)) = (ranking, request.list) {
+        listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
+    }
+    let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
+    let said = second_opinion::second_opinion(
+        search,
+        written,
+        (listed, drawn),
+        determinate,
+        request.seed,
+    )?;
+    Ok(Some(said))
+}
+
+/// The least and the most (determinate, admissible) over the scenes that the digits do not rule out; none where all are the
+/// same, by mobility too.
+pub(super) fn other_scenes(
+    search: &Search,
+    (determinate, admissible): (&Counts, &Counts),
+    should_cancel: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<[(BigUint, BigUint); 2]>, RunError> {
+    let scenes = search.conditions.written.iter().flat_map(|w| &w.others);
+    let own = (determinate.total.clone(), admissible.total.clone());
+    let (mut range, mut differ) = ([own.clone(), own], false);
+    for scene in scenes {
+        let field = exact_field(scene, 0)?;
+        let mut conditions = search.conditions.clone();
+        conditions.estimate = None;
+        let other = Search::new(field, scene.clone(), conditions)?;
+        let built = other.build(should_cancel, &mut |_| {});
+        let found = (
+            other.counts(&built.determinate, false),
+            other.counts(&built.admissible, true),
+        );
+        differ |= found.0.by_mobility != determinate.by_mobility
+            || found.1.by_mobility != admissible.by_mobility;
+        let [least, most] = &mut range;
+        for (total, least, most) in [
+            (found.0.total, &mut least.0, &mut most.0),
+            (found.1.total, &mut least.1, &mut most.1),
+        ] {
+            if total < *least {
+                least.clone_from(&total);
+            }
+            if total > *most {
+                *most = total;
+            }
+        }
+    }
+    Ok(differ.then_some(range))
+}
