@@ -62,6 +62,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Draw(a) => command::draw::run(&args, a),
         Command::Report(a) => command::report::run(&args, a),
         Command::Watch(a) => command::watch::run(&args, a),
+        Command::Studio(a) => command::studio::run(&args, a),
         Command::Export(a) => command::export::run(&args, a),
         Command::Accuracy(a) => command::accuracy::run(&args, a),
         Command::Bench(a) => command::bench::run(&args, a),

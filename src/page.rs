@@ -10,13 +10,17 @@ mod certainty;
 mod data;
 mod explorer;
 mod figures;
+#[cfg(feature = "cli")]
+pub(crate) mod moving;
 mod number;
 mod policy;
+#[cfg(feature = "cli")]
+pub(crate) mod scenes;
 mod stage;
 mod states;
 mod symbols;
 mod variants;
-mod verdict;
+pub(crate) mod verdict;
 mod workload;
 
 use crate::draw::{Drawing, Scene};
@@ -31,6 +35,8 @@ use data::Data;
 use maud::{Markup, PreEscaped, html};
 use symbols::Drawn;
 
+#[cfg(feature = "cli")]
+pub(crate) use symbols::named_swaps;
 pub use symbols::swaps;
 
 /// Idle freedoms, and self-stresses, of a state that are shown in space.
@@ -82,11 +88,12 @@ pub struct Commands {
     pub longer: String,
 }
 
-const STYLE: &str = include_str!("page/page.css");
+const STYLE: &str = concat!(include_str!("page/look.css"), include_str!("page/page.css"));
 /// What stands for the policy until all that it allows is written.
 const POLICY: &str = "default-src 'none'";
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 18] = [
+const SCRIPT: [&str; 20] = [
+    include_str!("page/script/element.js"),
     include_str!("page/script/data.js"),
     include_str!("page/script/filter.js"),
     include_str!("page/script/table.js"),
@@ -102,6 +109,7 @@ const SCRIPT: [&str; 18] = [
     include_str!("page/script/closure.js"),
     include_str!("page/script/player.js"),
     include_str!("page/script/drag.js"),
+    include_str!("page/script/turns.js"),
     include_str!("page/script/stage.js"),
     include_str!("page/script/keep.js"),
     include_str!("page/script/main.js"),

@@ -23,6 +23,7 @@ pub(in crate::cli) mod new;
 pub(in crate::cli) mod report;
 pub(in crate::cli) mod search;
 pub(in crate::cli) mod statics;
+pub(in crate::cli) mod studio;
 pub(in crate::cli) mod sweep;
 pub(in crate::cli) mod types;
 pub(in crate::cli) mod verify;

@@ -2,7 +2,6 @@
 
 pub(in crate::cli) mod args;
 pub(in crate::cli) mod load;
-pub(in crate::cli) mod motion;
 pub(in crate::cli) mod named;
 pub(in crate::cli) mod picture;
 pub(in crate::cli) mod request;

@@ -3,7 +3,7 @@
 use crate::cli::Done;
 use crate::cli::option::args::{Args, File};
 use crate::cli::option::load;
-use crate::cli::option::motion::Moving;
+use crate::page::moving::Moving;
 use crate::cli::option::picture;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;

@@ -21,6 +21,7 @@ use crate::cli::command::new;
 use crate::cli::command::report;
 use crate::cli::command::search;
 use crate::cli::command::statics;
+use crate::cli::command::studio;
 use crate::cli::command::sweep;
 use crate::cli::command::verify;
 use crate::cli::command::watch;
@@ -96,6 +97,9 @@ pub(in crate::cli) enum Command {
     /// Write the report anew whenever FILE changes, until Ctrl-C: a page to keep open beside an editor.
     #[command(after_help = examples::WATCH)]
     Watch(watch::Watch),
+    /// Draw and change a mechanism in the browser, with the verdict and the ideas at every change.
+    #[command(after_help = examples::STUDIO)]
+    Studio(studio::StudioArgs),
     /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML; assemblies in their own.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),

@@ -32,6 +32,9 @@ pub struct Scene {
     origin: Point,
     /// The part of the sheet that the scheme is in: left, top, right, bottom.
     room: [f64; 4],
+    /// Pixels of a unit of the file's length, and the place in the file's coordinates that is the origin.
+    scale: f64,
+    middle: Vector,
     /// The ids of its links.
     names: Vec<String>,
     /// The link that rests.
@@ -80,6 +83,8 @@ struct Joint {
     turned: bool,
     /// What it leaves free; nothing for what is no joint.
     pair: Option<Pair>,
+    /// The id of the joint or of the point of interest; nothing for what is neither.
+    id: Option<String>,
 }
 
 /// A shape fixed to a link.
@@ -242,6 +247,8 @@ impl Kinematic<'_> {
             upright: fine(upright(view)),
             origin: [0.0; 2],
             room: [0.0; 4],
+            scale: self.projection.scale,
+            middle: self.projection.middle,
             names: self
                 .links
                 .iter()
@@ -285,8 +292,10 @@ impl Kinematic<'_> {
             let corners = super::marked::corners([0.0; 2]).to_vec();
             let symbol = out.symbol(vec![paper("ink", corners, true)]);
             let row = self.row(p.link);
-            out.joints
-                .push(self.standing(p.place, [row; 2], symbol, false));
+            out.joints.push(Joint {
+                id: Some(p.id.clone()),
+                ..self.standing(p.place, [row; 2], symbol, false)
+            });
         }
         let order = self.outer_first();
         for &i in &order {
@@ -299,6 +308,7 @@ impl Kinematic<'_> {
             out.joints.push(Joint {
                 axes: [place.x, place.y, place.z].map(fine),
                 pair: Some(self.pair(i, of)),
+                id: Some(m.joints[spot.joint].id.clone()),
                 ..self.standing(
                     place.point,
                     [rides, guides].map(|l| self.row(l)),
@@ -352,6 +362,7 @@ impl Kinematic<'_> {
             symbol,
             turned,
             pair: None,
+            id: None,
         }
     }
 

@@ -118,7 +118,26 @@ function fitted(scene, view, poses, [left, top, right, bottom], most, margin) {
 const carried = (pose, link, p) => (pose && pose[link].length ? plus(spun(p, pose[link].slice(0, 3)), pose[link].slice(3)) : p);
 const turned = (pose, link, v) => (pose && pose[link].length ? spun(v, pose[link].slice(0, 3)) : v);
 
-/** The elements of a scene in a pose, with the lines of one of its motions and some loads, and other symbols at some joints. */
+/** A symbol of pieces whose axes stand in space, at a place on paper. */
+function symbolAt(pieces, axes, view, at) {
+  const out = [];
+  const ahead = Math.abs(dot(axes[2], view[2]));
+  const paper = axes.map((v) => [dot(view[0], v), -dot(view[1], v)]);
+  for (const part of pieces) {
+    if (ahead < part.seen[0] || ahead >= part.seen[1]) continue;
+    const along = part.form.startsWith("along") ? "xyz".indexOf(part.form[6]) : -1;
+    if (along >= 0 && Math.abs(dot(axes[along], view[2])) >= END_ON) continue;
+    const corner = along >= 0
+      ? (p) => plus(times(paper[along], p[0]), times(upperSide(paper[along]), p[1]))
+      : (p) => (p.length === 2 ? p : p.map((x, n) => times(paper[n], x)).reduce(plus));
+    const drawn = shape(part, part.points.map(corner), at);
+    if (drawn) out.push(drawn);
+  }
+  return out;
+}
+
+/** The elements of a scene in a pose, with the lines of one of its motions and some loads, and other symbols at some joints; the directions of the
+ * coordinates where they have a place to begin at. */
 function pictureOf(scene, { view, fit, away }, pose, motion, loads, swaps, from) {
   const flat = (v) => [dot(view[0], v), -dot(view[1], v)];
   const onPaper = (p) => plus(times(flat(p), fit.scale), fit.at);
@@ -134,21 +153,10 @@ function pictureOf(scene, { view, fit, away }, pose, motion, loads, swaps, from)
   for (const [, joint] of placed) {
     const at = onPaper(carried(pose, joint.links[0], joint.at));
     const axes = joint.axes.map((a) => turned(pose, joint.links[1], a));
-    const ahead = Math.abs(dot(axes[2], view[2]));
-    const paper = axes.map(flat);
-    for (const part of scene.symbols[joint.symbol]) {
-      if (ahead < part.seen[0] || ahead >= part.seen[1]) continue;
-      const along = part.form.startsWith("along") ? "xyz".indexOf(part.form[6]) : -1;
-      if (along >= 0 && Math.abs(dot(axes[along], view[2])) >= END_ON) continue;
-      const corner = along >= 0
-        ? (p) => plus(times(paper[along], p[0]), times(upperSide(paper[along]), p[1]))
-        : (p) => (p.length === 2 ? p : p.map((x, n) => times(paper[n], x)).reduce(plus));
-      const drawn = shape(part, part.points.map(corner), at);
-      if (drawn) out.push(drawn);
-    }
+    out.push(...symbolAt(scene.symbols[joint.symbol], axes, view, at));
   }
   out.push(...loads.map((l) => arrow(l, onPaper(l.at), flat(l.along), view[2])));
-  if (away) out.push(...axesOf(scene, view, from));
+  if (away && from !== null) out.push(...axesOf(scene, view, from));
   return out;
 }
 

@@ -23,7 +23,7 @@ const MOST: usize = 600;
 
 /// A motion.
 #[derive(Debug)]
-pub(in crate::cli) struct Moving {
+pub(crate) struct Moving {
     pose: Pose,
     way: Way,
     words: String,
@@ -31,7 +31,7 @@ pub(in crate::cli) struct Moving {
 
 impl Moving {
     /// The way of a mechanism's drive, or of the joint named: within a range such as "0:90deg:30", or as far as it goes.
-    pub(in crate::cli) fn new(
+    pub(crate) fn new(
         m: &Mechanism,
         state: StateId,
         range: Option<&str>,
@@ -128,7 +128,7 @@ impl Moving {
     }
 
     /// To and fro along an idle freedom that the analysis of a state lists, counted from 0.
-    pub(in crate::cli) fn idle(
+    pub(crate) fn idle(
         m: &Mechanism,
         found: &StateAnalysis,
         state: StateId,
@@ -166,7 +166,7 @@ impl Moving {
     }
 
     /// The pose of the file.
-    pub(in crate::cli) fn still(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
+    pub(crate) fn still(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
         let way = Way {
             at: vec![0.0],
@@ -183,7 +183,7 @@ impl Moving {
     }
 
     /// To be drawn.
-    pub(in crate::cli) fn moved(&self) -> Moved<'_> {
+    pub(crate) fn moved(&self) -> Moved<'_> {
         Moved {
             pose: &self.pose,
             way: &self.way,
