@@ -9,6 +9,7 @@
 mod desk;
 mod disk;
 mod door;
+mod force;
 mod http;
 mod idea;
 mod palette;
@@ -27,6 +28,7 @@ use door::Door;
 use room::Room;
 use std::io;
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -121,16 +123,26 @@ fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
             );
             continue;
         }
-        let (door, room, count) = (door.clone(), room.clone(), busy.clone());
-        let one = std::thread::Builder::new().name("studio-request".to_owned());
-        let made = one.spawn(move || {
-            // Whoever is gone needs no answer.
-            let _ = answer(&mut stream, &door, &room);
-            count.fetch_sub(1, Ordering::SeqCst);
+        let (door, room, one) = (door.clone(), room.clone(), Busy(busy.clone()));
+        let made = std::thread::Builder::new().name("studio-request".to_owned());
+        // One that cannot be made is a request that is not answered.
+        let _ = made.spawn(move || {
+            let _one = one;
+            let tried = catch_unwind(AssertUnwindSafe(|| answer(&mut stream, &door, &room)));
+            if tried.is_err() {
+                let words = "the program failed at this; please report it with the file";
+                let _ = http::write(&mut stream, &http::Answer::refusal(500, words));
+            }
         });
-        if made.is_err() {
-            busy.fetch_sub(1, Ordering::SeqCst);
-        }
+    }
+}
+
+/// A request that is being answered.
+struct Busy(Arc<AtomicUsize>);
+
+impl Drop for Busy {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::SeqCst);
     }
 }
 

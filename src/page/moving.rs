@@ -27,6 +27,8 @@ pub(crate) struct Moving {
     pose: Pose,
     way: Way,
     words: String,
+    /// What positions of the way are in: the file's length unit where the drive slides, radians otherwise.
+    unit: f64,
 }
 
 impl Moving {
@@ -112,7 +114,18 @@ impl Moving {
                 in_units(*last)
             )
         };
-        Ok(Moving { pose, way, words })
+        Ok(Moving {
+            pose,
+            way,
+            words,
+            unit,
+        })
+    }
+
+    /// From where to where the drive goes, in radians or the file's length unit.
+    pub(crate) fn reach(&self) -> Option<[f64; 2]> {
+        let ends = [self.way.at.first()?, self.way.at.last()?];
+        Some(ends.map(|x| x * self.unit))
     }
 
     /// The working motion of a mechanism in which no joint can be a drive.
@@ -124,6 +137,7 @@ impl Moving {
             pose,
             way,
             words: words.to_owned(),
+            unit: 1.0,
         })
     }
 
@@ -162,6 +176,7 @@ impl Moving {
             pose: Pose::of_file(m, state)?,
             way: wiggle.way,
             words: format!("idle freedom {}: {words}{far}{open}", which + 1),
+            unit: 1.0,
         })
     }
 
@@ -179,6 +194,7 @@ impl Moving {
             pose,
             way,
             words: "the pose of the file".to_owned(),
+            unit: 1.0,
         })
     }
 

@@ -13,12 +13,23 @@ use crate::robots;
 use crate::score::outcome::Outcome;
 use crate::view::robots::lint::words;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
-/// By state, what stands at a joint instead: joint and choice, as the changes of a variant name them, the symbols, and what each of
-/// these puts there.
-pub(super) fn marks(m: &Mechanism, states: &[StateAnalysis], found: &Outcome) -> Vec<Value> {
+/// By state, what the ideas of a list put at joints: joint and choice, as the changes of a variant name them, the symbols, and what
+/// each of these puts there.
+pub(super) fn marks(
+    m: &Mechanism,
+    states: &[StateAnalysis],
+    (found, list): (&Outcome, &Value),
+) -> Vec<Value> {
+    let variants = list.as_array().into_iter().flatten();
+    let changes = variants.filter_map(|v| v["changes"].as_array()).flatten();
+    let wanted: BTreeSet<(&str, &str)> = changes
+        .filter_map(|c| Some((c["joint"].as_str()?, c["to"].as_str()?)))
+        .collect();
     let one = |(analysis, state): (&StateAnalysis, _)| {
-        let named = named_swaps(m, found, state);
+        let mut named = named_swaps(m, found, state);
+        named.retain(|(joint, to, _)| wanted.contains(&(joint.as_str(), to.as_str())));
         let swaps: Vec<_> = named.iter().map(|(_, _, swap)| *swap).collect();
         let of = analysis.meant.as_deref().unwrap_or(m);
         let scene = still_scene(of, (Some(analysis), state), &swaps)?;

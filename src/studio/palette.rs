@@ -28,11 +28,19 @@ fn sampler() -> Option<Mechanism> {
     mechanism_from_str("palette.toml", &text).ok()
 }
 
-/// Every type with its class, its freedoms, what it is, and the scene that its symbol stands in.
+/// Every type with its class, its freedoms, what it is, and the pieces of its symbol.
 pub(super) fn json() -> Value {
     let words = PairWords::builtin();
     let Some(m) = sampler() else {
         return Value::Null;
+    };
+    let scene = still_scene(&m, (None, StateId::FREE), &[]);
+    let scene = serde_json::to_value(scene).unwrap_or_default();
+    let symbol = |word: &str| {
+        let all = scene["joints"].as_array().into_iter().flatten();
+        let number = all.filter(|j| j["id"] == word).find_map(|j| j["symbol"].as_u64());
+        let number = number.and_then(|n| usize::try_from(n).ok());
+        number.map_or(Value::Null, |n| scene["symbols"][n].clone())
     };
     let types = m.joints.iter().map(|j| {
         let word = j.joint_type.name();
@@ -43,10 +51,10 @@ pub(super) fn json() -> Value {
             "free": free,
             "about": words.get(word).map(|w| &w.about),
             "axis": words.get(word).map(|w| &w.axis),
+            "symbol": symbol(word),
         })
     });
-    let types: Vec<Value> = types.collect();
-    json!({ "types": types, "scene": still_scene(&m, (None, StateId::FREE), &[]) })
+    Value::Array(types.collect())
 }
 
 #[cfg(test)]
@@ -57,12 +65,11 @@ mod tests {
     #[test]
     fn every_type_is_there_with_words_and_a_symbol() {
         let palette = json();
-        let types = palette["types"].as_array().map_or(0, Vec::len);
+        let types = palette.as_array().map_or(0, Vec::len);
         assert_eq!(types, JointType::words().count());
-        for t in palette["types"].as_array().into_iter().flatten() {
+        for t in palette.as_array().into_iter().flatten() {
             assert!(t["about"].is_string(), "{t}");
-            let joints = palette["scene"]["joints"].as_array();
-            assert!(joints.into_iter().flatten().any(|j| j["id"] == t["type"]), "{t}");
+            assert!(t["symbol"].as_array().is_some_and(|s| !s.is_empty()), "{t}");
         }
     }
 }

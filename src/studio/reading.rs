@@ -189,6 +189,14 @@ impl Items {
             }
         }
         out.sort_by_key(|(_, _, span)| span.start);
+        if !json {
+            // The span of a table is that of its head: it goes on to the next.
+            for (_, _, span) in &mut out {
+                let rest = text.get(span.end..).unwrap_or_default();
+                let next = rest.find("\n[").map_or(text.len(), |n| span.end + n);
+                span.end = next.max(span.end);
+            }
+        }
         Items(out)
     }
 

@@ -59,7 +59,10 @@ pub(super) fn picture(name: &str) -> Option<String> {
         Some((_, _, text)) => Mechanism::from_toml(text),
         None => Mechanism::builtin(name),
     };
-    let m = m.ok()?;
+    let Ok(m) = m else {
+        // An empty sheet has no picture of its own.
+        return own.map(|_| super::paper::ICON.to_owned());
+    };
     let subject = Subject {
         mechanism: &m,
         state: StateId::FREE,

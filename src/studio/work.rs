@@ -1,5 +1,6 @@
 //! The work at the newest text: the verdict, the motion, the search. One thread does it; what another text makes useless ends.
 
+use super::force;
 use super::idea;
 use super::room::Room;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -65,6 +66,10 @@ fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
     }
     room.tell(revision, "motion", &json!({ "revision": revision, "scenes": moving }));
     search(room, revision, m, &states);
+    if !room.is_old(revision) {
+        let charts = force::charts(m);
+        room.tell(revision, "force", &json!({ "revision": revision, "charts": charts }));
+    }
 }
 
 /// Each state analysed; why not, in words, where it cannot be.
@@ -142,7 +147,7 @@ fn given(
     let variants = outcome.variants_unless(&is_old);
     json::write(&mut text, &outcome, variants, (&eased, &hopeless), None).map_err(|e| words(&e))?;
     let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
-    let marks = idea::marks(m, states, &outcome);
+    let marks = idea::marks(m, states, (&outcome, &found["variants"]));
     let told = json!({ "revision": revision, "found": found, "marks": marks });
     room.keep(revision, Arc::new(outcome));
     Ok(told)

@@ -34,7 +34,9 @@ const partnerAt = (pin) => pin.links.find((l) => l !== frameOf()) ?? pin.links[0
 function ending(link, spot, also) {
   if (spot.pin?.what === "joint") {
     const old = thing("joint", spot.pin.id);
-    return [newJoint([partnerAt(spot.pin), link], old.point, type, also.joints, { axis: SLIDES.includes(type) ? axisFor(type) : old.axis ?? axisFor(type) })];
+    // what turns about one line there turns about the same
+    const alike = old.axis && !SLIDES.includes(type) && !SLIDES.includes(old.type);
+    return [newJoint([partnerAt(spot.pin), link], old.point, type, also.joints, { axis: alike ? old.axis : axisFor(type) })];
   }
   if (spot.pin) {
     const gone = isEnd(spot.pin.id) && !also.gone.includes(spot.pin.id) ? [remove([spot.pin])] : [];

@@ -27,6 +27,16 @@ function ideaRow(v, n) {
   return element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
 }
 
+/** Forces over the stroke, where the file states loads. */
+function showForce() {
+  const room = byId("force");
+  const chart = desk.force?.charts[desk.state];
+  room.hidden = !chart;
+  if (!chart) return;
+  const picture = chart.svg ? element("img", { class: "chart", alt: "Forces over the stroke", src: `data:image/svg+xml,${encodeURIComponent(chart.svg)}` }) : null;
+  room.replaceChildren(element("h2", {}, "Forces over the stroke"), picture ?? element("p", { class: "help" }, `There are none: ${chart.why ?? "no position has an equilibrium"}.`));
+}
+
 function showIdeas() {
   const room = byId("ideas");
   const head = element("h2", {}, "Ideas");

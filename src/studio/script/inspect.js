@@ -54,7 +54,7 @@ function axisButtons(id) {
 function aboutJoint(j) {
   const links = listOf("link").map((l) => [l.id, l.id]);
   const ends = (n) => (to) => change(set("joint", j.id, "links", j.links.map((l, i) => (i === n ? to : l))));
-  const types = palette.types.map((t) => [t.type, `${t.type} (class ${t.class})`]);
+  const types = palette.map((t) => [t.type, `${t.type} (class ${t.class})`]);
   const states = ["", ...new Set(["clamped", ...listOf("joint").flatMap((x) => [x.state ?? []].flat())])];
   const out = [
     field("name", j.id, { take: rename("joint", j.id) }),

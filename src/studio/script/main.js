@@ -106,6 +106,8 @@ async function begin() {
     showText();
     showIdeas();
     tellTool();
+    // an empty sheet stays as it is while something is put on it
+    takeScene.seen ||= listOf("joint").length === 0;
     if (!desk.look.whole && !desk.look.partly) {
       desk.verdict = null;
       takeScene();
@@ -119,10 +121,12 @@ async function begin() {
   });
   hear("motion", () => {
     if (!hand.act && player.pulled === null) takeScene();
+    showVerdict();
   });
   hear("draft", showVerdict);
   hear("progress", showIdeas);
   hear("ideas", showIdeas);
+  for (const name of ["force", "look", "state"]) hear(name, showForce);
   hear("selection", () => {
     inspect();
     followSelection();

@@ -95,9 +95,9 @@ function loadsOf(scene) {
   if (k === null && pointedAt.pin?.what === "joint" && isAtHome()) {
     const id = pointedAt.pin.id;
     const bears = judgedState()?.self_stresses.findIndex((s) => s.joints.some((j) => j.joint === id)) ?? -1;
-    k = bears >= 0 ? bears : null;
+    k = bears >= 0 ? drawnStress(scene, bears) : null;
   }
-  return k === null ? [] : scene.stresses?.[k]?.arrows ?? [];
+  return k === null || k < 0 ? [] : scene.stresses?.[k]?.arrows ?? [];
 }
 
 /** A ring round a place. */
@@ -223,7 +223,7 @@ function takeScene() {
   }
   byId("player").hidden = false;
   const first = !takeScene.seen;
-  if (first || !player.sight) {
+  if (first) {
     takeScene.seen = true;
     player.scene = scene;
     firstView(scene);

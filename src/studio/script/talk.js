@@ -8,6 +8,7 @@ const desk = {
   verdict: null,
   motion: null,
   ideas: null,
+  force: null,
   /** How far the search has come. */
   progress: null,
   /** How things stand with the file. */
@@ -95,7 +96,7 @@ function takeLook(value) {
   const same = value.revision === desk.revision;
   desk.look = value;
   desk.revision = value.revision;
-  if (!same) [desk.ideas, desk.progress] = [null, null];
+  if (!same) [desk.ideas, desk.progress, desk.force] = [null, null, null];
   tell("look", value);
 }
 
@@ -106,6 +107,7 @@ const EVENTS = {
   motion: (value) => of(value, "motion"),
   progress: (value) => of(value, "progress"),
   ideas: (value) => of(value, "ideas"),
+  force: (value) => of(value, "force"),
   trouble: (value) => say(value.words, true),
 };
 

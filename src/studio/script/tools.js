@@ -94,17 +94,15 @@ function toolPicture() {
 
 /** The symbol of a joint type as the drawings have it, aslant, so that types differ. */
 function typeIcon(kind) {
-  const { scene } = palette;
-  const joint = scene.joints.find((j) => j.id === kind);
   const picture = svgElement("svg", { class: "ozd", viewBox: "-20 -20 40 40", width: 26, height: 26, "aria-hidden": "true" });
   const z = SLIDES.includes(kind) ? [1, 0, 0] : [0, 0, 1];
   const axes = SLIDES.includes(kind) ? [[0, 1, 0], [0, 0, 1], z] : [[1, 0, 0], [0, 1, 0], z];
   const view = ["revolute", "fixed", "prismatic", "slotted"].includes(kind) ? PLANES.xy : [[0.8, -0.6, 0], [0.3, 0.4, 0.866], [-0.52, -0.693, 0.5]];
-  picture.append(...symbolAt(scene.symbols[joint.symbol], axes, view, [0, 0]));
+  picture.append(...symbolAt(palette.find((t) => t.type === kind).symbol, axes, view, [0, 0]));
   return picture;
 }
 
-let palette = { types: [], scene: null };
+let palette = [];
 
 async function makeTools() {
   const bar = byId("tools");
@@ -117,7 +115,7 @@ async function makeTools() {
   }
   palette = await (await fetch("palette")).json();
   const types = element("div", { id: "types", role: "group", "aria-label": "Joint types" });
-  for (const { type: kind, class: word, free, about, axis } of palette.types) {
+  for (const { type: kind, class: word, free, about, axis } of palette) {
     const tip = `${kind}, class ${word}: ${about} Free: ${free.join(", ") || "nothing"}. Axis: ${axis}.`;
     const button = element("button", { type: "button", "data-type": kind, "aria-pressed": kind === type, "aria-label": kind, title: tip }, typeIcon(kind));
     button.addEventListener("click", () => chooseType(kind));

@@ -43,10 +43,18 @@ function contourRows(s) {
     looked("contour", n), looked("contour", null), () => select(c.joints.map((id) => ({ what: "joint", id })))));
 }
 
+/** The self-stress that a place in the list of the verdict has among those that are drawn, and back. */
+const stressNumber = (name) => Number(/^self-stress (\d+)/.exec(name)?.[1]) - 1;
+const drawnStress = (scene, n) => scene?.stresses?.findIndex((t) => stressNumber(t.name) === n) ?? -1;
+
 function stressRows(s) {
-  return s.self_stresses.map((t, n) => pointer(
-    element("button", { type: "button", class: "row-button" }, t.simplest ? `${t.simplest.what ?? t.simplest[1] ?? ""} at ${t.simplest.joint ?? t.simplest[0] ?? ""}` : `self-stress ${n + 1}`, element("small", {}, ` ${t.verdict}`)),
-    looked("stress", n), looked("stress", null)));
+  const scene = desk.motion?.revision === desk.verdict?.revision ? desk.motion?.scenes[desk.state] : null;
+  return s.self_stresses.map((t, n) => {
+    const k = drawnStress(scene, n);
+    const words = k < 0 ? `borne by ${t.joints.map((j) => j.joint).join(", ")}` : scene.stresses[k].name.replace(/^self-stress \d+: /, "");
+    const row = element("button", { type: "button", class: "row-button" }, words, element("small", {}, ` ${t.verdict}`));
+    return k < 0 ? row : pointer(row, looked("stress", k), looked("stress", null));
+  });
 }
 
 /** Plays an idle freedom to and fro; once more to end it. */
@@ -84,13 +92,13 @@ function showVerdict() {
   const figures = element("p", { class: "figures" },
     element("b", {}, `W = ${s.mobility}`), s.mobility_at_most !== null ? ` to ${s.mobility_at_most}` : "", " · ", element("b", {}, `σ = ${s.redundant}`), s.redundant_at_most !== null ? ` to ${s.redundant_at_most}` : "",
     ` · ${s.links} links, ${s.joints} joints, ${s.contours} contours`);
-  const meant = [...(s.snapped ?? []), ...(s.choice ? [s.choice] : [])];
+  const meant = s.snapped ?? [];
   const finite = s.finite_mobility === null ? `finite mobility ${s.finite_mobility_at_least} to ${s.finite_mobility_at_most}` : `finite mobility ${s.finite_mobility}`;
   return panel.replaceChildren(...[
     element("div", { class: `verdict ${good ? "good" : "bad"}` }, element("p", { class: "head" }, words.head), element("p", {}, words.text)),
     desk.look?.partly ? element("p", { class: "told" }, "Of what hangs on the frame so far; the rest is left out.") : null,
     figures,
-    element("p", { class: "help" }, `${s.certainty}; ${finite}${s.finite_mobility_proven ? ", proven" : ""}`),
+    element("p", { class: "help", title: s.choice }, `${s.certainty}; ${finite}${s.finite_mobility_proven ? ", proven" : ""}`),
     block3("Contours", contourRows(s)),
     block3("Self-stresses", stressRows(s)),
     block3("Idle freedoms", idleRows(s)),
