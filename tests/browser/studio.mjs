@@ -272,7 +272,7 @@ export function studioTests(test) {
       await keys(...far("ArrowLeft", 5), "Enter");
       await keys("Escape");
       await told(tab, "3 redundant constraints");
-      assert.match(await verdict(tab), /4 links, 4 joints, 1 contours/);
+      assert.match(await verdict(tab), /4 links, 4 joints, 1 contour/);
       await keys("]");
       const id = await tab.evaluate(() => selection[0].id);
       const before = await source(tab);

@@ -72,6 +72,7 @@ mod stroke;
 mod stroke_ends;
 mod stroke_poses;
 mod structure;
+mod studio;
 mod suggest;
 mod sweep;
 mod tables;

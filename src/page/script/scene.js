@@ -18,17 +18,6 @@ function spun(v, by) {
   return plus(plus(times(v, c), times(cross(axis, v), s)), times(axis, dot(axis, v) * (1 - c)));
 }
 
-/** Right, up and towards the reader after a turn to the side and one up, in radians from the first view. */
-function seenFrom(scene, side, tilt) {
-  const [right, , toward] = scene.view;
-  const by = times(scene.upright, side);
-  const to = spun(right, by);
-  const level = cross(to, scene.upright);
-  const height = Math.asin(Math.max(-1, Math.min(1, dot(toward, scene.upright)))) + tilt;
-  const [s, c] = [Math.sin(height), Math.cos(height)];
-  return [to, plus(times(scene.upright, c), times(level, -s)), plus(times(level, c), times(scene.upright, s))];
-}
-
 const path = (points, closed) => `M${points.map((p) => p.map((x) => x.toFixed(1)).join(" ")).join("L")}${closed ? "Z" : ""}`;
 const disc = (p, r) => Array.from({ length: 24 }, (_, i) => plus(p, [r * Math.cos(i * Math.PI / 12), r * Math.sin(i * Math.PI / 12)]));
 const turning = (points) => points.reduce((sum, p, i) => {
@@ -96,22 +85,6 @@ function axesOf(scene, view, from) {
     const name = svgElement("text", { class: "axis", x: at[0] + 1.35 * tip[0], y: at[1] + 1.35 * tip[1] + 4, "text-anchor": "middle" }, "xyz"[n]);
     return [line, name];
   });
-}
-
-/** How a view is put into a room, in the middle: smaller where it would not fit, and larger up to a factor. */
-function fitted(scene, view, poses, [left, top, right, bottom], most, margin) {
-  const reach = [0, 1].map(() => [Infinity, -Infinity]);
-  const note = (p) => [dot(view[0], p), -dot(view[1], p)].forEach((x, k) => {
-    reach[k] = [Math.min(reach[k][0], x), Math.max(reach[k][1], x)];
-  });
-  for (const pose of poses) {
-    for (const wire of scene.wires) wire.points.forEach((p) => note(carried(pose, wire.link, p)));
-    for (const joint of scene.joints) note(carried(pose, joint.links[0], joint.at));
-  }
-  const room = [right - left, bottom - top].map((x) => x - 2 * margin);
-  const scale = Math.min(most, ...room.map((x, k) => x / Math.max(reach[k][1] - reach[k][0], 1)));
-  const middle = reach.map(([a, b]) => (a + b) / 2);
-  return { scale, at: [(left + right) / 2 - scale * middle[0], (top + bottom) / 2 - scale * middle[1]] };
 }
 
 /** Where a pose takes a point of a link, and a direction: by link a rotation vector and a shift, or nothing where it rests. */

@@ -3,6 +3,33 @@
 /** A turn by a key, and by a pixel of a drag. */
 const [KEY, PIXEL] = [Math.PI / 18, 0.01];
 
+/** Right, up and towards the reader after a turn to the side and one up, in radians from the first view. */
+function seenFrom(scene, side, tilt) {
+  const [right, , toward] = scene.view;
+  const by = times(scene.upright, side);
+  const to = spun(right, by);
+  const level = cross(to, scene.upright);
+  const height = Math.asin(Math.max(-1, Math.min(1, dot(toward, scene.upright)))) + tilt;
+  const [s, c] = [Math.sin(height), Math.cos(height)];
+  return [to, plus(times(scene.upright, c), times(level, -s)), plus(times(level, c), times(scene.upright, s))];
+}
+
+/** How a view is put into a room, in the middle: smaller where it would not fit, and larger up to a factor. */
+function fitted(scene, view, poses, [left, top, right, bottom], most, margin) {
+  const reach = [0, 1].map(() => [Infinity, -Infinity]);
+  const note = (p) => [dot(view[0], p), -dot(view[1], p)].forEach((x, k) => {
+    reach[k] = [Math.min(reach[k][0], x), Math.max(reach[k][1], x)];
+  });
+  for (const pose of poses) {
+    for (const wire of scene.wires) wire.points.forEach((p) => note(carried(pose, wire.link, p)));
+    for (const joint of scene.joints) note(carried(pose, joint.links[0], joint.at));
+  }
+  const room = [right - left, bottom - top].map((x) => x - 2 * margin);
+  const scale = Math.min(most, ...room.map((x, k) => x / Math.max(reach[k][1] - reach[k][0], 1)));
+  const middle = reach.map(([a, b]) => (a + b) / 2);
+  return { scale, at: [(left + right) / 2 - scale * middle[0], (top + bottom) / 2 - scale * middle[1]] };
+}
+
 /** How the scene is seen. */
 function sightNow() {
   const { scene, side, tilt, stress, solid } = player;

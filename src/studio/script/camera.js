@@ -57,9 +57,16 @@ function redraw() {
   else drawSheet([]);
 }
 
+/** Places that are to be seen: pins, and where links end as the file has them. */
+function toBeSeen() {
+  const scene = sceneNow();
+  const wires = (scene?.wires ?? []).filter((w) => w.of === null && /bone|plate/.test(w.class));
+  return [...pins().map((p) => p.at), ...wires.flatMap((w) => w.points.map((p) => plus(times(p, 1 / scene.scale), scene.middle)))];
+}
+
 /** All of the mechanism in the middle. */
-function fitAll() {
-  const all = pins().map((p) => p.at);
+function fit() {
+  const all = toBeSeen();
   const low = [0, 1].map((k) => Math.min(...all.map((p) => flatOf(p)[k])));
   const high = [0, 1].map((k) => Math.max(...all.map((p) => flatOf(p)[k])));
   if (!all.length) {
@@ -75,6 +82,10 @@ function fitAll() {
     const deep = dot(mean, camera.view[2]);
     camera.centre = plus(plus(times(camera.view[0], x), times(camera.view[1], -y)), times(camera.view[2], deep));
   }
+}
+
+function fitAll() {
+  fit();
   redraw();
 }
 
@@ -134,5 +145,5 @@ function firstView(scene) {
     camera.view = PLANES[camera.plane];
   } else [camera.plane, camera.view] = [null, scene.view];
   tellViews();
-  fitAll();
+  fit();
 }

@@ -61,12 +61,19 @@ function letGo() {
 
 const undo = (which) => inTurn(which, {});
 
+/** What the cross is at: something may have been put there since it came. */
+function crossNow() {
+  if (!tool.at) return spotAt(middleOf(), "pen");
+  const again = spotAt(toPaper(tool.at.at), "pen");
+  return apart(again.at, tool.at.at) < touching() ? again : tool.at;
+}
+
 const SHEET_KEYS = {
   ArrowLeft: (e) => arrows(e.shiftKey ? -5 : -1, 0),
   ArrowRight: (e) => arrows(e.shiftKey ? 5 : 1, 0),
   ArrowUp: (e) => arrows(0, e.shiftKey ? 5 : 1),
   ArrowDown: (e) => arrows(0, e.shiftKey ? -5 : -1),
-  Enter: () => (tool.name !== "select" ? useTool(tool.at ?? spotAt(middleOf(), "pen")) : null),
+  Enter: () => (tool.name !== "select" ? useTool(crossNow()) : null),
   "]": () => selectNext(1),
   "[": () => selectNext(-1),
 };

@@ -225,7 +225,6 @@ function takeScene() {
   const first = !takeScene.seen;
   if (first) {
     takeScene.seen = true;
-    player.scene = scene;
     firstView(scene);
   }
   playOn(scene, camera.bodies, () => [drawSheet]);

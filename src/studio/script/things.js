@@ -1,6 +1,5 @@
 // The links, joints and points of the file, and which of them are selected.
 
-const KINDS = ["link", "joint", "point"];
 const listOf = (what) => desk.look?.file?.[what] ?? [];
 const thing = (what, id) => listOf(what).find((t) => t.id === id) ?? null;
 const frameOf = () => listOf("link").find((l) => l.role === "frame")?.id ?? null;

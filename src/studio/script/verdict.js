@@ -39,7 +39,7 @@ function chooseState(n) {
 
 function contourRows(s) {
   return s.per_contour.map((c, n) => pointer(
-    element("button", { type: "button", class: "row-button" }, element("span", { class: `chip s${Math.min(c.redundant, 6)}` }, String(c.redundant)), ` ${c.contour}`, element("small", {}, ` ${c.least}–${c.greatest} in any order`)),
+    element("button", { type: "button", class: "row-button" }, element("span", { class: `chip s${Math.min(c.redundant, 6)}` }, String(c.redundant)), ` ${c.contour}`, element("small", {}, ` ${c.least === c.greatest ? c.least : `${c.least} to ${c.greatest}`} in any order`)),
     looked("contour", n), looked("contour", null), () => select(c.joints.map((id) => ({ what: "joint", id })))));
 }
 
@@ -51,8 +51,8 @@ function stressRows(s) {
   const scene = desk.motion?.revision === desk.verdict?.revision ? desk.motion?.scenes[desk.state] : null;
   return s.self_stresses.map((t, n) => {
     const k = drawnStress(scene, n);
-    const words = k < 0 ? `borne by ${t.joints.map((j) => j.joint).join(", ")}` : scene.stresses[k].name.replace(/^self-stress \d+: /, "");
-    const row = element("button", { type: "button", class: "row-button" }, words, element("small", {}, ` ${t.verdict}`));
+    const words = k < 0 ? `borne by ${t.joints.map((j) => j.joint).join(", ")} (${t.verdict})` : scene.stresses[k].name.replace(/^self-stress \d+: /, "");
+    const row = element("button", { type: "button", class: "row-button" }, words);
     return k < 0 ? row : pointer(row, looked("stress", k), looked("stress", null));
   });
 }
@@ -91,7 +91,7 @@ function showVerdict() {
   const good = s.redundant === 0 && s.redundant_at_most === null;
   const figures = element("p", { class: "figures" },
     element("b", {}, `W = ${s.mobility}`), s.mobility_at_most !== null ? ` to ${s.mobility_at_most}` : "", " · ", element("b", {}, `σ = ${s.redundant}`), s.redundant_at_most !== null ? ` to ${s.redundant_at_most}` : "",
-    ` · ${s.links} links, ${s.joints} joints, ${s.contours} contours`);
+    ` · ${[["link", s.links], ["joint", s.joints], ["contour", s.contours]].map(([word, n]) => `${n} ${word}${n === 1 ? "" : "s"}`).join(", ")}`);
   const meant = s.snapped ?? [];
   const finite = s.finite_mobility === null ? `finite mobility ${s.finite_mobility_at_least} to ${s.finite_mobility_at_most}` : `finite mobility ${s.finite_mobility}`;
   return panel.replaceChildren(...[
