@@ -3,8 +3,8 @@
 //!
 //! The text of the file is the truth: every change edits it with its comments kept ([`crate::file::edit`]), and all windows show
 //! what is made of it. One thread analyses and searches, the newest text alone; a search under way ends when another comes. The
-//! server speaks to this machine, to who has the token of its address, and to no other page ([`door`]); what it reads and writes
-//! is the file that was opened, what lies beside it under names of its own, and nothing else ([`disk`]).
+//! server speaks to this machine, to who has the token of its address, and to no other page (`door`); what it reads and writes
+//! is the file that was opened, what lies beside it under names of its own, and nothing else (`disk`).
 
 mod desk;
 mod disk;

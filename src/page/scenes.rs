@@ -70,12 +70,35 @@ pub(crate) fn moving_scene(
     Some(kinematic_scene(&subject, &Sight::default(), shown))
 }
 
+/// The picture of it at rest, without title and legend.
+pub(crate) fn still_picture(m: &Mechanism) -> Option<String> {
+    let (Drawing { svg, .. }, scene) = still(m, (None, StateId::FREE), &[])?;
+    let [left, top, right, bottom] = scene.room();
+    let room = format!(
+        "viewBox=\"{left} {top} {} {}\"",
+        right - left,
+        bottom - top
+    );
+    let (before, rest) = svg.split_once("width=\"")?;
+    let (_, after) = rest.split_once("viewBox=\"")?;
+    let (_, after) = after.split_once('"')?;
+    Some(format!("{before}{room}{after}"))
+}
+
 /// It as its file has it, at rest, with what redesigns put at its joints.
 pub(crate) fn still_scene(
     m: &Mechanism,
-    (found, state): (Option<&StateAnalysis>, StateId),
+    of: (Option<&StateAnalysis>, StateId),
     swaps: &[Swap<'_>],
 ) -> Option<Scene> {
+    still(m, of, swaps).map(|(_, scene)| scene)
+}
+
+fn still(
+    m: &Mechanism,
+    (found, state): (Option<&StateAnalysis>, StateId),
+    swaps: &[Swap<'_>],
+) -> Option<(Drawing, Scene)> {
     let rest = Moving::still(m, state).ok()?;
     let moves = [(rest.moved().words.to_owned(), rest.moved())];
     let subject = Subject {
@@ -89,5 +112,5 @@ pub(crate) fn still_scene(
         stresses: &[],
         swaps,
     };
-    Some(kinematic_scene(&subject, &Sight::default(), shown).1)
+    Some(kinematic_scene(&subject, &Sight::default(), shown))
 }

@@ -157,9 +157,9 @@ fn side() -> Markup {
             section id="ideas" aria-label="Ideas" {}
             section id="force" aria-label="Forces" hidden {}
             section id="text-room" aria-label="The file as text" {
+                div id="problems" {}
                 details id="text-fold" {
                     summary { "The file" }
-                    div id="problems" {}
                     label { span.unseen { "Text of the file" } textarea id="text" spellcheck="false" autocomplete="off" wrap="off" rows="24" {} }
                 }
             }

@@ -2,8 +2,8 @@
 
 use super::disk::Opening;
 use crate::builtin;
-use crate::draw::{Subject, kinematic};
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::Mechanism;
+use crate::page::scenes::still_picture;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -63,11 +63,5 @@ pub(super) fn picture(name: &str) -> Option<String> {
         // An empty sheet has no picture of its own.
         return own.map(|_| super::paper::ICON.to_owned());
     };
-    let subject = Subject {
-        mechanism: &m,
-        state: StateId::FREE,
-        analysis: None,
-        marks: None,
-    };
-    Some(kinematic(&subject).svg)
+    still_picture(&m)
 }

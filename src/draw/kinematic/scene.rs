@@ -201,6 +201,12 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
 }
 
 impl Scene {
+    /// The part of the sheet that the scheme is in: left, top, right, bottom.
+    #[must_use]
+    pub fn room(&self) -> [f64; 4] {
+        self.room
+    }
+
     fn wire(
         &mut self,
         of: &Kinematic<'_>,

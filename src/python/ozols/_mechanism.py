@@ -223,7 +223,10 @@ class Mechanism:
             file = Path(folder) / "mechanism.toml"
             file.write_text(self.export("toml"), encoding="utf-8")
             words = [sys.executable, "-m", "ozols", "studio", str(file), *([] if show else ["--no-open"])]
-            subprocess.run(words, check=True)
+            with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as running:
+                print(running.stdout.readline() if running.stdout else "", end="", flush=True)
+            if running.returncode:
+                raise subprocess.CalledProcessError(running.returncode, words)
             # What was not saved is what the window showed last.
             unsaved = file.with_name("mechanism.toml.autosave")
             return Mechanism.from_toml((unsaved if unsaved.exists() else file).read_text(encoding="utf-8"))

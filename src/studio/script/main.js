@@ -115,7 +115,7 @@ async function begin() {
     } else redraw();
   });
   hear("verdict", () => {
-    if (!hand.act) takeScene();
+    if (!hand.act) endPreview();
     showVerdict();
     showIdeas();
   });

@@ -80,9 +80,9 @@ function dragPin(pin) {
     async end() {
       endDrafts();
       tool.at = null;
-      if (to) await change(...all.map((p) => set(p.what, p.id, "point", to.point)));
-      Object.assign(preview, { moved: [], answer: null });
-      takeScene();
+      const done = to ? await change(...all.map((p) => set(p.what, p.id, "point", to.point))) : null;
+      // what is seen stays until the verdict on it is there
+      if (!done || desk.verdict?.revision === desk.revision) endPreview();
     },
   };
 }

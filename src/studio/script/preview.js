@@ -7,6 +7,12 @@ const preview = {
   answer: null,
 };
 
+/** What is seen is that of the text again. */
+function endPreview() {
+  Object.assign(preview, { moved: [], answer: null });
+  takeScene();
+}
+
 const inScene = (scene, p) => times(minus(p, scene.middle), scene.scale);
 
 /** The scene that is looked at: what the newest verdict has, or of a change that is tried. */

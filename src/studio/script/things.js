@@ -4,6 +4,9 @@ const listOf = (what) => desk.look?.file?.[what] ?? [];
 const thing = (what, id) => listOf(what).find((t) => t.id === id) ?? null;
 const frameOf = () => listOf("link").find((l) => l.role === "frame")?.id ?? null;
 
+/** Whether nothing is drawn yet on a sheet that is well. */
+const isEmpty = () => Boolean(desk.look?.file) && !listOf("joint").length && !listOf("point").length;
+
 /** Where a joint or a point is, in numbers; null where its expressions are none. */
 function placeOf(what, id) {
   const n = listOf(what).findIndex((t) => t.id === id);

@@ -84,7 +84,8 @@ function showVerdict() {
   const s = states[desk.state];
   panel.setAttribute("aria-labelledby", states.length > 1 ? `tab-${desk.state}` : "");
   if (!s) {
-    const why = value?.why ?? (listOf("joint").length ? "The text cannot be judged yet; see what is missing." : "Nothing is drawn yet: take the bar (B) and click both its ends, or start from one of the mechanisms under New.");
+    const empty = "Nothing is drawn yet: take the bar (B) and click both its ends, or start from one of the mechanisms under New.";
+    const why = value?.why ?? (isEmpty() ? empty : "It cannot be judged until what is wrong is mended; it stands below.");
     return panel.replaceChildren(element("p", { class: "lead" }, why));
   }
   const words = value.words[desk.state];
