@@ -210,9 +210,11 @@ export function studioTests(test) {
         // A bar ends where the pin is now, farther to the right each time.
         const now = await tab.waitForFunction((was) => {
           const to = preview.moved[0]?.to;
-          const end = to && toPaper(to).map((x) => x.toFixed(1)).join(" ");
-          const bars = [...document.querySelectorAll('[data-layer="things"] path')].map((p) => p.getAttribute("d"));
-          return to?.[0] > was && bars.some((d) => d.includes(end)) && to[0];
+          if (!(to?.[0] > was)) return false;
+          const [x, y] = toPaper(to);
+          const bars = [...document.querySelectorAll('[data-layer="things"] path.bone')].map((p) => p.getAttribute("d"));
+          const ends = bars.flatMap((d) => [...d.matchAll(/(-?[\d.]+) (-?[\d.]+)/g)].map((m) => [Number(m[1]), Number(m[2])]));
+          return ends.some(([a, b]) => Math.hypot(a - x, b - y) < 1) && to[0];
         }, far);
         far = await now.jsonValue();
       }
@@ -221,6 +223,8 @@ export function studioTests(test) {
       console.log(`  a move is on the screen after ${times[times.length >> 1].toFixed(1)} ms (median of ${times.length}), ${times.at(-1).toFixed(1)} ms at most`);
       await tab.mouse.up();
       await tab.waitForFunction(() => desk.look.file.joint.find((j) => j.id === "2-4").point[0] !== 6);
+      const [x, image] = await tab.evaluate(() => ["2-4", "6-8"].map((id) => desk.look.file.joint.find((j) => j.id === id).point[0]));
+      assert.equal(image, x, "its mirror image goes along");
       const { searches } = await (await fetch(`${address}status`)).json();
       assert.ok(searches.begun - searches.ended <= 1, "one search at work");
       await tab.keyboard.press("Control+z");

@@ -170,7 +170,7 @@ async function copies(where, axisOf) {
 
 /** The mirror image of what is selected, in a plane of the coordinates; the search is told which joints are images. */
 async function mirrorSelection(k) {
-  const flip = (v) => v.map((c, i) => (i === k ? negated(c) : c));
+  const flip = (v) => flipped(v, k);
   const pairs = await copies(flip, flip);
   if (!pairs?.length) return;
   const known = desk.look?.file?.search?.mirror ?? [];
@@ -185,6 +185,32 @@ function copySelection() {
   return copies((p) => p.map((c, i) => (i === a || i === b ? moved1(c, by) : c)), (v) => v);
 }
 
+/** A point, or where it is, on the other side of a plane of the coordinates. */
+const flipped = (p, k) => p.map((c, i) => (i === k ? negated(c) : c));
+
+/**
+ * Puts pins elsewhere, and their mirror images along with them: the file says which joints are images of which. Where the plane is
+ * none of the coordinates, the pair is no pair any more. Gives the changes, and the images that go along.
+ */
+function putPins(moves) {
+  const pairs = desk.look?.file?.search?.mirror ?? [];
+  const images = [];
+  const apartNow = [];
+  for (const move of moves.filter((m) => m.what === "joint")) {
+    const pair = pairs.find((p) => p.includes(move.id));
+    const other = pair?.find((id) => id !== move.id);
+    const own = placeOf("joint", move.id);
+    const at = other && placeOf("joint", other);
+    if (!at || !own || moves.some((m) => m.what === "joint" && m.id === other)) continue;
+    const k = [0, 1, 2].find((i) => apart(flipped(own, i), at) < touching());
+    if (k === undefined) apartNow.push(pair);
+    else images.push({ what: "joint", id: other, from: at, to: move.to && flipped(move.to, k), point: flipped(move.point, k) });
+  }
+  const edits = [...moves, ...images].map((m) => set(m.what, m.id, "point", m.point));
+  if (apartNow.length) edits.push({ do: "put", path: ["search", "mirror"], value: pairs.filter((p) => !apartNow.includes(p)) });
+  return { edits, images };
+}
+
 /** Moves the pins that are selected, and those of links that are, by a step of the grid. */
 function nudge(dx, dy) {
   const links = selection.filter((s) => s.what === "link").map((s) => s.id);
@@ -193,5 +219,5 @@ function nudge(dx, dy) {
   if (!together.length) return null;
   const step = gridStep();
   const by = plus(times(camera.view[0], dx * step), times(camera.view[1], dy * step)).map((x) => rounded(x, step));
-  return change(...together.map((p) => set(p.what, p.id, "point", coordinatesOf(p).map((c, i) => moved1(c, by[i])))));
+  return change(...putPins(together.map((p) => ({ ...p, point: coordinatesOf(p).map((c, i) => moved1(c, by[i])) }))).edits);
 }

@@ -25,7 +25,10 @@ function field(label, value, { take, trial = null, wide = false, list = null }) 
 
 /** A point or a direction: three fields. */
 function triple(what, id, key, value, words) {
-  const edit = (k) => (text) => [set(what, id, key, value.map((c, i) => (i === k ? typed(text) : c)))];
+  const edit = (k) => (text) => {
+    const now = value.map((c, i) => (i === k ? typed(text) : c));
+    return key === "point" ? putPins([{ what, id, point: now }]).edits : [set(what, id, key, now)];
+  };
   const one = (k) => field("xyz"[k], shown(value[k]), { trial: edit(k), take: (text) => change(...edit(k)(text)) });
   return element("fieldset", { class: "triple" }, element("legend", {}, words), ...[0, 1, 2].map(one));
 }

@@ -57,19 +57,20 @@ function lastDeep() {
   return (all.find((p) => isSelected(p.what, p.id)) ?? all[0])?.at ?? [0, 0, 0];
 }
 
-/** Takes hold of a pin: it goes where it is dragged, with all that stands at its place. */
+/** Takes hold of a pin: it goes where it is dragged, with all that stands at its place, and its mirror image with it. */
 function dragPin(pin) {
   const all = pinsAt(pin.at);
   const base = coordinatesOf(pin);
-  let to = null;
+  let [to, put] = [null, null];
   return {
     move(event) {
       to = snapped(paperAt(event), { deep: pin.at, base, without: all, free: event.altKey });
-      preview.moved = [{ from: pin.at, to: to.at }];
+      put = putPins(all.map((p) => ({ ...p, to: to.at, point: to.point })));
+      preview.moved = [{ from: pin.at, to: to.at }, ...put.images];
       preview.answer = null;
       tool.at = to;
       redraw();
-      draft(all.map((p) => set(p.what, p.id, "point", to.point)), (value) => {
+      draft(put.edits, (value) => {
         preview.answer = value;
         byId("sheet").dataset.answered = Number(byId("sheet").dataset.answered ?? 0) + 1;
         const scene = sceneNow();
@@ -80,7 +81,7 @@ function dragPin(pin) {
     async end() {
       endDrafts();
       tool.at = null;
-      const done = to ? await change(...all.map((p) => set(p.what, p.id, "point", to.point))) : null;
+      const done = put ? await change(...put.edits) : null;
       // what is seen stays until the verdict on it is there
       if (!done || desk.verdict?.revision === desk.revision) endPreview();
     },

@@ -24,7 +24,7 @@ function sceneNow() {
 
 /** A scene with the ends of its links where the pins are. */
 function bent(scene) {
-  if (!preview.moved.length || preview.answer) return scene;
+  if (!preview.moved.length || preview.answer?.verdict) return scene;
   const ends = preview.moved.map(({ from, to }) => [from, to].map((p) => inScene(scene, p)));
   const put = (p) => ends.find(([from]) => length(minus(from, p)) < 0.6)?.[1] ?? p;
   return {
