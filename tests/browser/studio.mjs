@@ -212,7 +212,7 @@ export function studioTests(test) {
           const to = preview.moved[0]?.to;
           if (!(to?.[0] > was)) return false;
           const [x, y] = toPaper(to);
-          const bars = [...document.querySelectorAll('[data-layer="things"] path.bone')].map((p) => p.getAttribute("d"));
+          const bars = [...document.querySelectorAll('[data-layer="things"] path')].map((p) => p.getAttribute("d"));
           const ends = bars.flatMap((d) => [...d.matchAll(/(-?[\d.]+) (-?[\d.]+)/g)].map((m) => [Number(m[1]), Number(m[2])]));
           return ends.some(([a, b]) => Math.hypot(a - x, b - y) < 1) && to[0];
         }, far);
