@@ -74,11 +74,7 @@ pub(crate) fn moving_scene(
 pub(crate) fn still_picture(m: &Mechanism) -> Option<String> {
     let (Drawing { svg, .. }, scene) = still(m, (None, StateId::FREE), &[])?;
     let [left, top, right, bottom] = scene.room();
-    let room = format!(
-        "viewBox=\"{left} {top} {} {}\"",
-        right - left,
-        bottom - top
-    );
+    let room = format!("viewBox=\"{left} {top} {} {}\"", right - left, bottom - top);
     let (before, rest) = svg.split_once("width=\"")?;
     let (_, after) = rest.split_once("viewBox=\"")?;
     let (_, after) = after.split_once('"')?;

@@ -151,7 +151,9 @@ impl Desk {
         }
         let mut reading = Reading::new(&file.path, file.kind, text.as_bytes());
         // Options that a new type does not allow any more are taken out, as the drawing cannot offer them.
-        let drawn = edits.iter().any(|e| matches!(e, Edit::Set { key, .. } if key == "type"));
+        let drawn = edits
+            .iter()
+            .any(|e| matches!(e, Edit::Set { key, .. } if key == "type"));
         if drawn && !reading.outgrown.is_empty() {
             let fewer = without_outgrown(&reading);
             text = edited(&text, &fewer)?;
@@ -239,7 +241,8 @@ impl Desk {
         self.look_at_disk()?;
         if self.theirs.is_some() {
             return Err(Refused::Conflict(
-                "another program has written to the file; say first which of the two is to stay".to_owned(),
+                "another program has written to the file; say first which of the two is to stay"
+                    .to_owned(),
             ));
         }
         let (number, bytes) = (self.steps[self.at].file, self.bytes().clone());

@@ -108,7 +108,8 @@ impl OpenFile {
         } else {
             format!("-{}", n + 1)
         };
-        self.folder().join(format!("{}.autosave{number}", self.name()))
+        self.folder()
+            .join(format!("{}.autosave{number}", self.name()))
     }
 
     /// Keeps unsaved work; each time a whole file takes the place of the one before.

@@ -10,8 +10,7 @@ use std::fmt::Write as _;
 
 /// A mechanism with a joint of each type, side by side.
 fn sampler() -> Option<Mechanism> {
-    let mut text =
-        "name = \"palette\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
+    let mut text = "name = \"palette\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
     for (n, word) in JointType::words().enumerate() {
         let more = match word {
             "helical" => "lead = 1\n",
@@ -38,7 +37,9 @@ pub(super) fn json() -> Value {
     let scene = serde_json::to_value(scene).unwrap_or_default();
     let symbol = |word: &str| {
         let all = scene["joints"].as_array().into_iter().flatten();
-        let number = all.filter(|j| j["id"] == word).find_map(|j| j["symbol"].as_u64());
+        let number = all
+            .filter(|j| j["id"] == word)
+            .find_map(|j| j["symbol"].as_u64());
         let number = number.and_then(|n| usize::try_from(n).ok());
         number.map_or(Value::Null, |n| scene["symbols"][n].clone())
     };

@@ -208,7 +208,9 @@ impl Items {
 
     fn told(&self, text: &str) -> Vec<Value> {
         let line = |at| line_of(text, at);
-        let one = |(what, n, s): &(Thing, usize, Range<usize>)| json!([what.word(), n, line(s.start), line(s.end)]);
+        let one = |(what, n, s): &(Thing, usize, Range<usize>)| {
+            json!([what.word(), n, line(s.start), line(s.end)])
+        };
         self.0.iter().map(one).collect()
     }
 }
@@ -236,6 +238,9 @@ mod tests {
         let read = Reading::new(Path::new("x.toml"), Kind::Toml, text.as_bytes());
         assert!(read.partly && read.mechanism.is_some());
         let y = &read.json()["places"]["point"][0][1];
-        assert!((y.as_f64().unwrap_or_default() - 2_f64.sqrt()).abs() < 1e-12, "{y}");
+        assert!(
+            (y.as_f64().unwrap_or_default() - 2_f64.sqrt()).abs() < 1e-12,
+            "{y}"
+        );
     }
 }

@@ -104,10 +104,7 @@ impl Room {
             if desk.revision != done {
                 return Some(desk.revision);
             }
-            desk = self
-                .news
-                .wait(desk)
-                .unwrap_or_else(PoisonError::into_inner);
+            desk = self.news.wait(desk).unwrap_or_else(PoisonError::into_inner);
         }
     }
 

@@ -91,7 +91,10 @@ fn exported(format: &str, room: &Room) -> Answer {
         (desk.reading.clone(), desk.state()["name"].clone())
     };
     let Some(m) = reading.mechanism.clone().filter(|_| !reading.partly) else {
-        return Answer::refusal(422, "what is not whole yet cannot be exported; see what is missing");
+        return Answer::refusal(
+            422,
+            "what is not whole yet cannot be exported; see what is missing",
+        );
     };
     let subject = || Subject {
         mechanism: &m,
@@ -104,7 +107,14 @@ fn exported(format: &str, room: &Room) -> Answer {
         "scheme.svg" => match work::states(&m) {
             Ok(found) => {
                 let analysis = found.first();
-                ("svg", Ok(scheme(&Subject { analysis, ..subject() }).svg))
+                (
+                    "svg",
+                    Ok(scheme(&Subject {
+                        analysis,
+                        ..subject()
+                    })
+                    .svg),
+                )
             }
             Err(why) => return Answer::refusal(422, &why),
         },
@@ -139,7 +149,8 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
             match done {
                 Err(Refused::Conflict(why)) => {
                     // Whoever was too late gets what there is now.
-                    room.windows.tell(&super::windows::event("look", &room.desk().json()));
+                    room.windows
+                        .tell(&super::windows::event("look", &room.desk().json()));
                     Err(Refused::Conflict(why))
                 }
                 other => other,
@@ -188,13 +199,17 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
                 Ok(())
             })
         }
-        _ => Err(Refused::Words("there is nothing at this address".to_owned())),
+        _ => Err(Refused::Words(
+            "there is nothing at this address".to_owned(),
+        )),
     }
 }
 
 fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
     let old = || {
-        Refused::Conflict("the mechanism was changed after these ideas; they are searched anew".to_owned())
+        Refused::Conflict(
+            "the mechanism was changed after these ideas; they are searched anew".to_owned(),
+        )
     };
     let found = room.found(asked.revision).ok_or_else(old)?;
     let reading = {

@@ -46,7 +46,11 @@ pub(super) fn list() -> Value {
 pub(super) fn opening(name: &str, folder: PathBuf) -> Option<Opening> {
     let own = OWN.iter().find(|(n, ..)| *n == name);
     if let Some((name, _, text)) = own {
-        return Some(Opening::Text((*name).to_owned(), (*text).to_owned(), folder));
+        return Some(Opening::Text(
+            (*name).to_owned(),
+            (*text).to_owned(),
+            folder,
+        ));
     }
     builtin::text(name)?;
     Some(Opening::Builtin(name.to_owned(), folder))

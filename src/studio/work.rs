@@ -35,7 +35,11 @@ pub(super) fn work(room: &Room) {
         let tried = catch_unwind(AssertUnwindSafe(|| look(room, revision, &m)));
         if tried.is_err() {
             let words = "the engine failed at this mechanism; please report it with the file. The text is not touched by that.";
-            room.tell(revision, "trouble", &json!({ "revision": revision, "words": words }));
+            room.tell(
+                revision,
+                "trouble",
+                &json!({ "revision": revision, "words": words }),
+            );
         }
     }
 }
@@ -64,11 +68,19 @@ fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
         let made = moving_scene(of, (found, state), &[], true);
         moving.push(made.map(|(_, scene)| scene));
     }
-    room.tell(revision, "motion", &json!({ "revision": revision, "scenes": moving }));
+    room.tell(
+        revision,
+        "motion",
+        &json!({ "revision": revision, "scenes": moving }),
+    );
     search(room, revision, m, &states);
     if !room.is_old(revision) {
         let charts = force::charts(m);
-        room.tell(revision, "force", &json!({ "revision": revision, "charts": charts }));
+        room.tell(
+            revision,
+            "force",
+            &json!({ "revision": revision, "charts": charts }),
+        );
     }
 }
 
@@ -109,7 +121,8 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
     let mut tell = |event| match event {
         Event::Note(text) => notes.push(text),
         Event::Building(p) => {
-            let told = json!({ "revision": revision, "done": p.done, "of": p.of, "nodes": p.nodes });
+            let told =
+                json!({ "revision": revision, "done": p.done, "of": p.of, "nodes": p.nodes });
             room.tell(revision, "progress", &told);
         }
         Event::Built => {}
@@ -128,7 +141,11 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
             ideas["notes"] = notes.into();
             room.tell(revision, "ideas", &ideas);
         }
-        Err(why) => room.tell(revision, "ideas", &json!({ "revision": revision, "why": why })),
+        Err(why) => room.tell(
+            revision,
+            "ideas",
+            &json!({ "revision": revision, "why": why }),
+        ),
     }
 }
 

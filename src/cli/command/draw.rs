@@ -3,7 +3,6 @@
 use crate::cli::Done;
 use crate::cli::option::args::{Args, File};
 use crate::cli::option::load;
-use crate::page::moving::Moving;
 use crate::cli::option::picture;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
@@ -11,6 +10,7 @@ use crate::cli::option::variant::Chosen;
 use crate::cli::terminal::output;
 use crate::draw::{self, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
+use crate::page::moving::Moving;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::analysis::Analysis;
 use anyhow::{Context, bail, ensure};

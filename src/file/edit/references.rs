@@ -11,14 +11,8 @@ const LISTS: [(&[&str], Thing); 9] = [
     (&["search", "turn"], Thing::Joint),
     (&["contour", "*", "joints"], Thing::Joint),
     (&["coupling", "*", "joints"], Thing::Joint),
-    (
-        &["workload", "grip", "contacts"],
-        Thing::Joint,
-    ),
-    (
-        &["workload", "grip", "lever_joints"],
-        Thing::Joint,
-    ),
+    (&["workload", "grip", "contacts"], Thing::Joint),
+    (&["workload", "grip", "lever_joints"], Thing::Joint),
     (&["workload", "drive", "disc_link"], Thing::Link),
 ];
 
@@ -48,9 +42,7 @@ pub(super) fn of_link(document: &DocumentMut, link: &str) -> Vec<(Thing, String)
         _ => t.get("link").and_then(Item::as_str) == Some(link),
     };
     for what in [Thing::Joint, Thing::Point] {
-        let all = document
-            .get(what.word())
-            .and_then(Item::as_array_of_tables);
+        let all = document.get(what.word()).and_then(Item::as_array_of_tables);
         let own = all.into_iter().flatten().filter(|t| on(t, what));
         out.extend(own.filter_map(id_of).map(|id| (what, id.to_owned())));
     }
@@ -95,7 +87,10 @@ fn rename_in(item: &mut Item, id: &str, to: &str) {
 
 /// Takes an id out of all places where it is named.
 pub(super) fn forget(root: &mut Table, what: Thing, id: &str) {
-    for (path, _) in LISTS.iter().filter(|(path, of)| *of == what && path[0] == "search") {
+    for (path, _) in LISTS
+        .iter()
+        .filter(|(path, of)| *of == what && path[0] == "search")
+    {
         at(root, path, &mut |item| {
             if let Some(list) = item.as_array_mut() {
                 list.retain(|v| !names_it(v, id));

@@ -39,6 +39,7 @@ function showForce() {
 
 function showIdeas() {
   const room = byId("ideas");
+  pointedAt.idea = null;
   const head = element("h2", {}, "Ideas");
   const value = desk.ideas;
   const part = (...inside) => room.replaceChildren(head, ...inside);

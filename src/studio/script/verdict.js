@@ -77,6 +77,7 @@ const block3 = (head, rows, more = null) => (rows.length ? element("details", { 
 /** Shows what the newest verdict says, or that of a change that is tried. */
 function showVerdict() {
   const value = preview.answer?.verdict ?? desk.verdict;
+  Object.assign(pointedAt, { contour: null, stress: null });
   const states = value?.analysis?.states ?? [];
   if (desk.state >= states.length) desk.state = 0;
   tabs(states);

@@ -51,10 +51,18 @@ impl Stroke<'_> {
         });
         let unique = solved.iter().all(|(_, r)| r.unique);
         let open = "of minimum norm, since redundant constraints leave them open";
-        let unit = if self.slides { self.of.length_unit.symbol } else { "°" };
+        let unit = if self.slides {
+            self.of.length_unit.symbol
+        } else {
+            "°"
+        };
         Some(Chart {
             title: format!("Forces in the joints of the outputs, state {}", self.state),
-            subtitle: if unique { String::new() } else { open.to_owned() },
+            subtitle: if unique {
+                String::new()
+            } else {
+                open.to_owned()
+            },
             x: Axis {
                 label: format!("drive, {unit}"),
                 scale: Scale::Linear,

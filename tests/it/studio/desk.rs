@@ -27,19 +27,35 @@ fn every_change_can_be_undone_to_the_byte() {
     let s = Served::new(folder.path(), &["mine.toml"]);
     let mut texts = vec![own.clone()];
     for joint in ["1-2", "2-3", "4-5", "5-1", "1-6", "6-7", "8-9"] {
-        texts.push(s.done("edit", &spherical(joint))["text"].as_str().unwrap().to_owned());
+        texts.push(
+            s.done("edit", &spherical(joint))["text"]
+                .as_str()
+                .unwrap()
+                .to_owned(),
+        );
     }
     for text in texts.iter().rev().skip(1) {
         assert_eq!(s.done("undo", &json!({}))["text"], text.as_str());
     }
     assert_eq!(s.status()["desk"]["saved"], true);
-    assert_eq!(names(folder.path()), ["mine.toml"], "what is saved is not kept twice");
-    assert_eq!(s.done("undo", &json!({}))["text"], Value::Null, "there is no step before the first");
+    assert_eq!(
+        names(folder.path()),
+        ["mine.toml"],
+        "what is saved is not kept twice"
+    );
+    assert_eq!(
+        s.done("undo", &json!({}))["text"],
+        Value::Null,
+        "there is no step before the first"
+    );
     for text in texts.iter().skip(1) {
         assert_eq!(s.done("redo", &json!({}))["text"], text.as_str());
     }
     s.done("save", &json!({ "name": null }));
-    assert_eq!(fs::read_to_string(folder.path().join("mine.toml")).unwrap(), texts[7]);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
+        texts[7]
+    );
     assert_eq!(names(folder.path()), ["mine.toml"]);
 }
 
@@ -54,7 +70,10 @@ fn a_text_that_is_made_of_an_older_one_is_refused() {
     window.next("look");
     assert_eq!(s.post("edit", &whole(&first)).0, 409);
     let sent = window.next("look")["text"].as_str().unwrap().to_owned();
-    assert!(sent.contains("spherical"), "whoever was late gets what there is");
+    assert!(
+        sent.contains("spherical"),
+        "whoever was late gets what there is"
+    );
     s.done("edit", &whole(&s.status()["revision"]));
 }
 
@@ -70,7 +89,10 @@ fn what_another_program_writes_is_taken_in_or_told() {
     fs::write(&file, &theirs).unwrap();
     s.until(|v| v["revision"] == 2);
     assert_eq!(s.done("undo", &json!({}))["text"], own.as_str());
-    let mine = s.done("edit", &spherical("1-2"))["text"].as_str().unwrap().to_owned();
+    let mine = s.done("edit", &spherical("1-2"))["text"]
+        .as_str()
+        .unwrap()
+        .to_owned();
     // Something unsaved: told, and nothing written over.
     let again = own.replace("# coupler, 100 mm", "# again");
     fs::write(folder.path().join("mine.toml~"), &again).unwrap();
@@ -80,15 +102,25 @@ fn what_another_program_writes_is_taken_in_or_told() {
     assert_eq!(fs::read_to_string(&file).unwrap(), again);
     let kept = s.done("settle", &json!({ "yes": true }));
     assert_eq!(kept["text"], mine.as_str());
-    assert_eq!(s.done("undo", &json!({}))["text"], again.as_str(), "theirs is a step away");
+    assert_eq!(
+        s.done("undo", &json!({}))["text"],
+        again.as_str(),
+        "theirs is a step away"
+    );
     s.done("redo", &json!({}));
     s.done("save", &json!({ "name": null }));
     assert_eq!(fs::read_to_string(&file).unwrap(), mine);
     // The other way round.
-    let unsaved = s.done("edit", &spherical("2-3"))["text"].as_str().unwrap().to_owned();
+    let unsaved = s.done("edit", &spherical("2-3"))["text"]
+        .as_str()
+        .unwrap()
+        .to_owned();
     fs::write(&file, &own).unwrap();
     s.until(|v| v["desk"]["conflict"] == true);
-    assert_eq!(s.done("settle", &json!({ "yes": false }))["text"], own.as_str());
+    assert_eq!(
+        s.done("settle", &json!({ "yes": false }))["text"],
+        own.as_str()
+    );
     assert_eq!(s.done("undo", &json!({}))["text"], unsaved.as_str());
 }
 
@@ -98,17 +130,26 @@ fn work_of_a_killed_program_is_offered() {
     let own = out(&["show", "four-bar"]);
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let mut first = Served::new(folder.path(), &["mine.toml"]);
-    let mine = first.done("edit", &spherical("1-2"))["text"].as_str().unwrap().to_owned();
+    let mine = first.done("edit", &spherical("1-2"))["text"]
+        .as_str()
+        .unwrap()
+        .to_owned();
     // Another at work on the same file keeps its own, and takes that of the first for nobody's but its.
     let second = Served::new(folder.path(), &["mine.toml"]);
     assert_eq!(second.status()["desk"]["left"], Value::Null);
     second.done("edit", &spherical("2-3"));
-    assert_eq!(names(folder.path()), ["mine.toml", "mine.toml.autosave", "mine.toml.autosave-2"]);
+    assert_eq!(
+        names(folder.path()),
+        ["mine.toml", "mine.toml.autosave", "mine.toml.autosave-2"]
+    );
     first.end(Some("-KILL"));
     drop(second);
     let third = Served::new(folder.path(), &["mine.toml"]);
     assert_eq!(third.status()["desk"]["left"], "mine.toml.autosave");
-    assert_eq!(third.done("restore", &json!({ "yes": true }))["text"], mine.as_str());
+    assert_eq!(
+        third.done("restore", &json!({ "yes": true }))["text"],
+        mine.as_str()
+    );
     assert_eq!(third.done("undo", &json!({}))["text"], own.as_str());
     drop(third);
     // The work of the second is still there; thrown away, it is gone.
@@ -116,7 +157,10 @@ fn work_of_a_killed_program_is_offered() {
     assert_eq!(fourth.status()["desk"]["left"], "mine.toml.autosave-2");
     fourth.done("restore", &json!({ "yes": false }));
     assert_eq!(names(folder.path()), ["mine.toml"]);
-    assert_eq!(fs::read_to_string(folder.path().join("mine.toml")).unwrap(), own);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
+        own
+    );
 }
 
 #[test]
@@ -132,7 +176,11 @@ fn it_ends_with_its_last_window_and_with_ctrl_c() {
     assert_eq!(s.end(None), Some(0));
     let mut s = Served::new(folder.path(), &["four-bar"]);
     assert_eq!(s.end(Some("-INT")), Some(130));
-    assert_eq!(names(folder.path()), [""; 0], "what was not changed leaves nothing");
+    assert_eq!(
+        names(folder.path()),
+        [""; 0],
+        "what was not changed leaves nothing"
+    );
 }
 
 #[test]
@@ -143,13 +191,20 @@ fn what_cannot_be_opened_is_told() {
         ("-", "standard input is no file"),
         ("grippper-10", "did you mean"),
         ("sub", "is a folder"),
-        ("nowhere/mine.toml", "neither a file nor a built-in mechanism"),
+        (
+            "nowhere/mine.toml",
+            "neither a file nor a built-in mechanism",
+        ),
         ("new.json", "neither a file nor a built-in mechanism"),
     ] {
         let mut command = crate::common::ozols(&["studio", "--no-open", file]);
         let o = command.current_dir(folder.path()).output().unwrap();
         assert_eq!(o.status.code(), Some(2), "{file}");
-        assert!(text(&o.stderr).contains(words), "{file}: {}", text(&o.stderr));
+        assert!(
+            text(&o.stderr).contains(words),
+            "{file}: {}",
+            text(&o.stderr)
+        );
     }
 }
 
@@ -157,16 +212,30 @@ fn what_cannot_be_opened_is_told() {
 fn a_file_that_is_wrong_is_opened_to_be_mended() {
     let folder = tempfile::tempdir().unwrap();
     let own = out(&["show", "four-bar"]);
-    fs::write(folder.path().join("mine.toml"), own.replacen("revolute", "revolut", 1)).unwrap();
+    fs::write(
+        folder.path().join("mine.toml"),
+        own.replacen("revolute", "revolut", 1),
+    )
+    .unwrap();
     let s = Served::new(folder.path(), &["mine.toml"]);
     let look = s.window().next("look");
     let told = &look["told"][0];
     assert_eq!(told["about"], json!(["joint", 0]), "{told}");
-    assert!(told["words"].as_str().unwrap().contains("unknown joint type"));
+    assert!(
+        told["words"]
+            .as_str()
+            .unwrap()
+            .contains("unknown joint type")
+    );
     let mended = s.done("edit", &spherical("0-1"));
     assert_eq!(mended["whole"], true);
     fs::write(folder.path().join("bytes.toml"), [0xff, 0xfe]).unwrap();
     let s = Served::new(folder.path(), &["bytes.toml"]);
     let look = s.window().next("look");
-    assert!(look["told"][0]["words"].as_str().unwrap().contains("not UTF-8"));
+    assert!(
+        look["told"][0]["words"]
+            .as_str()
+            .unwrap()
+            .contains("not UTF-8")
+    );
 }

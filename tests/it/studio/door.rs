@@ -12,9 +12,8 @@ fn who_has_not_the_token_or_comes_from_elsewhere_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let (host, token) = (&s.host, &s.token);
-    let get = |path: &str, headers: &str| {
-        status(&s, &format!("GET {path} HTTP/1.1\r\n{headers}\r\n"))
-    };
+    let get =
+        |path: &str, headers: &str| status(&s, &format!("GET {path} HTTP/1.1\r\n{headers}\r\n"));
     let page = format!("/{token}/status");
     let own = format!("Host: {host}\r\n");
     assert_eq!(get(&page, &own), 200);
@@ -41,15 +40,30 @@ fn who_has_not_the_token_or_comes_from_elsewhere_is_refused() {
     }
     // What writes has to say where it comes from, and is JSON.
     let post = |headers: &str| {
-        let head = format!("POST /{token}/undo HTTP/1.1\r\n{own}Content-Length: 2\r\n{headers}\r\n{{}}");
+        let head =
+            format!("POST /{token}/undo HTTP/1.1\r\n{own}Content-Length: 2\r\n{headers}\r\n{{}}");
         status(&s, &head)
     };
     let json = "Content-Type: application/json\r\n";
     assert_eq!(post(&format!("{json}Origin: http://{host}\r\n")), 200);
     assert_eq!(post(json), 403);
-    assert_eq!(post(&format!("{json}Origin: http://{host}.evil.example\r\n")), 403);
-    assert_eq!(post(&format!("Content-Type: text/plain\r\nOrigin: http://{host}\r\n")), 415);
-    assert_eq!(status(&s, &format!("DELETE /{token}/ HTTP/1.1\r\n{own}Origin: http://{host}\r\n{json}\r\n")), 405);
+    assert_eq!(
+        post(&format!("{json}Origin: http://{host}.evil.example\r\n")),
+        403
+    );
+    assert_eq!(
+        post(&format!(
+            "Content-Type: text/plain\r\nOrigin: http://{host}\r\n"
+        )),
+        415
+    );
+    assert_eq!(
+        status(
+            &s,
+            &format!("DELETE /{token}/ HTTP/1.1\r\n{own}Origin: http://{host}\r\n{json}\r\n")
+        ),
+        405
+    );
 }
 
 #[test]
@@ -61,17 +75,42 @@ fn requests_are_bounded() {
     assert_eq!(status(&s, &long), 431);
     let many: String = (0..100).map(|n| format!("X-{n}: 1\r\n")).collect();
     assert_eq!(status(&s, &format!("{head}{many}\r\n")), 400);
-    assert_eq!(status(&s, &format!("{head}Content-Length: 999999999\r\n\r\n")), 413);
-    assert_eq!(status(&s, &format!("{head}Content-Length: -1\r\n\r\n")), 400);
-    assert_eq!(status(&s, &format!("{head}Content-Length: 2\r\nContent-Length: 3\r\n\r\n{{}}")), 400);
-    assert_eq!(status(&s, &format!("{head}Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n")), 501);
+    assert_eq!(
+        status(&s, &format!("{head}Content-Length: 999999999\r\n\r\n")),
+        413
+    );
+    assert_eq!(
+        status(&s, &format!("{head}Content-Length: -1\r\n\r\n")),
+        400
+    );
+    assert_eq!(
+        status(
+            &s,
+            &format!("{head}Content-Length: 2\r\nContent-Length: 3\r\n\r\n{{}}")
+        ),
+        400
+    );
+    assert_eq!(
+        status(
+            &s,
+            &format!("{head}Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n")
+        ),
+        501
+    );
     assert_eq!(status(&s, "\u{1}\r\n\r\n"), 400);
     assert_eq!(status(&s, "GET / HTTP/2.7\r\n\r\n"), 400);
     // A text as large as no file may be, within what a request may hold.
     let text = "#".repeat(5 << 20);
-    let (code, told) = s.post("edit", &json!({ "edits": [{ "do": "text", "text": text }], "revision": 1 }));
+    let (code, told) = s.post(
+        "edit",
+        &json!({ "edits": [{ "do": "text", "text": text }], "revision": 1 }),
+    );
     assert_eq!(code, 422, "{told}");
-    for body in [json!([]), json!({ "edits": [{ "do": "format-disk" }] }), json!({ "edits": [], "more": 1 })] {
+    for body in [
+        json!([]),
+        json!({ "edits": [{ "do": "format-disk" }] }),
+        json!({ "edits": [], "more": 1 }),
+    ] {
         assert_eq!(s.post("edit", &body).0, 422, "{body}");
     }
     assert_eq!(s.get("status").0, 200);
@@ -138,7 +177,13 @@ fn every_answer_keeps_others_out() {
     }
     // Nothing is run that does not come from an address of its own, and nothing comes from elsewhere.
     assert!(!page.contains("<script>") && !page.contains("<style"));
-    for handler in [" onclick=", " onload=", "javascript:", "http-equiv", "https://"] {
+    for handler in [
+        " onclick=",
+        " onload=",
+        "javascript:",
+        "http-equiv",
+        "https://",
+    ] {
         assert!(!page.contains(handler), "{handler}");
     }
     assert!(!s.get("studio.js").1.contains("https://"));

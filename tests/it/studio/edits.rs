@@ -38,9 +38,14 @@ fn differing(a: &str, b: &str) -> usize {
 fn what_is_set_to_what_it_is_leaves_every_byte() {
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
-        let entries: Value = serde_json::to_value(toml::from_str::<toml::Value>(text).unwrap()).unwrap();
+        let entries: Value =
+            serde_json::to_value(toml::from_str::<toml::Value>(text).unwrap()).unwrap();
         let mut edits = Vec::new();
-        for (what, list) in [(Thing::Link, "link"), (Thing::Joint, "joint"), (Thing::Point, "point")] {
+        for (what, list) in [
+            (Thing::Link, "link"),
+            (Thing::Joint, "joint"),
+            (Thing::Point, "point"),
+        ] {
             for item in entries[list].as_array().into_iter().flatten() {
                 for (key, value) in item.as_object().unwrap() {
                     // Tables within brackets are written anew.
@@ -58,10 +63,19 @@ fn what_is_set_to_what_it_is_leaves_every_byte() {
 fn one_coordinate_changes_one_line_and_keeps_the_digits_of_the_others() {
     let text = "name = \"x\" # a name\n\n# hinge\n[[joint]] # one\nid = \"a\"   # its id\npoint = [ 1.50, \"sqrt(2)\",0 ]  # where\n";
     let to = |value| edited(text, &[set(Thing::Joint, "a", "point", value)]).unwrap();
-    assert_eq!(to(json!([1.5, "sqrt(3)", 0])), text.replace("sqrt(2)", "sqrt(3)"));
-    assert_eq!(to(json!(["1.50", "sqrt(2)", "7.250"])), text.replace("0 ]", "7.250 ]"));
+    assert_eq!(
+        to(json!([1.5, "sqrt(3)", 0])),
+        text.replace("sqrt(2)", "sqrt(3)")
+    );
+    assert_eq!(
+        to(json!(["1.50", "sqrt(2)", "7.250"])),
+        text.replace("0 ]", "7.250 ]")
+    );
     assert_eq!(to(json!([2, "sqrt(2)", 0])), text.replace("1.50", "2"));
-    assert_eq!(to(Value::Null), text.replace("point = [ 1.50, \"sqrt(2)\",0 ]  # where\n", ""));
+    assert_eq!(
+        to(Value::Null),
+        text.replace("point = [ 1.50, \"sqrt(2)\",0 ]  # where\n", "")
+    );
     let more = edited(text, &[set(Thing::Joint, "a", "axis", json!([0, 0, "1"]))]).unwrap();
     assert_eq!(more, format!("{text}axis = [0, 0, 1]\n"));
 }
@@ -71,7 +85,11 @@ fn another_name_is_put_wherever_the_file_has_it() {
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();
         let m = read(text);
-        let mut all: Vec<(Thing, &str)> = m.joints.iter().map(|j| (Thing::Joint, j.id.as_str())).collect();
+        let mut all: Vec<(Thing, &str)> = m
+            .joints
+            .iter()
+            .map(|j| (Thing::Joint, j.id.as_str()))
+            .collect();
         all.extend(m.links.iter().map(|l| (Thing::Link, l.id.as_str())));
         let edits = all.iter().map(|(what, id)| Edit::Rename {
             what: *what,
@@ -80,7 +98,11 @@ fn another_name_is_put_wherever_the_file_has_it() {
         });
         let renamed = edited(text, &edits.collect::<Vec<_>>()).unwrap();
         let after = read(&renamed);
-        let ids: Vec<String> = m.joints.iter().map(|j| format!("the joint {}", j.id)).collect();
+        let ids: Vec<String> = m
+            .joints
+            .iter()
+            .map(|j| format!("the joint {}", j.id))
+            .collect();
         assert!(after.joints.iter().map(|j| &j.id).eq(&ids), "{name}");
         assert_eq!(comments(&renamed), comments(text), "{name}");
         assert_eq!(after.search.mirror.len(), m.search.mirror.len(), "{name}");
@@ -103,7 +125,13 @@ fn what_names_a_thing_goes_with_it() {
                 let said = e.to_string();
                 let unknown = said.contains("unknown link") || said.contains("unknown joint");
                 // Lever joints and the disc of a drive are what their tables are about.
-                assert!(!unknown || text.contains("[workload.grip]") || text.contains("[workload.drive]"), "{name} without {}: {said}", link.id);
+                assert!(
+                    !unknown
+                        || text.contains("[workload.grip]")
+                        || text.contains("[workload.drive]"),
+                    "{name} without {}: {said}",
+                    link.id
+                );
             }
         }
     }
@@ -117,11 +145,27 @@ fn what_cannot_be_done_changes_nothing_and_says_why() {
         entry: json!({ "id": id }).as_object().unwrap().clone(),
     };
     let why = |edits: &[Edit]| edited(text, edits).unwrap_err().to_string();
-    assert!(why(&[set(Thing::Joint, "no", "type", json!("fixed"))]).contains("there is no joint \"no\""));
+    assert!(
+        why(&[set(Thing::Joint, "no", "type", json!("fixed"))])
+            .contains("there is no joint \"no\"")
+    );
     assert!(why(&[entry("9"), entry("3")]).contains("a link \"3\" already"));
-    assert!(why(&[set(Thing::Joint, "0-1", "point", json!([1, null, 0]))]).contains("nothing is no value"));
-    assert!(edited("a = [", &[entry("9")]).unwrap_err().to_string().contains("no TOML"));
-    assert!(edited("link = [{ id = \"0\" }]", &[entry("9")]).unwrap_err().to_string().contains("[[link]]"));
+    assert!(
+        why(&[set(Thing::Joint, "0-1", "point", json!([1, null, 0]))])
+            .contains("nothing is no value")
+    );
+    assert!(
+        edited("a = [", &[entry("9")])
+            .unwrap_err()
+            .to_string()
+            .contains("no TOML")
+    );
+    assert!(
+        edited("link = [{ id = \"0\" }]", &[entry("9")])
+            .unwrap_err()
+            .to_string()
+            .contains("[[link]]")
+    );
 }
 
 /// A change to a mechanism, chosen by some numbers.

@@ -21,8 +21,22 @@ fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
             assert_eq!(verdict["analysis"][key], analysis[key], "{name} {key}");
         }
         let motion = window.next("motion");
-        assert!(motion["scenes"][0]["moves"][0]["poses"].as_array().unwrap().len() > 10);
-        let mut search = json(&["search", name, "--distinct", "--top", "10", "--format", "json"]);
+        assert!(
+            motion["scenes"][0]["moves"][0]["poses"]
+                .as_array()
+                .unwrap()
+                .len()
+                > 10
+        );
+        let mut search = json(&[
+            "search",
+            name,
+            "--distinct",
+            "--top",
+            "10",
+            "--format",
+            "json",
+        ]);
         search.as_object_mut().unwrap().shift_remove("seconds");
         assert_eq!(window.next("ideas")["found"], search, "{name}");
     }
@@ -31,7 +45,12 @@ fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
 #[test]
 fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, ideas) in [("gripper-10", 4), ("four-bar", 3), ("lever-gripper", 3), ("parallelogram-3-rods", 3)] {
+    for (name, ideas) in [
+        ("gripper-10", 4),
+        ("four-bar", 3),
+        ("lever-gripper", 3),
+        ("parallelogram-3-rods", 3),
+    ] {
         let own = out(&["show", name]);
         fs::write(folder.path().join("mine.toml"), &own).unwrap();
         let s = Served::new(folder.path(), &["mine.toml"]);
@@ -46,7 +65,11 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
                 assert!(text.contains(comment), "{name}, idea {k}: {comment}");
             }
             let verdict = window.next("verdict");
-            assert_eq!(verdict["revision"], taken["revision"], "{name}, idea {k}: {}", taken["told"]);
+            assert_eq!(
+                verdict["revision"], taken["revision"],
+                "{name}, idea {k}: {}",
+                taken["told"]
+            );
             let state = &verdict["analysis"]["states"][0];
             assert_eq!(state["mobility"], idea["mobility"], "{name}, idea {k}");
             assert_eq!(state["redundant"], idea["redundant"], "{name}, idea {k}");
@@ -61,13 +84,19 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
 #[test]
 fn a_search_ends_when_another_text_comes() {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("mine.toml"), out(&["show", "gripper-10"])).unwrap();
+    fs::write(
+        folder.path().join("mine.toml"),
+        out(&["show", "gripper-10"]),
+    )
+    .unwrap();
     let s = Served::new(folder.path(), &["mine.toml"]);
     let mut window = s.window();
     let mut last = 0;
     for n in 0..12 {
         let edit = json!({ "do": "set", "what": "joint", "id": "4-5", "key": "point", "value": [5 + n, 5, 0] });
-        last = s.done("edit", &json!({ "edits": [edit], "revision": null }))["revision"].as_u64().unwrap();
+        last = s.done("edit", &json!({ "edits": [edit], "revision": null }))["revision"]
+            .as_u64()
+            .unwrap();
         let searches = &s.status()["searches"];
         let [begun, ended] = ["begun", "ended"].map(|k| searches[k].as_u64().unwrap());
         assert!(begun - ended <= 1, "{searches}");
@@ -79,7 +108,10 @@ fn a_search_ends_when_another_text_comes() {
         }
     }
     let status = s.until(|v| v["searches"]["begun"] == v["searches"]["ended"]);
-    assert!(status["searches"]["begun"].as_u64().unwrap() <= last, "{status}");
+    assert!(
+        status["searches"]["begun"].as_u64().unwrap() <= last,
+        "{status}"
+    );
 }
 
 #[test]
@@ -104,12 +136,18 @@ fn a_description_takes_an_idea_and_no_other_change() {
     fs::copy(robot, folder.path().join("gripper.xml")).unwrap();
     let s = Served::new(folder.path(), &["gripper.xml"]);
     let mut window = s.window();
-    assert_eq!(window.next("verdict")["analysis"]["states"][0]["redundant"], 2);
+    assert_eq!(
+        window.next("verdict")["analysis"]["states"][0]["redundant"],
+        2
+    );
     let told = window.next("ideas");
     let edit = json!({ "edits": [{ "do": "text", "text": "" }], "revision": told["revision"] });
     assert_eq!(s.post("edit", &edit).0, 422);
     s.done("take", &json!({ "idea": 1, "revision": told["revision"] }));
-    assert_eq!(window.next("verdict")["analysis"]["states"][0]["redundant"], 0);
+    assert_eq!(
+        window.next("verdict")["analysis"]["states"][0]["redundant"],
+        0
+    );
     s.done("save", &json!({ "name": null }));
     let saved = fs::read_to_string(folder.path().join("gripper.xml")).unwrap();
     assert!(saved.contains("ozols fix"), "{saved}");
