@@ -153,7 +153,12 @@ fn answer(stream: &mut TcpStream, door: &Door, room: &Room) -> io::Result<()> {
     };
     match door.admit(&asked) {
         Err(refusal) => http::write(stream, &refusal),
-        Ok("events") if asked.method == "GET" => room.windows.serve(stream, room),
-        Ok(path) => http::write(stream, &routes::answer(&asked, path, room)),
+        Ok("events") if asked.method == "GET" => {
+            room.windows.serve(stream, || room.now(), || room.ended())
+        }
+        Ok(path) => {
+            let answer = routes::answer(&asked, path, room).packed_for(&asked)?;
+            http::write(stream, &answer)
+        }
     }
 }

@@ -54,7 +54,7 @@ impl Desk {
         let bytes: Arc<[u8]> = match (text, &file.held) {
             (Some(text), _) => text.into_bytes().into(),
             (None, Some(held)) => held.clone(),
-            (None, None) => super::shelf::BLANK.as_bytes().into(),
+            (None, None) => disk::BLANK.as_bytes().into(),
         };
         let left = file.left_behind();
         let mut out = Desk {

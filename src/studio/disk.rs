@@ -9,6 +9,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// A frame and nothing else.
+pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
+
 /// What to begin with.
 #[derive(Debug, Clone)]
 pub enum Opening {
@@ -224,10 +227,7 @@ pub(super) fn begin(opening: &Opening) -> io::Result<(OpenFile, Option<String>)>
                 .collect();
             (fresh(folder, stem.trim_matches('-'))?, Some(text.clone()))
         }
-        Opening::Nothing(folder) => (
-            fresh(folder, "mechanism")?,
-            Some(super::shelf::BLANK.to_owned()),
-        ),
+        Opening::Nothing(folder) => (fresh(folder, "mechanism")?, Some(BLANK.to_owned())),
     })
 }
 

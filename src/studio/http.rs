@@ -1,5 +1,7 @@
 //! HTTP/1.1 as far as one page on the same machine needs it: one request a connection, everything bounded.
 
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
 use std::time::Duration;
@@ -43,7 +45,12 @@ pub(super) struct Answer {
     pub(super) body: Vec<u8>,
     /// The name under which a browser saves it, where it is to.
     pub(super) saved_as: Option<String>,
+    /// Whether the body is packed.
+    pub(super) packed: bool,
 }
+
+/// What is shorter is not packed: it goes in one piece anyway.
+const SHORT: usize = 1400;
 
 impl Answer {
     pub(super) fn new(kind: &'static str, body: impl Into<Vec<u8>>) -> Answer {
@@ -52,7 +59,19 @@ impl Answer {
             kind,
             body: body.into(),
             saved_as: None,
+            packed: false,
         }
+    }
+
+    /// The same, packed where who asks can unpack it and it is worth it.
+    pub(super) fn packed_for(mut self, asked: &Asked) -> io::Result<Answer> {
+        let can = asked.header("accept-encoding");
+        if self.body.len() > SHORT && can.is_some_and(|c| c.contains("gzip")) {
+            let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
+            packer.write_all(&self.body)?;
+            (self.body, self.packed) = (packer.finish()?, true);
+        }
+        Ok(self)
     }
 
     pub(super) fn json(value: &serde_json::Value) -> Answer {
@@ -164,8 +183,13 @@ pub(super) fn write(stream: &mut TcpStream, answer: &Answer) -> io::Result<()> {
     let saved = answer.saved_as.as_ref().map_or(String::new(), |name| {
         format!("Content-Disposition: attachment; filename=\"{name}\"\r\n")
     });
+    let packed = if answer.packed {
+        "Content-Encoding: gzip\r\n"
+    } else {
+        ""
+    };
     let head = format!(
-        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{saved}{rules}\r\n",
+        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{packed}{saved}{rules}\r\n",
         answer.status,
         reason(answer.status),
         answer.kind,

@@ -1,14 +1,11 @@
 //! What to start from: the built-in mechanisms as pictures, and some that are to be drawn on.
 
-use super::disk::Opening;
+use super::disk::{BLANK, Opening};
 use crate::builtin;
 use crate::model::mechanism::Mechanism;
 use crate::page::scenes::still_picture;
 use serde_json::{Value, json};
 use std::path::PathBuf;
-
-/// A frame and nothing else.
-pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
 
 /// Mechanisms that are to be drawn on: the name, what it is, and its text.
 const OWN: [(&str, &str, &str); 3] = [

@@ -1,7 +1,6 @@
 //! The windows that are open: what is new is sent to each as it comes.
 
 use super::http;
-use super::room::Room;
 use std::io::{self, Write};
 use std::net::TcpStream;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -45,8 +44,13 @@ impl Windows {
             .retain(|(_, window)| window.send(event.clone()).is_ok());
     }
 
-    /// Sends all that is new to a window, until it is closed or the room is.
-    pub(super) fn serve(&self, stream: &mut TcpStream, room: &Room) -> io::Result<()> {
+    /// Sends what there is `now`, and then all that is new, to a window until it is closed or all has `ended`.
+    pub(super) fn serve(
+        &self,
+        stream: &mut TcpStream,
+        now: impl FnOnce() -> Vec<Arc<str>>,
+        ended: impl Fn() -> bool,
+    ) -> io::Result<()> {
         let (tell, news) = channel();
         let number = {
             let mut list = self.lock();
@@ -56,19 +60,24 @@ impl Windows {
             number
         };
         self.ever.store(true, Ordering::SeqCst);
-        let served = send(stream, room, &news);
+        let served = send(stream, &news, now, ended);
         self.lock().retain(|(n, _)| *n != number);
         served
     }
 }
 
-fn send(stream: &mut TcpStream, room: &Room, news: &Receiver<Arc<str>>) -> io::Result<()> {
+fn send(
+    stream: &mut TcpStream,
+    news: &Receiver<Arc<str>>,
+    now: impl FnOnce() -> Vec<Arc<str>>,
+    ended: impl Fn() -> bool,
+) -> io::Result<()> {
     http::begin(stream, "text/event-stream")?;
-    for event in room.now() {
+    for event in now() {
         stream.write_all(event.as_bytes())?;
     }
     stream.flush()?;
-    while !room.ended() {
+    while !ended() {
         match news.recv_timeout(PULSE) {
             Ok(event) => stream.write_all(event.as_bytes())?,
             Err(RecvTimeoutError::Timeout) => stream.write_all(b": \n\n")?,

@@ -1,6 +1,6 @@
 //! What makes one mechanism of another, as changes to the file of the first: a redesign with all comments kept.
 
-use super::{Edit, Thing};
+use super::change::{Edit, Thing};
 use crate::file::schema::{JointEntry, MechanismFile};
 use serde_json::{Map, Value};
 

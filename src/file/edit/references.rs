@@ -1,6 +1,6 @@
 //! Where a file names its links and joints besides the items themselves.
 
-use super::{Thing, id_of};
+use super::change::Thing;
 use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
 /// Lists of ids: where they are, and what they name. `*` is every table of a list.
@@ -30,6 +30,10 @@ const TOGETHER: [(&[&str], &str, Thing); 2] = [
     (&["contour"], "joints", Thing::Joint),
     (&["coupling"], "joints", Thing::Joint),
 ];
+
+fn id_of(table: &Table) -> Option<&str> {
+    table.get("id").and_then(Item::as_str)
+}
 
 /// The joints and points of a link.
 pub(super) fn of_link(document: &DocumentMut, link: &str) -> Vec<(Thing, String)> {

@@ -62,11 +62,11 @@ function dragPin(pin) {
   const all = pinsAt(pin.at);
   const base = coordinatesOf(pin);
   // what goes along draws nothing to itself
-  const along = putPins(all.map((p) => ({ ...p, point: coordinatesOf(p) }))).images;
+  const images = putPins(all.map((p) => ({ ...p, point: coordinatesOf(p) }))).images;
   let [to, put] = [null, null];
   return {
     move(event) {
-      to = snapped(paperAt(event), { deep: pin.at, base, without: [...all, ...along], free: event.altKey });
+      to = snapped(paperAt(event), { deep: pin.at, base, without: [...all, ...images], free: event.altKey });
       put = putPins(all.map((p) => ({ ...p, to: to.at, point: to.point })));
       preview.moved = [{ from: pin.at, to: to.at }, ...put.images];
       preview.answer = null;

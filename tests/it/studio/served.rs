@@ -142,7 +142,10 @@ impl Window {
     pub(super) fn next(&mut self, name: &str) -> Value {
         let mut line = String::new();
         let mut found = false;
+        let begun = Instant::now();
         loop {
+            // Heartbeats go on for ever.
+            assert!(begun.elapsed() < LONG, "never: {name}");
             line.clear();
             assert!(self.0.read_line(&mut line).unwrap() > 0, "no more events");
             let line = line.trim_end();

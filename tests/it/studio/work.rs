@@ -93,7 +93,7 @@ fn a_search_ends_when_another_text_comes() {
     let mut window = s.window();
     let mut last = 0;
     for n in 0..12 {
-        let edit = json!({ "do": "set", "what": "joint", "id": "4-5", "key": "point", "value": [5 + n, 5, 0] });
+        let edit = json!({ "do": "set", "what": "joint", "id": "0-1", "key": "point", "value": [n + 1, 0, 0] });
         last = s.done("edit", &json!({ "edits": [edit], "revision": null }))["revision"]
             .as_u64()
             .unwrap();
