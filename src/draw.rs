@@ -21,6 +21,8 @@ pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed, kinematic_wit
 
 pub use place::view_direction::Sight;
 pub use scheme::{scheme, scheme_with};
+#[cfg(feature = "cli")]
+pub(crate) use sheet::STYLE as SHEET_STYLE;
 pub use sheet::{Drawing, Label};
 pub use subject::{Marks, Subject};
 pub use symbol::pairs::joint_type;

@@ -1,16 +1,18 @@
 //! Mechanism files: one schema for TOML and JSON, read into a validated mechanism with every problem pointed at, written
-//! back, looked over, and made into templates.
+//! back, looked over, changed with their comments kept, and made into templates.
 
 pub(crate) mod bounded;
 mod control_characters;
 pub mod costs;
 mod digits;
 mod doubted;
+pub mod edit;
 pub mod findings;
 mod guessed_directions;
 pub(crate) mod leftover;
 pub mod lint;
 pub mod locate;
+pub mod loose;
 pub mod problem;
 pub mod read;
 mod rounding;

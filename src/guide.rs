@@ -1,6 +1,6 @@
 //! The guide: what the program does, system by system, with outputs that a test repeats.
 //!
-//! Start with [`first_hour`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
+//! Start with [`first_hour`], or draw in the [`studio`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
 //! formulas and numbers fail, [`robots`] (import and export), [`assemblies`] of CAD programs, [`beside`] other tools, [`catalog`] (structures
 //! that nobody has drawn yet), [`sweep`] (parameters of a file over a grid or at random), and [`speed`]. For programs: [`rust`] and [`python`]. Contributors:
@@ -10,6 +10,9 @@
 
 #[doc = include_str!("guide/first_hour.md")]
 pub mod first_hour {}
+
+#[doc = include_str!("guide/studio.md")]
+pub mod studio {}
 
 #[doc = include_str!("guide/structure.md")]
 pub mod structure {}

@@ -85,6 +85,8 @@ pub mod score;
 pub mod search;
 pub mod shard;
 pub mod statics;
+#[cfg(feature = "cli")]
+pub mod studio;
 mod svg;
 pub mod sweep;
 pub mod synthesis;

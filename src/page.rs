@@ -11,14 +11,18 @@ mod contents;
 mod data;
 mod explorer;
 mod figures;
+#[cfg(feature = "cli")]
+pub(crate) mod moving;
 mod number;
 mod policy;
+#[cfg(feature = "cli")]
+pub(crate) mod scenes;
 mod stage;
 mod states;
 mod style;
 mod symbols;
 mod variants;
-mod verdict;
+pub(crate) mod verdict;
 mod workload;
 
 use crate::format::plain::straight;
@@ -31,10 +35,13 @@ use style::STYLE;
 use symbols::Drawn;
 
 pub use contents::{Commands, Page, Redesigns, SHOWN};
+#[cfg(feature = "cli")]
+pub(crate) use symbols::named_swaps;
 pub use symbols::swaps;
 
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 18] = [
+const SCRIPT: [&str; 20] = [
+    include_str!("page/script/element.js"),
     include_str!("page/script/data.js"),
     include_str!("page/script/filter.js"),
     include_str!("page/script/table.js"),
@@ -50,6 +57,7 @@ const SCRIPT: [&str; 18] = [
     include_str!("page/script/closure.js"),
     include_str!("page/script/player.js"),
     include_str!("page/script/drag.js"),
+    include_str!("page/script/turns.js"),
     include_str!("page/script/stage.js"),
     include_str!("page/script/keep.js"),
     include_str!("page/script/main.js"),

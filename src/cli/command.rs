@@ -23,6 +23,7 @@ pub(in crate::cli) mod new;
 pub(in crate::cli) mod report;
 pub(in crate::cli) mod search;
 pub(in crate::cli) mod statics;
+pub(in crate::cli) mod studio;
 pub(in crate::cli) mod sweep;
 pub(in crate::cli) mod types;
 pub(in crate::cli) mod verify;
@@ -73,6 +74,9 @@ pub(in crate::cli) enum Command {
     /// Write the report anew whenever FILE changes, until Ctrl-C: a page to keep open beside an editor.
     #[command(after_help = examples::WATCH)]
     Watch(watch::Watch),
+    /// Draw and change a mechanism in the browser, with the verdict and the ideas at every change.
+    #[command(after_help = examples::STUDIO)]
+    Studio(studio::StudioArgs),
     /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML; assemblies in their own.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),

@@ -114,6 +114,15 @@ Examples:
   ozols watch mine.toml                              writes mine.html, and again when mine.toml changes
   ozols watch mine.toml -o page.html --top 20        under another name, with fewer variants";
 
+pub(super) const STUDIO: &str = "\
+Everything stays on this machine: the page is served to this machine alone, at an address with a token.
+
+Examples:
+  ozols studio                                       an empty sheet
+  ozols studio gripper-10                            a copy of a built-in mechanism
+  ozols studio mine.toml                             a file of your own; every change edits it, comments kept
+  ozols studio mine.toml --no-open                   prints the address, for a browser of your choice";
+
 pub(super) const EXPORT: &str = "\
 Examples:
   ozols export gripper-10 --to json -o gripper.json      the mechanism file as JSON

@@ -3,7 +3,6 @@
 pub(in crate::cli) mod format;
 pub(in crate::cli) mod global;
 pub(in crate::cli) mod load;
-pub(in crate::cli) mod motion;
 pub(in crate::cli) mod named;
 pub(in crate::cli) mod picture;
 pub(in crate::cli) mod request;

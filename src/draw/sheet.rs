@@ -21,7 +21,7 @@ const WIDEST: f64 = 560.0;
 
 /// The look. Its classes are its own, so that charts and drawings may share a page; colours stand outright, since many
 /// viewers of files know no CSS variables.
-const STYLE: &str = include_str!("sheet/sheet.css");
+pub(crate) const STYLE: &str = include_str!("sheet/sheet.css");
 
 /// A text of a drawing and the room it takes at 0.6 of its size a character.
 #[derive(Debug, Clone)]

@@ -44,6 +44,17 @@ const ADVICE: [(&str, &str); 10] = [
     ),
 ];
 
+/// The text of a mechanism file without what publications say of it, and the figures that hold for it as it is.
+///
+/// # Errors
+/// Where the text is no TOML.
+pub fn plain(text: &str) -> Result<String, TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    document.remove("claim");
+    document.remove("expected");
+    Ok(document.to_string())
+}
+
 /// The text of a mechanism file under another name, with a comment on every kind of table and key.
 ///
 /// `from` is said to be the mechanism that it was made of. Complexity: one pass over the text.

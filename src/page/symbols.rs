@@ -4,6 +4,8 @@ use super::contents::Page;
 use crate::draw::{Drawing, Subject, Swap, kinematic_with, scheme_with};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::score::outcome::Outcome;
+#[cfg(feature = "cli")]
+use crate::search::question::space::choice_name;
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -44,6 +46,23 @@ fn places<'a>(m: &'a Mechanism, found: &Outcome, state: StateId) -> Vec<(usize, 
 pub fn swaps<'a>(m: &'a Mechanism, found: &Outcome, state: StateId) -> Vec<Swap<'a>> {
     let all = places(m, found, state).into_iter();
     all.map(|(_, _, swap)| swap).collect()
+}
+
+/// The same with the names of joint and choice, as the changes of a variant have them.
+#[cfg(feature = "cli")]
+#[must_use]
+pub(crate) fn named_swaps<'a>(
+    m: &'a Mechanism,
+    found: &Outcome,
+    state: StateId,
+) -> Vec<(String, String, Swap<'a>)> {
+    let all = places(m, found, state).into_iter();
+    let named = all.filter_map(|(v, c, swap)| {
+        let choice = found.search.space.variables.get(v)?.choices.get(c)?;
+        let name = choice_name(&found.search.mechanism, swap.joint, choice);
+        Some((m.joints[swap.joint].id.clone(), name, swap))
+    });
+    named.collect()
 }
 
 impl<'a> Drawn<'a> {

@@ -35,7 +35,7 @@ pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
 }
 
 /// The answer in a few words.
-pub(super) fn head(s: &State<'_>) -> String {
+pub(crate) fn head(s: &State<'_>) -> String {
     capitalised(&s.verdict())
 }
 
@@ -46,7 +46,7 @@ fn capitalised(text: &str) -> String {
 }
 
 /// What that means, in sentences.
-fn state(s: &State<'_>) -> Vec<String> {
+pub(crate) fn state(s: &State<'_>) -> Vec<String> {
     let mut out = Vec::new();
     if s.redundant_at_most.is_some() {
         return vec![format!("{}.", s.choice.unwrap_or_default())];

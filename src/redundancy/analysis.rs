@@ -1,7 +1,9 @@
 //! The structure of a mechanism in each of its states.
 
+mod error;
+
 use crate::closure::matrix::Closure;
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::ExactField;
 use crate::geom::scalars::Reals;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
@@ -12,9 +14,9 @@ use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::{Finite, finite, followed};
 use crate::rank::method::auto::{Decision, decide};
-use crate::rank::method::{Certainty, MobilityMethod, NoAnswer, RankOfJ};
+use crate::rank::method::{Certainty, MobilityMethod, RankOfJ};
 pub use crate::rank::numeric::Elimination;
-use crate::rank::numeric::{NumericError, NumericRank};
+use crate::rank::numeric::NumericRank;
 use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::rank::rounded::verdict::Meant;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
@@ -25,7 +27,7 @@ use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::measured::Measured;
 use crate::redundancy::motion::{Speeds, motions, twist};
 use crate::redundancy::stress::{SelfStress, self_stresses};
-use thiserror::Error;
+pub use error::AnalysisError;
 
 /// How the rank is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,35 +59,6 @@ impl Method {
             RankOfJ::NotFound => None,
         }
     }
-}
-
-/// Why an analysis failed.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum AnalysisError {
-    /// The geometry has no image in a prime field.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
-    /// No singular values.
-    #[error(transparent)]
-    Numeric(#[from] NumericError),
-    /// The automatic choice failed.
-    #[error(transparent)]
-    Auto(#[from] NoAnswer),
-    /// Two primes gave different ranks.
-    #[error(
-        "ranks modulo {first} and {second} differ in state {state}: {ranks:?}; report this with the file"
-    )]
-    Disagree {
-        /// The state.
-        state: String,
-        /// One prime.
-        first: u64,
-        /// The other.
-        second: u64,
-        /// Their ranks.
-        ranks: [usize; 2],
-    },
 }
 
 /// The structure of one state.

@@ -190,8 +190,8 @@ fn estimated(
     let (model, limits) = (&question.least.whole, &staged.limits);
     if question.conditions.state.is_none() {
         let keep_output = admissible && question.conditions.keep_output;
-        let asked = (&staged.order[..], limits, keep_output);
-        let of = at_most(question, model, asked, cancelled);
+        let order = &staged.order;
+        let of = at_most(question, model, order, limits, keep_output, cancelled);
         let found = of.and_then(|of| samples::estimate(question, &of, seed, admissible, cancelled));
         if found.is_some() {
             return found;
@@ -287,8 +287,8 @@ fn built(
     let free_alone = question.conditions.state.is_none();
     let keep_output = admissible && question.conditions.keep_output;
     if free_alone {
-        let asked = (&staged.order[..], &few, keep_output);
-        let most = at_most(question, model, asked, cancelled);
+        let order = &staged.order;
+        let most = at_most(question, model, order, &few, keep_output, cancelled);
         if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
             return nothing(model, &staged.order);
         }
@@ -319,8 +319,16 @@ fn within_limits(
 ) -> Diagram {
     if question.conditions.state.is_none() {
         let keep_output = admissible && question.conditions.keep_output;
-        let asked = (&staged.order[..], limits, keep_output);
-        let added = in_self_stress_space(question, model, asked, cancelled, progress);
+        let order = &staged.order;
+        let added = in_self_stress_space(
+            question,
+            model,
+            order,
+            limits,
+            keep_output,
+            cancelled,
+            progress,
+        );
         if let Some(added) = added {
             return added;
         }

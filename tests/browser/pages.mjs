@@ -7,10 +7,10 @@ import { createRequire } from "node:module";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 
-const root = path.resolve(import.meta.dirname, "../..");
+export const root = path.resolve(import.meta.dirname, "../..");
 export const work = path.join(root, "target/browser");
 const { chromium } = createRequire(path.join(work, "package.json"))("playwright-core");
-const ozols = process.env.OZOLS ?? path.join(root, "target/debug/ozols");
+export const ozols = process.env.OZOLS ?? path.join(root, "target/debug/ozols");
 
 /** Writes a page of the arguments' report, and gives its path. */
 export function report(name, ...args) {

@@ -5,6 +5,7 @@ import path from "node:path";
 import { bodyTests } from "./bodies.mjs";
 import { catalogueTests } from "./catalogue.mjs";
 import { stageTests } from "./stage.mjs";
+import { studioTests } from "./studio.mjs";
 import { browser, column, fits, open, picture, report } from "./pages.mjs";
 
 const text = (tab, selector) => tab.locator(selector).innerText();
@@ -28,6 +29,7 @@ const loaded = report("gripper-10-loaded", "gripper-10-loaded");
 catalogueTests(test);
 stageTests(test, { gripper, loaded });
 bodyTests(test, { gripper });
+studioTests(test);
 
 test("the verdict stands at the top, and every part has its words", async () => {
   await open(gripper, {}, async (tab) => {

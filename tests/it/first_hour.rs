@@ -11,12 +11,13 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 26] = [
+const COMMANDS: [&str; 27] = [
     "convert",
     "lint",
     "fix",
     "report",
     "watch",
+    "studio",
     "analyze",
     "search",
     "sweep",
@@ -100,8 +101,8 @@ fn examples_of_the_main_help_run() {
 #[test]
 fn examples_of_every_command_run() {
     // `fix --at` names a joint that users have; `robot_fix` tries each of its options.
-    // What watches does not end by itself; `watch` tries it.
-    let own = |c: &&&str| !["accuracy", "fix", "watch"].contains(*c);
+    // What watches, and the studio, do not end by themselves; `watch` and `studio` try them.
+    let own = |c: &&&str| !["accuracy", "fix", "watch", "studio"].contains(*c);
     for command in COMMANDS.iter().filter(own) {
         run_examples(command);
     }

@@ -33,5 +33,6 @@ mod robots;
 mod search;
 mod statics;
 mod structure;
+mod studio;
 mod sweep;
 mod tables;

@@ -1,11 +1,14 @@
 """Building mechanisms, errors, signals, notebooks, and the command in the wheel."""
 
+import http.client
+import json
 import pickle
 import signal
 import subprocess
 import sys
 import threading
 import time
+import urllib.parse
 from fractions import Fraction
 from pathlib import Path
 
@@ -103,6 +106,30 @@ WRONG = [
     (lambda: Mechanism.builtin("four-bar").search(check="twice"), None),
     (lambda: Mechanism.builtin("four-bar").analyze(method="guess"), None),
 ]
+
+
+def test_the_studio_gives_back_what_was_drawn(capfd):
+    four_bar = ozols.Mechanism.builtin("four-bar")
+    given = []
+    beside = threading.Thread(target=lambda: given.append(four_bar.studio(show=False)))
+    beside.start()
+    said = ""
+    while "\n" not in said:
+        said += capfd.readouterr().out
+        time.sleep(0.05)
+    address = urllib.parse.urlparse(said.strip())
+    window = http.client.HTTPConnection(address.netloc)
+    window.request("GET", f"{address.path}events")
+    seen = window.getresponse()
+    change = {"do": "set", "what": "joint", "id": "1-2", "key": "type", "value": "spherical"}
+    own = {"Content-Type": "application/json", "Origin": f"http://{address.netloc}"}
+    sent = http.client.HTTPConnection(address.netloc)
+    sent.request("POST", f"{address.path}edit", json.dumps({"edits": [change], "revision": None}), own)
+    assert sent.getresponse().status == 200
+    seen.close()
+    window.close()
+    beside.join(60)
+    assert given[0].analyze().states[0].redundant == 1
 
 
 @pytest.mark.parametrize("at", range(len(WRONG)))

@@ -3,7 +3,6 @@
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
-use crate::cli::option::motion::Moving;
 use crate::cli::option::named::File;
 use crate::cli::option::picture;
 use crate::cli::option::request::Which;
@@ -12,6 +11,7 @@ use crate::cli::option::variant::Chosen;
 use crate::cli::terminal::output;
 use crate::draw::{self, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
+use crate::page::moving::Moving;
 use crate::redundancy::analysis::{Method, analyse};
 use crate::view::analysis::Analysis;
 use anyhow::{Context, bail, ensure};

@@ -3,17 +3,15 @@
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
-use crate::cli::option::motion::Moving;
 use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::{SearchWatch, note};
-use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, kinematic_scene};
-use crate::model::mechanism::{Mechanism, Mode, StateId};
-use crate::page::{Commands, Page, Redesigns, SHOWN, html, swaps};
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
-use crate::redundancy::stress::SelfStress;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::page::scenes::scenes;
+use crate::page::{Commands, Page, Redesigns, html};
+use crate::redundancy::analysis::{Method, analyse};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::request::{List, Request};
@@ -122,56 +120,6 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
         summary: given.summary(),
         interrupted: given.interrupted(),
     }
-}
-
-/// The mechanism in space in each state: as far as its drive goes, with its idle freedoms and its self-stresses. None of a plane
-/// mechanism where there is nothing of these.
-fn scenes(
-    mechanism: &Mechanism,
-    states: &[StateAnalysis],
-    search: Option<&Outcome>,
-) -> Vec<Option<(Drawing, Scene)>> {
-    let one = |(found, state): (&StateAnalysis, StateId)| {
-        let m = found.meant.as_deref().unwrap_or(mechanism);
-        let told = Analysis::new(m, std::slice::from_ref(found), &[]);
-        let told = told.states.first()?;
-        let drive = Moving::new(m, state, None, None).ok();
-        let idle =
-            (0..found.idle.len().min(SHOWN)).filter_map(|k| Moving::idle(m, found, state, k).ok());
-        let mut moving: Vec<Moving> = drive.into_iter().chain(idle).collect();
-        let stresses = told
-            .self_stresses
-            .iter()
-            .zip(&found.self_stresses)
-            .enumerate();
-        let known = |s: &SelfStress| s.joints.iter().any(|w| w.borne.is_some());
-        let stresses = stresses.filter(|(_, (_, s))| known(s)).take(SHOWN);
-        let stresses: Vec<_> = stresses.map(|(k, (words, s))| (words.name(k), s)).collect();
-        if moving.is_empty() {
-            if stresses.is_empty() && matches!(m.mode, Mode::Planar { .. }) {
-                return None;
-            }
-            moving.push(Moving::still(m, state).ok()?);
-        }
-        let moves: Vec<(String, Moved<'_>)> = moving
-            .iter()
-            .map(|m| (m.moved().words.to_owned(), m.moved()))
-            .collect();
-        let subject = Subject {
-            mechanism: m,
-            state,
-            analysis: Some(found),
-            marks: None,
-        };
-        let swaps = search.map(|found| swaps(mechanism, found, state));
-        let shown = Shown {
-            moves: &moves,
-            stresses: &stresses,
-            swaps: &swaps.unwrap_or_default(),
-        };
-        Some(kinematic_scene(&subject, &Sight::default(), shown))
-    };
-    states.iter().zip(mechanism.state_ids()).map(one).collect()
 }
 
 /// The commands that give what the page shows.

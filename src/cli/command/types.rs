@@ -3,12 +3,12 @@
 use crate::cli::option::variant;
 use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism};
-use crate::redundancy::release::{Release, added};
-use crate::robots::Origin;
+use crate::redundancy::release::Release;
+use crate::robots::{Origin, releases};
 use crate::score::request::Request;
 use crate::score::run::Event;
 use crate::view::robots::lint::TypeChange;
-use anyhow::ensure;
+use anyhow::anyhow;
 
 /// Most joints, and nodes, that are searched unasked: beyond them it may take longer than one waits for.
 const JOINTS: usize = 40;
@@ -37,24 +37,7 @@ pub(in crate::cli) fn changed(
             let searched = v.outcome().search.mechanism.clone();
             (searched, v.mechanism(), v.mobility(), v.redundant())
         })?;
-    ensure!(
-        changed.joints.len() == before_it.joints.len(),
-        "{one} {k} puts in joints that are not of one joint's kind; choose another"
-    );
-    let mut releases = Vec::new();
-    for (i, (old, new)) in before_it.joints.iter().zip(&changed.joints).enumerate() {
-        let all = added((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))?;
-        ensure!(
-            old.joint_type.freedoms().len() + all.len() == new.joint_type.freedoms().len(),
-            "{one} {k} puts a joint in the place of \"{}\" that has not all of its freedoms; choose another",
-            old.id
-        );
-        releases.extend(all.into_iter().map(|(slides, direction)| Release::Freedom {
-            joint: JointId::new(i),
-            slides,
-            direction,
-        }));
-    }
+    let releases = releases(&before_it, &changed).map_err(|why| anyhow!("{one} {k} {why}"))?;
     let plan = TypePlan {
         releases,
         mobility: usize::try_from(w)?,

@@ -36,6 +36,9 @@ pub struct Scene {
     origin: Point,
     /// The part of the sheet that the scheme is in: left, top, right, bottom.
     room: [f64; 4],
+    /// Pixels of a unit of the file's length, and the place in the file's coordinates that is the origin.
+    scale: f64,
+    middle: Vector,
     /// The ids of its links.
     names: Vec<String>,
     /// The link that rests.
@@ -84,6 +87,8 @@ struct SceneJoint {
     turned: bool,
     /// What it leaves free; nothing for what is no joint.
     pair: Option<Pair>,
+    /// The id of the joint or of the point of interest; nothing for what is neither.
+    id: Option<String>,
 }
 
 /// A shape fixed to a link.
@@ -200,6 +205,12 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
 }
 
 impl Scene {
+    /// The part of the sheet that the scheme is in: left, top, right, bottom.
+    #[must_use]
+    pub fn room(&self) -> [f64; 4] {
+        self.room
+    }
+
     fn wire(
         &mut self,
         of: &Kinematic<'_>,
@@ -246,6 +257,8 @@ impl Kinematic<'_> {
             upright: fine(upright(view)),
             origin: [0.0; 2],
             room: [0.0; 4],
+            scale: self.projection.scale,
+            middle: self.projection.middle,
             names: self
                 .links
                 .iter()
@@ -289,8 +302,10 @@ impl Kinematic<'_> {
             let corners = super::marked::corners([0.0; 2]).to_vec();
             let symbol = out.symbol(vec![paper("ink", corners, true)]);
             let row = self.row(p.link);
-            out.joints
-                .push(self.standing(p.place, [row; 2], symbol, false));
+            out.joints.push(SceneJoint {
+                id: Some(p.id.clone()),
+                ..self.standing(p.place, [row; 2], symbol, false)
+            });
         }
         let order = self.outer_first();
         for &i in &order {
@@ -303,6 +318,7 @@ impl Kinematic<'_> {
             out.joints.push(SceneJoint {
                 axes: [place.x, place.y, place.z].map(fine),
                 pair: Some(self.pair(i, of)),
+                id: Some(m.joints[spot.joint].id.clone()),
                 ..self.standing(
                     place.point,
                     [rides, guides].map(|l| self.row(l)),
@@ -356,6 +372,7 @@ impl Kinematic<'_> {
             symbol,
             turned,
             pair: None,
+            id: None,
         }
     }
 

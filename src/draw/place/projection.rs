@@ -113,7 +113,7 @@ pub(in crate::draw) struct Projection {
     /// Pixels in a unit of length.
     pub(in crate::draw) scale: f64,
     /// What comes to the origin of the paper.
-    middle: Vector,
+    pub(in crate::draw) middle: Vector,
 }
 
 impl Projection {

@@ -1,14 +1,6 @@
 // Two figures of the variants against each other, with those that nothing beats in both.
 
-const SVG = "http://www.w3.org/2000/svg";
 const CHART = { width: 640, height: 340, left: 64, right: 16, top: 14, bottom: 46 };
-
-function svgElement(name, attributes, text) {
-  const made = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  if (text !== undefined) made.textContent = text;
-  return made;
-}
 
 /** Round numbers over a range: some so many even steps. */
 function steps(low, high, count) {

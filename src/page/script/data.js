@@ -1,4 +1,3 @@
-"use strict";
 // What the page knows: columns of numbers by variant, and words made of them on demand.
 
 const page = JSON.parse(document.getElementById("data").textContent);
@@ -10,18 +9,6 @@ let haystacks = [];
 const byIdeas = () => found === page.ideas;
 /** What one of the list is called. */
 const noun = () => (byIdeas() ? "Idea" : "Variant");
-
-/** An element; attributes that are null are left out, text is never read as markup. */
-function element(name, attributes, ...children) {
-  const made = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes || {})) {
-    if (value !== null && value !== undefined) made.setAttribute(key, value);
-  }
-  made.append(...children.filter((c) => c !== null && c !== undefined));
-  return made;
-}
-
-const byId = (id) => document.getElementById(id);
 
 /** A count with groups of three: 25,761,436. */
 const grouped = (digits) => String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ",");

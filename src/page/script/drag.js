@@ -3,14 +3,6 @@
 /** So near, in pixels of the drawing, a link is meant. */
 const GRASP = 9;
 
-/** Where a pane's picture is pointed at, in the coordinates of the drawing. */
-function pointed(turn, event) {
-  const { left, top, width, height } = turn.querySelector("canvas, svg").getBoundingClientRect();
-  const room = roomOf(player.scene);
-  const scale = Math.min(width / room[2], height / room[3]);
-  return [room[0] + room[2] / 2 + (event.clientX - left - width / 2) / scale, room[1] + room[3] / 2 + (event.clientY - top - height / 2) / scale];
-}
-
 /** How far right and up of the origin of space a place of the drawing is. */
 const inView = ([x, y]) => {
   const { fit } = player.sight;

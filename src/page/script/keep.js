@@ -2,8 +2,6 @@
 
 /** What of a look is written into a picture whose rules stand in the page. */
 const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray", "font-size", "font-family", "font-weight", "text-anchor"];
-/** Pixels of a PNG for each of the drawing's. */
-const FINE = 2;
 
 /** A whole picture in its own size: what the stage shows a part of, too. */
 function wholeOf(svg) {

@@ -18,17 +18,6 @@ function spun(v, by) {
   return plus(plus(times(v, c), times(cross(axis, v), s)), times(axis, dot(axis, v) * (1 - c)));
 }
 
-/** Right, up and towards the reader after a turn to the side and one up, in radians from the first view. */
-function seenFrom(scene, side, tilt) {
-  const [right, , toward] = scene.view;
-  const by = times(scene.upright, side);
-  const to = spun(right, by);
-  const level = cross(to, scene.upright);
-  const height = Math.asin(Math.max(-1, Math.min(1, dot(toward, scene.upright)))) + tilt;
-  const [s, c] = [Math.sin(height), Math.cos(height)];
-  return [to, plus(times(scene.upright, c), times(level, -s)), plus(times(level, c), times(scene.upright, s))];
-}
-
 const path = (points, closed) => `M${points.map((p) => p.map((x) => x.toFixed(1)).join(" ")).join("L")}${closed ? "Z" : ""}`;
 const disc = (p, r) => Array.from({ length: 24 }, (_, i) => plus(p, [r * Math.cos(i * Math.PI / 12), r * Math.sin(i * Math.PI / 12)]));
 const turning = (points) => points.reduce((sum, p, i) => {
@@ -98,27 +87,30 @@ function axesOf(scene, view, from) {
   });
 }
 
-/** How a view is put into a room, in the middle: smaller where it would not fit, and larger up to a factor. */
-function fitted(scene, view, poses, [left, top, right, bottom], most, margin) {
-  const reach = [0, 1].map(() => [Infinity, -Infinity]);
-  const note = (p) => [dot(view[0], p), -dot(view[1], p)].forEach((x, k) => {
-    reach[k] = [Math.min(reach[k][0], x), Math.max(reach[k][1], x)];
-  });
-  for (const pose of poses) {
-    for (const wire of scene.wires) wire.points.forEach((p) => note(carried(pose, wire.link, p)));
-    for (const joint of scene.joints) note(carried(pose, joint.links[0], joint.at));
-  }
-  const room = [right - left, bottom - top].map((x) => x - 2 * margin);
-  const scale = Math.min(most, ...room.map((x, k) => x / Math.max(reach[k][1] - reach[k][0], 1)));
-  const middle = reach.map(([a, b]) => (a + b) / 2);
-  return { scale, at: [(left + right) / 2 - scale * middle[0], (top + bottom) / 2 - scale * middle[1]] };
-}
-
 /** Where a pose takes a point of a link, and a direction: by link a rotation vector and a shift, or nothing where it rests. */
 const carried = (pose, link, p) => (pose && pose[link].length ? plus(spun(p, pose[link].slice(0, 3)), pose[link].slice(3)) : p);
 const turned = (pose, link, v) => (pose && pose[link].length ? spun(v, pose[link].slice(0, 3)) : v);
 
-/** The elements of a scene in a pose, with the lines of one of its motions and some loads, and other symbols at some joints. */
+/** A symbol of pieces whose axes stand in space, at a place on paper. */
+function symbolAt(pieces, axes, view, at) {
+  const out = [];
+  const ahead = Math.abs(dot(axes[2], view[2]));
+  const paper = axes.map((v) => [dot(view[0], v), -dot(view[1], v)]);
+  for (const part of pieces) {
+    if (ahead < part.seen[0] || ahead >= part.seen[1]) continue;
+    const along = part.form.startsWith("along") ? "xyz".indexOf(part.form[6]) : -1;
+    if (along >= 0 && Math.abs(dot(axes[along], view[2])) >= END_ON) continue;
+    const corner = along >= 0
+      ? (p) => plus(times(paper[along], p[0]), times(upperSide(paper[along]), p[1]))
+      : (p) => (p.length === 2 ? p : p.map((x, n) => times(paper[n], x)).reduce(plus));
+    const drawn = shape(part, part.points.map(corner), at);
+    if (drawn) out.push(drawn);
+  }
+  return out;
+}
+
+/** The elements of a scene in a pose, with the lines of one of its motions and some loads, and other symbols at some joints; the directions of the
+ * coordinates where they have a place to begin at. */
 function pictureOf(scene, { view, fit, away }, pose, motion, loads, swaps, from) {
   const flat = (v) => [dot(view[0], v), -dot(view[1], v)];
   const onPaper = (p) => plus(times(flat(p), fit.scale), fit.at);
@@ -134,21 +126,10 @@ function pictureOf(scene, { view, fit, away }, pose, motion, loads, swaps, from)
   for (const [, joint] of placed) {
     const at = onPaper(carried(pose, joint.links[0], joint.at));
     const axes = joint.axes.map((a) => turned(pose, joint.links[1], a));
-    const ahead = Math.abs(dot(axes[2], view[2]));
-    const paper = axes.map(flat);
-    for (const part of scene.symbols[joint.symbol]) {
-      if (ahead < part.seen[0] || ahead >= part.seen[1]) continue;
-      const along = part.form.startsWith("along") ? "xyz".indexOf(part.form[6]) : -1;
-      if (along >= 0 && Math.abs(dot(axes[along], view[2])) >= END_ON) continue;
-      const corner = along >= 0
-        ? (p) => plus(times(paper[along], p[0]), times(upperSide(paper[along]), p[1]))
-        : (p) => (p.length === 2 ? p : p.map((x, n) => times(paper[n], x)).reduce(plus));
-      const drawn = shape(part, part.points.map(corner), at);
-      if (drawn) out.push(drawn);
-    }
+    out.push(...symbolAt(scene.symbols[joint.symbol], axes, view, at));
   }
   out.push(...loads.map((l) => arrow(l, onPaper(l.at), flat(l.along), view[2])));
-  if (away) out.push(...axesOf(scene, view, from));
+  if (away && from !== null) out.push(...axesOf(scene, view, from));
   return out;
 }
 

@@ -1,5 +1,7 @@
 // Bodies on a canvas, shaded, by the browser's own WebGL: parallel light and parallel projection.
 
+/** Pixels of a picture for each of the drawing's, at least. */
+const FINE = 2;
 const VERTEX = `attribute vec3 place, normal, colour;
 uniform mat4 link;
 uniform mat3 view;

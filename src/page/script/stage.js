@@ -149,6 +149,7 @@ function listenToStage() {
   kinds.addEventListener("change", redraw);
   byId("player").hidden = false;
   listenToPlayer();
+  for (const turn of document.querySelectorAll(".turn")) listenToTurns(turn);
   redraw();
   startWhenSeen();
 }

@@ -5,6 +5,9 @@ from __future__ import annotations
 import inspect
 import json
 import os
+import subprocess
+import sys
+import tempfile
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -209,6 +212,24 @@ class Mechanism:
     def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
         """A drawing as SVG: the structural ``scheme``, or the ``kinematic`` one from the coordinates."""
         return Drawing(self._native.draw(kind, state))
+
+    def studio(self, *, show: bool = True) -> Mechanism:
+        """Opens the mechanism in the studio, a page in the browser to draw and change it, and gives back what became of it once its
+        window is closed, saved or not. With ``show=False`` the address is printed, to be opened by hand.
+
+        It runs beside Python, in a folder of its own: nothing of yours is written to.
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "mechanism.toml"
+            file.write_text(self.export("toml"), encoding="utf-8")
+            words = [sys.executable, "-m", "ozols", "studio", str(file), *([] if show else ["--no-open"])]
+            with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as running:
+                print(running.stdout.readline() if running.stdout else "", end="", flush=True)
+            if running.returncode:
+                raise subprocess.CalledProcessError(running.returncode, words)
+            # What was not saved is what the window showed last.
+            unsaved = file.with_name("mechanism.toml.autosave")
+            return Mechanism.from_toml((unsaved if unsaved.exists() else file).read_text(encoding="utf-8"))
 
     def search(
         self,

@@ -41,7 +41,9 @@ fn width(limits: &Limits, space: &SelfStressSpace, choices: usize) -> usize {
 pub(in crate::search) fn at_most(
     question: &Question,
     model: &Model,
-    (order, limits, keep_output): (&[usize], &Limits, bool),
+    order: &[usize],
+    limits: &Limits,
+    keep_output: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();

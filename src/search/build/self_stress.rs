@@ -47,7 +47,9 @@ impl Carries for Added<'_> {
 pub(in crate::search) fn in_self_stress_space(
     question: &Question,
     model: &Model,
-    (order, limits, keep_output): (&[usize], &Limits, bool),
+    order: &[usize],
+    limits: &Limits,
+    keep_output: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Option<Diagram> {
@@ -117,7 +119,8 @@ mod tests {
             let one = one_end(
                 question,
                 model,
-                (stages, limits),
+                stages,
+                limits,
                 None,
                 &|| false,
                 &mut |_| {},
@@ -125,8 +128,15 @@ mod tests {
             if one.stop != Stop::Exhausted {
                 continue;
             }
-            let asked = (&staged.order[..], limits, keep_output);
-            let other = in_self_stress_space(question, model, asked, &|| false, &mut |_| {});
+            let other = in_self_stress_space(
+                question,
+                model,
+                &staged.order,
+                limits,
+                keep_output,
+                &|| false,
+                &mut |_| {},
+            );
             let [one, other] = [
                 minimal(one.layers, one.terminals),
                 other.expect("it is contained"),

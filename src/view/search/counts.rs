@@ -62,7 +62,11 @@ fn condition(outcome: &Outcome) -> String {
 /// How many variants do all that is asked, and how many are determinate whatever else they do.
 fn verdict(outcome: &Outcome) -> String {
     let mut out = String::new();
-    let least = if outcome.is_counted() { "" } else { "at least " };
+    let least = if outcome.is_counted() {
+        ""
+    } else {
+        "at least "
+    };
     let (conditions, condition) = (&outcome.search.conditions, condition(outcome));
     let (mechanism, size) = (&outcome.search.mechanism.name, outcome.search.size());
     let more = [
@@ -106,12 +110,7 @@ fn verdict(outcome: &Outcome) -> String {
     if !more.is_empty() {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
-            None => {
-                let [estimate, _] = outcome.estimates();
-                let estimate = estimate.filter(|_| outcome.is_confirmed());
-                let exact = outcome.is_determinate_counted();
-                stopped_early::number(&outcome.determinate.total, exact, estimate)
-            }
+            None => determinate(outcome),
         };
         let _ = writeln!(
             out,
@@ -119,6 +118,14 @@ fn verdict(outcome: &Outcome) -> String {
         );
     }
     out
+}
+
+/// How many variants are determinate.
+fn determinate(outcome: &Outcome) -> String {
+    let [estimate, _] = outcome.estimates();
+    let estimate = estimate.filter(|_| outcome.is_confirmed());
+    let exact = outcome.is_determinate_counted();
+    stopped_early::number(&outcome.determinate.total, exact, estimate)
 }
 
 /// The counts by mobility; nothing where there are none.

@@ -23,15 +23,17 @@ const MOST: usize = 600;
 
 /// A motion.
 #[derive(Debug)]
-pub(in crate::cli) struct Moving {
+pub(crate) struct Moving {
     pose: Pose,
     way: Way,
     words: String,
+    /// What positions of the way are in: the file's length unit where the drive slides, radians otherwise.
+    unit: f64,
 }
 
 impl Moving {
     /// The way of a mechanism's drive, or of the joint named: within a range such as "0:90deg:30", or as far as it goes.
-    pub(in crate::cli) fn new(
+    pub(crate) fn new(
         m: &Mechanism,
         state: StateId,
         range: Option<&str>,
@@ -112,7 +114,18 @@ impl Moving {
                 in_units(*last)
             )
         };
-        Ok(Moving { pose, way, words })
+        Ok(Moving {
+            pose,
+            way,
+            words,
+            unit,
+        })
+    }
+
+    /// From where to where the drive goes, in radians or the file's length unit.
+    pub(crate) fn reach(&self) -> Option<[f64; 2]> {
+        let ends = [self.way.at.first()?, self.way.at.last()?];
+        Some(ends.map(|x| x * self.unit))
     }
 
     /// The working motion of a mechanism in which no joint can be a drive.
@@ -124,11 +137,12 @@ impl Moving {
             pose,
             way,
             words: words.to_owned(),
+            unit: 1.0,
         })
     }
 
     /// To and fro along an idle freedom that the analysis of a state lists, counted from 0.
-    pub(in crate::cli) fn idle(
+    pub(crate) fn idle(
         m: &Mechanism,
         found: &StateAnalysis,
         state: StateId,
@@ -162,11 +176,12 @@ impl Moving {
             pose: Pose::of_file(m, state)?,
             way: wiggle.way,
             words: format!("idle freedom {}: {words}{far}{open}", which + 1),
+            unit: 1.0,
         })
     }
 
     /// The pose of the file.
-    pub(in crate::cli) fn still(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
+    pub(crate) fn still(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
         let pose = Pose::of_file(m, state)?;
         let way = Way {
             at: vec![0.0],
@@ -179,11 +194,12 @@ impl Moving {
             pose,
             way,
             words: "the pose of the file".to_owned(),
+            unit: 1.0,
         })
     }
 
     /// To be drawn.
-    pub(in crate::cli) fn moved(&self) -> Moved<'_> {
+    pub(crate) fn moved(&self) -> Moved<'_> {
         Moved {
             pose: &self.pose,
             way: &self.way,

@@ -1,0 +1,98 @@
+//! `ozols studio`.
+
+use crate::builtin;
+use crate::cli::done::Done;
+use crate::cli::option::global::Global;
+use crate::cli::option::load;
+use crate::cli::option::named::Named;
+use crate::cli::terminal::output;
+use crate::cli::terminal::spinner;
+use crate::score::request::Request;
+use crate::studio::{Opening, Studio};
+use anyhow::{Context, bail, ensure};
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct StudioArgs {
+    /// A file to work on, which need not be there yet where it ends in .toml, or the name of a built-in mechanism to start from; an
+    /// empty sheet where left out.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: Option<Named>,
+    /// Print the address, and leave it to you to open it.
+    #[arg(long)]
+    no_open: bool,
+}
+
+/// What an argument means. A file wins over a built-in mechanism of the same name.
+fn opening(file: Option<&Named>) -> anyhow::Result<Opening> {
+    let here = PathBuf::from(".");
+    let Some(file) = file else {
+        return Ok(Opening::Nothing(here));
+    };
+    let path = file.path();
+    ensure!(
+        &**file != "-",
+        "standard input is no file that could be saved; name one"
+    );
+    if path.is_file() {
+        return Ok(Opening::File(path.to_path_buf()));
+    }
+    if builtin::text(file).is_some() {
+        return Ok(Opening::Builtin(file.to_string(), here));
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+    let fresh = path.extension().is_some_and(|e| e == "toml") && !path.exists();
+    if fresh && folder.is_none_or(|f| f.is_dir()) {
+        return Ok(Opening::File(path.to_path_buf()));
+    }
+    bail!(load::unknown(file))
+}
+
+pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
+    let opening = opening(a.file.as_ref())?;
+    let request = Request {
+        seed: global.seed,
+        ..Request::default()
+    };
+    let studio = Studio::new(opening, request).with_context(|| match &a.file {
+        Some(file) => format!("cannot open {file}"),
+        None => "cannot open the studio".to_owned(),
+    })?;
+    let address = studio.address();
+    spinner::rest();
+    output::to(None, |out| {
+        writeln!(out, "{address}")?;
+        Ok(Done::Found)
+    })?;
+    if !a.no_open && !shown(&address) {
+        output::note("no browser could be started: open the address above in one\n");
+    }
+    output::note("It ends when its window is closed, or with Ctrl-C.\n");
+    let unsaved = studio.serve()?;
+    if let Some(path) = unsaved {
+        output::say(&format!(
+            "what was not saved is in {}; `ozols studio` offers it when the file is opened again\n",
+            path.display()
+        ));
+    }
+    Ok(Done::Found)
+}
+
+/// Opens an address in the browser of this machine; whether there is a program that does.
+fn shown(address: &str) -> bool {
+    let (program, first): (&str, &[&str]) = if cfg!(target_os = "macos") {
+        ("open", &[])
+    } else if cfg!(windows) {
+        ("rundll32", &["url.dll,FileProtocolHandler"])
+    } else {
+        ("xdg-open", &[])
+    };
+    let mut command = Command::new(program);
+    command.args(first).arg(address);
+    for to in [Command::stdin, Command::stdout, Command::stderr] {
+        to(&mut command, Stdio::null());
+    }
+    command.spawn().is_ok()
+}

@@ -1,0 +1,161 @@
+//! Changes to the text of a mechanism file: all that is not changed stays as it is, comments and digits included.
+
+mod change;
+mod differences;
+mod references;
+mod value;
+
+pub use change::{Edit, EditError, Thing};
+pub use differences::differences;
+
+use serde_json::Value;
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
+
+/// The text of a file with some changes, one after another.
+///
+/// # Errors
+/// Where the text is no TOML, or a change names what is not there; then none of them is made.
+pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
+    let mut text = text.to_owned();
+    let mut document: Option<DocumentMut> = None;
+    for edit in edits {
+        if let Edit::Text { text: other } = edit {
+            text.clone_from(other);
+            document = None;
+            continue;
+        }
+        let parsed = match document.take() {
+            Some(d) => d,
+            None => parse(&text)?,
+        };
+        let changed = document.insert(parsed);
+        apply(changed, edit)?;
+    }
+    Ok(document.map_or(text, |d| d.to_string()))
+}
+
+fn parse(text: &str) -> Result<DocumentMut, EditError> {
+    text.parse()
+        .map_err(|e: toml_edit::TomlError| EditError::NoToml {
+            why: e.message().trim().replace('\n', ", "),
+        })
+}
+
+fn apply(document: &mut DocumentMut, edit: &Edit) -> Result<(), EditError> {
+    match edit {
+        Edit::Text { .. } => Ok(()),
+        Edit::Set {
+            what,
+            id,
+            key,
+            value,
+        } => value::set(item(document, *what, id)?, key, value),
+        Edit::Put { path, value } => put(document.as_table_mut(), path, value),
+        Edit::Add { what, entry } => add(document, *what, entry),
+        Edit::Rename { what, id, to } => rename(document, *what, id, to),
+        Edit::Remove { items } => remove(document, items),
+    }
+}
+
+/// The tables of a kind, made where there are none.
+fn tables(document: &mut DocumentMut, what: Thing) -> Result<&mut ArrayOfTables, EditError> {
+    let entry = document.entry(what.word());
+    let item = entry.or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
+    item.as_array_of_tables_mut()
+        .ok_or(EditError::Inline { what })
+}
+
+fn id_of(table: &Table) -> Option<&str> {
+    table.get("id").and_then(Item::as_str)
+}
+
+fn item<'d>(
+    document: &'d mut DocumentMut,
+    what: Thing,
+    id: &str,
+) -> Result<&'d mut Table, EditError> {
+    let all = tables(document, what)?;
+    let found = all.iter_mut().find(|t| id_of(t) == Some(id));
+    found.ok_or_else(|| EditError::Gone {
+        what,
+        id: id.to_owned(),
+    })
+}
+
+/// A name that nothing else of its kind has.
+fn free(document: &mut DocumentMut, what: Thing, id: &str) -> Result<(), EditError> {
+    if tables(document, what)?.iter().any(|t| id_of(t) == Some(id)) {
+        return Err(EditError::Taken {
+            what,
+            id: id.to_owned(),
+        });
+    }
+    Ok(())
+}
+
+fn put(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditError> {
+    match path {
+        [] => Ok(()),
+        [key] => value::set(table, key, to),
+        [key, rest @ ..] => {
+            let inner = table
+                .entry(key)
+                .or_insert_with(|| Item::Table(Table::new()));
+            let Some(inner) = inner.as_table_mut() else {
+                return Err(EditError::NoValue {
+                    what: key.clone(),
+                    why: "it is no table of its own",
+                });
+            };
+            put(inner, rest, to)
+        }
+    }
+}
+
+fn add(
+    document: &mut DocumentMut,
+    what: Thing,
+    entry: &serde_json::Map<String, Value>,
+) -> Result<(), EditError> {
+    if let Some(id) = entry.get("id").and_then(Value::as_str) {
+        free(document, what, id)?;
+    }
+    let mut table = Table::new();
+    for (key, to) in entry {
+        value::set(&mut table, key, to)?;
+    }
+    table.decor_mut().set_prefix("\n");
+    tables(document, what)?.push(table);
+    Ok(())
+}
+
+fn rename(document: &mut DocumentMut, what: Thing, id: &str, to: &str) -> Result<(), EditError> {
+    if id == to {
+        return Ok(());
+    }
+    free(document, what, to)?;
+    value::set(item(document, what, id)?, "id", &Value::from(to))?;
+    references::rename(document.as_table_mut(), what, id, to);
+    Ok(())
+}
+
+fn remove(document: &mut DocumentMut, items: &[(Thing, String)]) -> Result<(), EditError> {
+    let mut all = items.to_vec();
+    for (what, id) in items {
+        item(document, *what, id)?;
+        if *what == Thing::Link {
+            all.extend(references::of_link(document, id));
+        }
+    }
+    for (what, id) in &all {
+        let list = tables(document, *what)?;
+        list.retain(|t| id_of(t) != Some(id));
+        references::forget(document.as_table_mut(), *what, id);
+    }
+    for what in [Thing::Link, Thing::Joint, Thing::Point] {
+        if tables(document, what)?.is_empty() {
+            document.remove(what.word());
+        }
+    }
+    Ok(())
+}

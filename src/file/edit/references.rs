@@ -1,0 +1,149 @@
+//! Where a file names its links and joints besides the items themselves.
+
+use super::change::Thing;
+use toml_edit::{Array, DocumentMut, Item, Table, Value};
+
+/// Lists of ids: where they are, and what they name. `*` is every table of a list.
+const LISTS: [(&[&str], Thing); 9] = [
+    (&["joint", "*", "links"], Thing::Link),
+    (&["search", "hold"], Thing::Link),
+    (&["search", "mirror"], Thing::Joint),
+    (&["search", "turn"], Thing::Joint),
+    (&["contour", "*", "joints"], Thing::Joint),
+    (&["coupling", "*", "joints"], Thing::Joint),
+    (&["workload", "grip", "contacts"], Thing::Joint),
+    (&["workload", "grip", "lever_joints"], Thing::Joint),
+    (&["workload", "drive", "disc_link"], Thing::Link),
+];
+
+/// Tables of lists that name one item by a key, and are about nothing else.
+const TABLES: [(&[&str], &str, Thing); 5] = [
+    (&["point"], "link", Thing::Link),
+    (&["workload", "force"], "link", Thing::Link),
+    (&["workload", "moment"], "link", Thing::Link),
+    (&["workload", "contact"], "joint", Thing::Joint),
+    (&["workload", "misalignment"], "joint", Thing::Joint),
+];
+
+/// Lists in which one name that goes takes its neighbours along: a pair is no pair without it.
+const TOGETHER: [(&[&str], &str, Thing); 2] = [
+    (&["contour"], "joints", Thing::Joint),
+    (&["coupling"], "joints", Thing::Joint),
+];
+
+fn id_of(table: &Table) -> Option<&str> {
+    table.get("id").and_then(Item::as_str)
+}
+
+/// The joints and points of a link.
+pub(super) fn of_link(document: &DocumentMut, link: &str) -> Vec<(Thing, String)> {
+    let mut out = Vec::new();
+    let on = |t: &Table, what: Thing| match what {
+        Thing::Joint => {
+            let ends = t.get("links").and_then(Item::as_array);
+            ends.is_some_and(|a| a.iter().any(|v| v.as_str() == Some(link)))
+        }
+        _ => t.get("link").and_then(Item::as_str) == Some(link),
+    };
+    for what in [Thing::Joint, Thing::Point] {
+        let all = document.get(what.word()).and_then(Item::as_array_of_tables);
+        let own = all.into_iter().flatten().filter(|t| on(t, what));
+        out.extend(own.filter_map(id_of).map(|id| (what, id.to_owned())));
+    }
+    out
+}
+
+/// Whether a text names an item: a freedom may stand behind the id of a joint.
+fn names(text: &str, id: &str) -> bool {
+    text == id
+        || text
+            .strip_prefix(id)
+            .is_some_and(|rest| rest.starts_with(':'))
+}
+
+/// Puts another id in all places of the old one.
+pub(super) fn rename(root: &mut Table, what: Thing, id: &str, to: &str) {
+    for (path, _) in LISTS.iter().filter(|(_, of)| *of == what) {
+        at(root, path, &mut |item| rename_in(item, id, to));
+    }
+    for (path, key, _) in TABLES.iter().filter(|(.., of)| *of == what) {
+        let path = [*path, &["*", key]].concat();
+        at(root, &path, &mut |item| rename_in(item, id, to));
+    }
+}
+
+fn rename_in(item: &mut Item, id: &str, to: &str) {
+    fn value(v: &mut Value, id: &str, to: &str) {
+        match v {
+            Value::Array(list) => list.iter_mut().for_each(|v| value(v, id, to)),
+            Value::String(s) if names(s.value(), id) => {
+                let decor = s.decor().clone();
+                *v = Value::from(format!("{to}{}", &s.value()[id.len()..]));
+                *v.decor_mut() = decor;
+            }
+            _ => {}
+        }
+    }
+    if let Some(v) = item.as_value_mut() {
+        value(v, id, to);
+    }
+}
+
+/// Takes an id out of all places where it is named.
+pub(super) fn forget(root: &mut Table, what: Thing, id: &str) {
+    for (path, _) in LISTS
+        .iter()
+        .filter(|(path, of)| *of == what && path[0] == "search")
+    {
+        at(root, path, &mut |item| {
+            if let Some(list) = item.as_array_mut() {
+                list.retain(|v| !names_it(v, id));
+                tidy(list);
+            }
+        });
+    }
+    let single = TABLES.iter().map(|t| (t.0, t.1, t.2));
+    for (path, key, _) in single.chain(TOGETHER).filter(|(.., of)| *of == what) {
+        at(root, path, &mut |item| {
+            if let Some(tables) = item.as_array_of_tables_mut() {
+                tables.retain(|t| {
+                    let named = t.get(key).and_then(Item::as_value);
+                    !named.is_some_and(|v| names_it(v, id))
+                });
+            }
+        });
+    }
+}
+
+fn names_it(v: &Value, id: &str) -> bool {
+    match v {
+        Value::String(s) => names(s.value(), id),
+        Value::Array(list) => list.iter().any(|v| names_it(v, id)),
+        _ => false,
+    }
+}
+
+/// No blanks where the first of a list was taken away.
+fn tidy(list: &mut Array) {
+    if let Some(first) = list.get_mut(0)
+        && first.decor().prefix().and_then(|p| p.as_str()) == Some(" ")
+    {
+        first.decor_mut().set_prefix("");
+    }
+}
+
+/// Does something with all that is at a path.
+fn at(table: &mut Table, path: &[&str], act: &mut dyn FnMut(&mut Item)) {
+    let [key, rest @ ..] = path else { return };
+    let Some(item) = table.get_mut(key) else {
+        return;
+    };
+    match (rest, item) {
+        ([], item) => act(item),
+        (["*", rest @ ..], Item::ArrayOfTables(all)) => {
+            all.iter_mut().for_each(|t| at(t, rest, act));
+        }
+        (rest, Item::Table(inner)) => at(inner, rest, act),
+        _ => {}
+    }
+}

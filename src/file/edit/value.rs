@@ -1,0 +1,126 @@
+//! Values of a file: what is the same stays as it is written.
+
+use super::change::EditError;
+use serde_json::Value as Json;
+use toml_edit::{Array, InlineTable, Item, Table, Value};
+
+/// Gives a key a value, with the comment behind it kept; null takes the key away.
+pub(super) fn set(table: &mut Table, key: &str, to: &Json) -> Result<(), EditError> {
+    if to.is_null() {
+        table.remove(key);
+        return Ok(());
+    }
+    match table.get_mut(key).and_then(Item::as_value_mut) {
+        Some(old) => *old = replaced(old, key, to)?,
+        None => {
+            table.insert(key, Item::Value(value(key, to)?));
+        }
+    }
+    Ok(())
+}
+
+/// A value in place of another: as that is written where it is the same, element by element in a list.
+fn replaced(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
+    if is(old, to) {
+        return Ok(old.clone());
+    }
+    let mut new = match (old, to) {
+        (Value::Array(a), Json::Array(b)) if a.len() == b.len() => {
+            let mut list = a.clone();
+            for (i, to) in b.iter().enumerate() {
+                if let Some(one) = list.get_mut(i) {
+                    *one = replaced(one, key, to)?;
+                }
+            }
+            Value::Array(list)
+        }
+        _ => value(key, to)?,
+    };
+    *new.decor_mut() = old.decor().clone();
+    Ok(new)
+}
+
+/// Whether a value says the same.
+fn is(old: &Value, to: &Json) -> bool {
+    match (old, to) {
+        (Value::String(s), Json::String(t)) => s.value() == t,
+        // What is typed may be a number, with the digits that it has.
+        (Value::Integer(_) | Value::Float(_), Json::String(t)) => {
+            old.to_string().trim() == t.trim()
+        }
+        (Value::Integer(i), Json::Number(n)) => n.as_i64() == Some(*i.value()),
+        (Value::Float(x), Json::Number(n)) => !n.is_i64() && n.as_f64() == Some(*x.value()),
+        (Value::Boolean(b), Json::Bool(c)) => b.value() == c,
+        (Value::Array(a), Json::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(x, y)| is(x, y))
+        }
+        _ => false,
+    }
+}
+
+/// A value as it is written anew. Texts under keys of coordinates that are numbers are written as numbers, digit by digit.
+fn value(key: &str, to: &Json) -> Result<Value, EditError> {
+    let wrong = |why| EditError::NoValue {
+        what: key.to_owned(),
+        why,
+    };
+    Ok(match to {
+        Json::Null => return Err(wrong("nothing is no value")),
+        Json::Bool(b) => Value::from(*b),
+        Json::Number(n) => match (n.as_i64(), n.as_f64()) {
+            (Some(i), _) => Value::from(i),
+            (None, Some(x)) if x.is_finite() => Value::from(x),
+            _ => return Err(wrong("the number is too large")),
+        },
+        Json::String(s) if is_of_numbers(key) => {
+            number(s).unwrap_or_else(|| Value::from(s.as_str()))
+        }
+        Json::String(s) => Value::from(s.as_str()),
+        Json::Array(list) => {
+            let mut out = Array::new();
+            for one in list {
+                out.push(value(key, one)?);
+            }
+            Value::Array(out)
+        }
+        Json::Object(map) => {
+            let mut out = InlineTable::new();
+            for (inner, one) in map {
+                out.insert(inner, value(inner, one)?);
+            }
+            Value::InlineTable(out)
+        }
+    })
+}
+
+/// Keys whose values are coordinates or quantities.
+fn is_of_numbers(key: &str) -> bool {
+    matches!(
+        key,
+        "point"
+            | "axis"
+            | "reference"
+            | "centre"
+            | "mass"
+            | "lead"
+            | "pitch"
+            | "ratio"
+            | "force"
+            | "moment"
+            | "gravity"
+            | "plane_normal"
+            | "tolerance"
+    )
+}
+
+/// A number as it is typed.
+fn number(text: &str) -> Option<Value> {
+    let text = text.trim();
+    let plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');
+    if text.is_empty() || !text.chars().all(plain) {
+        return None;
+    }
+    // TOML wants a digit on either side of the point.
+    let value: Value = text.parse().ok()?;
+    matches!(value, Value::Integer(_) | Value::Float(_)).then_some(value)
+}

@@ -1,0 +1,63 @@
+//! What can be told of a file that is not whole yet: where its items are, and the part of it that hangs on the frame.
+
+use crate::file::read::value::number::vector;
+use crate::file::read::value::parameters::{Values, knowing};
+use crate::file::schema::{Coordinate, MechanismFile};
+use std::collections::BTreeSet;
+
+/// The places of joints and of points of interest in numbers; none where an expression is none.
+#[must_use]
+pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
+    let one = |v: &[Coordinate; 3]| {
+        let mut out = knowing(file, &Values::new());
+        let before = out.count();
+        let read = vector(v, &[], &mut out);
+        (out.count() == before).then(|| read.map(|e| e.to_f64()))
+    };
+    [
+        file.joint.iter().map(|j| one(&j.point)).collect(),
+        file.point.iter().map(|p| one(&p.point)).collect(),
+    ]
+}
+
+/// The file without the links that no joint joins to the frame, and all that names them; none where nothing is left, or all.
+#[must_use]
+pub fn connected(file: &MechanismFile) -> Option<MechanismFile> {
+    let frame = file
+        .link
+        .iter()
+        .find(|l| l.role.as_deref() == Some("frame"))?;
+    let mut there = BTreeSet::from([frame.id.as_str()]);
+    loop {
+        let before = there.len();
+        for [a, b] in file.joint.iter().map(|j| &j.links) {
+            if there.contains(a.as_str()) || there.contains(b.as_str()) {
+                there.extend([a.as_str(), b.as_str()]);
+            }
+        }
+        if there.len() == before {
+            break;
+        }
+    }
+    if there.len() < 2 || file.link.iter().all(|l| there.contains(l.id.as_str())) {
+        return None;
+    }
+    let mut out = file.clone();
+    let link = |id: &String| there.contains(id.as_str());
+    out.link.retain(|l| link(&l.id));
+    out.joint.retain(|j| j.links.iter().all(link));
+    out.point.retain(|p| link(&p.link));
+    out.search.hold.retain(link);
+    out.workload.force.retain(|f| link(&f.link));
+    out.workload.moment.retain(|m| link(&m.link));
+    let joints: BTreeSet<String> = out.joint.iter().map(|j| j.id.clone()).collect();
+    let joint = |id: &String| joints.contains(id.split(':').next().unwrap_or(id));
+    out.coupling.retain(|c| c.joints.iter().all(joint));
+    out.contour.retain(|c| c.joints.iter().all(joint));
+    out.search.mirror.retain(|p| p.iter().all(joint));
+    out.search.turn.retain(|g| g.iter().all(joint));
+    out.workload.contact.retain(|c| joint(&c.joint));
+    out.workload.misalignment.retain(|m| joint(&m.joint));
+    out.expected.clear();
+    Some(out)
+}

@@ -1,0 +1,164 @@
+//! The studio: a page in the browser in which a mechanism is drawn, looked at and changed by hand, while the engine answers at
+//! every change.
+//!
+//! The text of the file is the truth: every change edits it with its comments kept ([`crate::file::edit`]), and all windows show
+//! what is made of it. One thread analyses and searches, the newest text alone; a search under way ends when another comes. The
+//! server speaks to this machine, to who has the token of its address, and to no other page (`door`); what it reads and writes
+//! is the file that was opened, what lies beside it under names of its own, and nothing else (`disk`).
+
+mod desk;
+mod disk;
+mod door;
+mod force;
+mod http;
+mod idea;
+mod palette;
+mod paper;
+mod reading;
+mod room;
+mod routes;
+mod shelf;
+mod windows;
+mod work;
+
+pub use disk::Opening;
+
+use crate::score::request::Request;
+use door::Door;
+use room::Room;
+use std::io;
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Most requests at a time: the windows' own, and some more.
+const CONNECTIONS: usize = 64;
+/// How often the file is looked at, and whether any window is left.
+const TICK: Duration = Duration::from_millis(100);
+/// Ticks between two looks at the file.
+const LOOK: u32 = 3;
+/// So long the server waits for a window that is loaded again.
+const GRACE: Duration = Duration::from_secs(3);
+
+/// A studio that is ready to be opened.
+#[derive(Debug)]
+pub struct Studio {
+    listener: TcpListener,
+    door: Arc<Door>,
+    room: Arc<Room>,
+}
+
+impl Studio {
+    /// Listens at a free port of this machine, for itself alone.
+    ///
+    /// # Errors
+    /// Where the file cannot be read, or no port is free.
+    pub fn new(opening: Opening, request: Request) -> io::Result<Studio> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+        let door = Arc::new(Door::new(listener.local_addr()?.port())?);
+        let room = Arc::new(Room::new(opening, request)?);
+        Ok(Studio {
+            listener,
+            door,
+            room,
+        })
+    }
+
+    /// The address of the page, with its token.
+    #[must_use]
+    pub fn address(&self) -> String {
+        self.door.address()
+    }
+
+    /// Serves until the last window is closed, and says where unsaved work is, if any. The first window may take its time.
+    ///
+    /// # Errors
+    /// Where threads cannot be made.
+    pub fn serve(self) -> io::Result<Option<std::path::PathBuf>> {
+        let Studio {
+            listener,
+            door,
+            room,
+        } = self;
+        let (at_work, at_door) = (room.clone(), room.clone());
+        let worker = std::thread::Builder::new().name("studio-work".to_owned());
+        let worker = worker.spawn(move || work::work(&at_work))?;
+        let accept = std::thread::Builder::new().name("studio-door".to_owned());
+        accept.spawn(move || listen(&listener, &door, &at_door))?;
+        let (mut ticks, mut alone_since) = (0_u32, None);
+        loop {
+            std::thread::sleep(TICK);
+            ticks = ticks.wrapping_add(1);
+            if ticks.is_multiple_of(LOOK) {
+                room.look_at_disk();
+            }
+            let left = room.windows.left();
+            alone_since = match (left, alone_since) {
+                (true, None) => Some(Instant::now()),
+                (true, since) => since,
+                (false, _) => None,
+            };
+            if alone_since.is_some_and(|s| s.elapsed() > GRACE) {
+                break;
+            }
+        }
+        room.end();
+        let _ = worker.join();
+        Ok(room.unsaved())
+    }
+}
+
+/// Answers whoever comes, each on a thread of its own.
+fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
+    let busy = Arc::new(AtomicUsize::new(0));
+    for stream in listener.incoming() {
+        let Ok(mut stream) = stream else { continue };
+        if busy.fetch_add(1, Ordering::SeqCst) >= CONNECTIONS {
+            busy.fetch_sub(1, Ordering::SeqCst);
+            let _ = http::write(
+                &mut stream,
+                &http::Reply::refusal(503, "too many requests at once"),
+            );
+            continue;
+        }
+        let (door, room, one) = (door.clone(), room.clone(), Busy(busy.clone()));
+        let made = std::thread::Builder::new().name("studio-request".to_owned());
+        // One that cannot be made is a request that is not answered.
+        let _ = made.spawn(move || {
+            let _one = one;
+            let tried = catch_unwind(AssertUnwindSafe(|| answer(&mut stream, &door, &room)));
+            if tried.is_err() {
+                let words = "the program failed at this; please report it with the file";
+                let _ = http::write(&mut stream, &http::Reply::refusal(500, words));
+            }
+        });
+    }
+}
+
+/// A request that is being answered.
+struct Busy(Arc<AtomicUsize>);
+
+impl Drop for Busy {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+fn answer(stream: &mut TcpStream, door: &Door, room: &Room) -> io::Result<()> {
+    let asked = match http::read(stream)? {
+        Ok(asked) => asked,
+        Err(refusal) => return http::write(stream, &refusal),
+    };
+    match door.admit(&asked) {
+        Err(refusal) => http::write(stream, &refusal),
+        Ok("events") if asked.method == "GET" => {
+            room.windows.serve(stream, || room.now(), || room.ended())
+        }
+        Ok(path) => {
+            let answer = routes::answer(&asked, path, room).packed_for(&asked)?;
+            http::write(stream, &answer)
+        }
+    }
+}

@@ -1,0 +1,369 @@
+//! What is on the desk: the text with all its earlier forms, the file it belongs to, and what others have written to that.
+
+use super::disk::{self, Kind, OpenFile, Opening};
+use super::reading::DeskReading;
+use crate::file::edit::{Edit, EditError, Thing, edited};
+use crate::file::text::MAX_BYTES;
+use serde_json::{Value, json};
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Why something is not done.
+#[derive(Debug, Error)]
+pub(super) enum Refused {
+    #[error(transparent)]
+    Edit(#[from] EditError),
+    #[error("{0}")]
+    Words(String),
+    /// Somebody else has changed it in between.
+    #[error("{0}")]
+    Conflict(String),
+    #[error("cannot write: {0}")]
+    Disk(#[from] io::Error),
+}
+
+/// A text and the file that it belongs to, by its number.
+#[derive(Debug, Clone)]
+struct DeskStep {
+    bytes: Arc<[u8]>,
+    file: usize,
+}
+
+/// The desk.
+#[derive(Debug)]
+pub(super) struct Desk {
+    files: Vec<OpenFile>,
+    steps: Vec<DeskStep>,
+    at: usize,
+    /// Goes up whenever another text is on the desk.
+    pub(super) revision: u64,
+    pub(super) reading: Arc<DeskReading>,
+    /// What another program wrote to the file while there was unsaved work.
+    theirs: Option<Arc<[u8]>>,
+    /// Work that a studio left behind unsaved.
+    left: Option<(PathBuf, Arc<[u8]>)>,
+    /// Why unsaved work could not be kept, if so.
+    trouble: Option<String>,
+}
+
+impl Desk {
+    pub(super) fn new(opening: &Opening) -> io::Result<Desk> {
+        let (file, text) = disk::begin(opening)?;
+        let bytes: Arc<[u8]> = match (text, &file.held) {
+            (Some(text), _) => text.into_bytes().into(),
+            (None, Some(held)) => held.clone(),
+            (None, None) => disk::BLANK.as_bytes().into(),
+        };
+        let left = file.left_behind();
+        let mut out = Desk {
+            files: vec![file],
+            steps: vec![DeskStep { bytes, file: 0 }],
+            at: 0,
+            revision: 0,
+            reading: Arc::default(),
+            theirs: None,
+            left,
+            trouble: None,
+        };
+        out.read();
+        Ok(out)
+    }
+
+    fn file(&self) -> &OpenFile {
+        &self.files[self.steps[self.at].file]
+    }
+
+    fn bytes(&self) -> &Arc<[u8]> {
+        &self.steps[self.at].bytes
+    }
+
+    fn is_saved(&self) -> bool {
+        self.file().held.as_ref() == Some(self.bytes())
+    }
+
+    fn text(&self) -> Option<&str> {
+        std::str::from_utf8(self.bytes()).ok()
+    }
+
+    /// Where unsaved work is kept, if there is any.
+    pub(super) fn unsaved(&self) -> Option<PathBuf> {
+        self.file().kept()
+    }
+
+    fn read(&mut self) {
+        let file = self.file();
+        self.reading = Arc::new(DeskReading::new(&file.path, file.kind, self.bytes()));
+        self.revision += 1;
+    }
+
+    /// Another text is on the desk: it is read, and kept where it is not saved.
+    fn turn(&mut self) {
+        self.read();
+        let (saved, bytes) = (self.is_saved(), self.bytes().clone());
+        let number = self.steps[self.at].file;
+        let file = &mut self.files[number];
+        let kept = if saved {
+            file.drop_kept();
+            Ok(())
+        } else {
+            file.keep(&bytes)
+        };
+        self.trouble = kept.err().map(|e| {
+            format!("unsaved work cannot be kept beside the file ({e}); save it, or download it")
+        });
+    }
+
+    /// Puts a text on top of those there were; what was undone before is gone.
+    fn push(&mut self, bytes: Arc<[u8]>, file: usize) {
+        if *self.bytes() == bytes && self.steps[self.at].file == file {
+            return;
+        }
+        self.steps.truncate(self.at + 1);
+        self.steps.push(DeskStep { bytes, file });
+        self.at += 1;
+        self.turn();
+    }
+
+    /// The text with changes, which are not made yet, and what is read of it.
+    pub(super) fn draft(&self, edits: &[Edit]) -> Result<(String, DeskReading), Refused> {
+        let file = self.file();
+        let text = match (file.kind, self.text()) {
+            (Kind::Description, _) | (_, None) => {
+                return Err(Refused::Words(
+                    "a robot description or an assembly is here to be looked at, and to take an idea; `ozols import` makes a \
+                     mechanism file of it, which can be drawn"
+                        .to_owned(),
+                ));
+            }
+            (Kind::Json, _) if edits.iter().any(|e| !matches!(e, Edit::Text { .. })) => {
+                return Err(Refused::Words(
+                    "a JSON file is changed as text; `ozols export FILE --to toml` makes one of it that can be drawn".to_owned(),
+                ));
+            }
+            (_, Some(text)) => text,
+        };
+        let mut text = edited(text, edits)?;
+        if text.len() > MAX_BYTES {
+            let words = format!("the text is longer than the {MAX_BYTES} bytes allowed");
+            return Err(Refused::Words(words));
+        }
+        let mut reading = DeskReading::new(&file.path, file.kind, text.as_bytes());
+        // Options that a new type does not allow any more are taken out, as the drawing cannot offer them.
+        let drawn = edits
+            .iter()
+            .any(|e| matches!(e, Edit::Set { key, .. } if key == "type"));
+        if drawn && !reading.outgrown.is_empty() {
+            let fewer = without_outgrown(&reading);
+            text = edited(&text, &fewer)?;
+            reading = DeskReading::new(&file.path, file.kind, text.as_bytes());
+        }
+        Ok((text, reading))
+    }
+
+    /// Makes changes. A text as a whole must be made of the newest, which its revision says.
+    pub(super) fn edit(&mut self, edits: &[Edit], revision: Option<u64>) -> Result<(), Refused> {
+        let whole = edits.iter().any(|e| matches!(e, Edit::Text { .. }));
+        if whole && revision != Some(self.revision) {
+            return Err(Refused::Conflict(
+                "the text was changed in another window; here is what it is now".to_owned(),
+            ));
+        }
+        let (text, _) = self.draft(edits)?;
+        self.push(text.into_bytes().into(), self.steps[self.at].file);
+        Ok(())
+    }
+
+    /// Puts another form of the same file there.
+    pub(super) fn replace(&mut self, bytes: Vec<u8>) {
+        self.push(bytes.into(), self.steps[self.at].file);
+    }
+
+    /// Begins another file, with the steps so far to go back to.
+    pub(super) fn begin(&mut self, opening: &Opening) -> Result<(), Refused> {
+        let (file, text) = disk::begin(opening)?;
+        self.files.push(file);
+        let text = text.unwrap_or_default();
+        self.theirs = None;
+        self.push(text.into_bytes().into(), self.files.len() - 1);
+        Ok(())
+    }
+
+    /// The folder of the file.
+    pub(super) fn folder(&self) -> PathBuf {
+        self.file().folder().to_path_buf()
+    }
+
+    /// Goes so many steps back, or forward where it is negative; whether there were any.
+    pub(super) fn step(&mut self, forward: bool) -> bool {
+        let to = if forward {
+            Some(self.at + 1).filter(|t| *t < self.steps.len())
+        } else {
+            self.at.checked_sub(1)
+        };
+        let Some(to) = to else { return false };
+        self.at = to;
+        self.turn();
+        true
+    }
+
+    /// Saves, under another name in the same folder where one is given.
+    pub(super) fn save(&mut self, name: Option<&str>) -> Result<(), Refused> {
+        if let Some(name) = name.filter(|n| *n != self.file().name()) {
+            let Some(plain) = disk::plain_name(name) else {
+                return Err(Refused::Words(
+                    "a name is letters, digits, blanks, - and _, and ends in .toml; the file is put into the folder of the one \
+                     that is open"
+                        .to_owned(),
+                ));
+            };
+            if self.file().kind != Kind::Toml {
+                let words = "a description is saved under its own name";
+                return Err(Refused::Words(words.to_owned()));
+            }
+            let path = self.folder().join(plain);
+            if path.symlink_metadata().is_ok() {
+                return Err(Refused::Words(format!(
+                    "{plain} is there already; choose another name"
+                )));
+            }
+            let bytes = self.bytes().clone();
+            let mut file = OpenFile::open(&path)?;
+            file.save(&bytes)?;
+            let before = self.steps[self.at].file;
+            self.files[before].drop_kept();
+            self.files.push(file);
+            self.steps[self.at].file = self.files.len() - 1;
+            self.theirs = None;
+            return Ok(());
+        }
+        self.look_at_disk()?;
+        if self.theirs.is_some() {
+            return Err(Refused::Conflict(
+                "another program has written to the file; say first which of the two is to stay"
+                    .to_owned(),
+            ));
+        }
+        let (number, bytes) = (self.steps[self.at].file, self.bytes().clone());
+        self.files[number].save(&bytes)?;
+        Ok(())
+    }
+
+    /// Looks whether another program has written to the file; whether anything is new.
+    pub(super) fn look_at_disk(&mut self) -> io::Result<bool> {
+        let now = self.file().now()?;
+        let number = self.steps[self.at].file;
+        // A file that is gone is waited for: many programs take it away before they write it anew.
+        let Some(now) = now.filter(|n| Some(n) != self.file().held.as_ref()) else {
+            return Ok(false);
+        };
+        if self.theirs.as_ref() == Some(&now) {
+            return Ok(false);
+        }
+        if &now == self.bytes() {
+            self.files[number].held = Some(now);
+            self.files[number].drop_kept();
+            self.theirs = None;
+        } else if self.is_saved() {
+            self.files[number].held = Some(now.clone());
+            self.push(now, number);
+        } else {
+            self.theirs = Some(now);
+        }
+        Ok(true)
+    }
+
+    /// Which of two forms of the file is to stay; the other is a step away.
+    pub(super) fn settle(&mut self, keep_mine: bool) {
+        let Some(theirs) = self.theirs.take() else {
+            return;
+        };
+        let (number, mine) = (self.steps[self.at].file, self.bytes().clone());
+        self.files[number].held = Some(theirs.clone());
+        self.push(theirs, number);
+        if keep_mine {
+            self.push(mine, number);
+        }
+    }
+
+    /// Takes what was left behind, or leaves it and takes its file away.
+    pub(super) fn restore(&mut self, take: bool) {
+        let Some((path, bytes)) = self.left.take() else {
+            return;
+        };
+        if take {
+            self.push(bytes, self.steps[self.at].file);
+        }
+        // Now it is kept by this studio, or nobody wants it.
+        if self.unsaved().as_ref() != Some(&path) {
+            let _ = std::fs::remove_file(path);
+        }
+    }
+
+    /// How to show it: what changes with every text.
+    pub(super) fn json(&self) -> Value {
+        let mut out = self.reading.json();
+        let more = json!({
+            "revision": self.revision,
+            "text": self.text(),
+            "desk": self.state(),
+        });
+        if let (Value::Object(out), Value::Object(more)) = (&mut out, more) {
+            out.extend(more);
+        }
+        out
+    }
+
+    /// How things stand with the file.
+    pub(super) fn state(&self) -> Value {
+        let kind = match self.file().kind {
+            Kind::Toml => "toml",
+            Kind::Json => "json",
+            Kind::Description => "description",
+        };
+        json!({
+            "name": self.file().name(),
+            "kind": kind,
+            "saved": self.is_saved(),
+            "there": self.file().held.is_some(),
+            "undo": self.at > 0,
+            "redo": self.at + 1 < self.steps.len(),
+            "conflict": self.theirs.is_some(),
+            "left": self.left.as_ref().map(|(path, _)| path.file_name().unwrap_or_default().to_string_lossy()),
+            "trouble": self.trouble,
+        })
+    }
+}
+
+/// The changes that take outgrown options out of the lists of their joints.
+fn without_outgrown(reading: &DeskReading) -> Vec<Edit> {
+    let joints = reading.file.iter().flat_map(|f| &f.joint);
+    let one = |j: &crate::file::schema::JointEntry| {
+        let gone: Vec<&str> = reading
+            .outgrown
+            .iter()
+            .filter(|(joint, _)| *joint == j.id)
+            .map(|(_, option)| option.as_str())
+            .collect();
+        let options = j.options.as_ref().filter(|_| !gone.is_empty())?;
+        let named = |v: &Value| {
+            let word = v.get("name").or_else(|| v.get("type")).unwrap_or(v);
+            word.as_str().is_some_and(|w| gone.contains(&w))
+        };
+        let mut value = serde_json::to_value(options).unwrap_or_default();
+        if let Value::Array(list) = &mut value {
+            list.retain(|v| !named(v));
+            for v in list.iter_mut().filter_map(Value::as_object_mut) {
+                v.retain(|_, x| !x.is_null());
+            }
+        }
+        Some(Edit::Set {
+            what: Thing::Joint,
+            id: j.id.clone(),
+            key: "options".to_owned(),
+            value,
+        })
+    };
+    joints.filter_map(one).collect()
+}

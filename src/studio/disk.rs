@@ -1,0 +1,239 @@
+//! The file on disk: read, written beside and renamed, and the unsaved work that is kept next to it.
+
+use crate::api::MAX_DESCRIPTION_BYTES;
+use crate::builtin;
+use crate::file::{bounded, template};
+use crate::robots;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A frame and nothing else.
+pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
+
+/// What to begin with.
+#[derive(Debug, Clone)]
+pub enum Opening {
+    /// A file, which need not be there yet.
+    File(PathBuf),
+    /// A copy of a built-in mechanism, to be saved in a folder under a name that is free.
+    Builtin(String, PathBuf),
+    /// A text of this name, to be saved in a folder.
+    Text(String, String, PathBuf),
+    /// Nothing yet.
+    Nothing(PathBuf),
+}
+
+/// How a file is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Toml,
+    Json,
+    /// A robot description or an assembly.
+    Description,
+}
+
+/// The file that is worked on.
+#[derive(Debug)]
+pub(super) struct OpenFile {
+    pub(super) path: PathBuf,
+    pub(super) kind: Kind,
+    /// What the file is known to hold; nothing where it was not there.
+    pub(super) held: Option<Arc<[u8]>>,
+    kept: AutosavedText,
+}
+
+/// Where unsaved work is kept: a file that is locked as long as its owner lives, so that another studio tells what was left behind
+/// from what is at work.
+#[derive(Debug, Default)]
+struct AutosavedText {
+    path: Option<PathBuf>,
+    lock: Option<File>,
+}
+
+/// Most studios that keep unsaved work of one file at a time.
+const KEEPERS: usize = 20;
+
+impl OpenFile {
+    /// A file as it is now.
+    pub(super) fn open(path: &Path) -> io::Result<OpenFile> {
+        // A link is followed, so that its target gets the data.
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        let mut out = OpenFile {
+            kind: kind(&path),
+            held: None,
+            kept: AutosavedText::default(),
+            path,
+        };
+        out.held = out.now()?;
+        Ok(out)
+    }
+
+    /// Its name for people.
+    pub(super) fn name(&self) -> String {
+        let name = self.path.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
+    }
+
+    pub(super) fn folder(&self) -> &Path {
+        let folder = self.path.parent().filter(|p| !p.as_os_str().is_empty());
+        folder.unwrap_or(Path::new("."))
+    }
+
+    /// What is in it now; nothing where it is not there.
+    pub(super) fn now(&self) -> io::Result<Option<Arc<[u8]>>> {
+        match bounded::bytes(&self.path, MAX_DESCRIPTION_BYTES) {
+            Ok(bytes) => Ok(Some(bytes.into())),
+            Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(e) => Err(e),
+        }
+    }
+
+    /// Writes it, whole or not at all, and takes the unsaved work away.
+    pub(super) fn save(&mut self, bytes: &Arc<[u8]>) -> io::Result<()> {
+        let permissions = fs::metadata(&self.path).ok().map(|m| m.permissions());
+        let mut beside = beside(self.folder())?;
+        beside.write_all(bytes)?;
+        if let Some(permissions) = permissions {
+            beside.as_file().set_permissions(permissions)?;
+        }
+        beside.as_file().sync_all()?;
+        beside.persist(&self.path).map_err(|e| e.error)?;
+        self.held = Some(bytes.clone());
+        self.drop_kept();
+        Ok(())
+    }
+
+    fn keeper(&self, n: usize) -> PathBuf {
+        let number = if n == 0 {
+            String::new()
+        } else {
+            format!("-{}", n + 1)
+        };
+        self.folder()
+            .join(format!("{}.autosave{number}", self.name()))
+    }
+
+    /// Keeps unsaved work; each time a whole file takes the place of the one before.
+    pub(super) fn keep(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let path = match &self.kept.path {
+            Some(path) => path.clone(),
+            None => {
+                let free = (0..KEEPERS).map(|n| self.keeper(n));
+                let mut free = free.filter(|p| !p.exists());
+                free.next()
+                    .ok_or_else(|| io::Error::other("too much unsaved work lies beside the file"))?
+            }
+        };
+        let mut beside = beside(self.folder())?;
+        beside.write_all(bytes)?;
+        // Not every file system has locks.
+        let _ = beside.as_file().try_lock();
+        let file = beside.persist(&path).map_err(|e| e.error)?;
+        self.kept = AutosavedText {
+            path: Some(path),
+            lock: Some(file),
+        };
+        Ok(())
+    }
+
+    /// Nothing is unsaved any more.
+    pub(super) fn drop_kept(&mut self) {
+        self.kept.lock = None;
+        if let Some(path) = self.kept.path.take() {
+            let _ = fs::remove_file(path);
+        }
+    }
+
+    /// Where unsaved work is, if any.
+    pub(super) fn kept(&self) -> Option<PathBuf> {
+        self.kept.path.clone()
+    }
+
+    /// Unsaved work that a studio left behind that is no more, and where it is. What is in the file already is taken away.
+    pub(super) fn left_behind(&self) -> Option<(PathBuf, Arc<[u8]>)> {
+        let all = (0..KEEPERS).map(|n| self.keeper(n));
+        let found = all.filter(|p| p.is_file()).find_map(|path| {
+            let file = File::open(&path).ok()?;
+            file.try_lock().ok()?;
+            let bytes = bounded::bytes(&path, MAX_DESCRIPTION_BYTES).ok()?;
+            Some((path, Arc::<[u8]>::from(bytes)))
+        });
+        let (path, bytes) = found?;
+        if self.held.as_ref() == Some(&bytes) {
+            let _ = fs::remove_file(path);
+            return None;
+        }
+        Some((path, bytes))
+    }
+}
+
+/// A file beside another, which others may read as the system lets them: temporary files are the owner's alone otherwise.
+fn beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut made = tempfile::Builder::new();
+    made.prefix(".tmp-ozols-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        made.permissions(fs::Permissions::from_mode(0o666))
+            .tempfile_in(folder)
+    }
+    #[cfg(not(unix))]
+    made.tempfile_in(folder)
+}
+
+fn kind(path: &Path) -> Kind {
+    let name = path.to_string_lossy();
+    let json = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+    match robots::is_description(&name) {
+        true => Kind::Description,
+        false if json => Kind::Json,
+        false => Kind::Toml,
+    }
+}
+
+/// A name of a file in a folder that nothing has yet.
+pub(super) fn free_name(folder: &Path, stem: &str) -> PathBuf {
+    let names = std::iter::once(format!("{stem}.toml"))
+        .chain((2..).map(|n: u32| format!("{stem}-{n}.toml")));
+    let mut free = names.map(|n| folder.join(n)).filter(|p| !p.exists());
+    free.next().unwrap_or_else(|| folder.join("mechanism.toml"))
+}
+
+/// What a file of a person's choice may be called: a plain name that ends in .toml, in the folder that is open already.
+pub(super) fn plain_name(name: &str) -> Option<&str> {
+    let stem = name.strip_suffix(".toml")?;
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_' | '.' | '+');
+    let well = (1..=100).contains(&stem.len())
+        && stem.chars().all(plain)
+        && !stem.starts_with(['.', ' ', '-'])
+        && !stem.ends_with(['.', ' ']);
+    well.then_some(name)
+}
+
+/// The file and the first text of what is opened.
+pub(super) fn begin(opening: &Opening) -> io::Result<(OpenFile, Option<String>)> {
+    let fresh = |folder: &Path, stem: &str| OpenFile::open(&free_name(folder, stem));
+    Ok(match opening {
+        Opening::File(path) => (OpenFile::open(path)?, None),
+        Opening::Builtin(name, folder) => (fresh(folder, name)?, Some(of_builtin(name)?)),
+        Opening::Text(name, text, folder) => {
+            let stem: String = name
+                .chars()
+                .map(|c| if c.is_alphanumeric() { c } else { '-' })
+                .collect();
+            (fresh(folder, stem.trim_matches('-'))?, Some(text.clone()))
+        }
+        Opening::Nothing(folder) => (fresh(folder, "mechanism")?, Some(BLANK.to_owned())),
+    })
+}
+
+/// A copy of a built-in mechanism with its own comments, without what publications say of the original.
+pub(super) fn of_builtin(name: &str) -> io::Result<String> {
+    let text = builtin::text(name)
+        .ok_or_else(|| io::Error::other(format!("{name} is not a built-in mechanism")))?;
+    template::plain(text).map_err(io::Error::other)
+}

@@ -1,0 +1,70 @@
+//! Who may come in: this machine's own page, by the address with the token, and no page of anybody else's.
+
+use super::http::{Asked, Reply};
+use std::fmt::Write as _;
+
+/// Bytes of a token.
+const TOKEN: usize = 16;
+
+/// What has to be in a request.
+#[derive(Debug)]
+pub(super) struct Door {
+    /// The only name that this server answers to: others may lead here by a name of theirs.
+    host: String,
+    token: String,
+}
+
+impl Door {
+    /// A door with a token nobody can guess.
+    pub(super) fn new(port: u16) -> std::io::Result<Door> {
+        let mut bytes = [0; TOKEN];
+        getrandom::fill(&mut bytes).map_err(std::io::Error::other)?;
+        let token = bytes.iter().fold(String::new(), |mut text, b| {
+            let _ = write!(text, "{b:02x}");
+            text
+        });
+        Ok(Door {
+            host: format!("127.0.0.1:{port}"),
+            token,
+        })
+    }
+
+    /// The address of the page.
+    pub(super) fn address(&self) -> String {
+        format!("http://{}/{}/", self.host, self.token)
+    }
+
+    /// What is asked for behind the token; a refusal where the request is not of our page.
+    pub(super) fn admit<'a>(&self, asked: &'a Asked) -> Result<&'a str, Reply> {
+        let refused = |why| Err(Reply::refusal(403, why));
+        if asked.header("host") != Some(self.host.as_str()) {
+            return refused("this server answers to 127.0.0.1 and its port alone");
+        }
+        let own = format!("http://{}", self.host);
+        let origin = asked.header("origin");
+        let writes = asked.method != "GET";
+        if (asked.has("origin") || writes) && origin != Some(own.as_str()) {
+            return refused("requests of other pages are not answered");
+        }
+        // "none" is an address that a person typed or clicked outside of any page.
+        let site = asked.header("sec-fetch-site");
+        if asked.has("sec-fetch-site") && !matches!(site, Some("same-origin" | "none")) {
+            return refused("requests of other pages are not answered");
+        }
+        if writes && asked.header("content-type") != Some("application/json") {
+            return Err(Reply::refusal(415, "what is sent here is JSON"));
+        }
+        let path = asked.path.split('?').next().unwrap_or_default();
+        let inside = path.strip_prefix('/').and_then(|p| p.split_once('/'));
+        match inside {
+            Some((token, rest)) if same(token, &self.token) => Ok(rest),
+            _ => refused("the address has not the token that `ozols studio` printed"),
+        }
+    }
+}
+
+/// Whether two texts are the same, in a time that does not tell how much of them is.
+fn same(a: &str, b: &str) -> bool {
+    let differ = a.bytes().zip(b.bytes()).fold(0, |d, (x, y)| d | (x ^ y));
+    a.len() == b.len() && differ == 0
+}

@@ -1,0 +1,219 @@
+//! HTTP/1.1 as far as one page on the same machine needs it: one request a connection, everything bounded.
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::io::{self, Read, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
+/// Most bytes of the first line and the headers, and most headers.
+const HEAD: usize = 16 << 10;
+const HEADERS: usize = 64;
+/// Most bytes of a body: the largest file, escaped as text of JSON.
+pub(super) const BODY: usize = 9 << 20;
+/// So long a connection may be silent.
+const SILENCE: Duration = Duration::from_secs(10);
+
+/// What is asked for.
+#[derive(Debug)]
+pub(super) struct Asked {
+    pub(super) method: String,
+    pub(super) path: String,
+    headers: Vec<(String, String)>,
+    pub(super) body: Vec<u8>,
+}
+
+impl Asked {
+    /// The value of a header that stands once; none where it stands never or several times, which no browser does.
+    pub(super) fn header(&self, name: &str) -> Option<&str> {
+        let mut all = self.headers.iter().filter(|(n, _)| n == name);
+        let first = all.next().map(|(_, v)| v.as_str());
+        first.filter(|_| all.next().is_none())
+    }
+
+    /// Whether a header stands there at all.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.headers.iter().any(|(n, _)| n == name)
+    }
+}
+
+/// What is answered.
+#[derive(Debug)]
+pub(super) struct Reply {
+    pub(super) status: u16,
+    pub(super) kind: &'static str,
+    pub(super) body: Vec<u8>,
+    /// The name under which a browser saves it, where it is to.
+    pub(super) saved_as: Option<String>,
+    /// Whether the body is packed.
+    pub(super) packed: bool,
+}
+
+/// What is shorter is not packed: it goes in one piece anyway.
+const SHORT: usize = 1400;
+
+impl Reply {
+    pub(super) fn new(kind: &'static str, body: impl Into<Vec<u8>>) -> Reply {
+        Reply {
+            status: 200,
+            kind,
+            body: body.into(),
+            saved_as: None,
+            packed: false,
+        }
+    }
+
+    /// The same, packed where who asks can unpack it and it is worth it.
+    pub(super) fn packed_for(mut self, asked: &Asked) -> io::Result<Reply> {
+        let can = asked.header("accept-encoding");
+        if self.body.len() > SHORT && can.is_some_and(|c| c.contains("gzip")) {
+            let mut packer = GzEncoder::new(Vec::new(), Compression::fast());
+            packer.write_all(&self.body)?;
+            (self.body, self.packed) = (packer.finish()?, true);
+        }
+        Ok(self)
+    }
+
+    pub(super) fn json(value: &serde_json::Value) -> Reply {
+        Reply::new("application/json", value.to_string())
+    }
+
+    /// Why something is not done, for a person.
+    pub(super) fn refusal(status: u16, why: &str) -> Reply {
+        Reply {
+            status,
+            ..Reply::json(&serde_json::json!({ "refused": why }))
+        }
+    }
+}
+
+/// Reads a request; an answer instead where it is none that is served.
+pub(super) fn read(stream: &mut TcpStream) -> io::Result<Result<Asked, Reply>> {
+    stream.set_read_timeout(Some(SILENCE))?;
+    stream.set_write_timeout(Some(SILENCE))?;
+    let refused = |status, why: &str| Ok(Err(Reply::refusal(status, why)));
+    let mut bytes = Vec::new();
+    let end = loop {
+        if let Some(at) = bytes.windows(4).position(|w| w == b"\r\n\r\n") {
+            break at + 4;
+        }
+        if bytes.len() > HEAD {
+            return refused(431, "the head of the request is too large");
+        }
+        if more(stream, &mut bytes, HEAD)? == 0 {
+            return refused(400, "the request ends early");
+        }
+    };
+    let mut list = [httparse::EMPTY_HEADER; HEADERS];
+    let mut parsed = httparse::Request::new(&mut list);
+    let whole = parsed.parse(&bytes[..end]).is_ok_and(|s| s.is_complete());
+    let (Some(method), Some(path), true) = (parsed.method, parsed.path, whole) else {
+        return refused(400, "this is no request of HTTP/1.1");
+    };
+    let header = |h: &httparse::Header<'_>| {
+        let value = std::str::from_utf8(h.value).ok()?.trim().to_owned();
+        Some((h.name.to_ascii_lowercase(), value))
+    };
+    let Some(headers) = parsed.headers.iter().map(header).collect() else {
+        return refused(400, "a header is no text");
+    };
+    let mut asked = Asked {
+        method: method.to_owned(),
+        path: path.to_owned(),
+        headers,
+        body: bytes[end..].to_vec(),
+    };
+    if asked.has("transfer-encoding") {
+        return refused(501, "a body comes with its length");
+    }
+    let length = match (asked.has("content-length"), asked.header("content-length")) {
+        (false, _) => Some(0),
+        (true, said) => said.and_then(|l| l.parse::<usize>().ok()),
+    };
+    match length {
+        None => return refused(400, "the length of the body is no number"),
+        Some(l) if l > BODY => return refused(413, "the body of the request is too large"),
+        Some(l) => {
+            while asked.body.len() < l {
+                if more(stream, &mut asked.body, l)? == 0 {
+                    return refused(400, "the request ends early");
+                }
+            }
+            asked.body.truncate(l);
+        }
+    }
+    Ok(Ok(asked))
+}
+
+/// Reads some bytes more, how many.
+fn more(stream: &mut TcpStream, to: &mut Vec<u8>, most: usize) -> io::Result<usize> {
+    let mut piece = [0; 8 << 10];
+    let room = piece.len().min(most.saturating_sub(to.len()).max(1));
+    let n = stream.read(&mut piece[..room])?;
+    to.extend_from_slice(&piece[..n]);
+    Ok(n)
+}
+
+/// What every answer says: a page of this program alone, which nobody else may show, keep or look into.
+const RULES: &str = "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
+connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n\
+X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCache-Control: no-store\r\n\
+Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\nConnection: close\r\n";
+
+/// A picture by itself may have its own style, and nothing else.
+const PICTURE: &str = "Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'\r\n\
+X-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\nCache-Control: max-age=3600\r\n\
+Cross-Origin-Resource-Policy: same-origin\r\nConnection: close\r\n";
+
+/// Writes the head of an answer without end, such as events.
+pub(super) fn begin(stream: &mut TcpStream, kind: &str) -> io::Result<()> {
+    write!(
+        stream,
+        "HTTP/1.1 200 OK\r\nContent-Type: {kind}\r\n{RULES}\r\n"
+    )?;
+    stream.flush()
+}
+
+/// Writes an answer.
+pub(super) fn write(stream: &mut TcpStream, answer: &Reply) -> io::Result<()> {
+    let rules = match answer.kind {
+        "image/svg+xml" => PICTURE,
+        _ => RULES,
+    };
+    let saved = answer.saved_as.as_ref().map_or(String::new(), |name| {
+        format!("Content-Disposition: attachment; filename=\"{name}\"\r\n")
+    });
+    let packed = if answer.packed {
+        "Content-Encoding: gzip\r\n"
+    } else {
+        ""
+    };
+    let head = format!(
+        "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\n{packed}{saved}{rules}\r\n",
+        answer.status,
+        reason(answer.status),
+        answer.kind,
+        answer.body.len()
+    );
+    stream.write_all(head.as_bytes())?;
+    stream.write_all(&answer.body)?;
+    stream.flush()
+}
+
+fn reason(status: u16) -> &'static str {
+    match status {
+        200 => "OK",
+        400 => "Bad Request",
+        403 => "Forbidden",
+        404 => "Not Found",
+        405 => "Method Not Allowed",
+        409 => "Conflict",
+        413 => "Content Too Large",
+        415 => "Unsupported Media Type",
+        422 => "Unprocessable Content",
+        431 => "Request Header Fields Too Large",
+        501 => "Not Implemented",
+        503 => "Service Unavailable",
+        _ => "Error",
+    }
+}

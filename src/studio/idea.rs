@@ -1,0 +1,69 @@
+//! The ideas of a search on the drawing, and taken into the file.
+
+use super::desk::Refused;
+use super::reading::DeskReading;
+use crate::file::edit::{Edit, differences};
+use crate::file::write::mechanism_file;
+use crate::model::mechanism::Mechanism;
+use crate::page::named_swaps;
+use crate::page::scenes::still_scene;
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::release::Release;
+use crate::robots;
+use crate::score::outcome::Outcome;
+use crate::view::robots::lint::words;
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+
+/// By state, what the ideas of a list put at joints: joint and choice, as the changes of a variant name them, the symbols, and what
+/// each of these puts there.
+pub(super) fn marks(
+    m: &Mechanism,
+    states: &[StateAnalysis],
+    (found, list): (&Outcome, &Value),
+) -> Vec<Value> {
+    let variants = list.as_array().into_iter().flatten();
+    let changes = variants.filter_map(|v| v["changes"].as_array()).flatten();
+    let wanted: BTreeSet<(&str, &str)> = changes
+        .filter_map(|c| Some((c["joint"].as_str()?, c["to"].as_str()?)))
+        .collect();
+    let one = |(analysis, state): (&StateAnalysis, _)| {
+        let mut named = named_swaps(m, found, state);
+        named.retain(|(joint, to, _)| wanted.contains(&(joint.as_str(), to.as_str())));
+        let swaps: Vec<_> = named.iter().map(|(_, _, swap)| *swap).collect();
+        let of = analysis.meant.as_deref().unwrap_or(m);
+        let scene = still_scene(of, (Some(analysis), state), &swaps)?;
+        let scene = serde_json::to_value(scene).ok()?;
+        let rows: Vec<_> = named.iter().map(|(joint, to, _)| [joint, to]).collect();
+        Some(json!({ "rows": rows, "symbols": scene["symbols"], "swaps": scene["swaps"] }))
+    };
+    let all = states.iter().zip(m.state_ids()).map(one);
+    all.map(|v| v.unwrap_or(Value::Null)).collect()
+}
+
+/// What an idea makes of what was read.
+pub(super) enum Taken {
+    /// Changes to a mechanism file.
+    Edits(Vec<Edit>),
+    /// A description with what `ozols fix` does to it.
+    Fixed(Vec<u8>),
+}
+
+/// Takes an idea, counted from 1.
+pub(super) fn take(reading: &DeskReading, found: &Outcome, k: usize) -> Result<Taken, Refused> {
+    let gone = || Refused::Words(format!("there is no idea {k} in the list any more"));
+    let variant = found.variants().nth(k.checked_sub(1).ok_or_else(gone)?);
+    let variant = variant.ok_or_else(gone)?;
+    let (before, after) = (&found.search.mechanism, variant.mechanism());
+    if let Some(imported) = &reading.imported {
+        let name = |why| Refused::Words(format!("idea {k} {why}"));
+        let all = robots::releases(before, &after).map_err(name)?;
+        let told: Vec<(Release, String)> =
+            all.into_iter().map(|r| (r, words(before, &r))).collect();
+        let fixed = robots::fix(imported, &told).map_err(|e| Refused::Words(e.to_string()))?;
+        return Ok(Taken::Fixed(fixed));
+    }
+    let own = reading.file.as_ref().ok_or_else(gone)?;
+    let edits = differences(&mechanism_file(before), &mechanism_file(&after), own);
+    Ok(Taken::Edits(edits))
+}

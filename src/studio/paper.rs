@@ -1,0 +1,168 @@
+//! The page: its frame, its scripts and its style. The report and the studio draw with the same scripts.
+
+use crate::draw::SHEET_STYLE;
+use maud::{DOCTYPE, Markup, html};
+use std::borrow::Cow;
+
+/// A part of what is served. A debug build reads it from the source tree each time, so that it can be worked on without a new
+/// build.
+macro_rules! part {
+    ($path:literal) => {
+        (
+            concat!(env!("CARGO_MANIFEST_DIR"), "/src/", $path),
+            include_str!(concat!("../", $path)),
+        )
+    };
+}
+
+/// The scripts by idea, in the order they are run: those of the report, and behind them the studio's own.
+const SCRIPTS: [(&str, &str); 27] = [
+    part!("page/script/element.js"),
+    part!("page/script/hull.js"),
+    part!("page/script/scene.js"),
+    part!("page/script/solids.js"),
+    part!("page/script/fittings.js"),
+    part!("page/script/bodies.js"),
+    part!("page/script/shaded.js"),
+    part!("page/script/closure.js"),
+    part!("page/script/player.js"),
+    part!("page/script/drag.js"),
+    part!("studio/script/talk.js"),
+    part!("studio/script/things.js"),
+    part!("studio/script/number.js"),
+    part!("studio/script/camera.js"),
+    part!("studio/script/preview.js"),
+    part!("studio/script/sheet.js"),
+    part!("studio/script/snap.js"),
+    part!("studio/script/build.js"),
+    part!("studio/script/tools.js"),
+    part!("studio/script/pointer.js"),
+    part!("studio/script/inspect.js"),
+    part!("studio/script/verdict.js"),
+    part!("studio/script/ideas.js"),
+    part!("studio/script/text.js"),
+    part!("studio/script/shelf.js"),
+    part!("studio/script/keys.js"),
+    part!("studio/script/main.js"),
+];
+const STYLES: [(&str, &str); 2] = [part!("page/look.css"), part!("studio/studio.css")];
+
+/// The picture of the window's tab.
+pub(super) const ICON: &str = include_str!("icon.svg");
+
+fn now((path, built_in): (&str, &'static str)) -> Cow<'static, str> {
+    let newer = cfg!(debug_assertions).then(|| std::fs::read_to_string(path).ok());
+    newer.flatten().map_or(Cow::Borrowed(built_in), Cow::Owned)
+}
+
+pub(super) fn script() -> String {
+    SCRIPTS.into_iter().map(now).collect()
+}
+
+pub(super) fn style() -> String {
+    let own: String = STYLES.into_iter().map(now).collect();
+    format!("{SHEET_STYLE}\n{own}")
+}
+
+/// The frame of the page, which the scripts fill.
+pub(super) fn html() -> String {
+    let markup = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { "ozols studio" }
+                link rel="icon" href="icon.svg";
+                link rel="stylesheet" href="studio.css";
+                script src="studio.js" defer {}
+            }
+            body {
+                (bar())
+                div id="notices" {}
+                main {
+                    (stage())
+                    (side())
+                }
+                dialog id="shelf" aria-labelledby="shelf-head" {}
+                dialog id="help" aria-labelledby="help-head" {}
+                p id="said" class="unseen" role="status" aria-live="polite" {}
+                noscript { p { "The studio is a page of scripts; they are its own, and come from this machine alone." } }
+            }
+        }
+    };
+    markup.into_string()
+}
+
+/// The head of the page: the file and what is done with it.
+fn bar() -> Markup {
+    let button = |id: &str, words: &str, tip: &str| html! { button type="button" id=(id) title=(tip) { (words) } };
+    html! {
+        header id="bar" {
+            h1 id="name" { "ozols studio" }
+            span id="file" {}
+            div role="toolbar" aria-label="File" id="file-tools" {
+                (button("new", "New", "Start from something else (N)"))
+                (button("undo", "Undo", "Undo (Ctrl+Z)"))
+                (button("redo", "Redo", "Redo (Ctrl+Y)"))
+                (button("save", "Save", "Save the file (Ctrl+S)"))
+                label { span.unseen { "Export as" } select id="export" { option value="" { "Export" } } }
+                (button("show-help", "Keys", "All keys (?)"))
+            }
+        }
+    }
+}
+
+fn stage() -> Markup {
+    html! {
+        section id="stage" aria-label="Drawing" {
+            div id="tools" role="toolbar" aria-label="Tools" aria-orientation="vertical" {}
+            div id="sheet-room" {
+                div id="views" role="toolbar" aria-label="View" {}
+                div id="sheet" class="turn" tabindex="0" role="application" aria-roledescription="drawing"
+                    aria-label="The mechanism; tools have letters, arrow keys move what is selected or the cross, Enter sets it, question mark lists all keys" {}
+                div id="hint" {}
+                ul id="beside" aria-label="Problems at things of the drawing" {}
+            }
+            (player())
+        }
+    }
+}
+
+/// What moves the drawing: the same parts as in the report.
+fn player() -> Markup {
+    html! {
+        div.player id="player" role="group" aria-label="Motion" {
+            button type="button" data-part="play" { "Play" }
+            input type="range" data-part="range" min="0" max="0" step="1" value="0" aria-label="Position";
+            label.check data-part="again" { input type="checkbox" data-part="loop" checked; " again and again" }
+            button type="button" data-part="home" { "Back to the file's pose" }
+            button type="button" data-part="trace" aria-pressed="false" title="Then click a link: the way of that point is drawn" { "Trace" }
+            button type="button" data-part="untrace" hidden { "No traces" }
+            label.shown { "Shown " select data-part="shown" {} }
+            span.unseen role="status" data-part="say" {}
+        }
+    }
+}
+
+fn side() -> Markup {
+    html! {
+        div id="side" {
+            section id="thing" aria-label="What is selected" hidden {}
+            section id="verdict" aria-label="Verdict" {
+                div id="states" role="tablist" aria-label="States" {}
+                div id="verdict-panel" role="tabpanel" tabindex="0" aria-label="Verdict" {}
+            }
+            section id="ideas" aria-label="Ideas" {}
+            section id="force" aria-label="Forces" hidden {}
+            section id="text-room" aria-label="The file as text" {
+                div id="problems" {}
+                details id="text-fold" {
+                    summary { "The file" }
+                    label { span.unseen { "Text of the file" } textarea id="text" spellcheck="false" autocomplete="off" wrap="off" rows="24" {} }
+                }
+            }
+        }
+    }
+}

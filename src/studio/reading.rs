@@ -1,0 +1,246 @@
+//! What is made of a text: the mechanism, its entries and places, and every problem beside the thing that it concerns.
+
+use super::disk::Kind;
+use crate::api;
+use crate::file::edit::Thing;
+use crate::file::lint::check;
+use crate::file::locate::{Document, DocumentStep};
+use crate::file::loose;
+use crate::file::problem::{ImportError, ProblemKind};
+use crate::file::read::build;
+use crate::file::schema::MechanismFile;
+use crate::file::text::{read, text_of};
+use crate::file::write::mechanism_file;
+use crate::geom::vector::real;
+use crate::model::mechanism::Mechanism;
+use crate::robots::{Imported, Options};
+use serde_json::{Value, json};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What is made of a text.
+#[derive(Debug, Default)]
+pub(super) struct DeskReading {
+    /// What can be analysed: all of it, or what hangs on the frame.
+    pub(super) mechanism: Option<Arc<Mechanism>>,
+    /// Whether that is less than what is written.
+    pub(super) partly: bool,
+    /// The entries, as far as the text is one of a mechanism.
+    pub(super) file: Option<MechanismFile>,
+    /// Where joints and points of interest are.
+    places: [Vec<Option<[f64; 3]>>; 2],
+    /// What is wrong or doubtful.
+    told: Vec<Value>,
+    /// The lines of each item.
+    items: Vec<Value>,
+    /// Options that a joint has outgrown: joint and option.
+    pub(super) outgrown: Vec<(String, String)>,
+    /// The description, where it is one.
+    pub(super) imported: Option<Box<Imported>>,
+}
+
+impl DeskReading {
+    /// Reads a text of a file.
+    pub(super) fn new(path: &Path, kind: Kind, bytes: &[u8]) -> DeskReading {
+        if kind == Kind::Description {
+            return DeskReading::description(path, bytes);
+        }
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let mut out = DeskReading::default();
+        let text = match text_of(&name, bytes) {
+            Ok(text) => text,
+            Err(e) => {
+                out.wrong(&e, &Items::default());
+                return out;
+            }
+        };
+        let items = Items::new(text, kind == Kind::Json);
+        let (mut file, mut part) = (None, None);
+        let made = read(&name, text, |f| {
+            file = Some(f.clone());
+            build(f)
+        });
+        match made {
+            Ok(mechanism) => {
+                let joints = mechanism.joints.iter();
+                let joints = joints.map(|j| Some(real(&j.frame.point))).collect();
+                let points = mechanism.points.iter();
+                out.places = [joints, points.map(|p| Some(real(&p.point))).collect()];
+                if let Ok(checked) = check(&name, bytes) {
+                    for w in &checked.warnings.warnings {
+                        out.tell(text, w.span.clone(), &w.kind.to_string(), &items, false);
+                    }
+                }
+                out.mechanism = Some(Arc::new(mechanism));
+            }
+            Err(e) => {
+                out.wrong(&e, &items);
+                if let Some(f) = &file {
+                    out.places = loose::places(f);
+                    part = loose::connected(f).and_then(|f| build(&f).ok());
+                }
+            }
+        }
+        if let Some(mechanism) = part {
+            (out.mechanism, out.partly) = (Some(Arc::new(mechanism)), true);
+        }
+        out.items = items.told(text);
+        out.file = file;
+        out
+    }
+
+    fn description(path: &Path, bytes: &[u8]) -> DeskReading {
+        let mut out = DeskReading::default();
+        match api::description_of(path, bytes, &Options::default()) {
+            Ok(imported) => {
+                let m = &imported.mechanism;
+                let joints = m.joints.iter();
+                out.places = [
+                    joints.map(|j| Some(real(&j.frame.point))).collect(),
+                    m.points.iter().map(|p| Some(real(&p.point))).collect(),
+                ];
+                out.file = Some(mechanism_file(m));
+                let doubts = imported.report.doubts();
+                for line in doubts.lines().filter(|l| !l.trim().is_empty()) {
+                    out.tell("", None, line.trim(), &Items::default(), false);
+                }
+                out.mechanism = Some(Arc::new(m.clone()));
+                out.imported = Some(Box::new(imported));
+            }
+            Err(api::Error::File(e)) => out.wrong(&e, &Items::default()),
+            Err(e) => out.tell("", None, &e.to_string(), &Items::default(), true),
+        }
+        out
+    }
+
+    fn wrong(&mut self, e: &ImportError, items: &Items) {
+        for p in &e.problems {
+            if let ProblemKind::LosesMotion { joint, option, .. } = &p.kind {
+                self.outgrown.push((joint.clone(), option.clone()));
+            }
+            self.tell(&e.text, p.span.clone(), &p.kind.to_string(), items, true);
+        }
+    }
+
+    fn tell(
+        &mut self,
+        text: &str,
+        span: Option<Range<usize>>,
+        words: &str,
+        items: &Items,
+        grave: bool,
+    ) {
+        // What follows a semicolon is the remedy, as in the terminal.
+        let (words, remedy) = match words.split_once("; ") {
+            Some((words, remedy)) => (words, Some(remedy)),
+            None => (words, None),
+        };
+        let line = span.as_ref().map(|s| line_of(text, s.start));
+        let about = span.and_then(|s| items.at(s.start));
+        let about = about.map(|(what, n)| json!([what.word(), n]));
+        self.told.push(json!({
+            "words": words, "remedy": remedy, "line": line, "about": about, "grave": grave,
+        }));
+    }
+
+    /// All of it for the page.
+    pub(super) fn json(&self) -> Value {
+        json!({
+            "file": self.file.as_ref().map(MechanismFile::json),
+            "places": { "joint": self.places[0], "point": self.places[1] },
+            "items": self.items,
+            "told": self.told,
+            "partly": self.partly,
+            "whole": self.mechanism.is_some() && !self.partly,
+        })
+    }
+}
+
+/// The line of a byte, from 1.
+fn line_of(text: &str, at: usize) -> usize {
+    let before = text.get(..at).unwrap_or(text);
+    before.matches('\n').count() + 1
+}
+
+/// Where the items of a text are, in its order.
+#[derive(Debug, Default)]
+struct Items(Vec<(Thing, usize, Range<usize>)>);
+
+impl Items {
+    fn new(text: &str, json: bool) -> Items {
+        let Some(document) = Document::new(text, json) else {
+            return Items::default();
+        };
+        let mut out = Vec::new();
+        for what in [Thing::Link, Thing::Joint, Thing::Point] {
+            let list = [DocumentStep::Key(what.word().to_owned())];
+            for n in 0.. {
+                let path = [list[0].clone(), DocumentStep::Index(n)];
+                // The span of a list stands for that of an item that is not there.
+                let Some(span) = document
+                    .span(&path)
+                    .filter(|s| out.iter().all(|(_, _, r)| r != s))
+                    .filter(|s| document.span(&list).as_ref() != Some(s) || n == 0)
+                else {
+                    break;
+                };
+                out.push((what, n, span));
+            }
+        }
+        out.sort_by_key(|(_, _, span)| span.start);
+        if !json {
+            // The span of a table is that of its head: it goes on to the next.
+            for (_, _, span) in &mut out {
+                let rest = text.get(span.end..).unwrap_or_default();
+                let next = rest.find("\n[").map_or(text.len(), |n| span.end + n);
+                span.end = next.max(span.end);
+            }
+        }
+        Items(out)
+    }
+
+    /// The item that a byte is in.
+    fn at(&self, byte: usize) -> Option<(Thing, usize)> {
+        let found = self.0.iter().rfind(|(_, _, s)| s.contains(&byte));
+        found.map(|&(what, n, _)| (what, n))
+    }
+
+    fn told(&self, text: &str) -> Vec<Value> {
+        let line = |at| line_of(text, at);
+        let one = |(what, n, s): &(Thing, usize, Range<usize>)| {
+            json!([what.word(), n, line(s.start), line(s.end)])
+        };
+        self.0.iter().map(one).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_problem_stands_beside_its_item() {
+        let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[joint]]\nid = \"a\"\n\
+                    links = [\"0\", \"1\"]\ntype = \"revolut\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n";
+        let read = DeskReading::new(Path::new("x.toml"), Kind::Toml, text.as_bytes());
+        assert!(read.mechanism.is_none());
+        let told = &read.json()["told"][0];
+        assert_eq!(told["about"], json!(["joint", 0]), "{told}");
+        assert_eq!(told["line"], 10);
+        assert_eq!(read.json()["items"].as_array().map(Vec::len), Some(3));
+    }
+
+    #[test]
+    fn what_hangs_on_the_frame_is_told_of() {
+        let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[link]]\nid = \"2\"\n[[joint]]\nid = \"a\"\n\
+                    links = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n[[point]]\nid = \"p\"\nlink = \"2\"\npoint = [1, \"sqrt(2)\", 0]\n";
+        let read = DeskReading::new(Path::new("x.toml"), Kind::Toml, text.as_bytes());
+        assert!(read.partly && read.mechanism.is_some());
+        let y = &read.json()["places"]["point"][0][1];
+        assert!(
+            (y.as_f64().unwrap_or_default() - 2_f64.sqrt()).abs() < 1e-12,
+            "{y}"
+        );
+    }
+}

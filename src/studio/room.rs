@@ -1,0 +1,184 @@
+//! What the windows, the worker and the requests share.
+
+use super::desk::{Desk, Refused};
+use super::disk::Opening;
+use super::windows::{Windows, event};
+use crate::score::outcome::Outcome;
+use crate::score::request::Request;
+use serde_json::{Value, json};
+use std::io;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+/// What was told of the newest text, for windows that come later.
+#[derive(Debug, Default)]
+struct Told {
+    revision: u64,
+    events: Vec<(&'static str, Arc<str>)>,
+}
+
+/// The room.
+#[derive(Debug)]
+pub(super) struct Room {
+    desk: Mutex<Desk>,
+    /// Another text is on the desk, or the room is closed.
+    news: Condvar,
+    /// The newest revision, for a search to see whether it is still of use.
+    pub(super) newest: AtomicU64,
+    pub(super) windows: Windows,
+    told: Mutex<Told>,
+    /// The last search that was finished, and the revision it is of.
+    found: Mutex<Option<(u64, Arc<Outcome>)>>,
+    pub(super) request: Request,
+    ended: AtomicBool,
+    /// Searches that were begun and ended, for who wants to know that no two are at work.
+    pub(super) searches: [AtomicU64; 2],
+}
+
+fn locked<T>(m: &Mutex<T>) -> MutexGuard<'_, T> {
+    m.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Room {
+    pub(super) fn new(opening: Opening, request: Request) -> io::Result<Room> {
+        let desk = Desk::new(&opening)?;
+        Ok(Room {
+            newest: AtomicU64::new(desk.revision),
+            desk: Mutex::new(desk),
+            news: Condvar::new(),
+            windows: Windows::default(),
+            told: Mutex::default(),
+            found: Mutex::default(),
+            request,
+            ended: AtomicBool::new(false),
+            searches: Default::default(),
+        })
+    }
+
+    /// Looks at the desk.
+    pub(super) fn desk(&self) -> MutexGuard<'_, Desk> {
+        locked(&self.desk)
+    }
+
+    /// Does something at the desk and tells all windows what became of it.
+    pub(super) fn at_desk(
+        &self,
+        act: impl FnOnce(&mut Desk) -> Result<(), Refused>,
+    ) -> Result<Value, Refused> {
+        let done = act(&mut self.desk());
+        let told = self.tell_of_desk();
+        done.map(|()| told)
+    }
+
+    /// Whether another program has written to the file.
+    pub(super) fn look_at_disk(&self) {
+        // One that cannot be read now may be readable in a moment.
+        let new = self.desk().look_at_disk().unwrap_or(false);
+        if new {
+            self.tell_of_desk();
+        }
+    }
+
+    /// Tells all windows what is on the desk now.
+    fn tell_of_desk(&self) -> Value {
+        let desk = self.desk();
+        let (revision, state) = (desk.revision, desk.state());
+        if self.newest.swap(revision, Ordering::SeqCst) == revision {
+            self.windows.tell(&event("desk", &state));
+            return json!({ "desk": state, "revision": revision });
+        }
+        let look = desk.json();
+        self.windows.tell(&event("look", &look));
+        self.news.notify_all();
+        look
+    }
+
+    /// Waits for a text that is newer than a revision; none where the room is closed.
+    pub(super) fn wait(&self, done: u64) -> Option<u64> {
+        let mut desk = self.desk();
+        loop {
+            if self.ended() {
+                return None;
+            }
+            if desk.revision != done {
+                return Some(desk.revision);
+            }
+            desk = self.news.wait(desk).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Whether a revision is of no use any more.
+    pub(super) fn is_old(&self, revision: u64) -> bool {
+        self.ended() || self.newest.load(Ordering::SeqCst) != revision
+    }
+
+    /// Tells all windows, those too that come later, what was found of a revision.
+    pub(super) fn tell(&self, revision: u64, name: &'static str, value: &Value) {
+        let made = event(name, value);
+        let mut told = locked(&self.told);
+        if self.is_old(revision) {
+            return;
+        }
+        if told.revision != revision {
+            *told = Told {
+                revision,
+                events: Vec::new(),
+            };
+        }
+        told.events.retain(|(n, _)| *n != name);
+        told.events.push((name, made.clone()));
+        self.windows.tell(&made);
+    }
+
+    /// All that a window has to know when it opens.
+    pub(super) fn now(&self) -> Vec<Arc<str>> {
+        let look = self.desk().json();
+        let told = locked(&self.told);
+        let newest = look["revision"].as_u64() == Some(told.revision);
+        let known = told.events.iter().filter(|_| newest);
+        std::iter::once(event("look", &look))
+            .chain(known.map(|(_, e)| e.clone()))
+            .collect()
+    }
+
+    /// Keeps what a search found.
+    pub(super) fn keep(&self, revision: u64, outcome: Arc<Outcome>) {
+        *locked(&self.found) = Some((revision, outcome));
+    }
+
+    /// What was found for a revision.
+    pub(super) fn found(&self, revision: u64) -> Option<Arc<Outcome>> {
+        let found = locked(&self.found);
+        let found = found.as_ref().filter(|(r, _)| *r == revision);
+        found.map(|(_, o)| o.clone())
+    }
+
+    pub(super) fn ended(&self) -> bool {
+        self.ended.load(Ordering::SeqCst)
+    }
+
+    /// Closes it.
+    pub(super) fn end(&self) {
+        self.ended.store(true, Ordering::SeqCst);
+        // The worker may be about to wait.
+        drop(self.desk());
+        self.news.notify_all();
+    }
+
+    /// Where unsaved work is kept, if there is any.
+    pub(super) fn unsaved(&self) -> Option<PathBuf> {
+        self.desk().unsaved()
+    }
+
+    /// Numbers for tests, and for who wonders.
+    pub(super) fn status(&self) -> Value {
+        let [begun, ended] = self.searches.each_ref().map(|n| n.load(Ordering::SeqCst));
+        json!({
+            "windows": self.windows.count(),
+            "revision": self.desk().revision,
+            "desk": self.desk().state(),
+            "searches": { "begun": begun, "ended": ended },
+        })
+    }
+}

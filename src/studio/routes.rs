@@ -1,0 +1,229 @@
+//! Which address does what.
+
+use super::desk::Refused;
+use super::disk::Opening;
+use super::http::{Asked, Reply};
+use super::idea::{self, Taken};
+use super::room::Room;
+use super::{palette, paper, shelf, work};
+use crate::api::export;
+use crate::draw::{Subject, kinematic, scheme};
+use crate::file::edit::Edit;
+use crate::model::mechanism::StateId;
+use crate::robots::formats;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+/// What is sent: a change, and what it is made of.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Changes {
+    edits: Vec<Edit>,
+    revision: Option<u64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Saving {
+    name: Option<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Named {
+    name: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Idea {
+    idea: usize,
+    revision: u64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Yes {
+    yes: bool,
+}
+
+/// Answers a request that was let in, by the rest of its path.
+pub(super) fn answer(asked: &Asked, path: &str, room: &Room) -> Reply {
+    match asked.method.as_str() {
+        "GET" => get(path, room),
+        "POST" => match post(asked, path, room) {
+            Ok(value) => Reply::json(&value),
+            Err(Refused::Conflict(why)) => Reply::refusal(409, &why),
+            Err(why) => Reply::refusal(422, &why.to_string()),
+        },
+        _ => Reply::refusal(405, "only GET and POST are answered"),
+    }
+}
+
+fn nothing_here() -> Reply {
+    Reply::refusal(404, "there is nothing at this address")
+}
+
+fn get(path: &str, room: &Room) -> Reply {
+    match path {
+        "" => Reply::new("text/html; charset=utf-8", paper::html()),
+        "studio.js" => Reply::new("text/javascript; charset=utf-8", paper::script()),
+        "studio.css" => Reply::new("text/css; charset=utf-8", paper::style()),
+        "icon.svg" => Reply::new("image/svg+xml", paper::ICON),
+        "palette" => Reply::json(&palette::json()),
+        "shelf" => Reply::json(&shelf::list()),
+        "status" => Reply::json(&room.status()),
+        _ => match path.split_once('/') {
+            Some(("picture", name)) => {
+                let picture = name.strip_suffix(".svg").and_then(shelf::picture);
+                picture.map_or_else(nothing_here, |svg| Reply::new("image/svg+xml", svg))
+            }
+            Some(("export", format)) => exported(format, room),
+            _ => nothing_here(),
+        },
+    }
+}
+
+/// The mechanism in another format, to be saved by the browser.
+fn exported(format: &str, room: &Room) -> Reply {
+    let (reading, name) = {
+        let desk = room.desk();
+        (desk.reading.clone(), desk.state()["name"].clone())
+    };
+    let Some(m) = reading.mechanism.clone().filter(|_| !reading.partly) else {
+        return Reply::refusal(
+            422,
+            "what is not whole yet cannot be exported; see what is missing",
+        );
+    };
+    let subject = || Subject {
+        mechanism: &m,
+        state: StateId::FREE,
+        analysis: None,
+        marks: None,
+    };
+    let (ending, made) = match format {
+        "kinematic.svg" => ("svg", Ok(kinematic(&subject()).svg)),
+        "scheme.svg" => match work::states(&m) {
+            Ok(found) => {
+                let analysis = found.first();
+                (
+                    "svg",
+                    Ok(scheme(&Subject {
+                        analysis,
+                        ..subject()
+                    })
+                    .svg),
+                )
+            }
+            Err(why) => return Reply::refusal(422, &why),
+        },
+        word if formats::written().any(|f| f.word == word) => (word, export(&m, word)),
+        _ => return nothing_here(),
+    };
+    match made {
+        Err(why) => Reply::refusal(422, &why.to_string()),
+        Ok(text) => {
+            let name = name.as_str().unwrap_or_default();
+            let stem = name.split('.').next().unwrap_or_default();
+            let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+            let stem: String = stem.chars().map(plain).collect();
+            Reply {
+                saved_as: Some(format!("{stem}.{ending}")),
+                ..Reply::new("application/octet-stream", text)
+            }
+        }
+    }
+}
+
+fn read<'a, T: Deserialize<'a>>(asked: &'a Asked) -> Result<T, Refused> {
+    serde_json::from_slice(&asked.body)
+        .map_err(|e| Refused::Words(format!("what was sent is not understood: {e}")))
+}
+
+fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
+    match path {
+        "edit" => {
+            let Changes { edits, revision } = read(asked)?;
+            let done = room.at_desk(|desk| desk.edit(&edits, revision));
+            if let Err(Refused::Conflict(_)) = &done {
+                // Whoever was too late gets what there is now.
+                room.windows
+                    .tell(&super::windows::event("look", &room.desk().json()));
+            }
+            done
+        }
+        "draft" => {
+            let Changes { edits, .. } = read(asked)?;
+            let (_, reading) = room.desk().draft(&edits)?;
+            let mut out = reading.json();
+            if let Some(m) = &reading.mechanism
+                && let Ok(found) = work::states(m)
+            {
+                out["verdict"] = work::judged(m, &found, 0);
+            }
+            Ok(out)
+        }
+        "undo" | "redo" => room.at_desk(|desk| {
+            desk.step(path == "redo");
+            Ok(())
+        }),
+        "save" => {
+            let Saving { name } = read(asked)?;
+            room.at_desk(|desk| desk.save(name.as_deref()))
+        }
+        "begin" => {
+            let Named { name } = read(asked)?;
+            room.at_desk(|desk| {
+                let opening = shelf::opening(&name, desk.folder());
+                let none = || Refused::Words(format!("there is no {name} to start from"));
+                let opening: Opening = opening.ok_or_else(none)?;
+                desk.begin(&opening)
+            })
+        }
+        "take" => take(&read(asked)?, room),
+        "settle" => {
+            let Yes { yes } = read(asked)?;
+            room.at_desk(|desk| {
+                desk.settle(yes);
+                Ok(())
+            })
+        }
+        "restore" => {
+            let Yes { yes } = read(asked)?;
+            room.at_desk(|desk| {
+                desk.restore(yes);
+                Ok(())
+            })
+        }
+        _ => Err(Refused::Words(
+            "there is nothing at this address".to_owned(),
+        )),
+    }
+}
+
+fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
+    let old = || {
+        Refused::Conflict(
+            "the mechanism was changed after these ideas; they are searched anew".to_owned(),
+        )
+    };
+    let found = room.found(asked.revision).ok_or_else(old)?;
+    let reading = {
+        let desk = room.desk();
+        if desk.revision != asked.revision {
+            return Err(old());
+        }
+        desk.reading.clone()
+    };
+    let taken = idea::take(&reading, &found, asked.idea)?;
+    let mut told = room.at_desk(|desk| match taken {
+        Taken::Edits(edits) => desk.edit(&edits, None),
+        Taken::Fixed(bytes) => {
+            desk.replace(bytes);
+            Ok(())
+        }
+    })?;
+    told["taken"] = json!(asked.idea);
+    Ok(told)
+}

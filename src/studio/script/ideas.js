@@ -1,0 +1,58 @@
+// What to change: counts, and the ten best ideas; one under the pointer is marked on the drawing, a click takes it.
+
+/** 25,761,436 for what outgrows a number. */
+const inThrees = (digits) => String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ",");
+
+/** The changes in a line, joints with the same change together. */
+function changesInWords(changes) {
+  const by = new Map();
+  for (const c of changes) by.set(c.to, [...(by.get(c.to) ?? []), c.joint]);
+  return [...by].map(([to, joints]) => `${joints.join(", ")} → ${to}`).join("; ") || "nothing to change";
+}
+
+async function takeIdea(n) {
+  const { revision } = desk.ideas;
+  const idea = desk.ideas.found.variants[n];
+  pointedAt.idea = null;
+  const done = await inTurn("take", { idea: idea.position, revision });
+  if (done) say(`Idea ${idea.position} is taken: ${changesInWords(idea.changes)}. Undo brings back what was.`);
+}
+
+function ideaRow(v, n) {
+  const stands = v.idea ? `stands for ${v.idea.exact ? "" : "at least "}${inThrees(v.idea.variants)}` : "";
+  const figures = `cost ${v.cost} · W = ${v.mobility} · σ = ${v.redundant}${stands ? ` · ${stands}` : ""}`;
+  const none = v.changes.length === 0;
+  const row = element("button", { type: "button", class: "idea", disabled: none ? "" : null, title: none ? null : "Take this idea: the file is changed, undo brings it back" },
+    element("span", { class: "idea-words" }, changesInWords(v.changes)), element("small", {}, figures));
+  return element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
+}
+
+/** Forces over the stroke, where the file states loads. */
+function showForce() {
+  const room = byId("force");
+  const chart = desk.force?.charts[desk.state];
+  room.hidden = !chart;
+  if (!chart) return;
+  const picture = chart.svg ? element("img", { class: "chart", alt: "Forces over the stroke", src: `data:image/svg+xml,${encodeURIComponent(chart.svg)}` }) : null;
+  room.replaceChildren(element("h2", {}, "Forces over the stroke"), picture ?? element("p", { class: "help" }, `There are none: ${chart.why ?? "no position has an equilibrium"}.`));
+}
+
+function showIdeas() {
+  const room = byId("ideas");
+  pointedAt.idea = null;
+  const head = element("h2", {}, "Ideas");
+  const value = desk.ideas;
+  const part = (...inside) => room.replaceChildren(head, ...inside);
+  if (!desk.verdict?.analysis) return room.replaceChildren();
+  if (!value) {
+    const p = desk.progress;
+    return part(element("p", { class: "help", role: "status" }, p ? `Searching: joint ${p.done} of ${p.of}, ${inThrees(p.nodes)} nodes …` : "Searching …"));
+  }
+  if (value.why) return part(element("p", { class: "help" }, `Redesigns were not searched: ${value.why}.`));
+  const { found, notes } = value;
+  if (found.space === "1") return part(element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: list options under [search] in the file."));
+  const counts = `${found.exact ? "" : "at least "}${inThrees(found.admissible)} of ${inThrees(found.space)} variants have σ = 0 and keep the output motion.`;
+  const all = found.variants.map(ideaRow);
+  const none = found.variants.length ? null : element("p", { class: "help" }, (found.relaxations ?? []).length ? `None; easier conditions have some: ${found.relaxations.map((r) => `${r.condition} ${r.to} (${inThrees(r.admissible)})`).join(", ")}.` : "None with these options: give the joints more.");
+  return part(element("p", { class: "counts" }, counts), ...[none].filter(Boolean), element("ol", { class: "idea-list" }, ...all), ...(notes ?? []).map((n) => element("p", { class: "help" }, n)));
+}

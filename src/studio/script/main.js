@@ -1,0 +1,140 @@
+// Starts the page, and keeps its parts in step.
+
+/** Saves; a file that is not there yet is asked a name for. */
+function save() {
+  const { name, there, kind } = desk.file;
+  if (there || kind !== "toml") return inTurn("save", { name: null }).then((done) => done && say("Saved."));
+  return askName(name);
+}
+
+function askName(name) {
+  const input = element("input", { type: "text", value: name, "aria-label": "Name of the file", size: 24 });
+  const send = () => inTurn("save", { name: input.value.trim() }).then((done) => {
+    if (!done) return;
+    notice("name", null);
+    say("Saved.");
+  });
+  input.addEventListener("keydown", (event) => event.key === "Enter" && send());
+  notice("name", "Save as", ["Save", send], ["Not now", () => notice("name", null)]);
+  byId("notice-name").firstElementChild.after(input);
+  input.focus();
+  input.setSelectionRange(0, name.lastIndexOf("."));
+}
+
+/** How things stand with the file: its name, what is unsaved, what others did to it. */
+function showFile(file) {
+  byId("name").textContent = desk.look?.file?.name ?? file.name;
+  document.title = `${file.saved ? "" : "• "}${desk.look?.file?.name ?? file.name} – ozols studio`;
+  const state = file.saved ? "saved" : file.there ? "not saved" : "not saved yet";
+  byId("file").textContent = `${file.name} · ${state}`;
+  byId("undo").disabled = !file.undo;
+  byId("redo").disabled = !file.redo;
+  byId("save").disabled = file.saved;
+  const settle = (yes) => () => inTurn("settle", { yes });
+  notice("conflict", file.conflict ? "Another program has written to the file while you changed it here. Whichever you keep, the other stays one step of undo away." : null,
+    ["Keep mine", settle(true)], ["Take theirs", settle(false)]);
+  const restore = (yes) => () => inTurn("restore", { yes });
+  notice("left", file.left ? `Work on this file was left unsaved when a studio ended (${file.left}).` : null, ["Take it up", restore(true)], ["Throw it away", restore(false)]);
+  notice("trouble", file.trouble);
+}
+
+const EXPORTS = [["toml", "mechanism file (TOML)"], ["json", "mechanism file (JSON)"], ["kinematic.svg", "drawing (SVG)"], ["scheme.svg", "structural scheme (SVG)"], ["urdf", "URDF"], ["mjcf", "MJCF"], ["sdf", "SDF"], ["dot", "graph (DOT)"]];
+
+/** Hands a file of another format to the browser. */
+async function exportAs(format) {
+  const answer = await fetch(`export/${format}`);
+  if (!answer.ok) return say((await answer.json()).refused, true);
+  const name = /filename="([^"]*)"/.exec(answer.headers.get("content-disposition") ?? "")?.[1] ?? "mechanism";
+  const link = element("a", { download: name, href: URL.createObjectURL(await answer.blob()) });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  return say(`${name} is with the browser's downloads.`);
+}
+
+const VIEWS = [["xy", "z", () => lookAt("xy")], ["xz", "y", () => lookAt("xz")], ["yz", "x", () => lookAt("yz")], ["space", "a", lookAslant]];
+
+function tellViews() {
+  for (const b of document.querySelectorAll("#views [data-plane]")) b.setAttribute("aria-pressed", b.dataset.plane === (camera.plane ?? "space"));
+}
+
+function makeViews() {
+  const room = byId("views");
+  for (const [plane, key, act] of VIEWS) {
+    const one = button(plane === "space" ? "Space" : plane, act, plane === "space" ? "Aslant, to be turned (A)" : `Seen along ${key} (${key.toUpperCase()})`);
+    one.dataset.plane = plane;
+    room.append(one);
+  }
+  room.append(button("All", fitAll, "All of it in sight (F)"));
+  const bodies = button("Bodies", () => {
+    camera.bodies = !camera.bodies && canShade();
+    bodies.setAttribute("aria-pressed", camera.bodies);
+    byId("sheet").classList.toggle("solid", camera.bodies);
+    if (camera.bodies && camera.plane) lookAslant();
+    takeScene();
+  }, "Links as solids");
+  bodies.setAttribute("aria-pressed", "false");
+  room.append(bodies);
+  tellViews();
+}
+
+function listenToButtons() {
+  byId("new").addEventListener("click", openShelf);
+  byId("undo").addEventListener("click", () => undo("undo"));
+  byId("redo").addEventListener("click", () => undo("redo"));
+  byId("save").addEventListener("click", () => save());
+  byId("show-help").addEventListener("click", openHelp);
+  const box = byId("export");
+  box.append(...EXPORTS.map(([format, words]) => element("option", { value: format }, words)));
+  box.addEventListener("change", () => {
+    if (box.value) exportAs(box.value);
+    box.value = "";
+  });
+}
+
+async function begin() {
+  makeSheet();
+  makeViews();
+  listenToPointer();
+  listenToKeys();
+  listenToButtons();
+  listenToText();
+  listenToPlayer();
+  hear("file", showFile);
+  hear("look", () => {
+    select(selection);
+    showFile(desk.file);
+    showText();
+    showIdeas();
+    tellTool();
+    // an empty sheet stays as it is while something is put on it
+    takeScene.seen ||= listOf("joint").length === 0;
+    if (!desk.look.whole && !desk.look.partly) {
+      desk.verdict = null;
+      takeScene();
+      showVerdict();
+    } else redraw();
+  });
+  hear("verdict", () => {
+    if (!hand.act) endPreview();
+    showVerdict();
+    showIdeas();
+  });
+  hear("motion", () => {
+    if (!hand.act && player.pulled === null) takeScene();
+    showVerdict();
+  });
+  hear("draft", showVerdict);
+  hear("progress", showIdeas);
+  hear("ideas", showIdeas);
+  for (const name of ["force", "look", "state"]) hear(name, showForce);
+  hear("selection", () => {
+    inspect();
+    followSelection();
+    redraw();
+  });
+  await makeTools();
+  tellTool();
+  listenToServer();
+}
+
+begin();

@@ -1,0 +1,32 @@
+// What to start from: an empty sheet, a four-bar, a gripper, and all built-in mechanisms as pictures.
+
+function card({ name, what }) {
+  const picture = element("img", { src: `picture/${encodeURIComponent(name)}.svg`, alt: "", loading: "lazy", width: 150, height: 110 });
+  const made = element("button", { type: "button", class: "card" }, picture, element("b", {}, name), element("small", {}, what ?? ""));
+  made.addEventListener("click", async () => {
+    byId("shelf").close();
+    const done = await inTurn("begin", { name });
+    if (!done) return;
+    select([]);
+    takeScene.seen = false;
+  });
+  return made;
+}
+
+async function openShelf() {
+  const dialog = byId("shelf");
+  if (!dialog.childElementCount) {
+    const families = await (await fetch("shelf")).json();
+    const find = element("input", { type: "search", placeholder: "Find", "aria-label": "Find a mechanism", autocomplete: "off" });
+    const rooms = families.map(({ family, all }) => element("section", {}, element("h3", {}, family), element("div", { class: "cards" }, ...all.map(card))));
+    find.addEventListener("input", () => {
+      for (const room of rooms) {
+        for (const one of room.querySelectorAll(".card")) one.hidden = !one.textContent.toLowerCase().includes(find.value.toLowerCase());
+        room.hidden = !room.querySelector(".card:not([hidden])");
+      }
+    });
+    const close = button("Close", () => dialog.close());
+    dialog.append(element("div", { class: "dialog-head" }, element("h2", { id: "shelf-head" }, "Start from"), find, close), ...rooms);
+  }
+  dialog.showModal();
+}

@@ -1,0 +1,170 @@
+//! The work at the newest text: the verdict, the motion, the search. One thread does it; what another text makes useless ends.
+
+use super::force;
+use super::idea;
+use super::room::Room;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::page::scenes::{moving_scene, still_scene};
+use crate::page::verdict;
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::score::outcome::Outcome;
+use crate::score::request::{List, Request};
+use crate::score::run::{Event, run};
+use crate::view::analysis::Analysis;
+use crate::view::contract::FORMAT;
+use crate::view::search::json;
+use serde_json::{Value, json};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// Ideas that are given.
+const IDEAS: usize = 10;
+
+/// Works until the room is closed.
+pub(super) fn work(room: &Room) {
+    let mut done = 0;
+    while let Some(revision) = room.wait(done) {
+        done = revision;
+        let reading = room.desk().reading.clone();
+        let Some(m) = reading.mechanism.clone() else {
+            room.tell(revision, "verdict", &nothing(revision));
+            continue;
+        };
+        // A flaw in the engine is no reason to lose the window.
+        let tried = catch_unwind(AssertUnwindSafe(|| look(room, revision, &m)));
+        if tried.is_err() {
+            let words = "the engine failed at this mechanism; please report it with the file. The text is not touched by that.";
+            room.tell(
+                revision,
+                "trouble",
+                &json!({ "revision": revision, "words": words }),
+            );
+        }
+    }
+}
+
+/// Where there is nothing to judge.
+fn nothing(revision: u64) -> Value {
+    json!({ "revision": revision, "analysis": null, "words": [], "scenes": [] })
+}
+
+fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
+    let states = match states(m) {
+        Ok(states) => states,
+        Err(why) => {
+            let mut told = nothing(revision);
+            told["why"] = why.into();
+            return room.tell(revision, "verdict", &told);
+        }
+    };
+    room.tell(revision, "verdict", &judged(m, &states, revision));
+    let mut moving = Vec::new();
+    for (found, state) in states.iter().zip(m.state_ids()) {
+        if room.is_old(revision) {
+            return;
+        }
+        let of = found.meant.as_deref().unwrap_or(m);
+        let made = moving_scene(of, (found, state), &[], true);
+        moving.push(made.map(|(_, scene)| scene));
+    }
+    room.tell(
+        revision,
+        "motion",
+        &json!({ "revision": revision, "scenes": moving }),
+    );
+    search(room, revision, m, &states);
+    if !room.is_old(revision) {
+        let charts = force::charts(m);
+        room.tell(
+            revision,
+            "force",
+            &json!({ "revision": revision, "charts": charts }),
+        );
+    }
+}
+
+/// Each state analysed; why not, in words, where it cannot be.
+pub(super) fn states(m: &Mechanism) -> Result<Vec<StateAnalysis>, String> {
+    let all: Vec<StateId> = m.state_ids().collect();
+    analyse(m, &all, Method::Auto { tolerance: None }).map_err(|e| e.to_string())
+}
+
+/// The verdict as the page shows it: the analysis that `ozols analyze --format json` gives, the words of the report, and the
+/// mechanism at rest.
+pub(super) fn judged(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> Value {
+    let analysis = Analysis::new(m, states, &[]);
+    let words = |s| json!({ "head": verdict::head(s), "text": verdict::state(s).join(" ") });
+    let words: Vec<Value> = analysis.states.iter().map(words).collect();
+    let scenes = states.iter().zip(m.state_ids()).map(|(found, state)| {
+        let of = found.meant.as_deref().unwrap_or(m);
+        still_scene(of, (Some(found), state), &[])
+    });
+    let scenes: Vec<_> = scenes.collect();
+    json!({
+        "format": FORMAT,
+        "revision": revision,
+        "analysis": analysis,
+        "words": words,
+        "scenes": scenes,
+    })
+}
+
+fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
+    let request = Request {
+        list: List::Top(IDEAS),
+        // A ranking orders variants, not ideas.
+        distinct: m.ranking.is_none(),
+        ..room.request.clone()
+    };
+    let mut notes = Vec::new();
+    let mut tell = |event| match event {
+        Event::Note(text) => notes.push(text),
+        Event::Building(p) => {
+            let told =
+                json!({ "revision": revision, "done": p.done, "of": p.of, "nodes": p.nodes });
+            room.tell(revision, "progress", &told);
+        }
+        Event::Built => {}
+    };
+    room.searches[0].fetch_add(1, Ordering::SeqCst);
+    let found = run(m.clone(), &request, &|| room.is_old(revision), &mut tell);
+    let told = match (found, room.is_old(revision)) {
+        (_, true) => Ok(None),
+        (Err(why), _) => Err(why.to_string()),
+        (Ok(outcome), _) => given(room, revision, (m, states), outcome).map(Some),
+    };
+    room.searches[1].fetch_add(1, Ordering::SeqCst);
+    match told {
+        Ok(None) => {}
+        Ok(Some(mut ideas)) => {
+            ideas["notes"] = notes.into();
+            room.tell(revision, "ideas", &ideas);
+        }
+        Err(why) => room.tell(
+            revision,
+            "ideas",
+            &json!({ "revision": revision, "why": why }),
+        ),
+    }
+}
+
+/// What `ozols search --format json` gives, and what each change looks like.
+fn given(
+    room: &Room,
+    revision: u64,
+    (m, states): (&Mechanism, &[StateAnalysis]),
+    outcome: Outcome,
+) -> Result<Value, String> {
+    let words = |e: &dyn std::fmt::Display| e.to_string();
+    let none = outcome.why_none().map_err(|e| words(&e))?;
+    let mut text = Vec::new();
+    let is_old = || room.is_old(revision);
+    let variants = outcome.variants_unless(&is_old);
+    json::write(&mut text, &outcome, variants, &none, None).map_err(|e| words(&e))?;
+    let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
+    let marks = idea::marks(m, states, (&outcome, &found["variants"]));
+    let told = json!({ "revision": revision, "found": found, "marks": marks });
+    room.keep(revision, Arc::new(outcome));
+    Ok(told)
+}

@@ -1,0 +1,190 @@
+//! The door: the token, the host, pages of others, sizes and paths.
+
+use super::served::Served;
+use serde_json::json;
+
+fn status(s: &Served, request: &str) -> u16 {
+    s.raw(request.as_bytes()).0
+}
+
+#[test]
+fn who_has_not_the_token_or_comes_from_elsewhere_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let s = Served::new(folder.path(), &["four-bar"]);
+    let (host, token) = (&s.host, &s.token);
+    let get =
+        |path: &str, headers: &str| status(&s, &format!("GET {path} HTTP/1.1\r\n{headers}\r\n"));
+    let page = format!("/{token}/status");
+    let own = format!("Host: {host}\r\n");
+    assert_eq!(get(&page, &own), 200);
+    assert_eq!(get(&page, &format!("{own}Origin: http://{host}\r\n")), 200);
+    assert_eq!(get(&page, &format!("{own}Sec-Fetch-Site: none\r\n")), 200);
+    let port = host.split(':').nth(1).unwrap();
+    for headers in [
+        String::new(),
+        format!("Host: localhost:{port}\r\n"),
+        format!("Host: evil.example:{port}\r\n"),
+        "Host: 127.0.0.1\r\n".to_owned(),
+        format!("{own}Host: evil.example\r\n"),
+        format!("{own}Origin: http://evil.example\r\n"),
+        format!("{own}Origin: null\r\n"),
+        format!("{own}Origin: http://{host}\r\nOrigin: http://evil.example\r\n"),
+        format!("{own}Sec-Fetch-Site: cross-site\r\n"),
+        format!("{own}Sec-Fetch-Site: same-site\r\n"),
+    ] {
+        assert_eq!(get(&page, &headers), 403, "{headers}");
+    }
+    let other = format!("/{}/status", "0".repeat(32));
+    for path in ["/", "/status", &other, &format!("/{}/status", &token[..31])] {
+        assert_eq!(get(path, &own), 403, "{path}");
+    }
+    // What writes has to say where it comes from, and is JSON.
+    let post = |headers: &str| {
+        let head =
+            format!("POST /{token}/undo HTTP/1.1\r\n{own}Content-Length: 2\r\n{headers}\r\n{{}}");
+        status(&s, &head)
+    };
+    let json = "Content-Type: application/json\r\n";
+    assert_eq!(post(&format!("{json}Origin: http://{host}\r\n")), 200);
+    assert_eq!(post(json), 403);
+    assert_eq!(
+        post(&format!("{json}Origin: http://{host}.evil.example\r\n")),
+        403
+    );
+    assert_eq!(
+        post(&format!(
+            "Content-Type: text/plain\r\nOrigin: http://{host}\r\n"
+        )),
+        415
+    );
+    assert_eq!(
+        status(
+            &s,
+            &format!("DELETE /{token}/ HTTP/1.1\r\n{own}Origin: http://{host}\r\n{json}\r\n")
+        ),
+        405
+    );
+}
+
+#[test]
+fn requests_are_bounded() {
+    let folder = tempfile::tempdir().unwrap();
+    let s = Served::new(folder.path(), &["four-bar"]);
+    let head = s.head("POST", "edit");
+    let long = format!("{head}X: {}\r\n\r\n", "x".repeat(40 << 10));
+    assert_eq!(status(&s, &long), 431);
+    let many: String = (0..100).map(|n| format!("X-{n}: 1\r\n")).collect();
+    assert_eq!(status(&s, &format!("{head}{many}\r\n")), 400);
+    assert_eq!(
+        status(&s, &format!("{head}Content-Length: 999999999\r\n\r\n")),
+        413
+    );
+    assert_eq!(
+        status(&s, &format!("{head}Content-Length: -1\r\n\r\n")),
+        400
+    );
+    assert_eq!(
+        status(
+            &s,
+            &format!("{head}Content-Length: 2\r\nContent-Length: 3\r\n\r\n{{}}")
+        ),
+        400
+    );
+    assert_eq!(
+        status(
+            &s,
+            &format!("{head}Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n")
+        ),
+        501
+    );
+    assert_eq!(status(&s, "\u{1}\r\n\r\n"), 400);
+    assert_eq!(status(&s, "GET / HTTP/2.7\r\n\r\n"), 400);
+    // A text as large as no file may be, within what a request may hold.
+    let text = "#".repeat(5 << 20);
+    let (code, told) = s.post(
+        "edit",
+        &json!({ "edits": [{ "do": "text", "text": text }], "revision": 1 }),
+    );
+    assert_eq!(code, 422, "{told}");
+    for body in [
+        json!([]),
+        json!({ "edits": [{ "do": "format-disk" }] }),
+        json!({ "edits": [], "more": 1 }),
+    ] {
+        assert_eq!(s.post("edit", &body).0, 422, "{body}");
+    }
+    assert_eq!(s.get("status").0, 200);
+}
+
+#[test]
+fn no_path_leads_out_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("secret.toml"), "name = \"secret\"\n").unwrap();
+    let s = Served::new(folder.path(), &["four-bar"]);
+    for path in [
+        "secret.toml",
+        "../secret.toml",
+        "..%2fsecret.toml",
+        "picture/../../secret.toml",
+        "picture/secret.svg",
+        "export/../secret.toml",
+        "//etc/passwd",
+    ] {
+        let (code, body) = s.get(path);
+        assert_eq!(code, 404, "{path}");
+        assert!(!body.contains("secret\""), "{body}");
+    }
+    for name in [
+        "../out.toml",
+        "/tmp/out.toml",
+        "sub/out.toml",
+        "out.txt",
+        ".out.toml",
+        "secret.toml",
+        "",
+        ".toml",
+        "a\nb.toml",
+        "c:\\out.toml",
+    ] {
+        let (code, told) = s.post("save", &json!({ "name": name }));
+        assert_eq!(code, 422, "{name}: {told}");
+    }
+    assert_eq!(s.post("begin", &json!({ "name": "../secret" })).0, 422);
+    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(left.len(), 1);
+    s.done("save", &json!({ "name": "fine name.toml" }));
+    assert!(folder.path().join("fine name.toml").is_file());
+}
+
+#[test]
+fn every_answer_keeps_others_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let s = Served::new(folder.path(), &["four-bar"]);
+    let mut stream = std::net::TcpStream::connect(&s.host).unwrap();
+    let asked = format!("{}\r\n", s.head("GET", ""));
+    std::io::Write::write_all(&mut stream, asked.as_bytes()).unwrap();
+    let mut page = String::new();
+    std::io::Read::read_to_string(&mut stream, &mut page).unwrap();
+    for rule in [
+        "default-src 'none'; script-src 'self'; style-src 'self'",
+        "frame-ancestors 'none'",
+        "X-Content-Type-Options: nosniff",
+        "Referrer-Policy: no-referrer",
+        "Cache-Control: no-store",
+        "Cross-Origin-Resource-Policy: same-origin",
+    ] {
+        assert!(page.contains(rule), "{rule}");
+    }
+    // Nothing is run that does not come from an address of its own, and nothing comes from elsewhere.
+    assert!(!page.contains("<script>") && !page.contains("<style"));
+    for handler in [
+        " onclick=",
+        " onload=",
+        "javascript:",
+        "http-equiv",
+        "https://",
+    ] {
+        assert!(!page.contains(handler), "{handler}");
+    }
+    assert!(!s.get("studio.js").1.contains("https://"));
+}

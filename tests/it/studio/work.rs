@@ -1,0 +1,154 @@
+//! The work at a text: the values are those of the command line, and no two searches are at work.
+
+use super::served::Served;
+use crate::common::{json, out};
+use serde_json::{Value, json};
+use std::fs;
+
+#[test]
+fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["gripper-10", "bennett"] {
+        fs::write(folder.path().join("mine.toml"), out(&["show", name])).unwrap();
+        let s = Served::new(folder.path(), &["mine.toml"]);
+        let mut window = s.window();
+        let verdict = window.next("verdict");
+        let mut analysis = json(&["analyze", name, "--format", "json"]);
+        for state in analysis["states"].as_array_mut().unwrap() {
+            state["suggestions"] = Value::Null;
+        }
+        for key in ["mechanism", "length_unit", "states"] {
+            assert_eq!(verdict["analysis"][key], analysis[key], "{name} {key}");
+        }
+        let motion = window.next("motion");
+        assert!(
+            motion["scenes"][0]["moves"][0]["poses"]
+                .as_array()
+                .unwrap()
+                .len()
+                > 10
+        );
+        let mut search = json(&[
+            "search",
+            name,
+            "--distinct",
+            "--top",
+            "10",
+            "--format",
+            "json",
+        ]);
+        search.as_object_mut().unwrap().shift_remove("seconds");
+        assert_eq!(window.next("ideas")["found"], search, "{name}");
+    }
+}
+
+#[test]
+fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, ideas) in [
+        ("gripper-10", 4),
+        ("four-bar", 3),
+        ("lever-gripper", 3),
+        ("parallelogram-3-rods", 3),
+    ] {
+        let own = out(&["show", name]);
+        fs::write(folder.path().join("mine.toml"), &own).unwrap();
+        let s = Served::new(folder.path(), &["mine.toml"]);
+        let mut window = s.window();
+        for k in 1..=ideas {
+            let told = window.next("ideas");
+            let list = told["found"]["variants"].as_array().unwrap();
+            let Some(idea) = list.get(k - 1) else { break };
+            let taken = s.done("take", &json!({ "idea": k, "revision": told["revision"] }));
+            let text = taken["text"].as_str().unwrap();
+            for comment in own.lines().filter_map(|l| l.split_once('#').map(|c| c.1)) {
+                assert!(text.contains(comment), "{name}, idea {k}: {comment}");
+            }
+            let verdict = window.next("verdict");
+            assert_eq!(
+                verdict["revision"], taken["revision"],
+                "{name}, idea {k}: {}",
+                taken["told"]
+            );
+            let state = &verdict["analysis"]["states"][0];
+            assert_eq!(state["mobility"], idea["mobility"], "{name}, idea {k}");
+            assert_eq!(state["redundant"], idea["redundant"], "{name}, idea {k}");
+            window.next("ideas");
+            assert_eq!(s.done("undo", &json!({}))["text"], own.as_str());
+        }
+        // Ideas of a text that is no more are not taken.
+        assert_eq!(s.post("take", &json!({ "idea": 1, "revision": 1 })).0, 409);
+    }
+}
+
+#[test]
+fn a_search_ends_when_another_text_comes() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(
+        folder.path().join("mine.toml"),
+        out(&["show", "gripper-10"]),
+    )
+    .unwrap();
+    let s = Served::new(folder.path(), &["mine.toml"]);
+    let mut window = s.window();
+    let mut last = 0;
+    for n in 0..12 {
+        let edit = json!({ "do": "set", "what": "joint", "id": "0-1", "key": "point", "value": [n + 1, 0, 0] });
+        last = s.done("edit", &json!({ "edits": [edit], "revision": null }))["revision"]
+            .as_u64()
+            .unwrap();
+        let searches = &s.status()["searches"];
+        let [begun, ended] = ["begun", "ended"].map(|k| searches[k].as_u64().unwrap());
+        assert!(begun - ended <= 1, "{searches}");
+    }
+    loop {
+        let ideas = window.next("ideas");
+        if ideas["revision"] == last {
+            break;
+        }
+    }
+    let status = s.until(|v| v["searches"]["begun"] == v["searches"]["ended"]);
+    assert!(
+        status["searches"]["begun"].as_u64().unwrap() <= last,
+        "{status}"
+    );
+}
+
+#[test]
+fn a_change_is_tried_without_being_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let s = Served::new(folder.path(), &["four-bar"]);
+    let before = s.status()["revision"].clone();
+    let edit = |value: Value| json!({ "edits": [{ "do": "set", "what": "joint", "id": "1-2", "key": "point", "value": value }], "revision": null });
+    let tried = s.done("draft", &edit(json!([0, "10*sqrt(3)", 0])));
+    assert_eq!(tried["verdict"]["analysis"]["states"][0]["redundant"], 3);
+    let y = tried["places"]["joint"][1][1].as_f64().unwrap();
+    assert!((y - 10.0 * 3_f64.sqrt()).abs() < 1e-12);
+    let wrong = s.done("draft", &edit(json!([0, "10*sqrt(", 0])));
+    assert_eq!(wrong["told"][0]["about"], json!(["joint", 1]));
+    assert_eq!(s.status()["revision"], before);
+}
+
+#[test]
+fn a_description_takes_an_idea_and_no_other_change() {
+    let folder = tempfile::tempdir().unwrap();
+    let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/robots/gripper.xml");
+    fs::copy(robot, folder.path().join("gripper.xml")).unwrap();
+    let s = Served::new(folder.path(), &["gripper.xml"]);
+    let mut window = s.window();
+    assert_eq!(
+        window.next("verdict")["analysis"]["states"][0]["redundant"],
+        2
+    );
+    let told = window.next("ideas");
+    let edit = json!({ "edits": [{ "do": "text", "text": "" }], "revision": told["revision"] });
+    assert_eq!(s.post("edit", &edit).0, 422);
+    s.done("take", &json!({ "idea": 1, "revision": told["revision"] }));
+    assert_eq!(
+        window.next("verdict")["analysis"]["states"][0]["redundant"],
+        0
+    );
+    s.done("save", &json!({ "name": null }));
+    let saved = fs::read_to_string(folder.path().join("gripper.xml")).unwrap();
+    assert!(saved.contains("ozols fix"), "{saved}");
+}
