@@ -82,7 +82,7 @@ pub fn trial(
         progress(way, n, ways.len());
         records.extend(match way {
             way if way.looks() => Some(by_looking(&truth, way, watch)?),
-            _ => by_diagram(&truth, way, (mechanism, &way.request(&base)), watch)?,
+            _ => by_diagram(&truth, way, mechanism, &way.request(&base), watch)?,
         });
     }
     Ok(Trial {
@@ -102,7 +102,8 @@ pub fn trial(
 fn by_diagram(
     truth: &Truth,
     way: Way,
-    (mechanism, request): (&Mechanism, &Request),
+    mechanism: &Mechanism,
+    request: &Request,
     watch: Stopwatch,
 ) -> Result<Option<Record>, RunError> {
     let (found, naming) = watch.time(|| listed(mechanism, request));

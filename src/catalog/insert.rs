@@ -128,7 +128,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
             ),
         ],
     )?;
-    found(t, &id, (&laid.counts, &laid.symmetric), &laid.ideas)
+    found(t, &id, &laid.counts, &laid.symmetric, &laid.ideas)
 }
 
 /// Enters a drawn mechanism.
@@ -164,7 +164,7 @@ pub(super) fn drawn(t: &Transaction<'_>, d: &DrawnMechanism) -> rusqlite::Result
             [&d.id],
         )?;
     }
-    found(t, &d.id, (&d.counts, &d.symmetric), &d.ideas)
+    found(t, &d.id, &d.counts, &d.symmetric, &d.ideas)
 }
 
 fn certainty(exact: bool) -> &'static str {
@@ -175,7 +175,8 @@ fn certainty(exact: bool) -> &'static str {
 fn found(
     t: &Transaction<'_>,
     id: &str,
-    (of, symmetric): (&BTreeMap<(i64, u32), BigUint>, &Symmetric),
+    of: &BTreeMap<(i64, u32), BigUint>,
+    symmetric: &Symmetric,
     list: &[IdeaRow],
 ) -> rusqlite::Result<()> {
     for (key, n) in of {

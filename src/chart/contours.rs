@@ -90,14 +90,14 @@ impl Contours {
                 tooltip(value)
             };
             let tip = format!("{}, {}: {said}", tooltip(a), tooltip(b));
-            mark(&mut xml, (px, py), radius, share, &tip);
+            mark(&mut xml, px, py, radius, share, &tip);
         }
         for (x, y, label) in &labels {
             frame::tick(&mut xml, label, (*x, y - 4.0), "middle", "halo");
         }
         for (n, (label, share)) in legend.iter().enumerate() {
             let y = top + 12.0 + ROW * n as f64;
-            mark(&mut xml, (right + 20.0, y - 4.0), 5.5, *share, "");
+            mark(&mut xml, right + 20.0, y - 4.0, 5.5, *share, "");
             frame::tick(&mut xml, label, (right + 32.0, y), "start", "value");
         }
         xml.finish()
@@ -247,7 +247,7 @@ fn radius<'a>(nodes: impl Iterator<Item = &'a Node>) -> f64 {
 }
 
 /// A mark of a value, given as a fraction of all; hollow where there is none.
-fn mark(xml: &mut Xml, (x, y): (f64, f64), radius: f64, share: f64, tip: &str) {
+fn mark(xml: &mut Xml, x: f64, y: f64, radius: f64, share: f64, tip: &str) {
     let circle = xml.tag("circle").num("cx", x).num("cy", y).num("r", radius);
     if share.is_nan() {
         return circle.set("class", "hollow c5").tip(tip);

@@ -89,7 +89,8 @@ impl Matrix {
                     &mut xml,
                     c,
                     &tip(c, name, column),
-                    (left + n as f64 * cell, y),
+                    left + n as f64 * cell,
+                    y,
                     cell,
                 );
             }
@@ -138,7 +139,7 @@ fn column(xml: &mut Xml, name: &str, (x, y): (f64, f64)) {
 }
 
 /// A cell: its colour with its text, or with a sign where it has none.
-fn one(xml: &mut Xml, cell: &Cell, tip: &str, (x, y): (f64, f64), width: f64) {
+fn one(xml: &mut Xml, cell: &Cell, tip: &str, x: f64, y: f64, width: f64) {
     let class = cell.kind.class();
     xml.tag("g").open();
     xml.tag("title").text(tip);

@@ -18,7 +18,7 @@ pub struct Plane {
 impl Plane {
     /// The planes that a pair of joints may be images in: midway between their points, or where these are one, across a
     /// direction of the first joint, between the two axes, or through a third point that is its own image.
-    fn candidates((one, other): (&Frame, &Frame), own: &[&ExactVector]) -> Vec<Plane> {
+    fn candidates(one: &Frame, other: &Frame, own: &[&ExactVector]) -> Vec<Plane> {
         let [p, q] = [&one.point, &other.point];
         if real(p) != real(q) {
             return vec![Plane {
@@ -52,7 +52,7 @@ impl Plane {
         let own: Vec<_> = own.map(|p| point(p.0)).collect();
         let planes = pairs
             .iter()
-            .flat_map(|&(a, b)| Plane::candidates((frame(a), frame(b)), &own));
+            .flat_map(|&(a, b)| Plane::candidates(frame(a), frame(b), &own));
         let paired = |j: JointId| pairs.iter().any(|&(a, b)| j == a || j == b);
         let alone: Vec<JointId> = mechanism.joint_ids().filter(|&j| !paired(j)).collect();
         let judged = planes.map(|plane| {

@@ -56,7 +56,8 @@ pub fn kinematic_seen(subject: &Subject<'_>, sight: &Sight) -> Drawing {
 pub fn kinematic_stressed(
     subject: &Subject<'_>,
     sight: &Sight,
-    (stress, name): (&SelfStress, &str),
+    stress: &SelfStress,
+    name: &str,
 ) -> Drawing {
     let mut drawn = Kinematic::new(subject, sight);
     drawn.arrows = drawn.arrows_of(stress);
@@ -77,7 +78,8 @@ pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Ve
         let symbol = Symbol::new(
             subject,
             joint,
-            (&option.joint_type, &projection::turned(&option.frame)),
+            &option.joint_type,
+            &projection::turned(&option.frame),
             &drawn.projection.view,
             size,
             spot.and_then(|s| s.symbol.slide),
@@ -181,9 +183,17 @@ impl<'a> Kinematic<'a> {
             .zip(sizes)
             .map(|((&joint, &at), size)| {
                 let of = &m.joints[joint];
-                let of = (&of.joint_type, &projection::turned(&of.frame));
+                let place = projection::turned(&of.frame);
                 let slide = driven.iter().find(|(j, _)| *j == joint).map(|d| d.1);
-                let symbol = Symbol::new(subject, joint, of, &projection.view, size, slide);
+                let symbol = Symbol::new(
+                    subject,
+                    joint,
+                    &of.joint_type,
+                    &place,
+                    &projection.view,
+                    size,
+                    slide,
+                );
                 Spot {
                     joint,
                     at,
@@ -342,7 +352,7 @@ impl<'a> Kinematic<'a> {
             sheet.symbol(s.rect);
             let mark = self.subject.joint_mark(s.joint);
             let id = &self.subject.mechanism.joints[s.joint].id;
-            sheet.group(("data-joint", id), s.at, |sheet| {
+            sheet.group("data-joint", id, s.at, |sheet| {
                 s.symbol.draw(sheet, self.subject, s.joint, mark);
             });
         }
@@ -353,7 +363,7 @@ impl<'a> Kinematic<'a> {
             match self.spots.get(n) {
                 Some(s) => {
                     let id = &self.subject.mechanism.joints[s.joint].id;
-                    sheet.group(("data-joint-name", id), [0.0; 2], write);
+                    sheet.group("data-joint-name", id, [0.0; 2], write);
                 }
                 None => write(&mut sheet),
             }
@@ -369,7 +379,7 @@ impl<'a> Kinematic<'a> {
             }
             let body = self.body(n);
             let id = &self.subject.mechanism.links[*l].id;
-            sheet.group(("data-link", id), [0.0; 2], |s| {
+            sheet.group("data-link", id, [0.0; 2], |s| {
                 if body.points.len() > 1 {
                     s.path_with_tip(
                         &self.look(n, &body),

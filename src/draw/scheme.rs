@@ -234,7 +234,7 @@ impl<'a> Scheme<'a> {
             self.subject.link_mark(link).class(),
             if dashed { " dash" } else { "" }
         );
-        sheet.group(("data-link", &of.id), [0.0; 2], |s| {
+        sheet.group("data-link", &of.id, [0.0; 2], |s| {
             s.path_with_tip(&class, &rounded(&corners, HALF), &format!("link {}", of.id));
             if of.role == Role::Frame {
                 let d = hatch(&corners);
@@ -277,7 +277,7 @@ impl<'a> Scheme<'a> {
             let write = |s: &mut Sheet| s.text(&class, size, rect.middle(), Anchor::Middle, text);
             if n < joints {
                 let id = &self.subject.mechanism.joints[self.parts.joints[n]].id;
-                sheet.group(("data-joint-name", id), [0.0; 2], write);
+                sheet.group("data-joint-name", id, [0.0; 2], write);
             } else {
                 write(sheet);
             }
@@ -301,7 +301,7 @@ impl<'a> Scheme<'a> {
         let id = self.parts.joints[i];
         let joint = &self.subject.mechanism.joints[id];
         let at = self.at.joints[i];
-        sheet.group(("data-joint", &joint.id), at, |s| {
+        sheet.group("data-joint", &joint.id, at, |s| {
             let r = 2.0 * self.radius(i);
             s.symbol(Rect::around([0.0; 2], r, r));
             let mark = self.subject.joint_mark(id);

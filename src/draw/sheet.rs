@@ -226,7 +226,8 @@ impl Sheet {
     /// Draws something into a group round `at` that says what it stands for, so that a program can find it.
     pub(super) fn group(
         &mut self,
-        (name, value): (&str, &str),
+        name: &str,
+        value: &str,
         at: Point,
         draw: impl FnOnce(&mut Sheet),
     ) {
@@ -402,7 +403,7 @@ impl Sheet {
                 Swatch::Tint(redundant, label) => {
                     let rect = Rect::around(middle, 30.0, 16.0);
                     let class = format!("s s{}", redundant.min(&6));
-                    self.group(("data-contour-key", label), [0.0; 2], |s| {
+                    self.group("data-contour-key", label, [0.0; 2], |s| {
                         s.rect(&class, &rect, 3.0);
                         s.text("small", SMALL, middle, Anchor::Middle, label);
                     });

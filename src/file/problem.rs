@@ -253,8 +253,8 @@ impl ImportError {
     pub fn render(&self, colour: bool) -> String {
         let one = |p: &Problem| {
             let message = p.kind.to_string();
-            let source = (self.file.as_str(), self.text.as_str());
-            render(Level::ERROR, colour, source, p.span.clone(), &message)
+            let (file, text) = (&self.file, &self.text);
+            render(Level::ERROR, colour, file, text, p.span.clone(), &message)
         };
         self.problems.iter().map(one).collect::<Vec<_>>().join("\n")
     }
@@ -265,7 +265,8 @@ impl ImportError {
 pub(crate) fn render(
     level: Level<'static>,
     colour: bool,
-    (file, text): (&str, &str),
+    file: &str,
+    text: &str,
     span: Option<Range<usize>>,
     message: &str,
 ) -> String {

@@ -204,7 +204,8 @@ impl Warnings {
             render(
                 Level::WARNING,
                 colour,
-                (&self.file, &self.text),
+                &self.file,
+                &self.text,
                 span,
                 &message,
             )

@@ -201,7 +201,7 @@ impl<'a> Finder<'a> {
         self.directions = directions;
         let of = normals.len();
         for n in normals {
-            self.planes((n, of), places, out);
+            self.planes(n, of, places, out);
         }
         for pair in lines {
             self.lines(pair, places, out);
@@ -209,7 +209,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Points in planes square to a normal: neighbours in the order along it.
-    fn planes(&self, (normal, normals): (usize, usize), places: &[usize], out: &mut Vec<Relation>) {
+    fn planes(&self, normal: usize, normals: usize, places: &[usize], out: &mut Vec<Relation>) {
         let n = unit(self.normals.real[normal]);
         let mut at: Vec<(f64, usize)> = places
             .iter()

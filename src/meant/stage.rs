@@ -64,7 +64,7 @@ impl<'a> Stage<'a> {
         let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
         let inexact = written.rays.iter().map(Ray::error).filter(|e| *e > 0.0);
         let digits = places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
-        let (of, symmetric) = directions(written, (&points, &errors), caution.bold);
+        let (of, symmetric) = directions(written, &points, &errors, caution.bold);
         let frame = SceneFrame::of(&of.all);
         let whole = |p: &usize| written.points[*p].half == [0.0; 3];
         let origin = (0..points.len()).find(whole).unwrap_or(0);
@@ -236,7 +236,8 @@ fn fits<'a>(
 /// that is stated.
 fn directions(
     written: &WrittenScene,
-    (points, errors): (&[Vector], &[f64]),
+    points: &[Vector],
+    errors: &[f64],
     bold: f64,
 ) -> (Directions, Option<usize>) {
     let mut of = of_rays(&written.rays, points, errors);

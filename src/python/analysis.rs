@@ -63,9 +63,9 @@ pub(crate) fn stroke(
     py.detach(|| {
         let state = state(m, named)?;
         let verdict = verdict(m, state, tolerance).map_err(failed)?;
-        let read = (range, motion::stroke(range).map_err(failed)?);
+        let read = motion::stroke(range).map_err(failed)?;
         let asked =
-            AskedStroke::new(m, state, read, drive, (&verdict, tolerance)).map_err(failed)?;
+            AskedStroke::new(m, state, range, read, drive, &verdict, tolerance).map_err(failed)?;
         let told = StrokeData::of(&asked);
         Ok((
             json(&told)?,

@@ -133,15 +133,6 @@ impl StateAnalysis {
 ///
 /// # Errors
 /// Where the geometry has no exact image, the singular values fail, or two primes disagree.
-///
-/// # Examples
-/// ```
-/// use ozols::model::mechanism::StateId;
-/// use ozols::redundancy::analysis::{Method, analyse};
-/// let gripper = ozols::Mechanism::builtin("gripper-10").unwrap();
-/// let free = &analyse(&gripper, &[StateId::FREE], Method::Modular).unwrap()[0];
-/// assert_eq!((free.mobility, free.redundant), (1, 11));
-/// ```
 pub fn analyse(
     mechanism: &Mechanism,
     states: &[StateId],

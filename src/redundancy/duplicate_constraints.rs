@@ -92,8 +92,7 @@ pub fn held_twice(
             Certainty::Undecided { .. } => out.analysis.finite.by_numeric_rank(),
             _ => out.analysis.finite,
         };
-        let figures = (most, tolerance);
-        let (over, pose) = redundant_where(geometry, state, &finite, figures, inside)?;
+        let (over, pose) = redundant_where(geometry, state, &finite, most, tolerance, inside)?;
         out.over = Some(over);
         if let (Where::Pose { elsewhere: n, .. }, Some(pose), true) = (over, pose, least == most) {
             out.lasting = n;

@@ -104,7 +104,8 @@ pub(crate) fn redundant_where(
     m: &Mechanism,
     state: StateId,
     finite: &Finite,
-    (redundant, tolerance): (usize, f64),
+    redundant: usize,
+    tolerance: f64,
     inside: &dyn Fn(&Pose) -> bool,
 ) -> Result<(Where, Option<Pose>), ExactError> {
     match finite.how {

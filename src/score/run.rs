@@ -67,10 +67,11 @@ pub fn run(
 ) -> Result<Outcome, RunError> {
     let note = &mut |text| tell(Event::Note(text));
     let prepared = request.prepare(mechanism, note)?;
-    let conditions = request.conditions(&prepared, note)?;
+    let (conditions, measured) = request.conditions(&prepared, note)?;
     answer(
         Arc::new(prepared.mechanism),
         conditions,
+        measured,
         request,
         should_cancel,
         tell,
@@ -83,7 +84,8 @@ pub fn run(
 /// As [`run`].
 pub fn answer(
     mechanism: Arc<Mechanism>,
-    (conditions, measured): (Conditions, Option<LooksRounded>),
+    conditions: Conditions,
+    measured: Option<LooksRounded>,
     request: &Request,
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
@@ -97,7 +99,7 @@ pub fn answer(
     };
     if let Some(digits) = conditions.numeric {
         let search = over(0)?;
-        return numeric(search, (digits, measured), request, should_cancel, tell);
+        return numeric(search, digits, measured, request, should_cancel, tell);
     }
     if request.method == Method::Brute {
         return by_brute_force(over(0)?, request, measured);
@@ -124,14 +126,14 @@ pub fn answer(
     }
     let of_all = counts.0.clone();
     if request.symmetry == Symmetry::OnePerOrbit {
-        (counts, stops) = orbits((&search, twin.as_ref()), counts, stops, should_cancel)?;
+        (counts, stops) = orbits(&search, twin.as_ref(), counts, stops, should_cancel)?;
     }
     let stroke = in_other_poses(&search, request, should_cancel, tell)?;
     let ranking = pool(&search, &diagrams, request, should_cancel, tell)?;
     let mut second = second_opinion(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
     if let Some(second) = &mut second {
-        let all = (&of_all, &search.counts(&diagrams.admissible, true));
-        second.scenes = other_scenes(&search, all, should_cancel)?;
+        let admissible = search.counts(&diagrams.admissible, true);
+        second.scenes = other_scenes(&search, &of_all, &admissible, should_cancel)?;
     }
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
     // A count as written is what was asked for; one as meant is not what is meant.
@@ -142,7 +144,7 @@ pub fn answer(
                 .to_owned(),
         ));
         if let Some((search, digits)) = by_values(&search.conditions)? {
-            let found = numeric(search, (digits, measured), request, should_cancel, tell)?;
+            let found = numeric(search, digits, measured, request, should_cancel, tell)?;
             return Ok(Outcome { second, ..found });
         }
     }
@@ -256,7 +258,7 @@ fn pool(
     let Some(by) = request.ranking(&search.mechanism)? else {
         return Ok(None);
     };
-    let pool = ranked(search, diagrams, (request, &by), should_cancel).map_err(|why| {
+    let pool = ranked(search, diagrams, request, &by, should_cancel).map_err(|why| {
         let mechanism = search.mechanism.name.clone();
         RunError::Score { mechanism, why }
     })?;
@@ -287,7 +289,8 @@ fn by_values(conditions: &Conditions) -> Result<Option<(Search, Digits)>, RunErr
 /// The search by singular values, of a mechanism that is not there for exact arithmetic as it is meant.
 fn numeric(
     mut search: Search,
-    (digits, measured): (Digits, Option<LooksRounded>),
+    digits: Digits,
+    measured: Option<LooksRounded>,
     request: &Request,
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
@@ -324,7 +327,8 @@ fn numeric(
 
 /// Counts of orbits over one prime or two, which must agree, and why the search ended with that for the symmetric variants.
 fn orbits(
-    (search, twin): (&Search, Option<&Search>),
+    search: &Search,
+    twin: Option<&Search>,
     all: (Counts, Counts),
     stops: [Stop; 2],
     should_cancel: ShouldCancel<'_>,

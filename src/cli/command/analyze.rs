@@ -111,9 +111,11 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
         (Some(range), Some(verdict)) => Some(AskedStroke::new(
             &mechanism,
             over,
-            (range, stroke(range)?),
+            range,
+            stroke(range)?,
             a.drive.as_deref(),
-            (verdict, a.tolerance),
+            verdict,
+            a.tolerance,
         )?),
         _ => None,
     };

@@ -186,7 +186,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
             "self-stress {} is too large: its numbers were not computed",
             k + 1
         );
-        draw::kinematic_stressed(&subject, &sight, (stress, &words.name(k)))
+        draw::kinematic_stressed(&subject, &sight, stress, &words.name(k))
     } else if a.moves() {
         let moving = match a.idle {
             Some(k) => Moving::idle(&mechanism, first, state, k.wrapping_sub(1))?,

@@ -92,7 +92,7 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
     } else {
         "release"
     };
-    let mut lines = summary(&a.file, (&told, what), [&before, &after]);
+    let mut lines = summary(&a.file, &told, what, [&before, &after]);
     if after.redundant > lasting && after.at_most().is_none() {
         lines += &format!(
             "  {} redundant at this pose only, where the model is in a special place\n",
@@ -113,7 +113,8 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
 
 fn summary(
     file: &Path,
-    (told, what): (&[String], &str),
+    told: &[String],
+    what: &str,
     [before, after]: [&StateAnalysis; 2],
 ) -> String {
     let file = file.display();

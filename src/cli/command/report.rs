@@ -93,7 +93,7 @@ pub(in crate::cli) fn write(
         })
     };
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
-    let conditions = match conditions {
+    let (conditions, measured) = match conditions {
         Ok(conditions) => conditions,
         Err(why) => {
             write(Err(format!("{why}.")), None)?;
@@ -101,7 +101,7 @@ pub(in crate::cli) fn write(
         }
     };
     let mut watch = SearchWatch::new(args.quiet);
-    let outcome = watch.answer(mechanism.clone(), conditions, &request)?;
+    let outcome = watch.answer(mechanism.clone(), conditions, measured, &request)?;
     let ideas = (!request.distinct).then(|| {
         let given = outcome.ideas_unless(&interrupt::pending);
         redesigns(&outcome, given)

@@ -47,11 +47,12 @@ impl SearchWatch {
     pub(in crate::cli) fn answer(
         &mut self,
         mechanism: Arc<Mechanism>,
-        conditions: (Conditions, Option<LooksRounded>),
+        conditions: Conditions,
+        measured: Option<LooksRounded>,
         request: &Request,
     ) -> Result<Outcome, RunError> {
         self.over(request, |cancel, tell| {
-            run::answer(mechanism, conditions, request, cancel, tell)
+            run::answer(mechanism, conditions, measured, request, cancel, tell)
         })
     }
 

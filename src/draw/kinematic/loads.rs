@@ -86,7 +86,7 @@ impl Kinematic<'_> {
     pub(super) fn draw_arrows(&self, sheet: &mut Sheet, by: Point) {
         for arrow in &self.arrows {
             let id = &self.subject.mechanism.links[self.links[arrow.link].0].id;
-            sheet.group(("data-load", id), [0.0; 2], |s| {
+            sheet.group("data-load", id, [0.0; 2], |s| {
                 s.tip(&arrow.tip);
                 s.shapes(&self.arrow_shapes(arrow), by);
             });

@@ -251,7 +251,8 @@ impl Kinematic<'_> {
         let symbol = Symbol::new(
             self.subject,
             spot.joint,
-            (of, place),
+            of,
+            place,
             view,
             size,
             spot.symbol.slide,

@@ -33,7 +33,7 @@ impl Kinematic<'_> {
 
     pub(super) fn draw_points(&self, sheet: &mut Sheet) {
         for p in &self.points {
-            sheet.group(("data-point", &p.id), [0.0; 2], |s| draw_mark(s, p.at));
+            sheet.group("data-point", &p.id, [0.0; 2], |s| draw_mark(s, p.at));
         }
     }
 

@@ -142,13 +142,13 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
         frames.extend(poses.iter().map(|c| rest.frame(c, &lines)));
         for line in &lines {
             let row = rest.row(line.link);
-            scene.wire(&rest, (row, line.class, "line"), &line.ends, Some(n));
+            scene.wire(&rest, row, line.class, "line", &line.ends, Some(n));
         }
         let frame = rest.row(subject.mechanism.frame());
         for (link, tip) in rest.tips() {
             let way: Vec<Vector> = poses.iter().map(|c| c.point(link, tip)).collect();
             let form = if moved.way.closed { "loop" } else { "line" };
-            scene.wire(&rest, (frame, "trace", form), &way, Some(n));
+            scene.wire(&rest, frame, "trace", form, &way, Some(n));
         }
         let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
         scene.moves.push(Move {
@@ -193,12 +193,12 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     first.all().for_each(|p| *p = [p[0] + by[0], p[1] + by[1]]);
     rest.shift_ground(by);
     let mut sheet = Sheet::new(&caption, &plan);
-    sheet.group(("data-home", "ground"), [0.0; 2], |s| rest.draw_ground(s));
-    sheet.group(("data-scene", ""), [0.0; 2], |s| {
+    sheet.group("data-home", "ground", [0.0; 2], |s| rest.draw_ground(s));
+    sheet.group("data-scene", "", [0.0; 2], |s| {
         rest.draw_traces(s);
         rest.draw_frame(s, &first);
     });
-    sheet.group(("data-home", "scale"), [0.0; 2], |s| {
+    sheet.group("data-home", "scale", [0.0; 2], |s| {
         rest.draw_below(s, &plan)
     });
     (sheet.finish(&caption, &plan), scene)
@@ -214,7 +214,9 @@ impl Scene {
     fn wire(
         &mut self,
         of: &Kinematic<'_>,
-        (link, class, form): (usize, &str, &'static str),
+        link: usize,
+        class: &str,
+        form: &'static str,
         points: &[Vector],
         motion: Option<usize>,
     ) {
@@ -280,11 +282,11 @@ impl Kinematic<'_> {
             let body = self.body(row);
             let class = self.look(row, &body);
             match self.arc_in_space(row).or_else(|| self.bowed_in_space(row)) {
-                Some(points) => out.wire(self, (row, &class, "line"), &points, None),
+                Some(points) => out.wire(self, row, &class, "line", &points, None),
                 None => {
                     let facet = self.facets[row].clone();
                     let points = facet.unwrap_or_else(|| self.points_in_space(row));
-                    out.wire(self, (row, &class, "hull"), &points, None);
+                    out.wire(self, row, &class, "hull", &points, None);
                 }
             }
         }
@@ -294,7 +296,7 @@ impl Kinematic<'_> {
                     .links
                     .map(|l| self.row(l));
                 let link = if self.is_frame(self.links[a].0) { b } else { a };
-                out.wire(self, (link, "fine pitch", "loop"), &circle, None);
+                out.wire(self, link, "fine pitch", "loop", &circle, None);
             }
         }
         let frame = self.row(m.frame());
@@ -350,7 +352,9 @@ impl Kinematic<'_> {
                 let p = self.places[i].point;
                 out.wire(
                     self,
-                    (frame, "guide", "line"),
+                    frame,
+                    "guide",
+                    "line",
                     &[sub(p, half), add(p, half)],
                     None,
                 );
@@ -408,7 +412,8 @@ impl Kinematic<'_> {
             sheet.symbol(spot.rect);
             let mark = self.subject.joint_mark(spot.joint);
             sheet.group(
-                ("data-joint", &self.subject.mechanism.joints[spot.joint].id),
+                "data-joint",
+                &self.subject.mechanism.joints[spot.joint].id,
                 frame.at[i],
                 |s| {
                     self.symbol_in(i, &frame.places[i])

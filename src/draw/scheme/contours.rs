@@ -77,7 +77,7 @@ impl Scheme<'_> {
         let redundant = share.map_or(0, |(r, _)| r).min(6);
         let words = Self::words(c, &contour.name(self.subject.mechanism), *share);
         let number = (c + 1).to_string();
-        sheet.group(("data-contour", &number), [0.0; 2], |s| {
+        sheet.group("data-contour", &number, [0.0; 2], |s| {
             s.path_with_tip(&format!("s s{redundant}"), d, &words);
         });
     }

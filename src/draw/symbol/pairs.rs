@@ -56,7 +56,7 @@ pub fn joint_type(of: &JointType) -> Drawing {
     for (seen, x, name) in [(left, 0.0, "aslant"), (right, second, "along z")] {
         let top = (height - tall(seen.room)) / 2.0;
         let corner = [x - seen.room.left, top - seen.room.top];
-        sheet.group(("data-view", name), add(corner, plan.shift), |s| {
+        sheet.group("data-view", name, add(corner, plan.shift), |s| {
             seen.draw(s);
         });
     }

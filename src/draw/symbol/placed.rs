@@ -28,7 +28,8 @@ impl Symbol {
     pub(in crate::draw) fn new(
         subject: &Subject<'_>,
         joint: JointId,
-        (of, place): (&JointType, &JointInSpace),
+        of: &JointType,
+        place: &JointInSpace,
         view: &View,
         size: f64,
         slide: Option<usize>,

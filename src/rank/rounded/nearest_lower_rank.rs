@@ -140,7 +140,7 @@ pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Opti
         }
         let (left, right) = (singular.left_null_space(rank), singular.null_space(rank));
         let residue = left.transpose_times(&matrix.times(&right));
-        let change = changes(&found, &closure, &of, &by, (&left, &right))?;
+        let change = changes(&found, &closure, &of, &by, &left, &right)?;
         let (step, felt) = least(&change, &residue)?;
         conditions = conditions.max(felt);
         for (x, d) in by.iter_mut().zip(step) {
@@ -163,7 +163,8 @@ fn changes(
     closure: &Closure<f64>,
     of: &[Coordinate],
     by: &[f64],
-    (left, right): (&Matrix, &Matrix),
+    left: &Matrix,
+    right: &Matrix,
 ) -> Option<Matrix> {
     let scaling = Scaling::of(closure);
     let space = MotionSpace::new(&Reals, &m.mode).ok()?;

@@ -138,9 +138,11 @@ impl<'a> AskedStroke<'a> {
     pub fn new(
         m: &'a Mechanism,
         state: StateId,
-        (text, range): (&str, loads::Stroke),
+        text: &str,
+        range: loads::Stroke,
         named: Option<&str>,
-        (verdict, tolerance): (&'a RankVerdict, Option<f64>),
+        verdict: &'a RankVerdict,
+        tolerance: Option<f64>,
     ) -> Result<AskedStroke<'a>, AskedError> {
         if !verdict.is_decided() {
             let why = verdict.undecided();

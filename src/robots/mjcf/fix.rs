@@ -128,7 +128,8 @@ impl<'a> MjcfFile<'a> {
         id: &str,
         point: Vector,
         frame: &RigidMotion,
-        (around, freed): (Element<'a>, Freed<'_>),
+        around: Element<'a>,
+        freed: Freed<'_>,
         edits: &mut Edits<'_>,
     ) -> Result<Vec<String>, ImportError> {
         let neutral = self.neutral(around)?;
@@ -176,7 +177,7 @@ impl<'a> MjcfFile<'a> {
         let point = self.origin.places[part.links[1]]
             .then(&part.sides[1])
             .translation;
-        let lines = self.joints(&part.id, point, &frame, (body, freed), edits)?;
+        let lines = self.joints(&part.id, point, &frame, body, freed, edits)?;
         edits.after(last, &lines);
         self.inserted
             .push((KeyframeMark::Joint(last.id), freed.len()));
@@ -213,7 +214,7 @@ impl<'a> MjcfFile<'a> {
         let frame = self.origin.places[one];
         let point = frame.then(&part.sides[0]).translation;
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.joints(&part.id, point, &frame, (body, freed), edits)?;
+        let inner = self.joints(&part.id, point, &frame, body, freed, edits)?;
         edits.within(body, &self.whole(&between, inner, None));
         edits.set(e, "body1", &between)?;
         self.inserted
@@ -241,7 +242,7 @@ impl<'a> MjcfFile<'a> {
         let at = self.origin.places[part.links[0]].then(&part.sides[0]);
         let frame = at.then(&own.inverse());
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.joints(&part.id, at.translation, &frame, (around, freed), edits)?;
+        let inner = self.joints(&part.id, at.translation, &frame, around, freed, edits)?;
         let copy = edits.name(&format!("{site}_between"));
         let raw = edits.raw(found);
         let Some(span) = found.value_span("name") else {

@@ -31,7 +31,7 @@ pub(crate) fn free(
         let Some(link) = model.named("link").find(named) else {
             return Err(e.unsupported("its child is not a link of its own model", remedy));
         };
-        let frame = axes_frame(origin, model, (part, e))?;
+        let frame = axes_frame(origin, model, part, e)?;
         let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();
         let (link_pose, joint_pose) = (pose(link), pose(e));
         let mut lines = Vec::new();
@@ -72,7 +72,8 @@ pub(crate) fn free(
 fn axes_frame(
     origin: &Origin,
     model: Element<'_>,
-    (part, e): (&Part, Element<'_>),
+    part: &Part,
+    e: Element<'_>,
 ) -> Result<RigidMotion, ImportError> {
     // A joint with two axes that are not square is two parts; its child hangs on the last.
     let mut parts = origin.robot.joints.iter().rev();

@@ -41,7 +41,7 @@ pub(super) fn expand(
                 continue;
             }
             count += 1;
-            let (model, uri) = included(document, c, (&open, count), read, &mut old)?;
+            let (model, uri) = included(document, c, &open, count, read, &mut old)?;
             let Some(model) = model else {
                 scenery.push(uri);
                 continue;
@@ -69,7 +69,8 @@ pub(super) fn is_old(root: Element<'_>) -> bool {
 fn included(
     document: &mut Document,
     id: usize,
-    (open, count): (&[String], usize),
+    open: &[String],
+    count: usize,
     read: Reader<'_>,
     old: &mut Vec<bool>,
 ) -> Result<(Option<usize>, String), ImportError> {

@@ -16,7 +16,8 @@ use crate::search::diagram::Stop;
 pub(in crate::score) fn ranked(
     search: &Search,
     diagrams: &Diagrams,
-    (request, ranking): (&Request, &Ranking),
+    request: &Request,
+    ranking: &Ranking,
     should_cancel: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<RankedPool>, ScoreError> {
     let List::Top(top) = request.list else {

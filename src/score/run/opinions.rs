@@ -60,7 +60,8 @@ pub(super) fn second_opinion(
 /// same, by mobility too.
 pub(super) fn other_scenes(
     search: &Search,
-    (determinate, admissible): (&Counts, &Counts),
+    determinate: &Counts,
+    admissible: &Counts,
     should_cancel: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<[(BigUint, BigUint); 2]>, RunError> {
     let scenes = search.conditions.written.iter().flat_map(|w| &w.others);

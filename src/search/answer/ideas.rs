@@ -64,7 +64,7 @@ pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> 
     } else {
         question.steps.clone()
     };
-    let firsts = firsts(question, diagram, (&patterns, &steps), top);
+    let firsts = firsts(question, diagram, &patterns, &steps, top);
     let one = |first| {
         let first = preferred::preferred(question, diagram, &patterns, &weights, first);
         idea(question, diagram, &patterns, first)
@@ -76,7 +76,8 @@ pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> 
 fn firsts(
     question: &Question,
     diagram: &Diagram,
-    (patterns, steps): (&Patterns, &Steps),
+    patterns: &Patterns,
+    steps: &Steps,
     top: usize,
 ) -> Vec<Assignment> {
     if top == 0 {

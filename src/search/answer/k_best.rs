@@ -89,7 +89,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
         bytes: usize,
         enter: Enter<'d>,
     ) -> Self {
-        let (tally, mut keys, is_all) = enough(diagram, steps, (reach, ceiling), wanted, bytes);
+        let (tally, mut keys, is_all) = enough(diagram, steps, reach, ceiling, wanted, bytes);
         keys.sort_by_key(|&k| (k.cost(), rank(k), k));
         Cheapest {
             diagram,
@@ -207,7 +207,8 @@ impl<C> Cheapest<'_, C> {
 fn enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
-    (reach, ceiling): (Reach, u64),
+    reach: Reach,
+    ceiling: u64,
     wanted: impl Fn(Key) -> bool,
     bytes: usize,
 ) -> (Tally<C>, Vec<Key>, bool) {

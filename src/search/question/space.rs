@@ -99,7 +99,7 @@ impl Space {
         for (joints, external) in groups {
             let per_joint: Vec<Vec<Choice>> = joints
                 .iter()
-                .map(|&j| choices(exact, &motion, mechanism, j, (external, state), costs))
+                .map(|&j| choices(exact, &motion, mechanism, j, external, state, costs))
                 .collect::<Result<_, _>>()?;
             let mut merged = per_joint[0].clone();
             for other in &per_joint[1..] {
@@ -140,7 +140,8 @@ fn choices(
     motion: &MotionSpace<Residue>,
     mechanism: &Mechanism,
     id: JointId,
-    (external, state): (bool, Option<StateId>),
+    external: bool,
+    state: Option<StateId>,
     costs: &CostTable,
 ) -> Result<Vec<Choice>, ExactError> {
     let joint = &mechanism.joints[id];

@@ -301,7 +301,8 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
 pub fn built_text(
     store: &Store,
     file: &Path,
-    (added, what): (usize, &str),
+    added: usize,
+    what: &str,
     width: Option<u16>,
 ) -> Result<String, StoreError> {
     let (names, rows) = store.query(

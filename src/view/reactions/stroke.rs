@@ -107,14 +107,48 @@ impl<'a> ReactionsOverStroke<'a> {
         out
     }
 
-    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
-        let unit = if self.slides {
+    /// The unit of positions.
+    fn unit(&self) -> &'static str {
+        if self.slides {
             self.of.length_unit.symbol
         } else {
             "°"
-        };
-        let at = |x: f64| figure(if self.slides { x } else { x.to_degrees() });
+        }
+    }
+
+    /// A position in that unit.
+    fn at(&self, x: f64) -> String {
+        figure(if self.slides { x } else { x.to_degrees() })
+    }
+
+    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
         let all: Vec<(f64, &Reactions)> = self.solved().collect();
+        self.head(out, &all)?;
+        let Some((_, first)) = all.first() else {
+            return writeln!(out, "No pose was reached.");
+        };
+        self.peaks(out, &all, first, width)?;
+        self.contacts(out, &all, first)?;
+        self.drives(out, &all, first)?;
+        self.equilibrium(out, &all)?;
+        let unit = self.unit();
+        for position in &self.positions {
+            if let Position::Unsolved { drive, error } = position {
+                writeln!(out, "At {} {unit}: {error}", self.at(*drive))?;
+            }
+        }
+        if let Some(place) = self.stopped {
+            writeln!(
+                out,
+                "The stroke could not be followed to {} {unit}; `ozols analyze --stroke` says why",
+                self.at(place)
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Over what the reactions are the greatest.
+    fn head(&self, out: &mut String, all: &[(f64, &Reactions<'_>)]) -> std::fmt::Result {
         writeln!(
             out,
             "{}, state {}: greatest joint reactions over {}{}",
@@ -136,10 +170,18 @@ impl<'a> ReactionsOverStroke<'a> {
             } else {
                 "Drives at rest: no inertia forces; workload.drive_speed adds them"
             }
-        )?;
-        let Some((_, first)) = all.first() else {
-            return writeln!(out, "No pose was reached.");
-        };
+        )
+    }
+
+    /// The greatest reactions of each joint, and where.
+    fn peaks(
+        &self,
+        out: &mut String,
+        all: &[(f64, &Reactions<'_>)],
+        first: &Reactions<'_>,
+        width: Option<u16>,
+    ) -> std::fmt::Result {
+        let unit = self.unit();
         let greatest_of = |i: usize, size: fn(&JointForces) -> f64| {
             let each = all.iter().map(|(at, r)| (size(&r.reactions[i]), *at));
             each.max_by(|a, b| a.0.total_cmp(&b.0))
@@ -173,7 +215,12 @@ impl<'a> ReactionsOverStroke<'a> {
         }
         let rows = peaks.iter().map(|(joint, force, moment)| {
             let mut row = [joint.joint, joint.kind].map(str::to_owned).to_vec();
-            row.extend([size(force.0), at(force.1), size(moment.0), at(moment.1)]);
+            row.extend([
+                size(force.0),
+                self.at(force.1),
+                size(moment.0),
+                self.at(moment.1),
+            ]);
             row
         });
         let (n, nm, place) = (
@@ -182,7 +229,17 @@ impl<'a> ReactionsOverStroke<'a> {
             format!("at, {unit}"),
         );
         let header = ["joint", "", &n, &place, &nm, &place];
-        writeln!(out, "{}\n", text_table(&header, rows.collect(), width))?;
+        writeln!(out, "{}\n", text_table(&header, rows.collect(), width))
+    }
+
+    /// Where contacts are asked for what faces cannot do.
+    fn contacts(
+        &self,
+        out: &mut String,
+        all: &[(f64, &Reactions<'_>)],
+        first: &Reactions<'_>,
+    ) -> std::fmt::Result {
+        let unit = self.unit();
         for (i, contact) in first.contacts.iter().enumerate() {
             let bad = all.iter().filter(|(_, r)| !r.contacts[i].holds());
             let bad: Vec<&(f64, &Reactions)> = bad.collect();
@@ -192,11 +249,22 @@ impl<'a> ReactionsOverStroke<'a> {
                     "NOT AS CONTACTS ACT: {} in {}, first at {} {unit}, where it {}; --unilateral solves with contacts that only push",
                     contact.contact,
                     plural(bad.len(), "pose"),
-                    at(*from),
+                    self.at(*from),
                     r.contacts[i].touch
                 )?;
             }
         }
+        Ok(())
+    }
+
+    /// What each drive must do, at least and at most.
+    fn drives(
+        &self,
+        out: &mut String,
+        all: &[(f64, &Reactions<'_>)],
+        first: &Reactions<'_>,
+    ) -> std::fmt::Result {
+        let unit = self.unit();
         for (i, joint) in first.reactions.iter().enumerate() {
             let Some(drive) = &joint.drive else { continue };
             let each = all.iter().filter_map(|(at, r)| {
@@ -214,12 +282,18 @@ impl<'a> ReactionsOverStroke<'a> {
                     joint.joint,
                     drive.freedom,
                     figure(least.0),
-                    at(least.1),
+                    self.at(least.1),
                     figure(most.0),
-                    at(most.1)
+                    self.at(most.1)
                 )?;
             }
         }
+        Ok(())
+    }
+
+    /// How well the equations are solved, where that is worst.
+    fn equilibrium(&self, out: &mut String, all: &[(f64, &Reactions<'_>)]) -> std::fmt::Result {
+        let unit = self.unit();
         let worst = all
             .iter()
             .max_by(|a, b| a.1.condition.total_cmp(&b.1.condition));
@@ -229,7 +303,7 @@ impl<'a> ReactionsOverStroke<'a> {
                 out,
                 "Equilibrium: condition up to {} at {} {unit}, residual up to {residual:.0e} of the load",
                 figure(r.condition),
-                at(*place)
+                self.at(*place)
             )?;
             if r.nearly_singular {
                 writeln!(
@@ -237,18 +311,6 @@ impl<'a> ReactionsOverStroke<'a> {
                     "Warning: nearly singular there (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
                 )?;
             }
-        }
-        for position in &self.positions {
-            if let Position::Unsolved { drive, error } = position {
-                writeln!(out, "At {} {unit}: {error}", at(*drive))?;
-            }
-        }
-        if let Some(place) = self.stopped {
-            writeln!(
-                out,
-                "The stroke could not be followed to {} {unit}; `ozols analyze --stroke` says why",
-                at(place)
-            )?;
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use ozols::robots::{Options, import};
 use proptest::prelude::*;
 
 fn all() -> impl Iterator<Item = Mechanism> {
-    builtin::names().into_iter().map(|n| built_in(n))
+    builtin::names().into_iter().map(built_in)
 }
 
 fn none(_: &str) -> std::io::Result<Vec<u8>> {

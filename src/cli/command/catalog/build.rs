@@ -154,5 +154,5 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     let path = a.output.display();
     let interrupted =
         interrupt::pending().then(|| format!("the same command carries on with {path}."));
-    built(&store, &a.output, (count, "structures"), interrupted)
+    built(&store, &a.output, count, "structures", interrupted)
 }

@@ -10,14 +10,15 @@ use std::path::Path;
 pub(super) fn built(
     store: &Store,
     path: &Path,
-    added: (usize, &str),
+    added: usize,
+    what: &str,
     interrupted: Option<String>,
 ) -> anyhow::Result<Done> {
     output::to(None, |out| {
-        let text = built_text(store, path, added, output::width(None))?;
+        let text = built_text(store, path, added, what, output::width(None))?;
         write!(out, "{text}")?;
-        if let Some(what) = interrupted {
-            writeln!(out, "\nInterrupted: {what}")?;
+        if let Some(why) = interrupted {
+            writeln!(out, "\nInterrupted: {why}")?;
         }
         Ok(Done::Found)
     })

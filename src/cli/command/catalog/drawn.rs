@@ -73,7 +73,7 @@ pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
     let path = a.output.display();
     let interrupted =
         interrupt::pending().then(|| format!("the same command carries on with {path}."));
-    let done = built(&store, &a.output, (added, "mechanisms"), interrupted)?;
+    let done = built(&store, &a.output, added, "mechanisms", interrupted)?;
     Ok(if well { done } else { Done::Partly })
 }
 

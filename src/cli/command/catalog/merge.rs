@@ -48,7 +48,7 @@ pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
         return Ok(Done::Partly);
     };
     let store = Store::open(whole)?;
-    built(&store, whole, (merged.added, "structures"), None)?;
+    built(&store, whole, merged.added, "structures", None)?;
     if !merged.missing.is_empty() {
         output::note(&missing(&merged, whole));
     }

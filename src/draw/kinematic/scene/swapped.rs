@@ -46,7 +46,7 @@ impl Kinematic<'_> {
             );
             let (view, size) = (&self.projection.view, self.spots[i].symbol.size);
             let slide = self.spots[i].symbol.slide;
-            let symbol = Symbol::new(self.subject, swap.joint, (of, &place), view, size, slide);
+            let symbol = Symbol::new(self.subject, swap.joint, of, &place, view, size, slide);
             let mut parts = self.parts(swap.joint, of, &symbol, Mark::Changed);
             if swap.unloading {
                 parts.push(flat(&swap::ring(symbol.reach())));

@@ -54,7 +54,7 @@ pub(super) fn axes(freedoms: &[Freedom], view: &View, covered: &[Point]) -> Vec<
             return end_on(name, &own, covered);
         }
         let slim = dot(axis, view.toward).abs().max(END_ON);
-        beside(name, &own, (unit(flat), slim), covered)
+        beside(name, &own, unit(flat), slim, covered)
     };
     all.into_iter().enumerate().map(one).collect()
 }
@@ -79,7 +79,8 @@ fn reach(covered: &[Point], along: Point, near: f64) -> f64 {
 fn beside(
     name: &'static str,
     own: &[Freedom],
-    (along, slim): (Point, f64),
+    along: Point,
+    slim: f64,
     covered: &[Point],
 ) -> PaperAxis {
     let across = [-along[1], along[0]];
@@ -113,7 +114,7 @@ fn beside(
             (line, at + length / 2.0, ROUND + 4.0, length)
         };
         at += length + GAP;
-        arrows.push(headed(freedom, line, (scale(along, middle), clear)));
+        arrows.push(headed(freedom, line, scale(along, middle), clear));
     }
     let [from, to] = [from, at + 2.0 * GAP].map(|x| scale(along, x));
     PaperAxis {
@@ -142,7 +143,7 @@ fn end_on(name: &'static str, own: &[Freedom], covered: &[Point]) -> PaperAxis {
         let radius = within.map(|p| norm(*p)).fold(0.0, f64::max) + 1.5 * GAP;
         let line = (0..=24).map(|i| scale(to(197.0 + 56.0 * f64::from(i) / 24.0), radius));
         let middle = scale(lower_left, radius);
-        let mut out = headed(freedom, line.collect(), (middle, 5.0));
+        let mut out = headed(freedom, line.collect(), middle, 5.0);
         if !freedom.turns() {
             let point = toward(freedom, scale(lower_left, radius + 2.5 * GAP));
             out.lines.extend(point.lines);
@@ -176,7 +177,7 @@ fn toward(freedom: Freedom, middle: Point) -> FreedomArrow {
 }
 
 /// A line with a head beyond each end.
-fn headed(freedom: Freedom, line: Vec<Point>, (middle, clear): (Point, f64)) -> FreedomArrow {
+fn headed(freedom: Freedom, line: Vec<Point>, middle: Point, clear: f64) -> FreedomArrow {
     let ends = [[0, 1], [line.len() - 1, line.len() - 2]];
     let heads = ends.map(|[end, before]| head(line[end], unit(sub(line[end], line[before])), HEAD));
     FreedomArrow {

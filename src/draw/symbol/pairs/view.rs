@@ -60,7 +60,7 @@ impl ReadyView {
         }
         for arrow in self.axes.iter().flat_map(|a| &a.arrows) {
             let name = arrow.freedom.name();
-            sheet.group(("data-freedom", name), [0.0; 2], |s| {
+            sheet.group("data-freedom", name, [0.0; 2], |s| {
                 for line in &arrow.lines {
                     s.path("freedom", &polyline(line, false));
                 }

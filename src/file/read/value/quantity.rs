@@ -156,7 +156,8 @@ impl ValueTable<'_> {
         &mut self,
         k: &'static str,
         c: &Coordinate,
-        (least, most): (f64, f64),
+        least: f64,
+        most: f64,
         allowed: &'static str,
     ) -> f64 {
         let found = self.angle(k, c);

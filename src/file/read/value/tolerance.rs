@@ -26,7 +26,7 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findi
     };
     let mut shift = |c: Option<&Coordinate>, path: &[DocumentStep]| {
         let allowed = "0, or at most a tenth of the distance across the joints";
-        stated(c?, path, (most, allowed), out)
+        stated(c?, path, most, allowed, out)
     };
     let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
     let of_file = file.tolerance.as_ref();
@@ -50,7 +50,7 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findi
         .collect();
     let directions = of_file.and_then(|t| t.direction.as_ref()).and_then(|c| {
         let at = key(&root("tolerance"), "direction");
-        stated(c, &at, (MOST_TURN, "0, or at most 0.1 rad"), out)
+        stated(c, &at, MOST_TURN, "0, or at most 0.1 rad", out)
     });
     for (joint, own) in m.joints.iter_mut().zip(of_joints) {
         joint_at(joint, lengths, directions, own);
@@ -64,7 +64,8 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findi
 fn stated(
     c: &Coordinate,
     path: &[DocumentStep],
-    (most, allowed): (f64, &'static str),
+    most: f64,
+    allowed: &'static str,
     out: &mut Findings,
 ) -> Option<f64> {
     let before = out.count();

@@ -86,7 +86,8 @@ pub(crate) fn drive(
     let twist = t.angle_in(
         "swing_angle",
         &e.swing_angle,
-        (1e-3, 3600.0),
+        1e-3,
+        3600.0,
         "an angle above 0, up to 3600 degrees",
     ) / 2.0;
     let whole = t.positive("period", &e.period, 1.0);
@@ -130,7 +131,7 @@ pub(crate) fn drive(
     let capture = e
         .latch_capture
         .as_ref()
-        .map(|c| t.angle_in("latch_capture", c, (0.0, 3600.0), "an angle from 0"));
+        .map(|c| t.angle_in("latch_capture", c, 0.0, 3600.0, "an angle from 0"));
     Some(DriveSpec {
         twist,
         period,

@@ -323,13 +323,15 @@ pub(crate) fn grip(
     let prism_angle = t.angle_in(
         "prism_angle",
         &e.prism_angle,
-        (1.0, 179.0),
+        1.0,
+        179.0,
         "an angle from 1 to 179 degrees: at 180 the faces form no V",
     );
     let mounting_angle = t.angle_in(
         "mounting_angle",
         &e.mounting_angle,
-        (0.0, 179.0),
+        0.0,
+        179.0,
         "an angle from 0 to 179 degrees",
     );
     let diameter = t.number("diameter", &e.diameter, unit, Bound::Positive);

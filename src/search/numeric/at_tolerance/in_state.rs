@@ -87,7 +87,7 @@ impl InStateSeen {
         };
         let mut held = Answer::Yes;
         for grasp in &question.grasps {
-            held = held.and(holds(realized, state, grasp, (own, digits))?);
+            held = held.and(holds(realized, state, grasp, own, digits)?);
         }
         Some(InStateSeen {
             external,
@@ -126,7 +126,8 @@ fn holds(
     m: &Mechanism,
     state: StateId,
     (body, jaws): &Grasp,
-    (own, digits): (RankRange, Digits),
+    own: RankRange,
+    digits: Digits,
 ) -> Option<Answer> {
     let closure = Closure::new(&Reals, m, state).ok()?;
     let (scaling, matrix) = (Scaling::of(&closure), scaled(&closure));
