@@ -66,23 +66,23 @@ impl Room {
         &self,
         act: impl FnOnce(&mut Desk) -> Result<(), Refused>,
     ) -> Result<Value, Refused> {
-        let done = act(&mut self.desk());
-        let told = self.tell_of_desk();
+        let mut desk = self.desk();
+        let done = act(&mut desk);
+        let told = self.tell_of(&desk);
         done.map(|()| told)
     }
 
     /// Whether another program has written to the file.
     pub(super) fn look_at_disk(&self) {
+        let mut desk = self.desk();
         // One that cannot be read now may be readable in a moment.
-        let new = self.desk().look_at_disk().unwrap_or(false);
-        if new {
-            self.tell_of_desk();
+        if desk.look_at_disk().unwrap_or(false) {
+            self.tell_of(&desk);
         }
     }
 
-    /// Tells all windows what is on the desk now.
-    fn tell_of_desk(&self) -> Value {
-        let desk = self.desk();
+    /// Tells all windows what is on the desk now. The desk is held meanwhile: whoever sees its text must find it the newest.
+    fn tell_of(&self, desk: &Desk) -> Value {
         let (revision, state) = (desk.revision, desk.state());
         if self.newest.swap(revision, Ordering::SeqCst) == revision {
             self.windows.tell(&event("desk", &state));

@@ -174,7 +174,9 @@ async function mirrorSelection(k) {
   const pairs = await copies(flip, flip);
   if (!pairs?.length) return;
   const known = desk.look?.file?.search?.mirror ?? [];
-  await change({ do: "put", path: ["search", "mirror"], value: [...known, ...pairs] });
+  // each has one image: the newest
+  const others = known.filter((pair) => !pairs.some(([own]) => pair.includes(own)));
+  await change({ do: "put", path: ["search", "mirror"], value: [...others, ...pairs] });
   say(`Mirrored in ${"xyz"[k]}.`);
 }
 
