@@ -66,10 +66,9 @@ fn exact_ways_are_right_and_cut_ones_are_not() {
             assert_eq!(r.naming.is_some(), gives, "{name}, {way}");
             assert_eq!(r.by_proportion, looking.contains(&way) && !t.whole);
         }
-        // A small diagram is not cut: every layer may have a few hundred nodes.
         let cut = t.records.iter().filter(|r| matches!(r.way, Way::Nodes(_)));
         let cut: Vec<_> = cut.collect();
-        assert_eq!(cut.is_empty(), name != "gripper-10", "{name}");
+        assert!(name != "gripper-10" || !cut.is_empty());
         for r in cut {
             assert!(!is_right(r.counts.unwrap()), "{}", r.way);
             assert!(!is_right(r.variants), "{}", r.way);
