@@ -47,9 +47,10 @@ pub(in crate::search) fn at_most(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();
-    let kept = match keep_output {
-        true => &question.kept.0[..],
-        false => &[],
+    let kept = if keep_output {
+        &question.kept.0[..]
+    } else {
+        &[]
     };
     let space = SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)?;
     let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
@@ -130,6 +131,9 @@ fn bounds(stages: &[Adding]) -> Vec<Vec<usize>> {
     (0..stages.len()).map(from).collect()
 }
 
+/// A child with the numbers that tell it from others; none where it has no future.
+type Named = Option<(Vec<u64>, Between)>;
+
 /// Nodes, and how many ways lead to each.
 type Weighed = Vec<(Between, f64)>;
 
@@ -144,7 +148,7 @@ struct Layered<'a> {
 impl Layered<'_> {
     /// The children of some nodes, equal ones together, and the edges to them.
     fn merged(&self, nodes: &Weighed, choices: usize) -> (Weighed, Vec<u32>) {
-        let all: Vec<Vec<Option<(Vec<u64>, Between)>>> = nodes
+        let all: Vec<Vec<Named>> = nodes
             .par_iter()
             .with_min_len(64)
             .map_init(

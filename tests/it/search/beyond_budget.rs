@@ -121,8 +121,11 @@ fn the_best_of_a_long_ladder_are_proven_in_few_nodes() {
 #[test]
 fn estimates_are_near_the_count_and_right_on_average() {
     let text = ladder(3, 1, true);
-    for (max_mobility, keep_output) in [(None, true), (Some(2), false)] {
+    // Samples where no redundant constraint is allowed, else cuts.
+    let asked = [(None, true, 0), (Some(2), false, 0), (None, true, 1)];
+    for (max_mobility, keep_output, max_redundant) in asked {
         let base = Conditions {
+            max_redundant,
             max_mobility,
             keep_output,
             ..Conditions::default()
@@ -148,6 +151,7 @@ fn estimates_are_near_the_count_and_right_on_average() {
             n += 1.0;
             for (i, e) in d.estimates.into_iter().enumerate() {
                 let e = e.unwrap();
+                assert_eq!(e.at_most.is_some(), max_redundant == 0);
                 misses += usize::from(!(e.between[0]..=e.between[1]).contains(&counts[i]));
                 let off = (e.mean - counts[i]) / e.standard_error;
                 assert!(off.abs() < 5.0, "{e:?} for {}", counts[i]);

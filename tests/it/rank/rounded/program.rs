@@ -305,7 +305,7 @@ fn what_is_not_decided_is_said_so_everywhere() {
     assert_eq!(code, Some(0), "{stderr}");
     assert!(
         stdout.contains("numeric: 0 to ")
-            && stdout.contains("not decided")
+            && stdout.contains("is undecided")
             && !stdout.contains("Checked"),
         "{stdout}"
     );
