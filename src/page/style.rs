@@ -1,3 +1,3 @@
 //! How every page looks.
 
-pub(super) const STYLE: &str = include_str!("page.css");
+pub(super) const STYLE: &str = concat!(include_str!("look.css"), include_str!("page.css"));
