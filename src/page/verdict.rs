@@ -165,13 +165,10 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
             )
         };
     }
+    let estimate = found.estimates()[1].filter(|_| found.is_confirmed());
     let words = match found.numeric {
         Some(_) => numeric::admissible(found),
-        None => {
-            let [_, estimate] = found.estimates();
-            let estimate = estimate.filter(|_| found.is_confirmed());
-            number(good, found.is_counted(), estimate)
-        }
+        None => number(good, found.is_counted(), estimate),
     };
     let out = format!("{words} of {all} variants {goal}{conditions}");
     let out = capitalised(&out) + &by_values;
