@@ -73,7 +73,7 @@ pub struct Design {
     pub feed: f64,
     /// The cam's spring.
     pub cam: Option<CamDesign>,
-    /// PayloadMotion of each disc.
+    /// Motion of each disc.
     pub motions: [PayloadMotion; 2],
     /// The discs.
     pub module: Module,

@@ -1,4 +1,4 @@
-//! RunShares of drives out of true whose swings end in their latches.
+//! Shares of drives out of true whose swings end in their latches.
 //!
 //! What decides that is drawn: the bar's stiffness, inertia and losses of each disc, the cam's work and where it begins, the
 //! spacing of the grooves and how far short of them a latch still catches.

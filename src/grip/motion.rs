@@ -61,7 +61,7 @@ impl StepTaken {
 /// SI.
 ///
 /// # Guarantee
-/// StepTaken by step that of [`hold`](crate::grip::holding::hold); nothing is said of what lies between two steps.
+/// Step by step that of [`hold`](crate::grip::holding::hold); nothing is said of what lies between two steps.
 ///
 /// # Errors
 /// [`MotionError`].

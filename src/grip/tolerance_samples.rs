@@ -1,4 +1,4 @@
-//! ClosureShares of parts out of true that contacts hold.
+//! Shares of parts out of true that contacts hold.
 
 use crate::grip::clamped_part::ClampedPart;
 use crate::grip::force_closure::is_closed;

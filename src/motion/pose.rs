@@ -63,7 +63,7 @@ pub struct Pose {
     pub length: f64,
     /// The middle that coordinates are taken from, in the file's unit.
     pub middle: [f64; 3],
-    /// RigidMotion of each link since the file's pose, in [`Pose::length`] about the middle.
+    /// Motion of each link since the file's pose, in [`Pose::length`] about the middle.
     pub links: Vec<RigidMotion>,
     /// Relative error of the coordinates: contours need not close better than that.
     accuracy: f64,

@@ -64,7 +64,7 @@ pub struct Group {
     pub outer: Vec<PairId>,
     /// Drives and rigid pairs within blocks.
     pub locked: Vec<PairId>,
-    /// AssurClass, order and kind.
+    /// Class, order and kind.
     pub class: AssurClass,
 }
 
@@ -98,7 +98,7 @@ pub struct Decomposition {
 }
 
 impl Decomposition {
-    /// AssurClass of the mechanism: the highest among its groups, 1 where there are none.
+    /// Class of the mechanism: the highest among its groups, 1 where there are none.
     #[must_use]
     pub fn class(&self) -> usize {
         self.groups.iter().map(|g| g.class.class).max().unwrap_or(1)

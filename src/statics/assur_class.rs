@@ -1,4 +1,4 @@
-//! AssurClass, order and kind of an Assur group.
+//! Class, order and kind of an Assur group.
 
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
 use petgraph::algo::dijkstra;
@@ -22,7 +22,7 @@ pub enum Kind {
     Other,
 }
 
-/// AssurClass, order and kind of a group.
+/// Class, order and kind of a group.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AssurClass {
     /// The most pairs round one contour of the group: a body with k pairs is a rigid contour of k, bodies joined in a

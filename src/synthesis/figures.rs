@@ -42,7 +42,7 @@ impl JawMotion {
     }
 }
 
-/// LayoutFigures over the stroke, by following the mechanism numerically.
+/// Figures over the stroke, by following the mechanism numerically.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayoutFigures {
     /// The least and the greatest opening reached, in millimetres.
@@ -62,7 +62,7 @@ pub struct LayoutFigures {
     pub ends: [Option<Why>; 2],
 }
 
-/// LayoutFigures of a laid-out gripper, `mechanism` being its [`mechanism_file`](crate::synthesis::mechanism::mechanism_file).
+/// Figures of a laid-out gripper, `mechanism` being its [`mechanism_file`](crate::synthesis::mechanism::mechanism_file).
 ///
 /// # Errors
 /// Where a coordinate has no value.

@@ -1,4 +1,4 @@
-//! StaticsData of a planar mechanism: one value from which text, JSON, CSV and charts are made. SI units; the keys are a stable
+//! Statics of a planar mechanism: one value from which text, JSON, CSV and charts are made. SI units; the keys are a stable
 //! contract, and numbers that do not exist are null.
 
 pub mod charts;

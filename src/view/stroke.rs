@@ -30,7 +30,7 @@ pub struct StrokeData<'a> {
     pub poses: Vec<PoseData<'a>>,
     /// Where the rank changes.
     pub changes: Vec<RankChangeData>,
-    /// OutputPose motions that no drive decides.
+    /// Output motions that no drive decides.
     pub undriven: usize,
     /// The end of the way, where it comes before the last pose asked for.
     pub stop: Option<StrokeEnd>,

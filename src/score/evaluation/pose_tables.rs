@@ -33,7 +33,7 @@ pub(in crate::score) struct Cell {
 pub(in crate::score) struct PlacedJoint {
     pub(in crate::score) joint: JointId,
     pub(in crate::score) variable: usize,
-    /// PlacedJoint in the variable's list of joints.
+    /// Place in the variable's list of joints.
     pub(in crate::score) slot: usize,
     /// Contours through it, with their directions.
     pub(in crate::score) contours: Vec<(usize, f64)>,

@@ -14,7 +14,7 @@ use crate::search::question::rounded_rank::{Digits, RankRange};
 use crate::search::question::space::{Choice, columns};
 use ozols_dense::{Matrix, singular_values};
 
-/// RankedRows of a variant's matrix that have a rank of their own.
+/// Rows of a variant's matrix that have a rank of their own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RankedRows {
     /// The closure equations of the free state.

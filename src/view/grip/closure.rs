@@ -53,7 +53,7 @@ pub struct ClosureContact<'a> {
     pub friction: Option<f64>,
 }
 
-/// ClosureData, and how far from its loss.
+/// Closure, and how far from its loss.
 #[derive(Debug, Serialize)]
 pub struct Margin {
     /// Whether every small load is resisted; nothing where that is within the accuracy of the programmes.

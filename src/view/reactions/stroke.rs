@@ -1,4 +1,4 @@
-//! JointForces reactions over a stroke.
+//! Joint reactions over a stroke.
 
 use crate::format::csv::table;
 use crate::format::number::figure;

@@ -1,4 +1,4 @@
-//! JointForces reactions in one pose for people.
+//! Joint reactions in one pose for people.
 
 use crate::format::number::{figure, significant};
 use crate::format::phrase::{list, plural};

@@ -1,4 +1,4 @@
-//! StaticsData as CSV, in SI units.
+//! Statics as CSV, in SI units.
 
 use crate::format::csv::table;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};

@@ -1,4 +1,4 @@
-//! StaticsData for people: the groups, the reactions over the cycle, the greatest of each joint.
+//! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
 
 use crate::format::number::figure;
 use crate::format::phrase::plural;
@@ -191,7 +191,7 @@ fn group_table(
     ];
     writeln!(
         out,
-        "GroupData {}: reactions in {prefix}N by the {} method; {}, guide = {}",
+        "Group {}: reactions in {prefix}N by the {} method; {}, guide = {}",
         s.groups[*index].name(),
         shown.name(),
         names.map(|(l, p)| format!("{l} = {}", name(p))).join(", "),

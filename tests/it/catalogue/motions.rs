@@ -1,4 +1,4 @@
-//! LayoutFigures of a layout's motion against places solved afresh: transmission angles, forces, travel.
+//! Figures of a layout's motion against places solved afresh: transmission angles, forces, travel.
 
 use super::{each, form, moved, moved_points, plain};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
