@@ -99,12 +99,12 @@ def test_a_structure_is_a_mechanism(built, in_tmp):
 def test_what_is_wrong_is_said(built, in_tmp):
     (in_tmp / "text.db").write_text("no database at all, but a text of some length that is none")
     for path in ("gone.db", "text.db"):
-        with pytest.raises(ozols.Error, match=f"{path} is no catalogue"):
+        with pytest.raises(ozols.Error, match=f"{path} is not a catalogue"):
             ozols.catalog.open(path)
     with ozols.catalog.open(built) as its, pytest.raises(ozols.Error, match="no such table"):
         its.query("SELECT * FROM nowhere")
     for spec, why in [
-        ({"links": "5"}, "no range of even numbers"),
+        ({"links": "5"}, "is not a range of even numbers"),
         ({"inputs": ["push"]}, "is none of slide, turn"),
         ({"link": "4"}, "unknown field `link`"),
     ]:

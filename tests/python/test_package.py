@@ -113,8 +113,9 @@ def test_the_studio_gives_back_what_was_drawn(capfd):
     given = []
     beside = threading.Thread(target=lambda: given.append(four_bar.studio(show=False)))
     beside.start()
-    said = ""
+    said, until = "", time.monotonic() + 60
     while "\n" not in said:
+        assert beside.is_alive() and time.monotonic() < until, "no address"
         said += capfd.readouterr().out
         time.sleep(0.05)
     address = urllib.parse.urlparse(said.strip())
