@@ -126,7 +126,8 @@ pub(crate) fn decimals(x: f64, most: usize) -> String {
 }
 
 /// A whole number with groups of three: 13,841,287,201.
-pub(crate) fn grouped(number: &str) -> String {
+pub(crate) fn grouped(number: impl ToString) -> String {
+    let number = number.to_string();
     let first = usize::from(number.starts_with('-'));
     let mut out = String::new();
     for (i, digit) in number.char_indices() {

@@ -125,7 +125,6 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         Err(why) => return format!("Redesigns were not searched: {why}"),
     };
     let found = r.found;
-    let big = |n: &num_bigint::BigUint| grouped(&n.to_string());
     let size = found.search.size();
     if size == num_bigint::BigUint::from(1u8) {
         return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
@@ -137,7 +136,7 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         .chain(&second_opinion::against(found))
         .map(|l| format!(". {l}"))
         .collect();
-    let (all, good) = (big(&size), &found.admissible.total);
+    let (all, good) = (grouped(&size), &found.admissible.total);
     let request = &found.search.conditions;
     let one = good.is_one();
     let goal = match (request.max_redundant, one) {
@@ -161,7 +160,7 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         } else {
             format!(
                 "Of the {all} variants none {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",
-                big(rest)
+                grouped(rest)
             )
         };
     }

@@ -160,11 +160,14 @@ fn estimates(
     kept: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> [Option<Estimate>; 2] {
+    let seed = match question.conditions.estimate {
+        Some(seed) if is_cut(built.stop()) => seed,
+        _ => return [None, None],
+    };
     let estimate = |staged, end, diagram: &Diagram, admissible, possible: Option<&BigUint>| {
-        let seed = question
-            .conditions
-            .estimate
-            .filter(|_| is_cut(diagram.stop))?;
+        if !is_cut(diagram.stop) {
+            return None;
+        }
         let found = estimated(question, staged, end, seed, admissible, cancelled)?;
         Some(found.bounded(&total(question, diagram, admissible), possible))
     };
@@ -271,34 +274,32 @@ fn built(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let limits = &staged.limits;
-    let few = Limits {
-        nodes: limits.nodes.min(AT_ONCE),
-        ..limits.clone()
-    };
     let mut within = |limits| {
         within_limits(
             question, model, staged, limits, admissible, cancelled, progress,
         )
     };
-    let built = within(&few);
+    if question.conditions.state.is_some() {
+        return within(limits);
+    }
+    let few = Limits {
+        nodes: limits.nodes.min(AT_ONCE),
+        ..limits.clone()
+    };
+    let mut built = within(&few);
     if !is_cut(built.stop) {
         return built;
     }
-    let free_alone = question.conditions.state.is_none();
     let keep_output = admissible && question.conditions.keep_output;
-    if free_alone {
-        let order = &staged.order;
-        let most = at_most(question, model, order, &few, keep_output, cancelled);
-        if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
-            return nothing(model, &staged.order);
-        }
+    let order = &staged.order;
+    let most = at_most(question, model, order, &few, keep_output, cancelled);
+    if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
+        return nothing(model, order);
     }
-    let built = if few.nodes < limits.nodes {
-        within(limits)
-    } else {
-        built
-    };
-    if !free_alone || limits.already < limits.internal || !is_cut(built.stop) {
+    if few.nodes < limits.nodes {
+        built = within(limits);
+    }
+    if limits.already < limits.internal || !is_cut(built.stop) {
         return built;
     }
     let parts = both_ends(question, model, staged.stages(), keep_output);

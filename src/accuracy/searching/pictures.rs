@@ -106,10 +106,7 @@ pub fn variants(trial: &Trial, machine: &Machine) -> Option<Chart> {
     let words = ChartWords {
         title: format!("{}: variants judged wrongly against time", trial.mechanism),
         time: format!("{} for all variants, s", machine.time()),
-        wrong: format!(
-            "of {} variants judged wrongly, %",
-            grouped(&trial.looked.to_string())
-        ),
+        wrong: format!("of {} variants judged wrongly, %", grouped(trial.looked)),
         why: "What looks at variants one by one looked at some; its time is in proportion to all."
             .to_owned(),
     };
@@ -139,7 +136,7 @@ pub fn best(trial: &Trial, machine: &Machine) -> Option<Chart> {
 #[must_use]
 pub fn ranking(trial: &Trial) -> Option<String> {
     let (pool, proven) = trial.ranked?;
-    let pool = grouped(&pool.to_string());
+    let pool = grouped(pool);
     Some(if proven {
         format!(
             "The best are judged by a ranking of the {pool} cheapest variants, the best of all."
@@ -156,7 +153,7 @@ pub fn ranking(trial: &Trial) -> Option<String> {
 pub fn wrong(trial: &Trial) -> String {
     let judged = trial.records.iter().filter_map(|r| {
         let Share { right, of } = r.variants;
-        let [wrong, all] = [of - right, of].map(|n| grouped(&n.to_string()));
+        let [wrong, all] = [of - right, of].map(grouped);
         (r.way.looks() && right < of).then(|| format!("{} on {wrong} of {all} variants", r.way))
     });
     let counted = trial.records.iter().filter_map(|r| {

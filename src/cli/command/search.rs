@@ -182,6 +182,6 @@ fn verdict(outcome: &Outcome) -> (String, Tone) {
     } else if total.is_zero() {
         ("none".to_owned(), Tone::Bad)
     } else {
-        (grouped(&total.to_string()), Tone::Good)
+        (grouped(total), Tone::Good)
     }
 }

@@ -5,6 +5,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
+use crate::search::build::self_stress::space;
 use crate::search::diagram::adding::{Adding, adding};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
@@ -47,12 +48,7 @@ pub(in crate::search) fn at_most(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();
-    let kept = if keep_output {
-        &question.kept.0[..]
-    } else {
-        &[]
-    };
-    let space = SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)?;
+    let space = space(question, model, order, keep_output)?;
     let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
     if spent.internal() != limits.internal {
         return None;

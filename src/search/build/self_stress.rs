@@ -39,6 +39,22 @@ impl Carries for Added<'_> {
     }
 }
 
+/// The space dual to self-stresses for the variables of a question in an order; none where a choice lacks a motion of its present joint.
+pub(in crate::search) fn space(
+    question: &Question,
+    model: &Model,
+    order: &[usize],
+    keep_output: bool,
+) -> Option<SelfStressSpace> {
+    let kept = if keep_output {
+        &question.kept.0[..]
+    } else {
+        &[]
+    };
+    let field = question.exact.field();
+    SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)
+}
+
 /// The diagram of a question without a searched state, for the variables in an order: the smallest there is, or what fits the limits;
 /// none where a choice lacks a motion of its present joint.
 ///
@@ -54,12 +70,7 @@ pub(in crate::search) fn in_self_stress_space(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Option<Diagram> {
     let field = question.exact.field();
-    let kept = if keep_output {
-        &question.kept.0[..]
-    } else {
-        &[]
-    };
-    let added = SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)?;
+    let added = space(question, model, order, keep_output)?;
     let already = limits.already.saturating_add(added.lasting);
     if already > limits.internal {
         return Some(nothing(model, order));

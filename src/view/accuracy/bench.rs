@@ -114,13 +114,13 @@ pub fn text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
 }
 
 fn head(t: &Trial) -> String {
-    let space = grouped(&t.space.to_string());
+    let space = grouped(&t.space);
     match &t.found {
         Some([determinate, admissible]) => format!(
             "{}: {space} variants, {} determinate, {} admissible\n",
             t.mechanism,
-            grouped(&determinate.to_string()),
-            grouped(&admissible.to_string())
+            grouped(determinate),
+            grouped(admissible)
         ),
         None => format!(
             "{}: {space} variants; the truth needs more --nodes, so that no counts are compared\n",
@@ -130,7 +130,7 @@ fn head(t: &Trial) -> String {
 }
 
 fn share(s: Share) -> String {
-    let of = |n: usize| grouped(&n.to_string());
+    let of = |n: usize| grouped(n);
     format!("{} of {}", of(s.right), of(s.of))
 }
 
@@ -163,7 +163,7 @@ fn notes(t: &Trial) -> String {
         notes.push(format!(
             "Brute force looked at {} variants, half drawn from all and half from the admissible ones, and what prunes at branches \
              drawn at random: they give no counts, and their time is in proportion to all.",
-            grouped(&t.looked.to_string())
+            grouped(t.looked)
         ));
     }
     notes.extend(ranking(t));

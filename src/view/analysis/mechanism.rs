@@ -111,7 +111,7 @@ fn search(m: &Mechanism) -> String {
         };
         parts.push(plural(m.search.turn.len(), what));
     }
-    let joints = grouped(&variants.to_string());
+    let joints = grouped(&variants);
     format!("search: {}; {joints} choices of joints", parts.join(", "))
 }
 

@@ -116,7 +116,7 @@ pub fn census_text(all: &[CensusData], width: Option<u16>) -> String {
     let links = all.iter().map(|c| format!("{} links", c.links));
     let heads: Vec<String> = std::iter::once(String::new()).chain(links).collect();
     let columns = all.iter().map(CensusData::rows).collect_vec();
-    let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), |n| grouped(&n.to_string()));
+    let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), grouped);
     let names = columns.first().into_iter().flatten().map(|(name, _)| *name);
     let rows = names.enumerate().filter_map(|(i, name)| {
         let counted = columns.iter().any(|c| c[i].1.is_some());

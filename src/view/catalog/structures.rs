@@ -54,7 +54,7 @@ fn cell(value: &Value) -> String {
     match value {
         Value::Null => "-".to_owned(),
         Value::Number(n) if n.is_f64() => significant(n.as_f64().unwrap_or(f64::NAN)),
-        Value::Number(n) => grouped(&n.to_string()),
+        Value::Number(n) => grouped(n),
         // A count beyond 63 bits.
         Value::String(s) if s.len() > 18 && s.bytes().all(|b| b.is_ascii_digit()) => grouped(s),
         // The database may be anybody's.
@@ -314,7 +314,7 @@ pub fn built_text(
         None,
     )?;
     let table = QueryAnswer { names, rows }.text(width);
-    let n = grouped(&added.to_string());
+    let n = grouped(added);
     let path = file.display().to_string();
     let path = plain(&path);
     Ok(format!(

@@ -47,10 +47,6 @@ pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     fit(&out, width)
 }
 
-fn big(n: &BigUint) -> String {
-    grouped(&n.to_string())
-}
-
 /// "σ = 0", or the redundant constraints that are allowed.
 fn condition(outcome: &Outcome) -> String {
     match outcome.search.conditions.max_redundant {
@@ -92,13 +88,13 @@ fn verdict(outcome: &Outcome) -> String {
     } else if outcome.admissible.total.is_zero() && least.is_empty() {
         "none".to_owned()
     } else if !outcome.is_confirmed() {
-        format!("not exact: {least}{}", big(&outcome.admissible.total))
+        format!("not exact: {least}{}", grouped(&outcome.admissible.total))
     } else {
         let [_, estimate] = outcome.estimates();
         stopped_early::number(&outcome.admissible.total, outcome.is_counted(), estimate)
     };
     // Writing to a string cannot fail.
-    let of = plural_of(&big(&size), "variant");
+    let of = plural_of(&grouped(&size), "variant");
     let _ = writeln!(out, "{mechanism}: {good} of {of} {all}");
     if size == BigUint::from(1u8) {
         let _ = writeln!(
@@ -150,8 +146,9 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
             || may(w)
     });
     let row = |name: String, of: &[i64]| {
-        let sum =
-            |m: &BTreeMap<i64, BigUint>| big(&of.iter().filter_map(|w| m.get(w)).sum::<BigUint>());
+        let sum = |m: &BTreeMap<i64, BigUint>| {
+            grouped(of.iter().filter_map(|w| m.get(w)).sum::<BigUint>())
+        };
         let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
         if let Some(found) = &outcome.numeric {
             let of = |b| numeric::by_mobility(b, of);

@@ -15,7 +15,7 @@ pub(in crate::view) fn minimal(outcome: &Outcome) -> Option<String> {
     if outcome.admissible.total.is_zero() {
         return None;
     }
-    let all = grouped(&minimal.to_string());
+    let all = grouped(&minimal);
     if rest.is_zero() {
         return Some("minimal: each of them, none does with less than another".to_owned());
     }
@@ -23,7 +23,7 @@ pub(in crate::view) fn minimal(outcome: &Outcome) -> Option<String> {
         0 => "idle motion",
         _ => "freedoms",
     };
-    let rest = grouped(&rest.to_string());
+    let rest = grouped(&rest);
     Some(format!(
         "{all} minimal; the other {rest} only add {idle} to one of these"
     ))

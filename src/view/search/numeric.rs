@@ -9,18 +9,14 @@ use num_traits::Zero;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
-fn big(n: &BigUint) -> String {
-    grouped(&n.to_string())
-}
-
 /// "12", or "12 to 15".
 #[must_use]
 pub(in crate::view) fn from_to(bracket: &Bracket) -> String {
     let from = &bracket.sure.total;
     if bracket.is_narrow() {
-        return big(from);
+        return grouped(from);
     }
-    format!("{} to {}", big(from), big(&bracket.most))
+    format!("{} to {}", grouped(from), grouped(&bracket.most))
 }
 
 /// How many admissible variants there are: "12", or "12 to 15".
@@ -28,7 +24,7 @@ pub(in crate::view) fn from_to(bracket: &Bracket) -> String {
 pub fn admissible(outcome: &Outcome) -> String {
     match &outcome.numeric {
         Some(found) => from_to(&found.admissible),
-        None => big(&outcome.admissible.total),
+        None => grouped(&outcome.admissible.total),
     }
 }
 
@@ -38,9 +34,9 @@ pub(in crate::view) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
     let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
     if doubtful.is_zero() {
-        big(&sure)
+        grouped(&sure)
     } else {
-        format!("{} to {}", big(&sure), big(&(&sure + doubtful)))
+        format!("{} to {}", grouped(&sure), grouped(&(&sure + doubtful)))
     }
 }
 
@@ -58,7 +54,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
         return Vec::new();
     };
     let tolerance = found.digits.tolerance;
-    let looked = grouped(&found.looked.to_string());
+    let looked = grouped(found.looked);
     let mut out = vec![format!(
         "Numeric, not exact: ranks by singular values at tolerance {tolerance:.0e}, {looked} variants looked at"
     )];
@@ -72,7 +68,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
     if !doubtful.is_zero() {
         out.push(format!(
             "Doubtful: the digits do not decide {} of them; these are counted in the upper figures and not listed",
-            big(doubtful)
+            grouped(doubtful)
         ));
     }
     if let Some(s) = &found.sampled {
@@ -99,12 +95,12 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
     };
     let mut out = vec![format!(
         "Estimated from {} variants drawn at random (--seed {}), with 95 % confidence: {}, {}",
-        grouped(&s.drawn.to_string()),
+        grouped(s.drawn),
         s.seed,
         said(s.admissible, "admissible"),
         said(s.determinate, "determinate")
     )];
-    let in_order = grouped(&s.in_order.to_string());
+    let in_order = grouped(s.in_order);
     out.push(match s.all_below {
         Some(milli) => format!(
             "The list is of the {in_order} cheapest variants, which are all of a cost below {}",

@@ -67,7 +67,7 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
 /// What a list of ranked variants rests on, a line each.
 #[must_use]
 pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
-    let n = |x: usize| grouped(&x.to_string());
+    let n = |x: usize| grouped(x);
     let poses = match p.poses {
         0 | 1 => String::new(),
         many => format!(", each in {many} poses"),
@@ -79,9 +79,10 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
         p.proof
     )];
     if let Some(missing) = &p.missing {
-        let cheaper = missing.cheaper.as_ref().map_or(String::new(), |n| {
-            format!(", as {} are", grouped(&n.to_string()))
-        });
+        let cheaper = missing
+            .cheaper
+            .as_ref()
+            .map_or(String::new(), |n| format!(", as {} are", grouped(n)));
         out.push(format!(
             "How far from proven: a variant not scored has a sum of at least {}, the last here {}; one that could still \
              come before it costs less than {}{cheaper}",

@@ -71,20 +71,20 @@ pub fn against(outcome: &Outcome) -> Vec<String> {
         let variant = contradicted(outcome, c);
         out.push(format!(
             "Not exact: {variant}; {} of {} asked about are contradicted",
-            grouped(&n.to_string()),
-            grouped(&of.to_string())
+            grouped(n),
+            grouped(of)
         ));
     }
     if let Some(b) = &said.below_present {
         out.push(format!(
             "Not exact: {} variants have W below {}, which the mechanism has as it is, though options only add freedoms",
-            grouped(&b.variants.to_string()),
+            grouped(&b.variants),
             b.present
         ));
     }
     if let Some([least, most]) = &said.scenes {
         let range = |a: &num_bigint::BigUint, b: &num_bigint::BigUint| {
-            let [a, b] = [a, b].map(|x| grouped(&x.to_string()));
+            let [a, b] = [a, b].map(grouped);
             if a == b { a } else { format!("{a} to {b}") }
         };
         out.push(format!(
@@ -111,7 +111,7 @@ pub fn lines(outcome: &Outcome) -> Vec<String> {
 }
 
 fn agreed(said: &SecondOpinion) -> String {
-    let n = |n: usize| grouped(&n.to_string());
+    let n = |n: usize| grouped(n);
     let undecided = [said.listed, said.admissible, said.all]
         .iter()
         .map(|a| a.undecided)

@@ -24,22 +24,18 @@ pub fn stopped(outcome: &Outcome) -> Option<String> {
     Some(format!("{why}: counts are lower bounds{list}"))
 }
 
-fn big(n: &BigUint) -> String {
-    grouped(&n.to_string())
-}
-
 /// A number of variants as it is told: itself where it is exact, else at least that many, and at most how many and about how many where
 /// that is known.
 #[must_use]
 pub fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
-    let own = big(counted);
+    let own = grouped(counted);
     match estimate {
         _ if exact => own,
         None => format!("at least {own}"),
         Some(e) => match &e.at_most {
             None => format!("at least {own}, about {:.3e},", e.mean),
             Some(most) if most == counted => own,
-            Some(most) => format!("{own} to {}, about {:.3e},", big(most), e.mean),
+            Some(most) => format!("{own} to {}, about {:.3e},", grouped(most), e.mean),
         },
     }
 }
@@ -53,8 +49,8 @@ pub fn estimated(outcome: &Outcome) -> Option<String> {
         match e.drawn {
             Drawn::Samples { of, found } => format!(
                 "{low:.3e} to {high:.3e} {what} ({} of {} samples of those not ruled out)",
-                big(&found.into()),
-                big(&of.into())
+                grouped(found),
+                grouped(of)
             ),
             Drawn::Cuts(n) => {
                 format!("{low:.3e} to {high:.3e} {what} ({n} random cuts of the diagram)")

@@ -38,10 +38,7 @@ pub(in crate::view) fn variants(
             let cells = v.ranked().map(|r| ranking::cells(p, r));
             row.extend(cells.unwrap_or_default());
         }
-        row.extend(
-            v.idea()
-                .map(|i| format!("{least}{}", grouped(&i.variants.to_string()))),
-        );
+        row.extend(v.idea().map(|i| format!("{least}{}", grouped(&i.variants))));
         row.push(in_words(&outcome.search, &v.changes()));
         row
     });

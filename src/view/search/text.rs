@@ -156,7 +156,7 @@ pub fn notes(summary: &Summary) -> Vec<String> {
         out.push(opinions(summary));
     }
     out.extend(stopped_early::proven(summary));
-    let posed = grouped(&summary.posed.to_string());
+    let posed = grouped(summary.posed);
     match (summary.posed, summary.lucky, summary.dropped) {
         (0, _, 0) => {}
         (_, _, n) if n > 0 => out.push(format!(
@@ -238,7 +238,7 @@ fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextComman
         let (condition, to) = condition(*how);
         let name = format!("--{condition}");
         let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
-        let n = plural_of(&grouped(&n.to_string()), "variant");
+        let n = plural_of(&grouped(n), "variant");
         let least = match how {
             Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
             Relaxation::LooseObject => format!("{n}, none of which holds what it grips"),
@@ -279,7 +279,7 @@ fn without(flags: &str, flag: &str) -> String {
 }
 
 fn opinions(summary: &Summary) -> String {
-    let asked = grouped(&(summary.checked + summary.failed).to_string());
+    let asked = grouped(summary.checked + summary.failed);
     let which = if summary.given > summary.checked + summary.failed {
         format!("the first {asked}; the rest was not asked about")
     } else {
