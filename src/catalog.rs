@@ -3,6 +3,8 @@
 pub mod build;
 pub mod drawn;
 #[cfg(feature = "cli")]
+pub mod find;
+#[cfg(feature = "cli")]
 mod insert;
 pub mod row;
 pub mod spec;

@@ -10,5 +10,6 @@ pub mod contracted;
 pub mod enumerate;
 pub mod graph6;
 pub mod layout_symmetry;
+pub mod pairs;
 pub mod roles;
 mod strings;

@@ -10,6 +10,7 @@ pub mod layout;
 pub mod layout_quality;
 pub mod mechanism;
 pub mod place;
+pub mod recognize;
 pub mod rules;
 pub mod skeleton;
 pub mod structure;

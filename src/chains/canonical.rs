@@ -80,12 +80,15 @@ pub struct Canonical {
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.
 #[must_use]
 pub fn canonical(graph: &Weighted) -> Canonical {
+    let n = graph.vertices;
     let mut search = LabelSearch {
         graph,
         best: None,
         equal: Vec::new(),
+        near: vec![NOTHING; n * n],
+        order: (0..n).collect(),
     };
-    let mut cells = vec![0; graph.vertices];
+    let mut cells = vec![0; n];
     search.refine(&mut cells);
     search.descend(&cells);
     let (matrix, order) = search.best.expect("the search has a leaf");
@@ -103,41 +106,50 @@ pub fn canonical(graph: &Weighted) -> Canonical {
     }
 }
 
-/// A vertex's cell, the cells and weights of its neighbours, and the vertex.
-type Key = (usize, Vec<(usize, u8)>, usize);
+/// After all neighbours of a vertex.
+const NOTHING: u32 = u32::MAX;
 
 struct LabelSearch<'a> {
     graph: &'a Weighted,
     best: Option<(Weighted, Vec<usize>)>,
     /// The numberings that give the best matrix.
     equal: Vec<Vec<usize>>,
+    /// A row for each vertex: the cells and weights of its neighbours, sorted.
+    near: Vec<u32>,
+    order: Vec<usize>,
 }
 
 impl LabelSearch<'_> {
     /// Tells vertices of one cell apart by the cells of their neighbours until that changes nothing. A cell's number is the
     /// place of its first vertex.
-    fn refine(&self, cells: &mut Vec<usize>) {
+    fn refine(&mut self, cells: &mut [usize]) {
         let n = self.graph.vertices;
-        let mut keys: Vec<Key> = Vec::with_capacity(n);
         let mut count = 0;
         loop {
-            keys.clear();
-            for v in 0..n {
-                let near = self.graph.row(v).iter().zip(&*cells);
-                let mut near: Vec<_> = near
-                    .filter(|(w, _)| **w > 0)
-                    .map(|(&w, &c)| (c, w))
-                    .collect();
-                near.sort_unstable();
-                keys.push((cells[v], near, v));
+            for (v, near) in self.near.chunks_mut(n).enumerate() {
+                let all = self.graph.row(v).iter().zip(&*cells);
+                let kinds = all.filter(|(w, _)| **w > 0);
+                #[allow(clippy::cast_possible_truncation, reason = "some ten vertices")]
+                let kinds = kinds.map(|(&w, &c)| (c as u32) << 8 | u32::from(w));
+                let mut filled = 0;
+                for (place, kind) in near.iter_mut().zip(kinds) {
+                    *place = kind;
+                    filled += 1;
+                }
+                near[..filled].sort_unstable();
+                near[filled..].fill(NOTHING);
             }
-            keys.sort_unstable();
+            let key = |v: usize| (cells[v], &self.near[v * n..(v + 1) * n]);
+            self.order
+                .sort_unstable_by(|&u, &v| (key(u), u).cmp(&(key(v), v)));
+            let starts = |i: usize| i == 0 || key(self.order[i - 1]) != key(self.order[i]);
+            let first: Vec<bool> = (0..n).map(starts).collect();
             let (mut cell, mut found) = (0, 0);
-            for (i, key) in keys.iter().enumerate() {
-                if i == 0 || (keys[i - 1].0, &keys[i - 1].1) != (key.0, &key.1) {
+            for (i, &v) in self.order.iter().enumerate() {
+                if first[i] {
                     (cell, found) = (i, found + 1);
                 }
-                cells[key.2] = cell;
+                cells[v] = cell;
             }
             if found == count {
                 return;

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Whether the graph hangs together without any one of its vertices.
-fn is_biconnected(graph: &Weighted) -> bool {
+pub(in crate::chains) fn is_biconnected(graph: &Weighted) -> bool {
     let n = graph.vertices();
     let all = (1u32 << n) - 1;
     let near: Vec<u32> = (0..n)

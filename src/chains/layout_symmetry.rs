@@ -1,14 +1,13 @@
 //! Whether a structure moves as a gripper when it is laid out, symmetrically or not.
 //!
 //! A symmetric graph is not enough: with pins in places that mirror each other the motion is often another, or the drive is
-//! dead. Places are drawn at random in a prime field, so that a motion found missing may be missing by accident with a
-//! chance of some 10^-17, and one found free is free for nearly all places.
+//! dead.
 
+use crate::chains::chain::Chain;
+use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::motion::{Image, Swap, generic_motions, motions_in_way};
 use crate::chains::roles::{Roles, Subject};
-use crate::linalg::echelon::relations;
-use crate::linalg::modp::{Field, Residue};
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
 use itertools::Itertools;
 use thiserror::Error;
 
@@ -103,102 +102,17 @@ pub enum NoGripper {
     Together,
 }
 
-/// 2^61 - 1.
-const PRIME: u64 = (1 << 61) - 1;
-
-/// Pins in places that a symmetry carries to each other, by links; `swap` is the identity where there is none. A third of a
-/// turn is (x, y) to (-y, x - y): coordinates along two axes at 120°, which stretching the plane makes of square ones, and
-/// motions of hinges are as many in a stretched plane.
-fn pins(
-    subject: &Subject<'_>,
-    swap: &[usize],
-    symmetry: Symmetry,
-    field: Field,
-) -> Vec<((usize, usize), [Residue; 2])> {
-    let mut random = ChaCha8Rng::seed_from_u64(1);
-    let joints = subject.chain.joints();
-    let mut places: Vec<Option<[Residue; 2]>> = vec![None; joints.len()];
-    for (i, &(u, v)) in joints.iter().enumerate() {
-        if places[i].is_some() {
-            continue;
+/// A chain of hinges whose input joint may slide.
+fn with_input(chain: &Chain, roles: &Roles, input: Input) -> PairChain {
+    let joints = chain.joints().into_iter().map(|(u, v)| {
+        let driven = [(u, v), (v, u)].contains(&(roles.frame, roles.driver));
+        let slides = driven && input == Input::Slide;
+        Joint {
+            links: [u, v],
+            pair: if slides { Pair::Slide } else { Pair::Hinge },
         }
-        let mut draw = || field.from_i64((random.next_u64() >> 4).cast_signed());
-        let (x, y) = (draw(), draw());
-        let image = |(u, v): (usize, usize)| (swap[u].min(swap[v]), swap[u].max(swap[v]));
-        let mut at = match symmetry {
-            _ if image((u, v)) != (u, v) => [x, y],
-            Symmetry::Generic => [x, y],
-            Symmetry::Mirror => [x, field.zero()],
-            Symmetry::HalfTurn | Symmetry::Threefold => [field.zero(); 2],
-        };
-        let mut joint = (u, v);
-        while let Some(n) = joints.iter().position(|&j| j == joint)
-            && places[n].is_none()
-        {
-            places[n] = Some(at);
-            let [x, y] = at;
-            at = match symmetry {
-                Symmetry::Generic => [x, y],
-                Symmetry::Mirror => [x, field.neg(y)],
-                Symmetry::HalfTurn => [field.neg(x), field.neg(y)],
-                Symmetry::Threefold => [field.neg(y), field.sub(x, y)],
-            };
-            joint = image(joint);
-        }
-    }
-    let placed = joints.into_iter().zip(places);
-    placed
-        .filter_map(|(joint, at)| Some((joint, at?)))
-        .collect()
-}
-
-/// A velocity of each link: its turning, and the velocity of its point at the origin.
-type Velocities = Vec<[Residue; 3]>;
-
-/// The motions with the frame at rest, hinges at the pins, the input a slide along x where it is one.
-fn motions(
-    roles: &Roles,
-    links: usize,
-    pins: &[((usize, usize), [Residue; 2])],
-    slide: Input,
-    field: Field,
-) -> Vec<Velocities> {
-    let (zero, one) = (field.zero(), field.one());
-    let mut columns = vec![Vec::new(); 3 * links];
-    let mut row = |entries: &[(usize, Residue)]| {
-        columns.iter_mut().for_each(|c| c.push(zero));
-        for &(unknown, value) in entries {
-            if let Some(last) = columns[unknown].last_mut() {
-                *last = value;
-            }
-        }
-    };
-    let minus = |x| field.neg(x);
-    for i in 0..3 {
-        row(&[(3 * roles.frame + i, one)]);
-    }
-    for &((u, v), [x, y]) in pins {
-        let input = [(u, v), (v, u)].contains(&(roles.frame, roles.driver));
-        if input && slide == Input::Slide {
-            row(&[(3 * roles.driver, one)]);
-            row(&[(3 * roles.driver + 2, one)]);
-            continue;
-        }
-        row(&[
-            (3 * u, minus(y)),
-            (3 * u + 1, one),
-            (3 * v, y),
-            (3 * v + 1, minus(one)),
-        ]);
-        row(&[
-            (3 * u, x),
-            (3 * u + 2, one),
-            (3 * v, minus(x)),
-            (3 * v + 2, minus(one)),
-        ]);
-    }
-    let links = |m: Vec<Residue>| m.chunks(3).map(|c| [c[0], c[1], c[2]]).collect();
-    relations(field, &columns).into_iter().map(links).collect()
+    });
+    PairChain::new(chain.links(), joints)
 }
 
 /// Whether a gripper laid out so that `swap` is its symmetry has one motion, in which the input moves, and the jaws
@@ -215,13 +129,21 @@ pub fn moves(
     (symmetry, input): (Symmetry, Input),
     swap: &[usize],
 ) -> Result<(), NoGripper> {
-    let field = Field::new(PRIME);
-    let rest = [field.zero(); 3];
-    let pins = pins(subject, swap, symmetry, field);
-    let found = motions(roles, subject.chain.links(), &pins, input, field);
+    let chain = with_input(subject.chain, roles, input);
+    let placed = |image| {
+        let swap = Swap { links: swap, image };
+        motions_in_way(&chain, swap, roles.frame, 0)
+    };
+    let found = match symmetry {
+        Symmetry::Generic => generic_motions(&chain),
+        Symmetry::Mirror => placed(Image::Mirror),
+        Symmetry::HalfTurn => placed(Image::HalfTurn),
+        Symmetry::Threefold => placed(Image::ThirdTurn),
+    };
     let [motion] = &found[..] else {
         return Err(NoGripper::Motions(found.len()));
     };
+    let rest = motion[roles.frame];
     let jaws = || roles.jaws.iter().map(|&l| motion[l]);
     if motion[roles.driver] == rest {
         Err(NoGripper::DeadDrive)

@@ -2,4 +2,7 @@
 
 pub mod chains;
 #[cfg(feature = "cli")]
+pub mod find;
+pub mod pairs;
+#[cfg(feature = "cli")]
 pub mod structures;

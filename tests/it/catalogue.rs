@@ -3,10 +3,12 @@
 mod carried_on;
 mod chains;
 mod command;
+mod find;
 mod killed;
 mod motions;
 mod orbits;
 mod out_of_plane;
+mod pairs;
 mod rows;
 mod store;
 mod three_jaws;

@@ -4,9 +4,11 @@ mod build;
 mod built;
 mod chains;
 mod drawn;
+mod find;
 mod format;
 mod look;
 mod merge;
+mod pairs;
 
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
@@ -30,6 +32,8 @@ enum What {
     Search(drawn::SearchDrawn),
     /// Put the parts of a catalogue together.
     Merge(merge::Merge),
+    /// What structure a mechanism has, what it is known as, and whether a catalogue has it.
+    Find(find::Find),
     /// Ask a catalogue in SQL, or for its best structures.
     Query(look::Query),
     /// What a catalogue knows of a structure.
@@ -47,6 +51,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
         What::Build(b) => build::run(args, b),
         What::Search(s) => drawn::search(args, s),
         What::Merge(m) => merge::merge(m),
+        What::Find(f) => find::find(f),
         What::Query(q) => look::query(q),
         What::Show(s) => look::show(s),
         What::Export(e) => look::export(e),

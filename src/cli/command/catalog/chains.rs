@@ -1,6 +1,7 @@
 //! `ozols catalog count` and `chains`.
 
 use super::format::CatalogFormat;
+use super::pairs::PairArgs;
 use crate::catalog::spec::range;
 use crate::chains::census::census;
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
@@ -18,7 +19,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-struct Common {
+pub(super) struct Common {
     /// Mobility of the chains, all of whose joints have one freedom.
     #[arg(long, value_name = "W", default_value_t = 1)]
     mobility: usize,
@@ -31,8 +32,17 @@ struct Common {
 }
 
 impl Common {
+    /// Refuses chains of several motions where `option` is about those of one.
+    pub(super) fn is_of_one_motion(&self, option: &str) -> anyhow::Result<()> {
+        ensure!(
+            self.mobility == 1,
+            "{option} counts chains of one motion: leave --mobility out"
+        );
+        Ok(())
+    }
+
     /// Writes what was found, one row each, or as `text` for a terminal of some width.
-    fn give<T: Serialize>(
+    pub(super) fn give<T: Serialize>(
         &self,
         all: &[T],
         text: impl Fn(&[T], Option<u16>) -> String,
@@ -58,6 +68,8 @@ pub(in crate::cli) struct Count {
     #[arg(long)]
     chains: bool,
     #[command(flatten)]
+    pairs: PairArgs,
+    #[command(flatten)]
     common: Common,
 }
 
@@ -78,9 +90,10 @@ const MOST_LISTED: usize = 14;
 fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
     let all = range(text)
         .map_err(|part| format!("{part:?} is not a number of links: write 8 or 4..10"))?;
-    if all.is_empty() || *all.start() < 4 || *all.end() > 18 {
+    if all.is_empty() || *all.start() < 3 || *all.end() > 18 {
         return Err(
-            "chains of 4 to 18 links are counted, from the lesser number to the greater".to_owned(),
+            "chains of 4 to 18 links are counted, with --pairs of 3 to 10, from the lesser number to the greater"
+                .to_owned(),
         );
     }
     Ok(all)
@@ -90,6 +103,13 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
     let w = a.common.mobility;
     ensure!((1..=6).contains(&w), "--mobility must be 1 to 6");
     let mut bar = Bar::new(args.quiet);
+    if a.pairs.are_given() {
+        return a.pairs.count(&a.links, a.chains, &a.common, &mut bar);
+    }
+    ensure!(
+        *a.links.start() > 3,
+        "chains of hinges have 4 links at least: three links need --pairs"
+    );
     let mut all = Vec::new();
     for (i, n) in a.links.clone().enumerate() {
         bar.step(&format!("{n} links"), i, a.links.clone().count());

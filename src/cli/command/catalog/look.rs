@@ -39,7 +39,7 @@ pub(in crate::cli) struct Query {
 }
 
 /// The catalogue in a file.
-fn open(file: &Path) -> anyhow::Result<Store> {
+pub(super) fn open(file: &Path) -> anyhow::Result<Store> {
     ensure!(
         file.exists(),
         "there is no file {0}; `ozols catalog build -o {0}` makes a catalogue",

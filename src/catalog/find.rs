@@ -1,0 +1,67 @@
+//! The structures of a catalogue that are a given one.
+
+use crate::catalog::store::{Store, StoreError};
+use crate::chains::graph6;
+use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::roles::PairRoles;
+use crate::chains::pairs::structure::PairStructure;
+use serde_json::Value;
+
+/// A structure of two jaws, its id and form first.
+const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL)), chain, input, frame, driver, jaw_a, jaw_b \
+     FROM structures WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
+
+/// A structure of a catalogue.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// Its short name.
+    pub id: String,
+    /// How it is laid out, in words.
+    pub form: String,
+}
+
+/// The entries of a catalogue that are a structure, in whatever form they are laid out, symmetric ones first.
+///
+/// # Errors
+/// Those of the database.
+///
+/// # Complexity
+/// One canonical numbering for each structure of as many links.
+pub fn entries(store: &Store, structure: &PairStructure) -> Result<Vec<Entry>, StoreError> {
+    let key = structure.key();
+    let links = structure.chain.links().to_string();
+    let (_, rows) = store.query(STRUCTURES, Some(&links))?;
+    let same = |row: &&Vec<Value>| read(row).is_some_and(|s| s.key() == key);
+    let word = |v: &Value| v.as_str().unwrap_or_default().to_owned();
+    let entry = |row: &Vec<Value>| Entry {
+        id: word(&row[0]),
+        form: word(&row[1]),
+    };
+    Ok(rows.iter().filter(same).map(entry).collect())
+}
+
+/// The structure of a row.
+fn read(row: &[Value]) -> Option<PairStructure> {
+    let chain = graph6::read(row.get(2)?.as_str()?).ok()?;
+    let slides = row.get(3)?.as_str()? == "slide";
+    let link = |i: usize| usize::try_from(row.get(i)?.as_u64()?).ok();
+    let (frame, driver) = (link(4)?, link(5)?);
+    let (a, b) = (link(6)?, link(7)?);
+    let input = [frame.min(driver), frame.max(driver)];
+    let joints = chain.joints().into_iter().map(|(u, v)| {
+        let driven = slides && [u, v] == input;
+        Joint {
+            links: [u, v],
+            pair: if driven { Pair::Slide } else { Pair::Hinge },
+        }
+    });
+    Some(PairStructure {
+        chain: PairChain::new(chain.links(), joints),
+        roles: PairRoles {
+            frame,
+            input,
+            jaws: [a.min(b), a.max(b)],
+        },
+    })
+}

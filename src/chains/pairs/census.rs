@@ -1,0 +1,191 @@
+//! How many chains of pairs there are, and in how many ways their links make grippers of two jaws.
+
+use crate::chains::pairs::chain::{MOST_LINKS, PairChain};
+use crate::chains::pairs::graphs::biconnected_graphs;
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::roles::PairSubject;
+use crate::chains::pairs::sharing::{Menu, Sharing};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::ops::AddAssign;
+use std::sync::{Mutex, PoisonError};
+
+/// How many pairs of each kind that is no hinge a chain has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Kinds {
+    /// Slides.
+    pub slides: usize,
+    /// Gear pairs and racks.
+    pub gears: usize,
+    /// Slots, cams and wedges.
+    pub slots: usize,
+}
+
+impl Kinds {
+    /// Of a chain.
+    #[must_use]
+    pub fn of(chain: &PairChain) -> Kinds {
+        Kinds {
+            slides: chain.count(Pair::Slide),
+            gears: chain.count(Pair::Gear),
+            slots: chain.count(Pair::Slot),
+        }
+    }
+
+    /// All of them.
+    #[must_use]
+    pub fn all(self) -> usize {
+        self.slides + self.gears + self.slots
+    }
+}
+
+/// Counts of choices of jaws with one kind of input in one place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PairGrippers {
+    /// All.
+    pub all: u64,
+    /// Of these, those of which no smaller moving part holds all roles. The rest counts such alone.
+    pub essential: u64,
+    /// Both jaws keep their attitude.
+    pub translating: u64,
+    /// An automorphism of order two keeps frame and input joint and swaps the jaws.
+    pub graph_symmetric: u64,
+    /// They move so in places that mirror each other.
+    pub mirror: u64,
+    /// The same without the demand on the input joint.
+    pub mirror_but_input: u64,
+    /// They move so in places that half a turn carries to each other.
+    pub half_turn: u64,
+    /// The same without the demand on the input joint.
+    pub half_turn_but_input: u64,
+}
+
+impl AddAssign for PairGrippers {
+    fn add_assign(&mut self, o: PairGrippers) {
+        self.all += o.all;
+        self.essential += o.essential;
+        self.translating += o.translating;
+        self.graph_symmetric += o.graph_symmetric;
+        self.mirror += o.mirror;
+        self.mirror_but_input += o.mirror_but_input;
+        self.half_turn += o.half_turn;
+        self.half_turn_but_input += o.half_turn_but_input;
+    }
+}
+
+/// Where the input joint is, what it is, and whether a jaw is one of its links.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Drive {
+    /// Between two moving links; otherwise at the frame.
+    pub between: bool,
+    /// A jaw is a link of it; otherwise the jaws are apart.
+    pub jaw: bool,
+    /// It slides; otherwise it turns.
+    pub slides: bool,
+}
+
+/// Counts of the chains of some links and kinds, everything up to automorphism.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct PairCensus {
+    /// Chains.
+    pub chains: u64,
+    /// Choices of a frame.
+    pub frames: u64,
+    /// Choices of a frame and an input joint at it.
+    pub inputs_at_frame: u64,
+    /// Choices of a frame and an input joint between two other links.
+    pub inputs_between: u64,
+    /// Choices of jaws with them.
+    pub grippers: BTreeMap<Drive, PairGrippers>,
+}
+
+impl AddAssign for PairCensus {
+    fn add_assign(&mut self, o: PairCensus) {
+        self.chains += o.chains;
+        self.frames += o.frames;
+        self.inputs_at_frame += o.inputs_at_frame;
+        self.inputs_between += o.inputs_between;
+        for (drive, counts) in o.grippers {
+            *self.grippers.entry(drive).or_default() += counts;
+        }
+    }
+}
+
+impl PairCensus {
+    /// Of one chain with its automorphisms.
+    ///
+    /// # Complexity
+    /// A step for each choice of roles and each smaller moving part.
+    #[must_use]
+    pub fn of(subject: &PairSubject<'_>, grippers: bool) -> PairCensus {
+        let mut out = PairCensus {
+            chains: 1,
+            frames: subject.frames() as u64,
+            ..PairCensus::default()
+        };
+        for (frame, input) in subject.drives() {
+            let between = !input.is_at(frame);
+            out.inputs_at_frame += u64::from(!between);
+            out.inputs_between += u64::from(between);
+            let all = grippers.then(|| subject.grippers(frame, &input));
+            for roles in all.into_iter().flatten() {
+                let drive = Drive {
+                    between,
+                    jaw: roles.has_driven_jaw(),
+                    slides: input.pair == Pair::Slide,
+                };
+                let counts = out.grippers.entry(drive).or_default();
+                counts.all += 1;
+                if !subject.is_essential(&roles) {
+                    continue;
+                }
+                let s = subject.symmetries(&roles);
+                *counts += PairGrippers {
+                    all: 0,
+                    essential: 1,
+                    translating: subject.is_translating(&roles).into(),
+                    graph_symmetric: s.graph.into(),
+                    mirror: s.mirror.into(),
+                    mirror_but_input: s.mirror_but_input.into(),
+                    half_turn: s.half_turn.into(),
+                    half_turn_but_input: s.half_turn_but_input.into(),
+                };
+            }
+        }
+        out
+    }
+}
+
+/// Calls `visit` with every chain of so many links and with its automorphisms; in no particular order and from several
+/// threads.
+///
+/// # Complexity
+/// Some ten microseconds a way to share the kinds out over a graph, where there are slides; one otherwise.
+pub fn visit_pair_chains(links: usize, menu: Menu<'_>, visit: &(impl Fn(&PairSubject<'_>) + Sync)) {
+    if !(3..=MOST_LINKS).contains(&links) {
+        return;
+    }
+    let graphs = biconnected_graphs(links, menu.most_joints(links, menu.most));
+    graphs.par_iter().for_each(|graph| {
+        let own: Vec<usize> = (0..links).collect();
+        let sharing = Sharing::new(&graph.graph, &graph.automorphisms, &own);
+        sharing.share(menu, &mut |chain, automorphisms| {
+            visit(&PairSubject::new(&chain, &automorphisms));
+        });
+    });
+}
+
+/// Counts over all chains of so many links, by how many pairs of each kind they have.
+///
+/// # Complexity
+/// As [`visit_pair_chains`].
+#[must_use]
+pub fn pair_census(links: usize, menu: Menu<'_>, grippers: bool) -> BTreeMap<Kinds, PairCensus> {
+    let all = Mutex::new(BTreeMap::<Kinds, PairCensus>::new());
+    visit_pair_chains(links, menu, &|subject| {
+        let one = PairCensus::of(subject, grippers);
+        let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
+        *all.entry(Kinds::of(subject.chain)).or_default() += one;
+    });
+    all.into_inner().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,124 @@
+//! A chain whose joints are of several kinds.
+
+use crate::chains::canonical::{Weighted, canonical};
+use crate::chains::pairs::kind::Pair;
+
+/// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.
+pub const MOST_LINKS: usize = 12;
+
+/// A chain: which links are joined, and by what.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PairChain {
+    pairs: Weighted,
+}
+
+/// A joint of a chain: its links, the lesser first, and its kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Joint {
+    /// The links.
+    pub links: [usize; 2],
+    /// The kind.
+    pub pair: Pair,
+}
+
+impl Joint {
+    /// Whether it joins a link to another.
+    #[must_use]
+    pub fn is_at(&self, link: usize) -> bool {
+        self.links.contains(&link)
+    }
+}
+
+impl PairChain {
+    /// A chain of so many links with these joints.
+    #[must_use]
+    pub fn new(links: usize, joints: impl IntoIterator<Item = Joint>) -> PairChain {
+        let mut pairs = Weighted::new(links);
+        for joint in joints {
+            let [u, v] = joint.links;
+            pairs.set(u, v, joint.pair as u8);
+        }
+        PairChain { pairs }
+    }
+
+    /// Number of links.
+    #[must_use]
+    pub fn links(&self) -> usize {
+        self.pairs.vertices()
+    }
+
+    /// What joins two links.
+    #[must_use]
+    pub fn between(&self, u: usize, v: usize) -> Option<Pair> {
+        Pair::of_weight(self.pairs.weight(u, v))
+    }
+
+    /// The joints, by their greater link and then by the lesser.
+    #[must_use]
+    pub fn joints(&self) -> Vec<Joint> {
+        let pairs = (0..self.links()).flat_map(|v| (0..v).map(move |u| [u, v]));
+        let joint = |links: [usize; 2]| Some((links, self.between(links[0], links[1])?));
+        let joints = pairs.filter_map(joint);
+        joints.map(|(links, pair)| Joint { links, pair }).collect()
+    }
+
+    /// How many joints are of a kind.
+    #[must_use]
+    pub fn count(&self, pair: Pair) -> usize {
+        self.joints().iter().filter(|j| j.pair == pair).count()
+    }
+
+    /// The mobility of every set of links, given as bits, with the joints between them: the place in the list is the set.
+    ///
+    /// # Complexity
+    /// O(2ⁿ) for n links.
+    #[must_use]
+    pub fn mobilities(&self) -> Vec<i16> {
+        let mut out = vec![-3i16; 1 << self.links()];
+        for part in 1..out.len() {
+            let last = part.ilog2() as usize;
+            let rest = part & !(1 << last);
+            let others = (0..last).filter(|u| rest >> u & 1 == 1);
+            let taken = others.map(|u| match self.between(u, last) {
+                None => 0,
+                Some(pair) if pair.is_lower() => 2,
+                Some(_) => 1,
+            });
+            out[part] = out[rest] + 3 - taken.sum::<i16>();
+        }
+        out
+    }
+
+    /// Whether every gear pair has a carrier: a link that is hinged to both gears, or to the pinion and slides on the rack.
+    #[must_use]
+    pub fn has_carriers(&self) -> bool {
+        let is_carrier = |link: usize, [u, v]: [usize; 2]| {
+            let both = [self.between(link, u), self.between(link, v)];
+            let lower = both.iter().all(|p| p.is_some_and(Pair::is_lower));
+            lower && both.contains(&Some(Pair::Hinge))
+        };
+        let mut joints = self.joints().into_iter();
+        joints.all(|j| {
+            j.pair != Pair::Gear || (0..self.links()).any(|link| is_carrier(link, j.links))
+        })
+    }
+
+    /// The automorphisms as the images of the links, the identity among them.
+    ///
+    /// # Complexity
+    /// As of [`canonical`].
+    #[must_use]
+    pub fn automorphisms(&self) -> Vec<Vec<usize>> {
+        canonical(&self.pairs).automorphisms
+    }
+
+    /// The chain in its canonical numbering: equal for two chains exactly where they are isomorphic.
+    ///
+    /// # Complexity
+    /// As of [`canonical`].
+    #[must_use]
+    pub fn canonical(&self) -> PairChain {
+        let pairs = canonical(&self.pairs).graph;
+        PairChain { pairs }
+    }
+}

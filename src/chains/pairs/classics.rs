@@ -1,0 +1,83 @@
+//! Gripper schemes that are well known, as structures.
+
+use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::roles::PairRoles;
+use crate::chains::pairs::structure::PairStructure;
+use itertools::Itertools;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+const TEXT: &str = include_str!("classics.toml");
+
+/// A scheme that is well known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Classic {
+    /// A word for it.
+    pub id: String,
+    /// What it is.
+    pub about: String,
+    /// Its structure.
+    pub structure: PairStructure,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    about: String,
+    pairs: String,
+    input: String,
+    jaws: String,
+}
+
+impl Entry {
+    /// The structure; nothing where the entry cannot be read.
+    fn structure(&self) -> Option<PairStructure> {
+        let pairs = self.pairs.split(", ").map(|p| p.split(' ').collect_tuple());
+        let pairs: Vec<(&str, &str, &str)> = pairs.collect::<Option<_>>()?;
+        let names = pairs.iter().flat_map(|p| [p.0, p.1]).unique().collect_vec();
+        let place = |name: &str| names.iter().position(|n| *n == name);
+        let two = |a: &str, b: &str| {
+            let (a, b) = (place(a)?, place(b)?);
+            Some([a.min(b), a.max(b)])
+        };
+        let both = |words: &str| words.split_once(' ').and_then(|(a, b)| two(a, b));
+        let joint = |&(a, b, kind): &(&str, &str, &str)| {
+            let pair = Pair::ALL.iter().find(|k| kind.chars().eq([k.2]))?.0;
+            let links = two(a, b)?;
+            Some(Joint { links, pair })
+        };
+        let joints: Vec<Joint> = pairs.iter().map(joint).collect::<Option<_>>()?;
+        Some(PairStructure {
+            roles: PairRoles {
+                frame: place("f")?,
+                input: both(&self.input)?,
+                jaws: both(&self.jaws)?,
+            },
+            chain: PairChain::new(names.len(), joints),
+        })
+    }
+}
+
+/// Every scheme, by its word.
+///
+/// # Panics
+/// Never: the text is part of the program, and a test reads it.
+#[must_use]
+pub fn classics() -> Vec<Classic> {
+    let all: BTreeMap<String, Entry> = toml::from_str(TEXT).expect("a test reads it");
+    let classic = |(id, entry): (String, Entry)| Classic {
+        structure: entry.structure().expect("a test reads it"),
+        about: entry.about,
+        id,
+    };
+    all.into_iter().map(classic).collect()
+}
+
+/// The schemes that have a structure.
+#[must_use]
+pub fn classics_of(structure: &PairStructure) -> Vec<Classic> {
+    let key = structure.key();
+    let same = |c: &Classic| c.structure.key() == key;
+    classics().into_iter().filter(same).collect()
+}

@@ -1,0 +1,327 @@
+//! How the links of a chain move where its joints are in nearly any places, symmetric or not.
+//!
+//! Places are drawn at random in a prime field, so that a motion found missing may be missing by accident with a chance of
+//! some 10^-17, and one found free is free for nearly all places.
+//!
+//! A hinge is two rows at a point, a slide equal turns and no motion across a direction, a gear pair or a slot one row, a line
+//! of action. Where a symmetry carries a joint to itself, its place is special: a hinge lies on the mirror line, a slide goes
+//! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it.
+
+use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::kind::Pair;
+use crate::linalg::echelon::relations;
+use crate::linalg::modp::{Field, Residue};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use itertools::Itertools;
+
+/// 2^61 - 1.
+const PRIME: u64 = (1 << 61) - 1;
+
+/// A velocity of a link: its turning, and the velocity of its point at the origin.
+pub type Velocity = [Residue; 3];
+
+/// How joints lie on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Image {
+    /// Across the x axis.
+    Mirror,
+    /// By half a turn about the origin.
+    HalfTurn,
+    /// By a third of a turn about the origin: (x, y) to (-y, x - y), in coordinates along two axes at 120°, which stretching the
+    /// plane makes of square ones. Motions are as many in a stretched plane.
+    ThirdTurn,
+}
+
+/// What a joint forbids its links: rows of (turning, velocity of the point at the origin) of one against the other.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    Hinge([Residue; 2]),
+    /// The direction across it.
+    Slide([Residue; 2]),
+    /// Moment, and direction of the line of action.
+    Line([Residue; 3]),
+}
+
+struct Draw {
+    field: Field,
+    random: ChaCha8Rng,
+}
+
+impl Draw {
+    fn new() -> Draw {
+        Draw {
+            field: Field::new(PRIME),
+            random: ChaCha8Rng::seed_from_u64(1),
+        }
+    }
+
+    fn one(&mut self) -> Residue {
+        self.field
+            .from_i64((self.random.next_u64() >> 4).cast_signed())
+    }
+
+    fn place(&mut self, pair: Pair) -> Place {
+        match pair {
+            Pair::Hinge => Place::Hinge([self.one(), self.one()]),
+            Pair::Slide => Place::Slide([self.one(), self.one()]),
+            Pair::Gear | Pair::Slot => Place::Line([self.one(), self.one(), self.one()]),
+        }
+    }
+
+    /// Of a joint that is its own image; nothing where it cannot be. `across` chooses of two ways, where there are two.
+    fn own_image(&mut self, joint: OwnImage, image: Image, across: bool) -> Option<Place> {
+        let (zero, one) = (self.field.zero(), self.field.one());
+        let straight = [one, zero];
+        let upright = [zero, one];
+        Some(match (joint.pair, image) {
+            (Pair::Hinge, Image::Mirror) => Place::Hinge([self.one(), zero]),
+            (Pair::Hinge, Image::HalfTurn) => Place::Hinge([zero; 2]),
+            (Pair::Slide, Image::Mirror) if across => Place::Slide(straight),
+            (Pair::Slide, Image::Mirror) => Place::Slide(upright),
+            (Pair::Slide, Image::HalfTurn) => Place::Slide([self.one(), self.one()]),
+            (Pair::Slot, Image::Mirror) if across => Place::Line([self.one(), zero, one]),
+            (Pair::Slot, Image::Mirror) => Place::Line([zero, one, zero]),
+            (Pair::Slot, Image::HalfTurn) => Place::Line([zero, self.one(), self.one()]),
+            (Pair::Gear, Image::Mirror) if joint.swapped => Place::Line([zero, one, zero]),
+            (Pair::Hinge, Image::ThirdTurn) => Place::Hinge([zero; 2]),
+            (Pair::Gear, _) | (_, Image::ThirdTurn) => return None,
+        })
+    }
+}
+
+/// A joint that a symmetry carries to itself.
+#[derive(Debug, Clone, Copy)]
+struct OwnImage {
+    pair: Pair,
+    /// Whether its links change places.
+    swapped: bool,
+}
+
+impl OwnImage {
+    /// Whether there are two ways to lie.
+    fn has_two_ways(self, image: Image) -> bool {
+        image == Image::Mirror && matches!(self.pair, Pair::Slide | Pair::Slot)
+    }
+}
+
+/// What becomes of a direction.
+fn turned(field: Field, [x, y]: [Residue; 2], image: Image) -> [Residue; 2] {
+    match image {
+        Image::Mirror => [x, field.neg(y)],
+        Image::HalfTurn => [field.neg(x), field.neg(y)],
+        Image::ThirdTurn => [field.neg(y), field.sub(x, y)],
+    }
+}
+
+fn image_of(field: Field, place: Place, image: Image) -> Place {
+    match place {
+        Place::Hinge(at) => Place::Hinge(turned(field, at, image)),
+        Place::Slide(across) => Place::Slide(turned(field, across, image)),
+        Place::Line([m, x, y]) => {
+            let mirrored = image == Image::Mirror;
+            let moment = if mirrored { field.neg(m) } else { m };
+            let [x, y] = turned(field, [x, y], image);
+            Place::Line([moment, x, y])
+        }
+    }
+}
+
+/// The motions with link 0 at rest, joints in these places.
+fn motions(field: Field, chain: &PairChain, places: &[(Joint, Place)]) -> Vec<Vec<Velocity>> {
+    let (zero, one) = (field.zero(), field.one());
+    let mut columns = vec![Vec::with_capacity(2 * places.len()); 3 * (chain.links() - 1)];
+    let mut row = |[u, v]: [usize; 2], entries: [Residue; 3]| {
+        columns.iter_mut().for_each(|c| c.push(zero));
+        let mut set = |link: usize, entry: usize, value: Residue| {
+            let column = (3 * link + entry).checked_sub(3);
+            let last = column.and_then(|c| columns[c].last_mut());
+            if let Some(last) = last {
+                *last = value;
+            }
+        };
+        for (i, value) in entries.into_iter().enumerate() {
+            set(u, i, value);
+            set(v, i, field.neg(value));
+        }
+    };
+    for (joint, place) in places {
+        match *place {
+            Place::Hinge([x, y]) => {
+                row(joint.links, [field.neg(y), one, zero]);
+                row(joint.links, [x, zero, one]);
+            }
+            Place::Slide([x, y]) => {
+                row(joint.links, [one, zero, zero]);
+                row(joint.links, [zero, x, y]);
+            }
+            Place::Line(line) => row(joint.links, line),
+        }
+    }
+    let links = |m: Vec<Residue>| {
+        let rest = [[zero; 3]];
+        let moving = m.chunks(3).map(|c| [c[0], c[1], c[2]]);
+        rest.into_iter().chain(moving).collect()
+    };
+    relations(field, &columns).into_iter().map(links).collect()
+}
+
+/// The motions of a chain in nearly all places, link 0 at rest.
+///
+/// # Complexity
+/// An elimination of 3n columns for n links.
+#[must_use]
+pub fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
+    let mut draw = Draw::new();
+    let joints = chain.joints().into_iter();
+    let places = joints.map(|j| (j, draw.place(j.pair))).collect_vec();
+    motions(draw.field, chain, &places)
+}
+
+/// The one motion of a chain in nearly all places, link 0 at rest; nothing where there is none or more than one.
+///
+/// # Complexity
+/// As [`generic_motions`].
+#[must_use]
+pub fn motion(chain: &PairChain) -> Option<Vec<Velocity>> {
+    let mut found = generic_motions(chain);
+    found.pop().filter(|_| found.is_empty())
+}
+
+/// Whether a chain has one motion in nearly all places, in which every two links move against each other.
+///
+/// # Complexity
+/// As [`motion`].
+#[must_use]
+pub fn moves_throughout(chain: &PairChain) -> bool {
+    motion(chain).is_some_and(|m| m.iter().all_unique())
+}
+
+/// The joints with their places, so that the symmetry carries each to the place of its image; `across` has a bit for each
+/// joint that is its own image in one of two ways. Nothing where a joint cannot be its own image.
+fn symmetric_places(
+    draw: &mut Draw,
+    chain: &PairChain,
+    symmetry: &Swap<'_>,
+    across: u32,
+) -> Option<Vec<(Joint, Place)>> {
+    let joints = chain.joints();
+    let mut places: Vec<Option<Place>> = vec![None; joints.len()];
+    let mut ways = 0;
+    for (i, joint) in joints.iter().enumerate() {
+        if places[i].is_some() {
+            continue;
+        }
+        let mut place = if symmetry.joint(joint) == joint.links {
+            let own = symmetry.own_image(joint);
+            let across = across >> ways & 1 == 1;
+            ways += u32::from(own.has_two_ways(symmetry.image));
+            draw.own_image(own, symmetry.image, across)?
+        } else {
+            draw.place(joint.pair)
+        };
+        // Rows are of the lesser link against the greater; the sign of a row does not matter.
+        let mut at = i;
+        while places[at].is_none() {
+            places[at] = Some(place);
+            place = image_of(draw.field, place, symmetry.image);
+            let image = symmetry.joint(&joints[at]);
+            at = joints.iter().position(|j| j.links == image)?;
+        }
+    }
+    let placed = joints.into_iter().zip(places);
+    placed.map(|(joint, place)| Some((joint, place?))).collect()
+}
+
+/// A symmetry: where it carries the links, in two or three steps back to themselves, and how.
+#[derive(Debug, Clone, Copy)]
+pub struct Swap<'a> {
+    /// Where each link goes.
+    pub links: &'a [usize],
+    /// How places go there.
+    pub image: Image,
+}
+
+impl Swap<'_> {
+    fn joint(&self, joint: &Joint) -> [usize; 2] {
+        let [u, v] = joint.links.map(|l| self.links[l]);
+        [u.min(v), u.max(v)]
+    }
+
+    fn own_image(&self, joint: &Joint) -> OwnImage {
+        OwnImage {
+            pair: joint.pair,
+            swapped: self.links[joint.links[0]] != joint.links[0],
+        }
+    }
+
+    /// The image of a motion of links.
+    fn carried(&self, field: Field, motion: &[Velocity]) -> Vec<Velocity> {
+        let mut out = vec![[field.zero(); 3]; motion.len()];
+        for (link, &[turn, x, y]) in motion.iter().enumerate() {
+            // What a line of action does along a velocity is the same for their images.
+            out[self.links[link]] = match self.image {
+                Image::Mirror => [field.neg(turn), x, field.neg(y)],
+                Image::HalfTurn => [turn, field.neg(x), field.neg(y)],
+                Image::ThirdTurn => [turn, field.neg(field.add(x, y)), x],
+            };
+        }
+        out
+    }
+
+    /// In how many ways its own images among the joints may lie.
+    fn ways(&self, chain: &PairChain) -> u32 {
+        let two = |j: &Joint| {
+            let own = self.joint(j) == j.links;
+            own && self.own_image(j).has_two_ways(self.image)
+        };
+        let joints = chain.joints();
+        1 << joints.into_iter().filter(two).count()
+    }
+}
+
+/// The motions of a chain laid out symmetrically, `frame` at rest, in one of the ways in which joints that are their own
+/// images may lie; in way 0 slides go along the mirror line. None where a joint cannot be its own image.
+///
+/// # Complexity
+/// An elimination of 3n columns for n links.
+#[must_use]
+pub fn motions_in_way(
+    chain: &PairChain,
+    symmetry: Swap<'_>,
+    frame: usize,
+    way: u32,
+) -> Vec<Vec<Velocity>> {
+    let mut draw = Draw::new();
+    let field = draw.field;
+    let Some(places) = symmetric_places(&mut draw, chain, &symmetry, way) else {
+        return Vec::new();
+    };
+    let against = |motion: Vec<Velocity>| {
+        let rest = motion[frame];
+        let links = motion.iter();
+        links
+            .map(|v| [0, 1, 2].map(|i| field.sub(v[i], rest[i])))
+            .collect()
+    };
+    let found = motions(field, chain, &places);
+    found.into_iter().map(against).collect()
+}
+
+/// The motions of a chain laid out symmetrically that are their own images: one for each way of lying of joints that are
+/// their own images in which the mobility is 1, `frame`, which the symmetry carries to itself, at rest.
+///
+/// # Complexity
+/// An elimination of 3n columns for each way.
+#[must_use]
+pub fn symmetric_motions(
+    chain: &PairChain,
+    symmetry: Swap<'_>,
+    frame: usize,
+) -> Vec<Vec<Velocity>> {
+    let field = Field::new(PRIME);
+    let ways = 0..symmetry.ways(chain);
+    let all = ways.map(|way| motions_in_way(chain, symmetry, frame, way));
+    let one = all.filter_map(|mut found| found.pop().filter(|_| found.is_empty()));
+    one.filter(|m| symmetry.carried(field, m) == *m).collect()
+}

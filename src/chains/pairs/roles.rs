@@ -1,0 +1,271 @@
+//! What links of a chain of pairs do in a gripper: frame, input joint and two jaws, each choice once up to the chain's
+//! automorphisms.
+
+use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::motion::{Image, Swap, Velocity, motion, symmetric_motions};
+use itertools::Itertools;
+use std::cell::OnceCell;
+
+/// Frame, input joint and jaws of a gripper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PairRoles {
+    /// The link that stands still.
+    pub frame: usize,
+    /// The links of the driven joint, the lesser first.
+    pub input: [usize; 2],
+    /// The jaws, the lesser first.
+    pub jaws: [usize; 2],
+}
+
+impl PairRoles {
+    /// Where an automorphism takes them.
+    #[must_use]
+    pub fn image(&self, by: &[usize]) -> PairRoles {
+        let both = |[a, b]: [usize; 2]| [by[a].min(by[b]), by[a].max(by[b])];
+        PairRoles {
+            frame: by[self.frame],
+            input: both(self.input),
+            jaws: both(self.jaws),
+        }
+    }
+
+    /// Whether the frame is a link of the input joint.
+    #[must_use]
+    pub fn is_driven_from_frame(&self) -> bool {
+        self.input.contains(&self.frame)
+    }
+
+    /// Whether a jaw is a link of the input joint.
+    #[must_use]
+    pub fn has_driven_jaw(&self) -> bool {
+        self.jaws.iter().any(|j| self.input.contains(j))
+    }
+
+    /// Whether input and jaws move in a motion, the jaws also against each other.
+    #[must_use]
+    pub fn moves_in(&self, motion: &[Velocity]) -> bool {
+        let [a, b] = self.jaws;
+        let [u, v] = self.input;
+        [a, b, self.frame].iter().map(|&l| motion[l]).all_unique() && motion[u] != motion[v]
+    }
+
+    fn links(&self) -> usize {
+        let all = self.input.iter().chain(&self.jaws).chain([&self.frame]);
+        all.fold(0, |bits, &l| bits | 1 << l)
+    }
+}
+
+/// How a gripper is symmetric.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Symmetries {
+    /// Whether an automorphism of order two keeps the frame and the input joint and swaps the jaws.
+    pub graph: bool,
+    /// Whether it moves so in places that mirror each other.
+    pub mirror: bool,
+    /// The same without the demand on the input joint.
+    pub mirror_but_input: bool,
+    /// Whether it moves so in places that half a turn carries to each other.
+    pub half_turn: bool,
+    /// The same without the demand on the input joint.
+    pub half_turn_but_input: bool,
+}
+
+/// An automorphism of order two, with the motions that are their own images.
+#[derive(Debug, Clone)]
+struct Involution<'a> {
+    links: &'a [usize],
+    mirror: Vec<Vec<Velocity>>,
+    half_turn: Vec<Vec<Velocity>>,
+}
+
+/// A chain with what is asked of it again and again.
+#[derive(Debug, Clone)]
+pub struct PairSubject<'a> {
+    /// The chain.
+    pub chain: &'a PairChain,
+    /// Its automorphisms as the images of the links, the identity among them.
+    automorphisms: &'a [&'a Vec<usize>],
+    joints: Vec<Joint>,
+    moving_parts: OnceCell<Vec<usize>>,
+    motion: OnceCell<Vec<Velocity>>,
+    involutions: OnceCell<Vec<Involution<'a>>>,
+}
+
+impl<'a> PairSubject<'a> {
+    /// A chain to be looked at, with its automorphisms.
+    #[must_use]
+    pub fn new(chain: &'a PairChain, automorphisms: &'a [&'a Vec<usize>]) -> PairSubject<'a> {
+        PairSubject {
+            chain,
+            automorphisms,
+            joints: chain.joints(),
+            moving_parts: OnceCell::new(),
+            motion: OnceCell::new(),
+            involutions: OnceCell::new(),
+        }
+    }
+
+    /// Parts of mobility 1 of more than two links, without the whole: the rows of a chain are independent, and so are those
+    /// of its parts, so that counting tells.
+    fn moving_parts(&self) -> &[usize] {
+        self.moving_parts.get_or_init(|| {
+            let mobilities = self.chain.mobilities();
+            let part = |p: &(usize, &i16)| *p.1 == 1;
+            let parts = mobilities.iter().enumerate().filter(part).map(|p| p.0);
+            let all = mobilities.len() - 1;
+            let small = |&p: &usize| p != all && p.count_ones() > 2;
+            parts.filter(small).collect()
+        })
+    }
+
+    fn is_first<T: Ord>(&self, x: &T, image: impl Fn(&T, &[usize]) -> T) -> bool {
+        self.automorphisms.iter().all(|a| image(x, a) >= *x)
+    }
+
+    /// Frames.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        let all = 0..self.chain.links();
+        all.filter(|l| self.is_first(l, |&l, a| a[l])).count()
+    }
+
+    /// Frames with an input joint, a hinge or a slide.
+    #[must_use]
+    pub fn drives(&self) -> Vec<(usize, Joint)> {
+        let lower = self.joints.iter().filter(|j| j.pair.is_lower());
+        let all = lower.cartesian_product(0..self.chain.links());
+        let first = |&(j, frame): &(&Joint, usize)| {
+            self.is_first(&(frame, j.links), |&(f, [u, v]), a| {
+                (a[f], [a[u].min(a[v]), a[u].max(a[v])])
+            })
+        };
+        all.filter(first).map(|(j, frame)| (frame, *j)).collect()
+    }
+
+    /// Every choice of jaws with a drive.
+    #[must_use]
+    pub fn grippers(&self, frame: usize, input: &Joint) -> Vec<PairRoles> {
+        let keeps = |a: &&&Vec<usize>| {
+            let [u, v] = input.links.map(|l| a[l]);
+            a[frame] == frame && [u.min(v), u.max(v)] == input.links
+        };
+        let keeping: Vec<_> = self.automorphisms.iter().filter(keeps).collect();
+        let jaws = (0..self.chain.links()).filter(|&l| l != frame);
+        let all = jaws.tuple_combinations().map(|(a, b)| PairRoles {
+            frame,
+            input: input.links,
+            jaws: [a, b],
+        });
+        all.filter(|r| keeping.iter().all(|a| r.image(a) >= *r))
+            .collect()
+    }
+
+    /// Every choice of roles that an involution keeps: frame and input joint are their own images, the jaws change places.
+    #[must_use]
+    pub fn symmetric_roles(&self, swap: &[usize]) -> Vec<PairRoles> {
+        let n = swap.len();
+        let own = |j: &&Joint| {
+            let [u, v] = j.links.map(|l| swap[l]);
+            j.pair.is_lower() && [u.min(v), u.max(v)] == j.links
+        };
+        let inputs = self.joints.iter().filter(own);
+        let frames = (0..n).filter(|&l| swap[l] == l);
+        let jaws = (0..n).filter(|&l| l < swap[l]).map(|l| [l, swap[l]]);
+        let all = inputs.cartesian_product(frames).cartesian_product(jaws);
+        let roles = all.map(|((input, frame), jaws)| PairRoles {
+            frame,
+            input: input.links,
+            jaws,
+        });
+        roles
+            .filter(|r| self.is_first(r, PairRoles::image))
+            .collect()
+    }
+
+    /// The smaller moving parts that hold all roles, as bits.
+    pub(super) fn moving_parts_with(&self, roles: &PairRoles) -> impl Iterator<Item = usize> {
+        let links = roles.links();
+        let parts = self.moving_parts().iter().copied();
+        parts.filter(move |part| part & links == links)
+    }
+
+    /// Whether no smaller moving part holds all roles.
+    #[must_use]
+    pub fn is_essential(&self, roles: &PairRoles) -> bool {
+        self.moving_parts_with(roles).next().is_none()
+    }
+
+    /// Whether both jaws keep their attitude in nearly all places.
+    #[must_use]
+    pub fn is_translating(&self, roles: &PairRoles) -> bool {
+        let motion = self
+            .motion
+            .get_or_init(|| motion(self.chain).expect("a chain has one motion"));
+        let turning = |link: usize| motion[link][0];
+        roles
+            .jaws
+            .iter()
+            .all(|&j| turning(j) == turning(roles.frame))
+    }
+
+    /// How it is symmetric.
+    #[must_use]
+    pub fn symmetries(&self, roles: &PairRoles) -> Symmetries {
+        let mut out = Symmetries::default();
+        let [a, b] = roles.jaws;
+        for s in self.involutions() {
+            if s.links[roles.frame] != roles.frame || s.links[a] != b {
+                continue;
+            }
+            let [u, v] = roles.input.map(|l| s.links[l]);
+            let keeps_input = [u.min(v), u.max(v)] == roles.input;
+            let works = |motions: &[Vec<Velocity>]| motions.iter().any(|m| roles.moves_in(m));
+            let (mirror, half_turn) = (works(&s.mirror), works(&s.half_turn));
+            out.graph |= keeps_input;
+            out.mirror |= mirror && keeps_input;
+            out.mirror_but_input |= mirror;
+            out.half_turn |= half_turn && keeps_input;
+            out.half_turn_but_input |= half_turn;
+        }
+        out
+    }
+
+    /// The automorphisms of order two that keep a link at least.
+    fn involutions(&self) -> &[Involution<'a>] {
+        self.involutions.get_or_init(|| {
+            let twice = |s: &&&Vec<usize>| {
+                let back = (0..s.len()).all(|l| s[s[l]] == l);
+                back && (0..s.len()).any(|l| s[l] != l)
+            };
+            let of = |s: &&'a Vec<usize>| {
+                let frame = s.iter().enumerate().position(|(l, &to)| l == to)?;
+                let motions = |image| {
+                    let links = s.as_slice();
+                    symmetric_motions(self.chain, Swap { links, image }, frame)
+                };
+                Some(Involution {
+                    links: s,
+                    mirror: motions(Image::Mirror),
+                    half_turn: motions(Image::HalfTurn),
+                })
+            };
+            self.automorphisms
+                .iter()
+                .filter(twice)
+                .filter_map(of)
+                .collect()
+        })
+    }
+
+    /// Pairs that are not hinges, those that `swap` carries to each other as one.
+    #[must_use]
+    pub fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
+        let others = self.joints.iter().filter(|j| j.pair != Pair::Hinge);
+        let first = |j: &&Joint| {
+            let [u, v] = j.links.map(|l| swap[l]);
+            [u.min(v), u.max(v)] >= j.links
+        };
+        others.filter(first).count()
+    }
+}

@@ -1,0 +1,167 @@
+//! How kinds are shared out over the joints of a graph, each way once up to the graph's symmetries.
+//!
+//! Joints that change places under an involution are of one kind: an orbit is chosen at a time, a joint of its own where
+//! nothing is to change places.
+
+use crate::chains::canonical::Weighted;
+use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::motion::moves_throughout;
+use itertools::Itertools;
+use std::cmp::Ordering;
+
+/// What may be shared out.
+#[derive(Debug, Clone, Copy)]
+pub struct Menu<'a> {
+    /// Kinds beside hinges.
+    pub kinds: &'a [Pair],
+    /// Orbits of pairs that are not hinges at most.
+    pub most: usize,
+}
+
+impl Menu<'_> {
+    /// Joints of a chain of mobility 1 at most, where so many may be pairs of two freedoms.
+    pub(super) fn most_joints(self, links: usize, most_higher: usize) -> usize {
+        let higher = self.kinds.iter().any(|k| !k.is_lower());
+        let constraints = 3 * links - 4 + if higher { most_higher } else { 0 };
+        (constraints / 2).min(links * (links - 1) / 2)
+    }
+}
+
+/// A part that would be rigid with hinges and slides alone.
+struct Tight {
+    /// Its joints, as bits.
+    joints: u64,
+    /// How many of them have to leave two freedoms at least.
+    least: u32,
+}
+
+/// Joints that change places, as bits.
+#[derive(Clone, Copy)]
+struct Orbit(u64);
+
+impl Orbit {
+    fn len(self) -> usize {
+        self.0.count_ones() as usize
+    }
+}
+
+pub(super) struct Sharing<'a> {
+    links: usize,
+    joints: Vec<[usize; 2]>,
+    orbits: Vec<Orbit>,
+    tight: Vec<Tight>,
+    /// Where the symmetries take the joints, and what symmetry it is.
+    images: Vec<(Vec<usize>, &'a Vec<usize>)>,
+}
+
+impl<'a> Sharing<'a> {
+    /// Of a graph with its automorphisms, where `swap` carries joints of one kind to each other.
+    pub(super) fn new(
+        graph: &Weighted,
+        automorphisms: &'a [Vec<usize>],
+        swap: &[usize],
+    ) -> Sharing<'a> {
+        let n = graph.vertices();
+        let pairs = (0..n).flat_map(|v| (0..v).map(move |u| [u, v]));
+        let joints = pairs.filter(|&[u, v]| graph.weight(u, v) > 0);
+        let joints = joints.collect_vec();
+        let image = |a: &[usize]| {
+            let place = |&[u, v]: &[usize; 2]| {
+                let links = [a[u].min(a[v]), a[u].max(a[v])];
+                joints.iter().position(|&j| j == links).unwrap_or(0)
+            };
+            joints.iter().map(place).collect_vec()
+        };
+        let orbits = image(swap).into_iter().enumerate();
+        let orbits = orbits.filter(|(j, to)| j <= to);
+        let images = automorphisms.iter().map(|a| (image(a), a));
+        Sharing {
+            links: n,
+            orbits: orbits.map(|(j, to)| Orbit(1 << j | 1 << to)).collect(),
+            images: images.collect(),
+            tight: tight(n, &joints),
+            joints,
+        }
+    }
+
+    /// How many of the joints leave two freedoms where the mobility is 1.
+    fn higher(&self) -> Option<usize> {
+        (2 * self.joints.len()).checked_sub((3 * self.links).checked_sub(4)?)
+    }
+
+    /// Calls `visit` with each chain and its automorphisms.
+    pub(super) fn share(
+        &self,
+        menu: Menu<'_>,
+        visit: &mut impl FnMut(PairChain, Vec<&Vec<usize>>),
+    ) {
+        let Some(higher) = self.higher() else {
+            return;
+        };
+        let two = menu.kinds.iter().copied().filter(|k| !k.is_lower());
+        let two = two.collect_vec();
+        let slides = menu.kinds.contains(&Pair::Slide);
+        let most_slides = if slides { self.orbits.len() } else { 0 };
+        let orbits = 0..self.orbits.len();
+        let fewest = higher.div_ceil(2);
+        let chosen = (fewest..=higher.min(menu.most)).flat_map(|n| orbits.clone().combinations(n));
+        for places in chosen {
+            let all = places.iter().map(|&o| self.orbits[o]);
+            let bits = all.clone().fold(0, |bits, o| bits | o.0);
+            let loose = |t: &Tight| (t.joints & bits).count_ones() >= t.least;
+            if all.map(Orbit::len).sum::<usize>() != higher || !self.tight.iter().all(loose) {
+                continue;
+            }
+            let others = orbits.clone().filter(|o| !places.contains(o)).collect_vec();
+            let most = most_slides.min(menu.most - places.len()).min(others.len());
+            let kinds = places.iter().map(|_| two.iter().copied());
+            for kinds in kinds.multi_cartesian_product() {
+                let sliding = (0..=most).flat_map(|n| others.iter().copied().combinations(n));
+                for sliding in sliding {
+                    let mut pairs = vec![Pair::Hinge; self.joints.len()];
+                    let given = places.iter().copied().zip(kinds.iter().copied());
+                    let slides = sliding.into_iter().map(|o| (o, Pair::Slide));
+                    for (orbit, pair) in given.chain(slides) {
+                        let own = |j: &usize| self.orbits[orbit].0 >> j & 1 == 1;
+                        (0..pairs.len()).filter(own).for_each(|j| pairs[j] = pair);
+                    }
+                    self.judge(&pairs, visit);
+                }
+            }
+        }
+    }
+
+    /// Visits the chain of these kinds where it is one and no symmetry makes a lesser list of it.
+    fn judge(&self, pairs: &[Pair], visit: &mut impl FnMut(PairChain, Vec<&Vec<usize>>)) {
+        let mut keeping = Vec::new();
+        for (image, automorphism) in &self.images {
+            match image.iter().map(|&j| pairs[j]).cmp(pairs.iter().copied()) {
+                Ordering::Less => return,
+                Ordering::Equal => keeping.push(*automorphism),
+                Ordering::Greater => {}
+            }
+        }
+        let joints = self.joints.iter().zip(pairs);
+        let joints = joints.map(|(&links, &pair)| Joint { links, pair });
+        let chain = PairChain::new(self.links, joints);
+        // Without slides the count of every part has told it already.
+        let slides = pairs.contains(&Pair::Slide);
+        if chain.has_carriers() && (!slides || moves_throughout(&chain)) {
+            visit(chain, keeping);
+        }
+    }
+}
+
+/// The parts that have more constraints than they may with hinges and slides alone.
+fn tight(links: usize, joints: &[[usize; 2]]) -> Vec<Tight> {
+    let parts = 1u32..1 << links;
+    let tight = parts.filter(|p| p.count_ones() > 1).filter_map(|part| {
+        let inside = |[u, v]: &[usize; 2]| part >> u & part >> v & 1 == 1;
+        let own = joints.iter().positions(inside);
+        let joints = own.fold(0u64, |bits, j| bits | 1 << j);
+        let least = (2 * joints.count_ones() + 4).checked_sub(3 * part.count_ones())?;
+        (least > 0).then_some(Tight { joints, least })
+    });
+    tight.collect()
+}

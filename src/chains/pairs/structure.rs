@@ -1,0 +1,102 @@
+//! A gripper as a structure: a chain of pairs with its roles, under a name that does not depend on numbers.
+
+use crate::chains::canonical::{Weighted, canonical};
+use crate::chains::pairs::chain::PairChain;
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::roles::{PairRoles, PairSubject};
+use itertools::Itertools;
+
+/// A chain with the roles of its links.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PairStructure {
+    /// The chain.
+    pub chain: PairChain,
+    /// The roles.
+    pub roles: PairRoles,
+}
+
+/// What is added to the weight of the driven joint.
+const DRIVEN: u8 = 8;
+
+impl PairStructure {
+    /// The structure in canonical numbering, as a graph whose links and joints weigh more by what they do: equal for two
+    /// structures exactly where they are the same.
+    ///
+    /// # Complexity
+    /// As of [`canonical`].
+    #[must_use]
+    pub fn key(&self) -> Weighted {
+        canonical(&self.weighted()).graph
+    }
+
+    fn weighted(&self) -> Weighted {
+        let mut out = Weighted::new(self.chain.links());
+        for joint in self.chain.joints() {
+            let [u, v] = joint.links;
+            let driven = u8::from(joint.links == self.roles.input) * DRIVEN;
+            out.set(u, v, joint.pair as u8 + driven);
+        }
+        out.set(self.roles.frame, self.roles.frame, 1);
+        self.roles.jaws.iter().for_each(|&j| out.set(j, j, 2));
+        out
+    }
+
+    /// Which link stands at each place of the canonical numbering.
+    #[must_use]
+    pub fn order(&self) -> Vec<usize> {
+        canonical(&self.weighted()).order
+    }
+
+    /// The name: a letter for each two links, (0, 1), (0, 2), (1, 2) and so on, then frame, input and jaws, in canonical
+    /// numbering; equal for two structures exactly where they are the same.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let order = self.order();
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(at, &l)| place[l] = at);
+        let roles = self.roles.image(&place);
+        let pairs = (0..order.len()).flat_map(|v| (0..v).map(move |u| (u, v)));
+        let letter = |(u, v): (usize, usize)| {
+            let pair = self.chain.between(order[u], order[v]);
+            pair.map_or('-', Pair::letter)
+        };
+        let ([i, k], [a, b]) = (roles.input, roles.jaws);
+        let letters = pairs.map(letter).join("");
+        format!("{letters} f{} i{i}-{k} j{a},{b}", roles.frame)
+    }
+
+    /// The smallest moving part that holds all roles, where there is one, by its links.
+    ///
+    /// # Complexity
+    /// A step for each set of links.
+    #[must_use]
+    pub fn smaller(&self) -> Option<Vec<usize>> {
+        let automorphisms = self.chain.automorphisms();
+        let automorphisms = automorphisms.iter().collect_vec();
+        let subject = PairSubject::new(&self.chain, &automorphisms);
+        let parts = subject.moving_parts_with(&self.roles);
+        let least = parts.min_by_key(|p| p.count_ones())?;
+        Some(
+            (0..self.chain.links())
+                .filter(|l| least >> l & 1 == 1)
+                .collect(),
+        )
+    }
+
+    /// The structure of some of the links alone, with the joints between them.
+    #[must_use]
+    pub fn part(&self, links: &[usize]) -> PairStructure {
+        let place = |l: usize| links.iter().position(|&x| x == l);
+        let joints = self.chain.joints().into_iter().filter_map(|mut j| {
+            let [u, v] = j.links.map(place);
+            j.links = [u?.min(v?), u?.max(v?)];
+            Some(j)
+        });
+        let mut places = vec![0; self.chain.links()];
+        links.iter().enumerate().for_each(|(at, &l)| places[l] = at);
+        PairStructure {
+            chain: PairChain::new(links.len(), joints),
+            roles: self.roles.image(&places),
+        }
+    }
+}

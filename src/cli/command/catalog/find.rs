@@ -1,0 +1,55 @@
+//! `ozols catalog find`.
+
+use super::look::open;
+use crate::catalog::find::entries;
+use crate::cli::done::Done;
+use crate::cli::option::load;
+use crate::cli::option::named::File;
+use crate::cli::terminal::output;
+use crate::synthesis::recognize::recognize;
+use crate::view::catalog::find::{FoundData, essential_part, found_text};
+use anyhow::Context;
+use clap::{Args as ClapArgs, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Find {
+    #[command(flatten)]
+    file: File,
+    /// A catalogue to look for it in.
+    #[arg(long = "in", value_name = "CATALOGUE", value_hint = ValueHint::FilePath)]
+    within: Option<PathBuf>,
+    /// JSON instead of text.
+    #[arg(long)]
+    json: bool,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
+    let m = load::mechanism(&a.file.file)?;
+    let found = recognize(&m).with_context(|| {
+        format!(
+            "{}: not a structure of two jaws that links, hinges, slides, gears and slots make",
+            a.file.file
+        )
+    })?;
+    let store = a.within.as_deref().map(open).transpose()?;
+    let part = essential_part(&found);
+    let known = store.map(|s| entries(&s, &part)).transpose()?;
+    let data = FoundData::new(&found, known);
+    let path = a.output.as_deref();
+    output::to(path, |out| {
+        if a.json {
+            output::json(out, &data)?;
+        } else {
+            write!(out, "{}", found_text(&m.name, &data, output::width(path)))?;
+        }
+        Ok(if data.is_known() {
+            Done::Found
+        } else {
+            Done::Nothing
+        })
+    })
+}

@@ -1,0 +1,259 @@
+//! A drawn mechanism as a structure: the chain of pairs that its joints are in their plane, with the roles of its links.
+//!
+//! What a joint does in the plane is what of its motions lies there: a ball is a hinge, a pin with play along its axis is one,
+//! too. So a gripper and its redesign have the same structure.
+
+use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain};
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::roles::PairRoles;
+use crate::chains::pairs::structure::PairStructure;
+use crate::closure::twist::FrameValues;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::scalars::Scalars;
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::coupling::Coupling;
+use crate::model::id::{JointId, LinkId, StateId};
+use crate::model::mechanism::{Joint, Mechanism, Mode, Role};
+use crate::rank::exact::field::exact_field;
+use itertools::Itertools;
+use petgraph::unionfind::UnionFind;
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// Why a mechanism is no structure of the catalogue's kind.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoStructure {
+    /// Numbers without exact values.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// No joint turns about one axis.
+    #[error("no joint turns about one axis alone, so that there is no plane of motion")]
+    NoPlane,
+    /// A joint that has no kind.
+    #[error(
+        "joint {joint:?} leaves {turns} turns and {slides} slides in the plane of motion; hinges, slides and pins in slots are known"
+    )]
+    Kind {
+        /// The joint.
+        joint: String,
+        /// Turns.
+        turns: usize,
+        /// Slides.
+        slides: usize,
+    },
+    /// Two joints between two links.
+    #[error("{0:?} and {1:?} are joined twice; chains have one pair between two links")]
+    Twice(String, String),
+    /// A coupling without a carrier.
+    #[error("the coupling {0} joins no two links by a third that carries both")]
+    Coupling(String),
+    /// Not one drive.
+    #[error("{0} joints are driven where one hinge or slide is to be: mark it with drive = true")]
+    Drives(usize),
+    /// Not two jaws.
+    #[error("{0} links are outputs where two jaws are to be: mark them with role = \"output\"")]
+    Jaws(usize),
+    /// Links too few or too many.
+    #[error("{0} links move in the plane; structures have 3 to {MOST_LINKS}")]
+    Links(usize),
+}
+
+/// A structure with the names that its links have in the mechanism.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recognized {
+    /// The structure.
+    pub structure: PairStructure,
+    /// The names of each link: several where they are one in the plane.
+    pub names: Vec<Vec<String>>,
+}
+
+/// The structure of a mechanism in its free state.
+///
+/// # Errors
+/// Why it has none.
+///
+/// # Complexity
+/// A few eliminations of six columns a joint.
+pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
+    let plane = Plane::new(m)?;
+    let present = m.joints_in(StateId::FREE).collect_vec();
+    let mut kinds = Vec::with_capacity(present.len());
+    let mut merged = UnionFind::<usize>::new(m.links.len());
+    for &j in &present {
+        let joint = &m.joints[j];
+        let kind = plane.kind(joint)?;
+        if kind.is_none() {
+            let [a, b] = joint.links.map(LinkId::index);
+            merged.union(a, b);
+        }
+        kinds.push(kind);
+    }
+    let used = present.iter().flat_map(|&j| m.joints[j].links);
+    let bodies = used.map(|l| merged.find(l.index())).unique().collect_vec();
+    let body = |l: LinkId| bodies.iter().position(|&b| b == merged.find(l.index()));
+    let ends = |j: JointId| {
+        let [a, b] = m.joints[j].links.map(|l| body(l).unwrap_or(0));
+        [a.min(b), a.max(b)]
+    };
+    if !(3..=MOST_LINKS).contains(&bodies.len()) {
+        return Err(NoStructure::Links(bodies.len()));
+    }
+    let names = bodies.iter().map(|&b| {
+        let own = m
+            .links_with_ids()
+            .filter(|(l, _)| merged.find(l.index()) == b);
+        own.map(|(_, link)| link.id.clone()).collect_vec()
+    });
+    let names = names.collect_vec();
+    let mut pairs = BTreeMap::new();
+    let mut add = |links: [usize; 2], pair: Pair| match pairs.insert(links, pair) {
+        None => Ok(()),
+        Some(_) => {
+            let [a, b] = links.map(|l| names[l].join(" "));
+            Err(NoStructure::Twice(a, b))
+        }
+    };
+    for (&j, kind) in present.iter().zip(&kinds) {
+        if let Some(kind) = kind {
+            add(ends(j), *kind)?;
+        }
+    }
+    for coupling in m.couplings_in(StateId::FREE) {
+        let gears = geared(coupling, ends);
+        let gears = gears.ok_or_else(|| NoStructure::Coupling(coupling.name(m)))?;
+        add(gears, Pair::Gear)?;
+    }
+    let joints = pairs.into_iter();
+    let joints = joints.map(|(links, pair)| PairJoint { links, pair });
+    let chain = PairChain::new(bodies.len(), joints);
+    let frame = body(m.frame()).unwrap_or(0);
+    let roles = PairRoles {
+        frame,
+        input: input(m, &chain, &present, ends)?,
+        jaws: jaws(m, body)?,
+    };
+    let structure = PairStructure { chain, roles };
+    Ok(Recognized { structure, names })
+}
+
+/// The links that a coupling gears: those of its two joints but the one that both have.
+fn geared(coupling: &Coupling, ends: impl Fn(JointId) -> [usize; 2]) -> Option<[usize; 2]> {
+    let [a, b] = [0, 1].map(|i| ends(coupling.ends[i].joint));
+    let carrier = a.into_iter().find(|l| b.contains(l))?;
+    let other = |links: [usize; 2]| links.into_iter().find(|l| *l != carrier);
+    let (u, v) = (other(a)?, other(b)?);
+    (u != v).then(|| [u.min(v), u.max(v)])
+}
+
+fn input(
+    m: &Mechanism,
+    chain: &PairChain,
+    present: &[JointId],
+    ends: impl Fn(JointId) -> [usize; 2],
+) -> Result<[usize; 2], NoStructure> {
+    let driven = present.iter().filter(|&&j| m.joints[j].drive);
+    let driven = driven.map(|&j| ends(j)).collect_vec();
+    let lower = |[u, v]: [usize; 2]| chain.between(u, v).is_some_and(Pair::is_lower);
+    match driven[..] {
+        [one] if lower(one) => Ok(one),
+        _ => Err(NoStructure::Drives(driven.len())),
+    }
+}
+
+fn jaws(m: &Mechanism, body: impl Fn(LinkId) -> Option<usize>) -> Result<[usize; 2], NoStructure> {
+    let outputs = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
+    let jaws = outputs
+        .filter_map(|(l, _)| body(l))
+        .unique()
+        .sorted()
+        .collect_vec();
+    jaws.try_into()
+        .map_err(|all: Vec<usize>| NoStructure::Jaws(all.len()))
+}
+
+/// The plane of motion, with the field its numbers are in.
+struct Plane {
+    exact: ExactField,
+    normal: [Residue; 3],
+}
+
+impl Plane {
+    fn new(m: &Mechanism) -> Result<Plane, NoStructure> {
+        let exact = exact_field(m, 0)?;
+        if let Mode::Planar { normal } = &m.mode {
+            let normal = exact.eval3(normal)?;
+            return Ok(Plane { exact, normal });
+        }
+        for j in m.joints_in(StateId::FREE) {
+            let joint = &m.joints[j];
+            let freedoms = joint.joint_type.freedoms();
+            let turns = freedoms.iter().filter(|f| f.turns()).collect_vec();
+            if let [turn] = turns[..] {
+                let frame = FrameValues::new(&exact, &joint.frame)?;
+                let [x, y, z, ..] = frame.twist(&exact, *turn);
+                let normal = [x, y, z];
+                return Ok(Plane { exact, normal });
+            }
+        }
+        Err(NoStructure::NoPlane)
+    }
+
+    fn span(&self, twists: impl IntoIterator<Item = [Residue; 6]>) -> Echelon {
+        let mut out = Echelon::new(self.exact.field());
+        for twist in twists {
+            out.insert(&twist);
+        }
+        out
+    }
+
+    /// What a joint is in the plane; nothing where it does not move there.
+    fn kind(&self, joint: &Joint) -> Result<Option<Pair>, NoStructure> {
+        let frame = FrameValues::new(&self.exact, &joint.frame)?;
+        let freedoms = joint.joint_type.freedoms();
+        let twists = freedoms.iter().map(|&f| frame.twist(&self.exact, f));
+        let twists = twists.collect_vec();
+        // How much of the joint's motions is in a space: dimensions add up to those of the sum and of what both have.
+        let own = self.span(twists.iter().copied()).rank();
+        let shared = |space: &[[Residue; 6]]| {
+            let both = twists.iter().chain(space).copied();
+            own + self.span(space.iter().copied()).rank() - self.span(both).rank()
+        };
+        let slides = self.slides();
+        let turn = {
+            let [x, y, z] = self.normal;
+            let p = frame.point;
+            let [a, b, c] = self.exact.cross(p, self.normal);
+            [x, y, z, a, b, c]
+        };
+        let all = slides.into_iter().chain([turn]).collect_vec();
+        let slides = shared(&slides);
+        let turns = shared(&all) - slides;
+        match (turns, slides) {
+            (0, 0) => Ok(None),
+            (1, 0) => Ok(Some(Pair::Hinge)),
+            (0, 1) => Ok(Some(Pair::Slide)),
+            (1, 1) => Ok(Some(Pair::Slot)),
+            _ => Err(NoStructure::Kind {
+                joint: joint.id.clone(),
+                turns,
+                slides,
+            }),
+        }
+    }
+
+    /// Two slides across the normal.
+    fn slides(&self) -> [[Residue; 6]; 2] {
+        let zero = self.exact.field().zero();
+        let one = self.exact.field().one();
+        let units = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        let across = units.map(|u| self.exact.cross(self.normal, u));
+        let independent = across.into_iter().tuple_combinations().find(|&(a, b)| {
+            let wide = |[x, y, z]: [Residue; 3]| [zero, zero, zero, x, y, z];
+            self.span([wide(a), wide(b)]).rank() == 2
+        });
+        let (a, b) = independent.unwrap_or((units[0], units[1]));
+        [a, b].map(|[x, y, z]| [zero, zero, zero, x, y, z])
+    }
+}

@@ -1,0 +1,212 @@
+//! What structure a mechanism has, for people and as data.
+
+use crate::catalog::find::Entry;
+use crate::chains::pairs::census::Kinds;
+use crate::chains::pairs::classics::classics_of;
+use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::motion::moves_throughout;
+use crate::chains::pairs::roles::PairSubject;
+use crate::chains::pairs::structure::PairStructure;
+use crate::synthesis::recognize::Recognized;
+use crate::view::terminal::layout::fit;
+use itertools::Itertools;
+use serde::Serialize;
+
+/// A well-known scheme.
+#[derive(Debug, Clone, Serialize)]
+pub struct ClassicData {
+    id: String,
+    about: String,
+}
+
+/// An entry of a catalogue.
+#[derive(Debug, Clone, Serialize)]
+pub struct EntryData {
+    id: String,
+    form: String,
+}
+
+/// What a mechanism is as a structure: the keys are a stable contract, in this order.
+#[derive(Debug, Clone, Serialize)]
+pub struct FoundData {
+    /// The same for two mechanisms exactly where their structures are the same.
+    name: String,
+    links: usize,
+    hinges: usize,
+    slides: usize,
+    gears: usize,
+    slots: usize,
+    /// `frame` or `between`.
+    place: &'static str,
+    /// `turn` or `slide`.
+    input: &'static str,
+    /// `apart` or `driven`.
+    jaws: &'static str,
+    /// Whether it has one motion in nearly all places, in which every two links move, and gears have carriers; what stands
+    /// below is null where it has not.
+    in_count: bool,
+    essential: Option<bool>,
+    /// The links of the smaller part that holds all roles, where there is one.
+    essential_part: Option<Vec<String>>,
+    translating: Option<bool>,
+    mirror: Option<bool>,
+    mirror_but_input: Option<bool>,
+    half_turn: Option<bool>,
+    half_turn_but_input: Option<bool>,
+    /// Well-known schemes of this structure, or where it is not essential of its essential part.
+    classics: Vec<ClassicData>,
+    /// Entries of the catalogue that was asked; null where none was.
+    catalogue: Option<Vec<EntryData>>,
+}
+
+impl FoundData {
+    /// Of a mechanism's structure, with the entries of a catalogue where one was asked for those of [`essential_part`].
+    #[must_use]
+    pub fn new(found: &Recognized, entries: Option<Vec<Entry>>) -> FoundData {
+        let PairStructure { chain, roles } = &found.structure;
+        let in_count = chain.has_carriers() && moves_throughout(chain);
+        let automorphisms = chain.automorphisms();
+        let automorphisms = automorphisms.iter().collect_vec();
+        let subject = PairSubject::new(chain, &automorphisms);
+        let smaller = in_count.then(|| found.structure.smaller()).flatten();
+        let symmetries = in_count.then(|| subject.symmetries(roles));
+        let kinds = Kinds::of(chain);
+        let [u, v] = roles.input;
+        let slides = chain.between(u, v) == Some(Pair::Slide);
+        let names = |links: &Vec<usize>| links.iter().map(|&l| found.names[l].join("+")).collect();
+        let classics = classics_of(&essential_part(found)).into_iter();
+        let entry = |Entry { id, form }: Entry| EntryData { id, form };
+        FoundData {
+            name: found.structure.name(),
+            links: chain.links(),
+            hinges: chain.count(Pair::Hinge),
+            slides: kinds.slides,
+            gears: kinds.gears,
+            slots: kinds.slots,
+            place: if roles.is_driven_from_frame() {
+                "frame"
+            } else {
+                "between"
+            },
+            input: if slides { "slide" } else { "turn" },
+            jaws: if roles.has_driven_jaw() {
+                "driven"
+            } else {
+                "apart"
+            },
+            in_count,
+            essential: in_count.then_some(smaller.is_none()),
+            essential_part: smaller.as_ref().map(names),
+            translating: in_count.then(|| subject.is_translating(roles)),
+            mirror: symmetries.map(|s| s.mirror),
+            mirror_but_input: symmetries.map(|s| s.mirror_but_input),
+            half_turn: symmetries.map(|s| s.half_turn),
+            half_turn_but_input: symmetries.map(|s| s.half_turn_but_input),
+            classics: classics
+                .map(|c| ClassicData {
+                    id: c.id,
+                    about: c.about,
+                })
+                .collect(),
+            catalogue: entries.map(|all| all.into_iter().map(entry).collect()),
+        }
+    }
+
+    /// Whether something is known by it: a well-known scheme, or an entry of the catalogue asked.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        !self.classics.is_empty() || self.catalogue.as_ref().is_some_and(|c| !c.is_empty())
+    }
+}
+
+/// The smallest part of a structure that holds all roles, the whole where there is no smaller one.
+#[must_use]
+pub fn essential_part(found: &Recognized) -> PairStructure {
+    let whole = &found.structure;
+    let counted = moves_throughout(&whole.chain);
+    let smaller = counted.then(|| whole.smaller()).flatten();
+    smaller.map_or_else(|| whole.clone(), |links| whole.part(&links))
+}
+
+/// A paragraph on each of structure, scheme and catalogue.
+#[must_use]
+pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
+    let several = |n: usize, word: &str| match n {
+        0 => None,
+        1 => Some(format!("1 {word}")),
+        _ => Some(format!("{n} {word}s")),
+    };
+    let pairs = [
+        several(d.hinges, "hinge"),
+        several(d.slides, "slide"),
+        several(d.gears, "gear pair"),
+        several(d.slots, "slot"),
+    ];
+    let place = match d.place {
+        "frame" => "at the frame",
+        _ => "between moving links",
+    };
+    let jaws = match d.jaws {
+        "driven" => "one of whose links is a jaw",
+        _ => "apart from the jaws",
+    };
+    let input = if d.input == "slide" { "slide" } else { "hinge" };
+    let mut out = format!(
+        "{name}: {} links, {}. The input is a {input} {place}, {jaws}.\n",
+        d.links,
+        pairs.into_iter().flatten().join(", ")
+    );
+    out += &format!("Structure: {}\n", d.name);
+    out += &motion(d);
+    for classic in &d.classics {
+        out += &format!("Known as {}: {}.\n", classic.id, classic.about);
+    }
+    if let Some(entries) = &d.catalogue {
+        if entries.is_empty() {
+            out += "The catalogue does not have it.\n";
+        }
+        for entry in entries {
+            out += &format!(
+                "In the catalogue: {}, laid out as {}.\n",
+                entry.id, entry.form
+            );
+        }
+    }
+    fit(&out, width)
+}
+
+/// How it moves in nearly all places.
+fn motion(d: &FoundData) -> String {
+    if !d.in_count {
+        return "In nearly all places of its joints it has no motion, more than one, or two links that keep together, or a gear pair \
+             without a carrier: such structures are not counted. It moves by its special shape, if it does.\n"
+            .to_owned();
+    }
+    let essential = match &d.essential_part {
+        Some(links) => format!(
+            "Not essential: {} alone move input and jaws alike",
+            links.join(", ")
+        ),
+        None => "Essential: no smaller moving part holds frame, input and jaws".to_owned(),
+    };
+    let flag = |strict: Option<bool>, but: Option<bool>, word: &str| match (strict, but) {
+        (Some(true), _) => Some(word.to_owned()),
+        (_, Some(true)) => Some(format!("{word} but for the input")),
+        _ => None,
+    };
+    let symmetric = [
+        flag(d.mirror, d.mirror_but_input, "mirror"),
+        flag(d.half_turn, d.half_turn_but_input, "half turn"),
+    ];
+    let symmetric = symmetric.into_iter().flatten().join(", ");
+    let symmetric = if symmetric.is_empty() {
+        "none"
+    } else {
+        &symmetric
+    };
+    let jaws = match d.translating {
+        Some(true) => "keep their attitude in nearly all places",
+        _ => "turn in nearly all places (on parallelograms they do not)",
+    };
+    format!("{essential}.\nSymmetric layouts: {symmetric}. The jaws {jaws}.\n")
+}
