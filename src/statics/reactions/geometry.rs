@@ -15,6 +15,8 @@ pub use crate::geom::vector::{cross, dot};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
+use crate::statics::reactions::couplings::{CouplingEquation, equations};
+use crate::statics::reactions::transmitted::Transmitted;
 
 /// Singular values below this fraction of the greatest count as zero.
 pub const TOLERANCE: f64 = 1e-9;
@@ -84,6 +86,8 @@ pub struct Geometry {
     pub axes: Vec<[[f64; 3]; 3]>,
     /// The contours.
     pub contours: Vec<Contour>,
+    /// The couplings, in file order.
+    pub couplings: Vec<CouplingEquation>,
     /// The links but the frame, each after the one it hangs on.
     pub tree: Vec<TreeStep>,
     /// Middle and half diagonal of the pose, in the file's unit.
@@ -155,7 +159,7 @@ impl Geometry {
                 ]
             }
         };
-        Ok(Geometry {
+        let mut out = Geometry {
             state,
             basis,
             size: spread * metres,
@@ -165,10 +169,19 @@ impl Geometry {
             points,
             axes,
             contours: contour_basis(m, state),
+            couplings: Vec::new(),
             tree: spanning_tree(m, state),
             joints,
             pose: (mean, spread),
-        })
+        };
+        out.couplings = equations(m, &out);
+        Ok(out)
+    }
+
+    /// How many unknowns its equations have: wrenches round the contours, and one of each coupling.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.basis.len() * self.contours.len() + self.couplings.len()
     }
 
     /// Where a point of a link is now, from the middle, in the size; `point` in the file's unit at the pose of the file.
@@ -223,8 +236,9 @@ impl Geometry {
         out
     }
 
-    /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints.
-    pub(crate) fn add_round(&self, coefficients: &[f64], wrenches: &mut [Six]) {
+    /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints, and the coefficients
+    /// behind them to the couplings.
+    pub(crate) fn add_round(&self, coefficients: &[f64], to: &mut Transmitted) {
         let dim = self.basis.len();
         for (k, contour) in self.contours.iter().enumerate() {
             let mut round = [0.0; 6];
@@ -234,18 +248,34 @@ impl Geometry {
                 }
             }
             for &(j, forward) in &contour.joints {
-                for (w, r) in wrenches[j].iter_mut().zip(&round) {
+                for (w, r) in to.joints[j].iter_mut().zip(&round) {
                     *w += if forward { *r } else { -r };
                 }
             }
         }
+        let of_couplings = &coefficients[dim * self.contours.len()..];
+        for (x, c) in to.couplings.iter_mut().zip(of_couplings) {
+            *x += c;
+        }
     }
 
-    /// The row of the transposed closure matrix that belongs to a column: its power on a unit of each contour's wrenches.
+    /// The entries of the couplings at a column, by the coupling's place.
+    pub fn coupling_entries(&self, column: &FreedomColumn) -> impl Iterator<Item = (usize, f64)> {
+        let own = (column.joint, column.freedom);
+        let all = self.couplings.iter().enumerate();
+        all.flat_map(move |(q, c)| {
+            let ends = c.ends.iter().zip(c.entries);
+            ends.filter(move |(e, _)| (e.joint, e.freedom) == own)
+                .map(move |(_, x)| (q, x))
+        })
+    }
+
+    /// The row of the transposed closure matrix that belongs to a column: its power on a unit of each contour's wrenches, then
+    /// its entries in the couplings.
     #[must_use]
     pub fn row(&self, column: &FreedomColumn) -> Vec<f64> {
         let dim = self.basis.len();
-        let mut out = vec![0.0; dim * self.contours.len()];
+        let mut out = vec![0.0; self.unknowns()];
         for (k, contour) in self.contours.iter().enumerate() {
             if let Some(forward) = contour.direction(column.joint) {
                 let sign = if forward { 1.0 } else { -1.0 };
@@ -253,6 +283,10 @@ impl Geometry {
                     *o = sign * power(b, &column.twist);
                 }
             }
+        }
+        let first = dim * self.contours.len();
+        for (q, x) in self.coupling_entries(column) {
+            out[first + q] = x;
         }
         out
     }
