@@ -6,6 +6,7 @@ pub mod evaluate;
 pub mod joint_loads;
 pub mod load_cases;
 pub mod lower_bound;
+mod meshing;
 pub mod pose_tables;
 pub mod reference_scores;
 pub mod spectrum;

@@ -28,6 +28,7 @@ pub mod teeth;
 mod transmitted;
 mod unilateral;
 pub mod unsolved;
+pub mod wrench;
 
 pub use contact::Contacts;
 pub use cycle::{Cycle, cycle};

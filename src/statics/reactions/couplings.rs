@@ -7,9 +7,9 @@
 //! the axis or a force along it, which no bearing feels.
 
 use crate::model::coupling::{CoupledFreedom, Coupling};
-use crate::model::mechanism::Mechanism;
-use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, power, wrench};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::teeth::{Teeth, teeth};
+use crate::statics::reactions::wrench::{FreedomColumn, PosedFreedoms, Six, power, wrench};
 
 /// Work of teeth on another freedom of a joint, for a unit force, below which they do none.
 const NO_WORK: f64 = 1e-9;
@@ -50,26 +50,34 @@ impl CouplingEquation {
     }
 }
 
-/// The couplings of a geometry's state, in file order.
-pub(crate) fn equations(m: &Mechanism, geometry: &Geometry) -> Vec<CouplingEquation> {
-    let all = m.couplings_in(geometry.state);
-    all.filter_map(|c| equation(m, geometry, c)).collect()
+/// The couplings of a state in a pose, in file order.
+pub(crate) fn equations(
+    m: &Mechanism,
+    state: StateId,
+    posed: &PosedFreedoms<'_>,
+) -> Vec<CouplingEquation> {
+    let all = m.couplings_in(state);
+    all.filter_map(|c| equation(m, posed, c)).collect()
 }
 
-fn equation(m: &Mechanism, geometry: &Geometry, coupling: &Coupling) -> Option<CouplingEquation> {
+fn equation(
+    m: &Mechanism,
+    posed: &PosedFreedoms<'_>,
+    coupling: &Coupling,
+) -> Option<CouplingEquation> {
     let at = |e: CoupledFreedom| {
-        let mut all = geometry.columns.iter();
+        let mut all = posed.columns.iter();
         all.find(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
     };
     // The reader sees to it that coupled freedoms are there.
     let [first, second] = coupling.ends.map(at);
     let columns = [first?, second?];
-    let entries = entries(geometry, coupling);
+    let entries = entries(posed, coupling);
     let along_freedoms = [0, 1].map(|n| {
         let x = -entries[n];
-        along(geometry, columns[n]).map(|w| w * x)
+        along(posed, columns[n]).map(|w| w * x)
     });
-    let teeth = teeth(m, geometry, coupling, columns, entries);
+    let teeth = teeth(m, posed, coupling, columns, entries);
     let mut out = CouplingEquation {
         ends: coupling.ends,
         entries,
@@ -78,7 +86,7 @@ fn equation(m: &Mechanism, geometry: &Geometry, coupling: &Coupling) -> Option<C
         meshes: false,
     };
     out.meshes = [0, 1].into_iter().all(|n| {
-        let own = geometry.columns.iter();
+        let own = posed.columns.iter();
         let others = own.filter(|c| c.joint == columns[n].joint && c.freedom != columns[n].freedom);
         out.is_borne(n, others.map(|c| &c.twist))
     });
@@ -86,13 +94,9 @@ fn equation(m: &Mechanism, geometry: &Geometry, coupling: &Coupling) -> Option<C
 }
 
 /// Ratios are of radians and the file's unit, twists of radians and the geometry's size.
-fn entries(geometry: &Geometry, coupling: &Coupling) -> [f64; 2] {
+fn entries(posed: &PosedFreedoms<'_>, coupling: &Coupling) -> [f64; 2] {
     let unit = |e: CoupledFreedom| {
-        if e.freedom.slides() {
-            geometry.size / geometry.metres
-        } else {
-            1.0
-        }
+        if e.freedom.slides() { posed.size } else { 1.0 }
     };
     let [a, b] = coupling.ends.map(unit);
     let first = -coupling.ratio.to_f64() * a;
@@ -101,11 +105,11 @@ fn entries(geometry: &Geometry, coupling: &Coupling) -> [f64; 2] {
 }
 
 /// The unit moment about the axis that a freedom turns about, or the unit force along the line it slides along.
-fn along(geometry: &Geometry, column: &FreedomColumn) -> Six {
+fn along(posed: &PosedFreedoms<'_>, column: &FreedomColumn) -> Six {
     let t = &column.twist;
     let (turn, slide) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
     if turn == [0.0; 3] {
-        wrench(geometry.points[column.joint], slide, [0.0; 3])
+        wrench(posed.points[column.joint], slide, [0.0; 3])
     } else {
         [t[0], t[1], t[2], 0.0, 0.0, 0.0]
     }

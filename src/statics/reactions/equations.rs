@@ -74,7 +74,7 @@ impl<'g> System<'g> {
                     *x += share * v;
                 }
             }
-            self.geometry.add_round(&coefficients, of);
+            of.add_round(self.geometry, &coefficients);
         }
         self.work(of)
     }
@@ -83,7 +83,7 @@ impl<'g> System<'g> {
     pub(crate) fn self_stresses(&self, joints: usize) -> Vec<Transmitted> {
         let one = |i: usize| {
             let mut out = Transmitted::of_joints(self.geometry, vec![[0.0; 6]; joints]);
-            self.geometry.add_round(self.svd.v.col(i), &mut out);
+            out.add_round(self.geometry, self.svd.v.col(i));
             let all = out.flat(self.geometry).into_iter();
             let greatest = all.fold(0.0, |a: f64, x| a.max(x.abs()));
             out.scale(1.0 / greatest);

@@ -12,56 +12,14 @@ use crate::geom::rigid::halves;
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{add_scaled, sub, unit};
 pub use crate::geom::vector::{cross, dot};
-use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::couplings::{CouplingEquation, equations};
-use crate::statics::reactions::transmitted::Transmitted;
+pub use crate::statics::reactions::wrench::{FreedomColumn, Six, about, power, wrench};
+use crate::statics::reactions::wrench::{PosedFreedoms, within};
 
 /// Singular values below this fraction of the greatest count as zero.
 pub const TOLERANCE: f64 = 1e-9;
-
-/// A twist or a wrench.
-pub type Six = [f64; 6];
-
-/// Power of a wrench on a twist.
-#[must_use]
-pub fn power(a: &Six, b: &Six) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-/// The wrench (m; f) of a force at a point, with a moment besides.
-#[must_use]
-pub fn wrench(point: [f64; 3], force: [f64; 3], moment: [f64; 3]) -> Six {
-    let m = cross(point, force);
-    [
-        m[0] + moment[0],
-        m[1] + moment[1],
-        m[2] + moment[2],
-        force[0],
-        force[1],
-        force[2],
-    ]
-}
-
-/// A wrench about the middle taken about another point.
-#[must_use]
-pub fn about(w: &Six, point: [f64; 3]) -> Six {
-    let f = [w[3], w[4], w[5]];
-    let m = cross(point, f);
-    [w[0] - m[0], w[1] - m[1], w[2] - m[2], f[0], f[1], f[2]]
-}
-
-/// A freedom of a joint.
-#[derive(Debug, Clone, Copy)]
-pub struct FreedomColumn {
-    /// The joint.
-    pub joint: JointId,
-    /// The freedom in the joint's frame.
-    pub freedom: Freedom,
-    /// Unit turn or unit shift of the joint's second link against its first.
-    pub twist: Six,
-}
 
 /// A pose of a mechanism in one state.
 #[derive(Debug, Clone)]
@@ -174,7 +132,13 @@ impl Geometry {
             joints,
             pose: (mean, spread),
         };
-        out.couplings = equations(m, &out);
+        let posed = PosedFreedoms {
+            columns: &out.columns,
+            points: &out.points,
+            basis: &out.basis,
+            size: spread,
+        };
+        out.couplings = equations(m, state, &posed);
         Ok(out)
     }
 
@@ -202,17 +166,7 @@ impl Geometry {
     /// The part of a wrench that the model can carry: all of it, or what is in the plane.
     #[must_use]
     pub fn within(&self, w: &Six) -> Six {
-        if self.basis.len() == 6 {
-            return *w;
-        }
-        let mut out = [0.0; 6];
-        for b in &self.basis {
-            let share = power(b, w);
-            for (o, x) in out.iter_mut().zip(b) {
-                *o += share * x;
-            }
-        }
-        out
+        within(&self.basis, w)
     }
 
     /// The wrenches that joints pass on to their second links when all loads go along the tree to the frame; by joint.
@@ -234,29 +188,6 @@ impl Geometry {
             }
         }
         out
-    }
-
-    /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints, and the coefficients
-    /// behind them to the couplings.
-    pub(crate) fn add_round(&self, coefficients: &[f64], to: &mut Transmitted) {
-        let dim = self.basis.len();
-        for (k, contour) in self.contours.iter().enumerate() {
-            let mut round = [0.0; 6];
-            for (b, x) in self.basis.iter().zip(&coefficients[k * dim..]) {
-                for (r, y) in round.iter_mut().zip(b) {
-                    *r += x * y;
-                }
-            }
-            for &(j, forward) in &contour.joints {
-                for (w, r) in to.joints[j].iter_mut().zip(&round) {
-                    *w += if forward { *r } else { -r };
-                }
-            }
-        }
-        let of_couplings = &coefficients[dim * self.contours.len()..];
-        for (x, c) in to.couplings.iter_mut().zip(of_couplings) {
-            *x += c;
-        }
     }
 
     /// The entries of the couplings at a column, by the coupling's place.

@@ -8,7 +8,7 @@ use crate::geom::vector::{across, add_scaled, cross, dot, length, scale, sub};
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{LinkId, Mechanism};
-use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, wrench};
+use crate::statics::reactions::wrench::{FreedomColumn, PosedFreedoms, Six, within, wrench};
 
 /// Directions within this sine are alike, lengths below this fraction of the size are nothing.
 const ALIKE: f64 = 1e-9;
@@ -39,7 +39,7 @@ struct Wheel {
 /// The teeth of a coupling; `None` where the file does not say that there are any, or not where.
 pub(crate) fn teeth(
     m: &Mechanism,
-    geometry: &Geometry,
+    posed: &PosedFreedoms<'_>,
     coupling: &Coupling,
     columns: [&FreedomColumn; 2],
     entries: [f64; 2],
@@ -51,7 +51,7 @@ pub(crate) fn teeth(
         let second = m.joints[columns[n].joint].links[0] == carrier;
         let sense = if second { 1.0 } else { -1.0 };
         Wheel {
-            centre: geometry.points[columns[n].joint],
+            centre: posed.points[columns[n].joint],
             along: if turn == [0.0; 3] {
                 [t[3], t[4], t[5]]
             } else {
@@ -63,7 +63,7 @@ pub(crate) fn teeth(
     };
     let [first, second] = [wheel(0), wheel(1)];
     let (point, force) = match coupling.ends.map(|e| e.freedom) {
-        [Freedom::Rz, Freedom::Rz] => gears(geometry, &first, &second)?,
+        [Freedom::Rz, Freedom::Rz] => gears(posed, &first, &second)?,
         [Freedom::Rz, Freedom::Tz] => rack(&first, &second)?,
         [Freedom::Tz, Freedom::Rz] => {
             let (point, on_pinion) = rack(&second, &first)?;
@@ -72,7 +72,8 @@ pub(crate) fn teeth(
         _ => return None,
     };
     let on = |w: &Wheel, sign: f64| {
-        geometry.within(&wrench(point, scale(force, sign * w.sense), [0.0; 3]))
+        let force = scale(force, sign * w.sense);
+        within(posed.basis, &wrench(point, force, [0.0; 3]))
     };
     Some(Teeth {
         point,
@@ -90,14 +91,14 @@ fn carrier(m: &Mechanism, coupling: &Coupling) -> Option<LinkId> {
 }
 
 /// Where two gears touch, and the force on the first.
-fn gears(geometry: &Geometry, a: &Wheel, b: &Wheel) -> Option<([f64; 3], [f64; 3])> {
+fn gears(posed: &PosedFreedoms<'_>, a: &Wheel, b: &Wheel) -> Option<([f64; 3], [f64; 3])> {
     let z = a.along;
     if length(cross(z, b.along)) > ALIKE {
         return None;
     }
     let apart = sub(b.centre, a.centre);
     // Of axes whose points stand at two heights nothing says at which of them the gears are; in a plane there are none.
-    if geometry.basis.len() == 6 && dot(apart, z).abs() > ALIKE {
+    if posed.basis.len() == 6 && dot(apart, z).abs() > ALIKE {
         return None;
     }
     let apart = across(apart, z);

@@ -20,6 +20,29 @@ impl Transmitted {
         }
     }
 
+    /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints, and the coefficients
+    /// behind them to the couplings.
+    pub(crate) fn add_round(&mut self, geometry: &Geometry, coefficients: &[f64]) {
+        let dim = geometry.basis.len();
+        for (k, contour) in geometry.contours.iter().enumerate() {
+            let mut round = [0.0; 6];
+            for (b, x) in geometry.basis.iter().zip(&coefficients[k * dim..]) {
+                for (r, y) in round.iter_mut().zip(b) {
+                    *r += x * y;
+                }
+            }
+            for &(j, forward) in &contour.joints {
+                for (w, r) in self.joints[j].iter_mut().zip(&round) {
+                    *w += if forward { *r } else { -r };
+                }
+            }
+        }
+        let of_couplings = &coefficients[dim * geometry.contours.len()..];
+        for (x, c) in self.couplings.iter_mut().zip(of_couplings) {
+            *x += c;
+        }
+    }
+
     /// What the joints bear and their drives do: without what couplings pass beside them.
     pub(crate) fn own(&self, geometry: &Geometry) -> Vec<Six> {
         let mut out = self.joints.clone();

@@ -5,7 +5,6 @@ use crate::format::phrase::list;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::CouplingReaction;
 use crate::statics::reactions::drives::slides;
-use crate::view::reactions::Reactions;
 use crate::view::terminal::layout::table;
 use serde::Serialize;
 use std::fmt::Write;
@@ -153,11 +152,15 @@ fn told_of_teeth(out: &mut String, all: &[CouplingForces<'_>]) -> std::fmt::Resu
 }
 
 /// The couplings as a table, one a row.
-pub(super) fn text(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> std::fmt::Result {
-    if s.couplings.is_empty() {
+pub(super) fn text(
+    out: &mut String,
+    all: &[CouplingForces<'_>],
+    width: Option<u16>,
+) -> std::fmt::Result {
+    if all.is_empty() {
         return Ok(());
     }
-    let rows = s.couplings.iter().map(|c| {
+    let rows = all.iter().map(|c| {
         let mut row = vec![c.coupling.clone()];
         let ends = c.ends.iter();
         row.extend(ends.map(|e| format!("{} {}", figure(e.effort), e.unit)));
@@ -171,29 +174,29 @@ pub(super) fn text(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> s
         "Couplings give the second link of each joint, along the freedom they tie\n"
     )?;
     writeln!(out, "{}\n", table(&head, rows.collect(), width))?;
-    told_of_teeth(out, &s.couplings)
+    told_of_teeth(out, all)
 }
 
 /// What couplings pass while joints are elastic and they are not.
-pub(super) fn elastic(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    for c in s.elastic_couplings.iter().flatten() {
+pub(super) fn elastic(out: &mut String, all: &[CouplingForces<'_>]) -> std::fmt::Result {
+    for c in all {
         writeln!(out, "Coupling {}, rigid, passes {}", c.coupling, c.told())?;
     }
     Ok(())
 }
 
-/// What each coupling passes where that is the most, of reactions by position; `at` tells a position.
+/// What each coupling passes where that is the most, by position; `at` tells a position.
 pub(super) fn greatest(
     out: &mut String,
-    all: &[(f64, &Reactions<'_>)],
+    all: &[(f64, &[CouplingForces<'_>])],
     at: &dyn Fn(f64) -> String,
 ) -> std::fmt::Result {
-    let count = all.first().map_or(0, |(_, r)| r.couplings.len());
+    let count = all.first().map_or(0, |(_, c)| c.len());
     for q in 0..count {
-        let size = |r: &Reactions<'_>| r.couplings[q].ends[1].effort.abs();
+        let size = |c: &[CouplingForces<'_>]| c[q].ends[1].effort.abs();
         let most = all.iter().max_by(|a, b| size(a.1).total_cmp(&size(b.1)));
-        if let Some((place, r)) = most {
-            let c = &r.couplings[q];
+        if let Some((place, c)) = most {
+            let c = &c[q];
             let (name, told) = (&c.coupling, c.told());
             writeln!(
                 out,
@@ -202,6 +205,5 @@ pub(super) fn greatest(
             )?;
         }
     }
-    all.first()
-        .map_or(Ok(()), |(_, r)| told_of_teeth(out, &r.couplings))
+    all.first().map_or(Ok(()), |(_, c)| told_of_teeth(out, c))
 }

@@ -131,7 +131,8 @@ impl<'a> ReactionsOverStroke<'a> {
         self.contacts(out, &all, first)?;
         self.drives(out, &all, first)?;
         let unit = self.unit();
-        couplings::greatest(out, &all, &|x| format!("{} {unit}", self.at(x)))?;
+        let passed: Vec<_> = all.iter().map(|(at, r)| (*at, &r.couplings[..])).collect();
+        couplings::greatest(out, &passed, &|x| format!("{} {unit}", self.at(x)))?;
         self.equilibrium(out, &all)?;
         for position in &self.positions {
             if let Position::Unsolved { drive, error } = position {

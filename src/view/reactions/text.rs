@@ -156,7 +156,7 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
     if !s.contacts.is_empty() {
         writeln!(out, "{}\n", contacts(&s.contacts, width))?;
     }
-    couplings::text(out, s, width)?;
+    couplings::text(out, &s.couplings, width)?;
     drives(out, s, rounding)?;
     equilibrium(out, s)?;
     if !s.self_stresses.is_empty() {
@@ -320,7 +320,7 @@ fn elastic(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> std::fmt:
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
                 joints(list, s.size, NOTHING, width)
             )?;
-            couplings::elastic(out, s)
+            couplings::elastic(out, s.elastic_couplings.as_deref().unwrap_or_default())
         }
         None if open > 0 && s.choice != "pushing" => writeln!(
             out,

@@ -224,9 +224,9 @@ fn balanced(m: &Mechanism, positions: &[f64]) -> usize {
     let held = drives(m);
     let slides = held[0].1.slides();
     let (h, unit) = if slides {
-        (1e-3, m.length_unit.metres)
+        (1e-4, m.length_unit.metres)
     } else {
-        (1e-4, 1.0)
+        (1e-5, 1.0)
     };
     let places: Vec<f64> = positions.iter().flat_map(|x| [x - h, *x, x + h]).collect();
     let Ok(followed) = follow_to(m, StateId::FREE, &held, &places) else {

@@ -97,6 +97,10 @@ fn mesh(m: &Mechanism, q: usize) -> Option<(LinkId, LinkId, V, V)> {
                 return None;
             }
             let ratio = ratio * dot(za, zb).signum();
+            // On one axis, or alike about two: no gears.
+            if ratio == 1.0 || pa == pb {
+                return None;
+            }
             let (line, apart) = (
                 unit(minus(pb, pa)),
                 dot(minus(pb, pa), minus(pb, pa)).sqrt(),
@@ -106,7 +110,7 @@ fn mesh(m: &Mechanism, q: usize) -> Option<(LinkId, LinkId, V, V)> {
             let at = [0, 1, 2].map(|i| pa[i] + x * line[i]);
             Some((gear(la), gear(lb), at, cross(za, line)))
         }
-        [Freedom::Tz, Freedom::Rz] => {
+        [Freedom::Tz, Freedom::Rz] if dot(za, zb).abs() < 1e-12 => {
             let radius = metres / ratio;
             // The rack's velocity u is that of the pinion at p + n: ω z × n = u for ω = 1/radius.
             let n = times(cross(za, zb), radius);
