@@ -39,7 +39,7 @@ pub enum ClampingReactions {
     /// Those of the plane.
     Planar(Box<Statics>),
     /// Those of space.
-    Spatial(Solution),
+    Spatial(Box<Solution>),
 }
 
 /// A mechanism round a part.
@@ -95,7 +95,7 @@ pub fn clamped(
             let home = Pose::of_file(&m, g.state)?;
             let drives = driven(&m, &Geometry::new(&m, g.state, &home)?)?;
             let found = Reactions::at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
-            ClampingReactions::Spatial(found)
+            ClampingReactions::Spatial(Box::new(found))
         }
     };
     Ok(Some(Clamped {

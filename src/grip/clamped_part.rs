@@ -5,10 +5,10 @@ use crate::grip::faces::{JawFace, turned_about};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
+use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::contacts;
 use crate::statics::reactions::drives::driven;
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE};
-use crate::statics::reactions::{Unsolved, no_couplings};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::Rng;
 use ozols_dense::{Matrix, svd};
@@ -83,7 +83,6 @@ impl ClampedPart {
     /// # Complexity
     /// O((6k)²·f) for k contours and f freedoms.
     pub fn new(m: &Mechanism, state: StateId) -> Result<ClampedPart, PartError> {
-        no_couplings(m, state)?;
         let pose = Pose::of_file(m, state).map_err(Unsolved::from)?;
         let geometry = Geometry::new(m, state, &pose).map_err(Unsolved::from)?;
         let all = contacts(m, &geometry)?;

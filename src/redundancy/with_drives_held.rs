@@ -25,10 +25,17 @@ pub fn exact_self_stresses(
     }
     let exact = field_of(m, state, 0).ok()?;
     let mut closure = Closure::new(&exact, m, state).ok()?;
-    if !closure.couplings.is_empty() {
-        return None;
-    }
     let held = |c: &Column<Residue>| drives.contains(&(c.joint, c.freedom));
-    closure.columns.retain(|c| !held(c));
+    // Held freedoms stay where they are, as columns of nothing: the rows of couplings know them by their places.
+    for (i, column) in closure
+        .columns
+        .iter_mut()
+        .enumerate()
+        .filter(|(_, c)| held(c))
+    {
+        column.twist.fill(0);
+        let entries = closure.couplings.iter_mut().flat_map(|q| &mut q.entries);
+        entries.filter(|(c, _)| *c == i).for_each(|(_, x)| *x = 0);
+    }
     Some(closure.rows() - modular::rank(&exact, &closure))
 }

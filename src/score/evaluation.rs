@@ -1,10 +1,12 @@
 //! Scores of variants under the workload, fast and in plain ways, and bounds on them.
 
+mod coupled;
 pub mod elimination;
 pub mod evaluate;
 pub mod joint_loads;
 pub mod load_cases;
 pub mod lower_bound;
+mod meshing;
 pub mod pose_tables;
 pub mod reference_scores;
 pub mod spectrum;

@@ -51,8 +51,8 @@ pub enum PlanarError {
     },
     /// Joints are coupled.
     #[error(
-        "joints {coupling} are coupled, and forces that gears or belts carry from joint to joint are not part of the statics; take the \
-         coupling out and drive both joints"
+        "joints {coupling} are coupled, and Assur groups and their methods are of links and joints alone; `ozols statics --spatial` \
+         gives the reactions, that of the coupling among them, and with the coupling taken out and both joints driven there are groups"
     )]
     Coupled {
         /// The coupling.

@@ -7,13 +7,14 @@
 //!   Jᵀ λ = -(t·p)        one equation a freedom, six unknowns a contour,
 //!
 //! the transposed closure equations. A drive holds its freedom: that freedom's equation is left out, and t·w is the drive's
-//! force or torque. With σ = 0 the solution is unique. Where redundant constraints are left, the solutions are a family:
+//! force or torque. A coupling has a row in J, so that it is one unknown more, which works on its two freedoms alone. With σ = 0 the solution is unique. Where redundant constraints are left, the solutions are a family:
 //! that of minimum norm, Σ |f|² + |m|²/ℓ² over the joints about their own points (ℓ the mechanism's size), plus
 //! self-stresses; and where joints are elastic and made askew, the one that fits. Where undriven motions are left under
 //! which the loads do work, there is no equilibrium [Angeles 2014, ch. 6; Davies 1983].
 
 pub mod applied;
 pub mod contact;
+pub mod couplings;
 pub mod cycle;
 pub mod drives;
 mod equations;
@@ -23,11 +24,14 @@ pub mod geometry;
 pub mod inertia;
 pub mod solution;
 pub mod solve;
+pub mod teeth;
+mod transmitted;
 mod unilateral;
 pub mod unsolved;
+pub mod wrench;
 
 pub use contact::Contacts;
 pub use cycle::{Cycle, cycle};
-pub use solution::{JointReaction, NEARLY_SINGULAR, Solution, Uniqueness};
+pub use solution::{CouplingReaction, JointReaction, NEARLY_SINGULAR, Solution, Uniqueness};
 pub use solve::Reactions;
-pub use unsolved::{Unsolved, no_couplings};
+pub use unsolved::Unsolved;

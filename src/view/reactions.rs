@@ -2,6 +2,7 @@
 //! N, moments in N·m about the joints' points, each first link on second, in the joint's own frame.
 
 pub mod chart;
+pub mod couplings;
 pub mod stroke;
 pub mod text;
 
@@ -9,7 +10,8 @@ use crate::format::csv::table;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::drives::slides;
-use crate::statics::reactions::{JointReaction, Solution, Uniqueness};
+use crate::statics::reactions::{CouplingReaction, JointReaction, Solution, Uniqueness};
+use crate::view::reactions::couplings::{CouplingForces, couplings, unit};
 use serde::Serialize;
 
 /// Reactions in one pose.
@@ -37,12 +39,18 @@ pub struct Reactions<'a> {
     pub contacts: Vec<ObjectContact<'a>>,
     /// By joint of the state.
     pub reactions: Vec<JointForces<'a>>,
+    /// By coupling of the state.
+    pub couplings: Vec<CouplingForces<'a>>,
     /// Those that load nothing from outside, one set for each redundant constraint.
     pub self_stresses: Vec<Vec<JointForces<'a>>>,
+    /// What couplings pass of each of these.
+    pub coupling_stresses: Vec<Vec<CouplingForces<'a>>>,
     /// How many there are in exact geometry, where singular values tell another number.
     pub exact_self_stresses: Option<usize>,
     /// Those of elastic joints, where stiffness is stated and it matters.
     pub elastic: Option<Vec<JointForces<'a>>>,
+    /// What couplings, which are rigid, pass of those.
+    pub elastic_couplings: Option<Vec<CouplingForces<'a>>>,
     /// The mechanism, for its loads.
     #[serde(skip)]
     pub of: &'a Mechanism,
@@ -181,6 +189,7 @@ impl<'a> Reactions<'a> {
         let joints = |list: &Vec<JointReaction>| -> Vec<JointForces<'a>> {
             list.iter().map(|r| JointForces::new(m, r)).collect()
         };
+        let coupled = |list: &Vec<CouplingReaction>| couplings(m, state, list);
         Reactions {
             mechanism: &m.name,
             state: &m.states[state],
@@ -213,7 +222,14 @@ impl<'a> Reactions<'a> {
                     ..joint
                 })
                 .collect(),
+            couplings: coupled(&s.couplings)
+                .into_iter()
+                .zip(&s.couplings_open)
+                .map(|(c, &open)| CouplingForces { open, ..c })
+                .collect(),
             self_stresses: s.self_stresses.iter().map(joints).collect(),
+            coupling_stresses: s.coupling_stresses.iter().map(coupled).collect(),
+            elastic_couplings: s.elastic_couplings.as_ref().map(coupled),
             exact_self_stresses: None,
             elastic: s.elastic.as_ref().map(joints),
             of: m,
@@ -229,7 +245,7 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// One joint a line.
+    /// One joint a line, and one for each joint of a coupling.
     #[must_use]
     pub fn csv(&self) -> String {
         table(&HEADS, self.rows())
@@ -237,11 +253,21 @@ impl<'a> Reactions<'a> {
 
     fn rows(&self) -> impl Iterator<Item = Vec<String>> {
         let lists = [
-            (self.choice, Some(&self.reactions)),
-            ("elastic", self.elastic.as_ref()),
+            (self.choice, Some(&self.reactions), Some(&self.couplings)),
+            (
+                "elastic",
+                self.elastic.as_ref(),
+                self.elastic_couplings.as_ref(),
+            ),
         ];
-        lists.into_iter().flat_map(|(kind, list)| {
-            list.into_iter().flatten().map(move |r| {
+        lists.into_iter().flat_map(|(kind, list, coupled)| {
+            let coupled = coupled.into_iter().flatten().flat_map(move |c| {
+                c.rows().map(move |mut row| {
+                    row.insert(0, kind.to_owned());
+                    row
+                })
+            });
+            let joints = list.into_iter().flatten().map(move |r| {
                 let mut row = [kind, r.joint, r.kind].map(str::to_owned).to_vec();
                 for (vector, size) in [(r.force, r.force_magnitude), (r.moment, r.moment_magnitude)]
                 {
@@ -250,14 +276,29 @@ impl<'a> Reactions<'a> {
                 }
                 let effort = r.drive.as_ref().map(|d| d.effort.to_string());
                 row.push(effort.unwrap_or_default());
+                let unit_of = r.drive.as_ref().map(|d| unit(d.slides));
+                row.push(unit_of.unwrap_or_default().to_owned());
                 row
-            })
+            });
+            joints.chain(coupled)
         })
     }
 }
 
 const COMPONENTS: [&str; 6] = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
 
-const HEADS: [&str; 12] = [
-    "kind", "joint", "type", "Fx", "Fy", "Fz", "F", "Mx", "My", "Mz", "M", "effort",
+const HEADS: [&str; 13] = [
+    "kind",
+    "joint",
+    "type",
+    "Fx",
+    "Fy",
+    "Fz",
+    "F",
+    "Mx",
+    "My",
+    "Mz",
+    "M",
+    "effort",
+    "effort_unit",
 ];

@@ -329,19 +329,6 @@ fn certificates_hold_the_coupling() {
     assert!(ozols::verify::check(&of(&without), &certificate).is_err());
 }
 
-/// What gears pass from joint to joint is not in the reactions: refused, not left out.
-#[test]
-fn statics_is_refused() {
-    for more in [&[][..], &["--spatial"], &["--groups"]] {
-        let o = ozols(&[&["statics", "geared-gripper"][..], more].concat())
-            .output()
-            .unwrap();
-        assert_eq!(o.status.code(), Some(2), "{more:?}");
-        let e = String::from_utf8(o.stderr).unwrap();
-        assert!(e.contains("joints 0-1 ~ 0-4 are coupled"), "{e}");
-    }
-}
-
 /// Gears between the fingers of a gripper stay in every redesign, and the counts know them.
 #[test]
 fn redesigns_of_a_geared_gripper() {

@@ -2,6 +2,7 @@
 
 mod command;
 mod floor;
+mod geared;
 
 use crate::common::out;
 use ozols::builtin;

@@ -2,6 +2,7 @@
 
 use crate::common::built_in;
 mod command;
+mod couplings;
 mod cycle;
 mod family;
 mod named_drives;

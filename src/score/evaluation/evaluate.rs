@@ -11,10 +11,10 @@ use crate::score::evaluation::terms::{ErrorSum, Peak, Scores, output_points};
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
+use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
 use crate::statics::reactions::geometry::Geometry;
-use crate::statics::reactions::{Unsolved, no_couplings};
 use thiserror::Error;
 
 /// Work of the loads on undriven motions below this fraction of them is none.
@@ -69,7 +69,7 @@ impl<'s> Evaluator<'s> {
     /// Makes everything ready that does not depend on the variant, for the states with loads.
     ///
     /// # Errors
-    /// Where a coordinate has no value, singular values do not converge, or joints are coupled.
+    /// Where a coordinate has no value, or singular values do not converge.
     ///
     /// # Complexity
     /// O(poses · options · loads), and the poses of the stroke.
@@ -87,7 +87,6 @@ impl<'s> Evaluator<'s> {
         states: &[StateId],
     ) -> Result<Evaluator<'s>, ScoreError> {
         let m = &*search.mechanism;
-        no_couplings(m, StateId::FREE)?;
         let types = JointTypes::of(m);
         let start = follow(m, StateId::FREE, &[], None)?;
         let drives = match start.poses.first() {
@@ -179,11 +178,13 @@ impl<'s> Evaluator<'s> {
         scratch: &mut Scratch,
         each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Option<Scores>, Unsolved> {
-        let dim = table.basis.len();
-        let unknowns = dim * table.contours;
+        let (dim, unknowns) = (table.basis.len(), table.unknowns());
         let width = unknowns + table.cases;
         let cell = |p: &crate::score::evaluation::pose_tables::PlacedJoint| {
             &table.cells[p.variable][variant.choices[p.variable]][p.slot]
+        };
+        let Some(meshing) = table.meshing(cell) else {
+            return Ok(None);
         };
         scratch.rows.clear();
         scratch.gram.clear();
@@ -200,21 +201,10 @@ impl<'s> Evaluator<'s> {
                         *o = sign * x;
                     }
                 }
-                out[unknowns..].copy_from_slice(&row[dim..]);
+                out[dim * table.contours..].copy_from_slice(&row[dim..]);
                 count += 1;
             }
-            for &(k, s) in &place.contours {
-                // The upper triangle is enough.
-                for &(l, t) in place.contours.iter().filter(|(l, _)| *l >= k) {
-                    for a in 0..dim {
-                        let from = (k * dim + a) * unknowns + l * dim;
-                        let out = &mut scratch.gram[from..from + dim];
-                        for (o, g) in out.iter_mut().zip(&cell.gram[a * dim..]) {
-                            *o += s * t * g;
-                        }
-                    }
-                }
-            }
+            table.add_gram(place, cell, &mut scratch.gram);
         }
         match scratch.eliminate(count, unknowns, width) {
             Ended::Open => return Ok(None),
@@ -230,7 +220,7 @@ impl<'s> Evaluator<'s> {
         let mut errors = vec![ErrorSum::new(self.clearance); self.outputs.len()];
         let x = &scratch.solution;
         for place in &table.places {
-            let (f, m) = table.borne(place, &table.wrench(place, 0, x));
+            let (f, m) = table.borne(place, &table.wrench(place, 0, x, &meshing));
             let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
             for &capacity in &cell(place).bears {
                 let (force, moment) = capacity;
@@ -249,7 +239,8 @@ impl<'s> Evaluator<'s> {
         for (o, error) in errors.iter_mut().enumerate() {
             for axis in 0..3 {
                 for place in &table.places {
-                    let (f, _) = table.borne(place, &table.wrench(place, 1 + 3 * o + axis, x));
+                    let case = 1 + 3 * o + axis;
+                    let (f, _) = table.borne(place, &table.wrench(place, case, x, &meshing));
                     error.joint(cell(place).clearance, dot(f, f));
                 }
                 error.end_axis();

@@ -74,11 +74,24 @@ impl Evaluator<'_> {
             let Some(common) = common(table) else {
                 continue;
             };
+            let meshing = table.meshing_of_all();
+            // What passes beside a joint in some variants and through it in others is not bounded.
+            let decided = |p: &&PlacedJoint| {
+                let mut all = p.couplings.iter();
+                all.all(|at| meshing[at.coupling].is_some())
+            };
+            let mesh: Vec<bool> = meshing.iter().map(|m| m.unwrap_or(false)).collect();
             let parts = |of: &dyn Fn(&PlacedJoint) -> Option<f64>, case: usize, moment: bool| {
-                let places = table.places.iter();
-                let parts =
-                    places.filter_map(|p| Some(part(table, &common, p, case, moment, of(p)?)));
-                parts.collect::<Vec<AffineLoads>>()
+                let places = table.places.iter().filter(decided);
+                let one = |p| {
+                    let limit = of(p)?;
+                    let borne = |x: &[f64]| {
+                        let (force, turning) = table.borne(p, &table.wrench(p, case, x, &mesh));
+                        if moment { turning } else { force }
+                    };
+                    Some(part(table, &common, case, limit, &borne))
+                };
+                places.filter_map(one).collect::<Vec<AffineLoads>>()
             };
             let force = parts(&|p| capacity(table, p, |(f, _)| Some(f)), 0, false);
             let moment = parts(&|p| capacity(table, p, |(_, m)| m), 0, true);
@@ -129,8 +142,8 @@ fn clearance(table: &PoseTable, place: &PlacedJoint) -> f64 {
 
 /// The equations that hold for every variant: rows in the span of those of each choice.
 fn common(table: &PoseTable) -> Option<Common> {
-    let dim = table.basis.len();
-    let unknowns = dim * table.contours;
+    let (dim, unknowns) = (table.basis.len(), table.unknowns());
+    let width = dim + table.couplings;
     let mut rows: Vec<(&PlacedJoint, &Vec<f64>)> = Vec::new();
     for place in &table.places {
         let choices = &table.cells[place.variable];
@@ -139,7 +152,7 @@ fn common(table: &PoseTable) -> Option<Common> {
         };
         for row in &first[place.slot].rows {
             let kept = |c: &Vec<crate::score::evaluation::pose_tables::Cell>| {
-                within(row, &c[place.slot].rows, dim)
+                within(row, &c[place.slot].rows, width)
             };
             if choices.iter().all(kept) {
                 rows.push((place, row));
@@ -156,8 +169,11 @@ fn common(table: &PoseTable) -> Option<Common> {
                 matrix[(r, k * dim + b)] = sign * x;
             }
         }
+        for (q, x) in row[dim..width].iter().enumerate() {
+            matrix[(r, dim * table.contours + q)] = *x;
+        }
     }
-    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r].1[dim + c]);
+    let right = Matrix::from_fn(rows.len(), table.cases, |r, c| rows[r].1[width + c]);
     let svd = svd(&matrix)?;
     let rank = svd.rank(NONE);
     let x = svd.least_norm(rank, &right);
@@ -169,8 +185,9 @@ fn common(table: &PoseTable) -> Option<Common> {
     Some(Common { solution, open })
 }
 
-/// Whether a unit twist is in the span of others; the right sides follow, being linear in the twist.
-fn within(row: &[f64], others: &[Vec<f64>], dim: usize) -> bool {
+/// Whether a unit twist with its entries in couplings, so many numbers, is in the span of others; the right sides follow, being
+/// linear in the twist.
+fn within(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
     let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let clear = |mut v: Vec<f64>, basis: &[Vec<f64>]| {
         // Twice is enough [Parlett 1998, 6.9].
@@ -182,29 +199,24 @@ fn within(row: &[f64], others: &[Vec<f64>], dim: usize) -> bool {
     };
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for other in others {
-        let rest = clear(other[..dim].to_vec(), &basis);
+        let rest = clear(other[..width].to_vec(), &basis);
         let size = inner(&rest, &rest).sqrt();
         if size > NONE {
             basis.push(rest.iter().map(|x| x / size).collect());
         }
     }
-    let rest = clear(row[..dim].to_vec(), &basis);
+    let rest = clear(row[..width].to_vec(), &basis);
     inner(&rest, &rest).sqrt() <= NONE
 }
 
-/// What a place bears in one load case, as far as the common equations tell.
+/// What a place bears in one load case, by all unknowns, as far as the common equations tell.
 fn part(
     table: &PoseTable,
     common: &Common,
-    place: &PlacedJoint,
     case: usize,
-    moment: bool,
     limit: f64,
+    borne: &dyn Fn(&[f64]) -> [f64; 3],
 ) -> AffineLoads {
-    let borne = |x: &[f64]| {
-        let (force, turning) = table.borne(place, &table.wrench(place, case, x));
-        if moment { turning } else { force }
-    };
     let fixed = borne(&common.solution);
     let mut x = common.solution.clone();
     let open = common.open.iter().map(|direction| {

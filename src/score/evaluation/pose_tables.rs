@@ -6,6 +6,7 @@ use crate::geom::vector::{across, cross};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
+use crate::score::evaluation::coupled::{CoupledChoice, PlacedCoupling, couplings_at};
 use crate::score::evaluation::load_cases::LoadCase;
 use crate::score::evaluation::terms::axis_of;
 use crate::score::joint_types::JointTypes;
@@ -13,19 +14,21 @@ use crate::search::Search;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::applied::link_loads;
 use crate::statics::reactions::drives::{Driven, period};
-use crate::statics::reactions::geometry::{Geometry, Six, about, power, wrench};
+use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, about, power, wrench};
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]
 pub(in crate::score) struct Cell {
-    /// Equations, each its twist in the wrench basis and then its right sides.
+    /// Equations, each its twist in the wrench basis, its entries in the couplings, and then its right sides.
     pub(in crate::score) rows: Vec<Vec<f64>>,
-    /// Σ of outer products of the twists, dim × dim.
+    /// Σ of outer products of these but the right sides, dim and couplings wide.
     pub(in crate::score) gram: Vec<f64>,
     /// Force, and moment where it bears one, of the joints in series.
     pub(in crate::score) bears: Vec<(f64, Option<f64>)>,
     /// Sum of their clearances `[m]`.
     pub(in crate::score) clearance: f64,
+    /// What it makes of each coupling at the joint.
+    pub(in crate::score) coupled: Vec<CoupledChoice>,
 }
 
 /// A joint's place.
@@ -42,6 +45,8 @@ pub(in crate::score) struct PlacedJoint {
     pub(in crate::score) held: Option<([f64; 3], bool)>,
     /// Wrench of each load case along the tree.
     pub(in crate::score) along_tree: Vec<Six>,
+    /// The couplings it is tied by.
+    pub(in crate::score) couplings: Vec<PlacedCoupling>,
 }
 
 /// A pose.
@@ -49,6 +54,7 @@ pub(in crate::score) struct PlacedJoint {
 pub(in crate::score) struct PoseTable {
     pub(in crate::score) basis: Vec<Six>,
     pub(in crate::score) contours: usize,
+    pub(in crate::score) couplings: usize,
     pub(in crate::score) size: f64,
     /// Load cases: the loads, then a unit force along each axis on each output.
     pub(in crate::score) cases: usize,
@@ -118,6 +124,7 @@ impl PoseTable {
                         Some((geometry.axes[joint][axis], shift))
                     }),
                     along_tree: along.iter().map(|a| a[joint]).collect(),
+                    couplings: couplings_at(&geometry, joint),
                 };
                 for (choice, out) in variable.choices.iter().zip(&mut of_variable) {
                     let j = &m.joints[joint];
@@ -141,6 +148,7 @@ impl PoseTable {
         Ok(PoseTable {
             basis: geometry.basis.clone(),
             contours: geometry.contours.len(),
+            couplings: geometry.couplings.len(),
             size: geometry.size,
             cases: cases.len(),
             places,
@@ -149,8 +157,51 @@ impl PoseTable {
         })
     }
 
-    /// Wrench of a place in a load case, for the contours' wrenches `x`, unknowns × cases.
-    pub(in crate::score) fn wrench(&self, place: &PlacedJoint, case: usize, x: &[f64]) -> Six {
+    /// How many unknowns the equations have: wrenches round the contours, then what couplings pass.
+    pub(in crate::score) fn unknowns(&self) -> usize {
+        self.basis.len() * self.contours + self.couplings
+    }
+
+    /// Adds the outer products of the equations of a place to those of all, unknowns × unknowns; the upper triangle is enough.
+    pub(in crate::score) fn add_gram(&self, place: &PlacedJoint, cell: &Cell, gram: &mut [f64]) {
+        let (dim, unknowns) = (self.basis.len(), self.unknowns());
+        let (width, first) = (dim + self.couplings, dim * self.contours);
+        for &(k, s) in &place.contours {
+            for a in 0..dim {
+                let row = (k * dim + a) * unknowns;
+                let own = &cell.gram[a * width..(a + 1) * width];
+                for &(l, t) in place.contours.iter().filter(|(l, _)| *l >= k) {
+                    let from = row + l * dim;
+                    for (o, g) in gram[from..from + dim].iter_mut().zip(own) {
+                        *o += s * t * g;
+                    }
+                }
+                for (o, g) in gram[row + first..row + unknowns]
+                    .iter_mut()
+                    .zip(&own[dim..])
+                {
+                    *o += s * g;
+                }
+            }
+        }
+        for q in 0..self.couplings {
+            let row = (first + q) * unknowns + first;
+            let own = &cell.gram[(dim + q) * width + dim..(dim + q + 1) * width];
+            for (o, g) in gram[row..row + self.couplings].iter_mut().zip(own) {
+                *o += g;
+            }
+        }
+    }
+
+    /// Wrench that a place's joint bears in a load case, for the unknowns `x`, unknowns × cases, where the teeth of these
+    /// couplings mesh.
+    pub(in crate::score) fn wrench(
+        &self,
+        place: &PlacedJoint,
+        case: usize,
+        x: &[f64],
+        meshing: &[bool],
+    ) -> Six {
         let dim = self.basis.len();
         let mut w = place.along_tree[case];
         for &(k, sign) in &place.contours {
@@ -160,6 +211,11 @@ impl PoseTable {
                     *w += x * b;
                 }
             }
+        }
+        for at in &place.couplings {
+            let x = x[(dim * self.contours + at.coupling) * self.cases + case];
+            let beside = &at.beside[usize::from(meshing[at.coupling])];
+            w.iter_mut().zip(beside).for_each(|(w, b)| *w -= x * b);
         }
         w
     }
@@ -192,12 +248,13 @@ fn cell<'o>(
     place: &PlacedJoint,
     series: impl Iterator<Item = (&'o JointOption, bool)>,
 ) -> Result<Cell, Unsolved> {
-    let dim = geometry.basis.len();
+    let width = geometry.basis.len() + geometry.couplings.len();
     let mut out = Cell {
         rows: Vec::new(),
-        gram: vec![0.0; dim * dim],
+        gram: vec![0.0; width * width],
         bears: Vec::new(),
         clearance: 0.0,
+        coupled: Vec::new(),
     };
     for (option, present) in series {
         let t = types.option(option);
@@ -209,15 +266,28 @@ fn cell<'o>(
         } else {
             option_twists(m, geometry, pose, place, option)?
         };
+        let first = out.bears.len() == 1;
+        out.coupled = coupled(geometry, place, &twists, first);
         for (freedom, twist) in twists {
-            let held = drives.contains(&(place.joint, freedom));
-            if held && out.bears.len() == 1 {
+            if first && drives.contains(&(place.joint, freedom)) {
                 continue;
             }
-            let own: Vec<f64> = geometry.basis.iter().map(|b| power(b, &twist)).collect();
-            for a in 0..dim {
-                for b in 0..dim {
-                    out.gram[a * dim + b] += own[a] * own[b];
+            let mut own: Vec<f64> = geometry.basis.iter().map(|b| power(b, &twist)).collect();
+            own.resize(width, 0.0);
+            if first {
+                let joint = place.joint;
+                let column = FreedomColumn {
+                    joint,
+                    freedom,
+                    twist,
+                };
+                for (q, e) in geometry.coupling_entries(&column) {
+                    own[geometry.basis.len() + q] = e;
+                }
+            }
+            for a in 0..width {
+                for b in 0..width {
+                    out.gram[a * width + b] += own[a] * own[b];
                 }
             }
             let right = place.along_tree.iter().map(|w| -power(&twist, w));
@@ -225,6 +295,28 @@ fn cell<'o>(
         }
     }
     Ok(out)
+}
+
+/// What an option of these freedoms makes of the couplings at its place, the first in series or one behind it.
+fn coupled(
+    geometry: &Geometry,
+    place: &PlacedJoint,
+    twists: &[(Freedom, Six)],
+    first: bool,
+) -> Vec<CoupledChoice> {
+    let one = |at: &PlacedCoupling| {
+        let equation = &geometry.couplings[at.coupling];
+        let tied = equation.ends[at.end].freedom;
+        let others = twists.iter().filter(|(f, _)| *f != tied);
+        if !first {
+            CoupledChoice::InSeries
+        } else if equation.is_borne(at.end, others.map(|(_, t)| t)) {
+            CoupledChoice::BearsTeeth
+        } else {
+            CoupledChoice::AlongFreedom
+        }
+    };
+    place.couplings.iter().map(one).collect()
 }
 
 /// Unit twists of an option at a pose of the present mechanism: freedoms before the present turn (slides) go with the

@@ -1,7 +1,8 @@
 //! The transposed closure equations of the freedoms, solved by their singular values.
 
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, about, power};
+use crate::statics::reactions::geometry::{FreedomColumn, Geometry, TOLERANCE, power};
+use crate::statics::reactions::transmitted::Transmitted;
 use crate::statics::reactions::unsolved::Unsolved;
 use ozols_dense::{Matrix, Svd, svd};
 
@@ -21,7 +22,7 @@ impl<'g> System<'g> {
         let equations: Vec<usize> = (0..geometry.columns.len())
             .filter(|&c| !held(&geometry.columns[c]))
             .collect();
-        let unknowns = geometry.basis.len() * geometry.contours.len();
+        let unknowns = geometry.unknowns();
         let rows: Vec<Vec<f64>> = equations
             .iter()
             .map(|&c| geometry.row(&geometry.columns[c]))
@@ -49,19 +50,22 @@ impl<'g> System<'g> {
         }
     }
 
-    /// What the joints' wrenches do on the freedoms of the equations.
-    fn work(&self, wrenches: &[Six]) -> Vec<f64> {
+    /// What the joints' wrenches do on the freedoms of the equations, but for what couplings pass there.
+    fn work(&self, of: &Transmitted) -> Vec<f64> {
         let columns = self.equations.iter().map(|&c| &self.geometry.columns[c]);
-        columns
-            .map(|c| power(&c.twist, &wrenches[c.joint]))
-            .collect()
+        let one = |c: &FreedomColumn| {
+            let coupled = self.geometry.coupling_entries(c);
+            let coupled: f64 = coupled.map(|(q, e)| e * of.couplings[q]).sum();
+            power(&c.twist, &of.joints[c.joint]) + coupled
+        };
+        columns.map(one).collect()
     }
 
-    /// Adds contour wrenches so that no freedom is worked on, as far as that goes; what work is left.
-    pub(crate) fn solve(&self, wrenches: &mut [Six]) -> Vec<f64> {
+    /// Adds contour wrenches and what couplings pass so that no freedom is worked on, as far as that goes; what work is left.
+    pub(crate) fn solve(&self, of: &mut Transmitted) -> Vec<f64> {
         // The second round takes away the first one's rounding errors.
         for _ in 0..2 {
-            let work = self.work(wrenches);
+            let work = self.work(of);
             let mut coefficients = vec![0.0; self.unknowns];
             for i in 0..self.rank {
                 let share: f64 = work.iter().zip(self.svd.u.col(i)).map(|(x, u)| u * x).sum();
@@ -70,21 +74,19 @@ impl<'g> System<'g> {
                     *x += share * v;
                 }
             }
-            self.geometry.add_round(&coefficients, wrenches);
+            of.add_round(self.geometry, &coefficients);
         }
-        self.work(wrenches)
+        self.work(of)
     }
 
-    /// Independent sets of wrenches that are in equilibrium by themselves, by joint.
-    pub(crate) fn self_stresses(&self, joints: usize) -> Vec<Vec<Six>> {
+    /// Independent sets of wrenches that are in equilibrium by themselves, by joint, with what couplings pass of them.
+    pub(crate) fn self_stresses(&self, joints: usize) -> Vec<Transmitted> {
         let one = |i: usize| {
-            let mut out = vec![[0.0; 6]; joints];
-            self.geometry.add_round(self.svd.v.col(i), &mut out);
-            let sizes = self.geometry.joints.iter();
-            let greatest = sizes
-                .flat_map(|&j| about(&out[j], self.geometry.points[j]))
-                .fold(0.0, |a: f64, x| a.max(x.abs()));
-            out.iter_mut().flatten().for_each(|x| *x /= greatest);
+            let mut out = Transmitted::of_joints(self.geometry, vec![[0.0; 6]; joints]);
+            out.add_round(self.geometry, self.svd.v.col(i));
+            let all = out.flat(self.geometry).into_iter();
+            let greatest = all.fold(0.0, |a: f64, x| a.max(x.abs()));
+            out.scale(1.0 / greatest);
             out
         };
         (self.rank..self.unknowns).map(one).collect()

@@ -2,64 +2,58 @@
 
 use crate::model::loads::{Loads, Stiffness};
 use crate::model::mechanism::Mechanism;
-use crate::statics::reactions::geometry::{Geometry, Six, about};
+use crate::statics::reactions::geometry::{Geometry, Six};
+use crate::statics::reactions::transmitted::Transmitted;
 use ozols_dense::{Matrix, least_squares_pivoted};
 
-/// Adds self-stresses so that Σ (weight · (w at the joint's point) - aim)² becomes least; weights and aims by joint of the
-/// state, six each.
+/// The weight of couplings beside the greatest of a joint, where they are as good as rigid: the square of it is far below what
+/// stiffness is known to, and yet it keeps self-stresses apart that load couplings alone.
+const RIGID: f64 = 1e-6;
+
+/// Adds self-stresses so that Σ (weight · value - aim)² becomes least; weights and aims by value of [`Transmitted::flat`].
 fn fit(
     geometry: &Geometry,
-    wrenches: &mut [Six],
-    stresses: &[Vec<Six>],
-    weights: &[Six],
-    aims: &[Six],
+    of: &mut Transmitted,
+    stresses: &[Transmitted],
+    weights: &[f64],
+    aims: &[f64],
 ) {
     if stresses.is_empty() {
         return;
     }
-    let at = |w: &[Six], r: usize| {
-        let (n, i) = (r / 6, r % 6);
-        let j = geometry.joints[n];
-        weights[n][i] * about(&w[j], geometry.points[j])[i]
-    };
-    let rows = 6 * geometry.joints.len();
-    let a = Matrix::from_fn(rows, stresses.len(), |r, c| at(&stresses[c], r));
-    let b: Vec<f64> = (0..rows)
-        .map(|r| aims[r / 6][r % 6] - at(wrenches, r))
-        .collect();
+    let columns: Vec<Vec<f64>> = stresses.iter().map(|s| s.flat(geometry)).collect();
+    let present = of.flat(geometry);
+    let a = Matrix::from_fn(weights.len(), stresses.len(), |r, c| {
+        weights[r] * columns[c][r]
+    });
+    let left = (0..weights.len()).map(|r| aims[r] - weights[r] * present[r]);
+    let b: Vec<f64> = left.collect();
     for (x, stress) in least_squares_pivoted(&a, &b).iter().zip(stresses) {
-        for (w, s) in wrenches.iter_mut().flatten().zip(stress.iter().flatten()) {
-            *w += x * s;
-        }
+        of.add(*x, stress);
     }
 }
 
-/// The wrenches of least Σ |f|² + |m|²/ℓ² over the joints, about their own points.
-pub(crate) fn least_norm(geometry: &Geometry, wrenches: &mut [Six], stresses: &[Vec<Six>]) {
-    let n = geometry.joints.len();
-    fit(
-        geometry,
-        wrenches,
-        stresses,
-        &vec![[1.0; 6]; n],
-        &vec![[0.0; 6]; n],
-    );
+/// The wrenches of least Σ |f|² + |m|²/ℓ² over the joints, about their own points, and over what couplings pass at both ends.
+pub(crate) fn least_norm(geometry: &Geometry, of: &mut Transmitted, stresses: &[Transmitted]) {
+    // The entries of a coupling have 1 for the sum of their squares: x² is that of both ends.
+    let n = 6 * geometry.joints.len() + geometry.couplings.len();
+    fit(geometry, of, stresses, &vec![1.0; n], &vec![0.0; n]);
 }
 
 /// The wrenches of elastic joints, made askew as stated: of all that are in equilibrium, those of least energy
-/// Σ ½ wᵀC w - wᵀd, C the joint's compliance and d what it is out by. `None` where no stiffness is stated or nothing is
-/// left open.
+/// Σ ½ wᵀC w - wᵀd, C the joint's compliance and d what it is out by; couplings are rigid. `None` where no stiffness is stated
+/// or nothing is left open.
 pub(crate) fn elastic(
     m: &Mechanism,
     geometry: &Geometry,
     loads: &Loads,
-    mut wrenches: Vec<Six>,
-    stresses: &[Vec<Six>],
-) -> Option<Vec<Six>> {
+    mut of: Transmitted,
+    stresses: &[Transmitted],
+) -> Option<Transmitted> {
     if stresses.is_empty() || loads.stiffness.is_empty() {
         return None;
     }
-    let (mut weights, mut aims) = (Vec::new(), Vec::new());
+    let (mut weights, mut aims): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     for &j in &geometry.joints {
         let s = stiffness(loads, m.joints[j].joint_type.name())?;
         // Lengths in the size: a displacement is f/(k ℓ), a turn m ℓ/k for a moment m in N·ℓ.
@@ -67,8 +61,8 @@ pub(crate) fn elastic(
             (geometry.size / s.angular).sqrt(),
             (1.0 / (s.linear * geometry.size)).sqrt(),
         );
-        weights.push([turn, turn, turn, shift, shift, shift]);
-        let mut off = [0.0; 6];
+        weights.extend([turn, turn, turn, shift, shift, shift]);
+        let mut off: Six = [0.0; 6];
         for x in loads.misalignments.iter().filter(|x| x.joint == j) {
             for (k, axis) in geometry.axes[j].iter().enumerate() {
                 for i in 0..3 {
@@ -77,10 +71,13 @@ pub(crate) fn elastic(
                 }
             }
         }
-        aims.push(off);
+        aims.extend(off);
     }
-    fit(geometry, &mut wrenches, stresses, &weights, &aims);
-    Some(wrenches)
+    let rigid = RIGID * weights.iter().fold(0.0, |a: f64, w| a.max(*w));
+    weights.resize(weights.len() + geometry.couplings.len(), rigid);
+    aims.resize(weights.len(), 0.0);
+    fit(geometry, &mut of, stresses, &weights, &aims);
+    Some(of)
 }
 
 /// The stiffness of a joint type: its own, or the default.

@@ -12,54 +12,14 @@ use crate::geom::rigid::halves;
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{add_scaled, sub, unit};
 pub use crate::geom::vector::{cross, dot};
-use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
+use crate::statics::reactions::couplings::{CouplingEquation, equations};
+pub use crate::statics::reactions::wrench::{FreedomColumn, Six, about, power, wrench};
+use crate::statics::reactions::wrench::{PosedFreedoms, within};
 
 /// Singular values below this fraction of the greatest count as zero.
 pub const TOLERANCE: f64 = 1e-9;
-
-/// A twist or a wrench.
-pub type Six = [f64; 6];
-
-/// Power of a wrench on a twist.
-#[must_use]
-pub fn power(a: &Six, b: &Six) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-/// The wrench (m; f) of a force at a point, with a moment besides.
-#[must_use]
-pub fn wrench(point: [f64; 3], force: [f64; 3], moment: [f64; 3]) -> Six {
-    let m = cross(point, force);
-    [
-        m[0] + moment[0],
-        m[1] + moment[1],
-        m[2] + moment[2],
-        force[0],
-        force[1],
-        force[2],
-    ]
-}
-
-/// A wrench about the middle taken about another point.
-#[must_use]
-pub fn about(w: &Six, point: [f64; 3]) -> Six {
-    let f = [w[3], w[4], w[5]];
-    let m = cross(point, f);
-    [w[0] - m[0], w[1] - m[1], w[2] - m[2], f[0], f[1], f[2]]
-}
-
-/// A freedom of a joint.
-#[derive(Debug, Clone, Copy)]
-pub struct FreedomColumn {
-    /// The joint.
-    pub joint: JointId,
-    /// The freedom in the joint's frame.
-    pub freedom: Freedom,
-    /// Unit turn or unit shift of the joint's second link against its first.
-    pub twist: Six,
-}
 
 /// A pose of a mechanism in one state.
 #[derive(Debug, Clone)]
@@ -84,6 +44,8 @@ pub struct Geometry {
     pub axes: Vec<[[f64; 3]; 3]>,
     /// The contours.
     pub contours: Vec<Contour>,
+    /// The couplings, in file order.
+    pub couplings: Vec<CouplingEquation>,
     /// The links but the frame, each after the one it hangs on.
     pub tree: Vec<TreeStep>,
     /// Middle and half diagonal of the pose, in the file's unit.
@@ -155,7 +117,7 @@ impl Geometry {
                 ]
             }
         };
-        Ok(Geometry {
+        let mut out = Geometry {
             state,
             basis,
             size: spread * metres,
@@ -165,10 +127,25 @@ impl Geometry {
             points,
             axes,
             contours: contour_basis(m, state),
+            couplings: Vec::new(),
             tree: spanning_tree(m, state),
             joints,
             pose: (mean, spread),
-        })
+        };
+        let posed = PosedFreedoms {
+            columns: &out.columns,
+            points: &out.points,
+            basis: &out.basis,
+            size: spread,
+        };
+        out.couplings = equations(m, state, &posed);
+        Ok(out)
+    }
+
+    /// How many unknowns its equations have: wrenches round the contours, and one of each coupling.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.basis.len() * self.contours.len() + self.couplings.len()
     }
 
     /// Where a point of a link is now, from the middle, in the size; `point` in the file's unit at the pose of the file.
@@ -189,17 +166,7 @@ impl Geometry {
     /// The part of a wrench that the model can carry: all of it, or what is in the plane.
     #[must_use]
     pub fn within(&self, w: &Six) -> Six {
-        if self.basis.len() == 6 {
-            return *w;
-        }
-        let mut out = [0.0; 6];
-        for b in &self.basis {
-            let share = power(b, w);
-            for (o, x) in out.iter_mut().zip(b) {
-                *o += share * x;
-            }
-        }
-        out
+        within(&self.basis, w)
     }
 
     /// The wrenches that joints pass on to their second links when all loads go along the tree to the frame; by joint.
@@ -223,29 +190,23 @@ impl Geometry {
         out
     }
 
-    /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints.
-    pub(crate) fn add_round(&self, coefficients: &[f64], wrenches: &mut [Six]) {
-        let dim = self.basis.len();
-        for (k, contour) in self.contours.iter().enumerate() {
-            let mut round = [0.0; 6];
-            for (b, x) in self.basis.iter().zip(&coefficients[k * dim..]) {
-                for (r, y) in round.iter_mut().zip(b) {
-                    *r += x * y;
-                }
-            }
-            for &(j, forward) in &contour.joints {
-                for (w, r) in wrenches[j].iter_mut().zip(&round) {
-                    *w += if forward { *r } else { -r };
-                }
-            }
-        }
+    /// The entries of the couplings at a column, by the coupling's place.
+    pub fn coupling_entries(&self, column: &FreedomColumn) -> impl Iterator<Item = (usize, f64)> {
+        let own = (column.joint, column.freedom);
+        let all = self.couplings.iter().enumerate();
+        all.flat_map(move |(q, c)| {
+            let ends = c.ends.iter().zip(c.entries);
+            ends.filter(move |(e, _)| (e.joint, e.freedom) == own)
+                .map(move |(_, x)| (q, x))
+        })
     }
 
-    /// The row of the transposed closure matrix that belongs to a column: its power on a unit of each contour's wrenches.
+    /// The row of the transposed closure matrix that belongs to a column: its power on a unit of each contour's wrenches, then
+    /// its entries in the couplings.
     #[must_use]
     pub fn row(&self, column: &FreedomColumn) -> Vec<f64> {
         let dim = self.basis.len();
-        let mut out = vec![0.0; dim * self.contours.len()];
+        let mut out = vec![0.0; self.unknowns()];
         for (k, contour) in self.contours.iter().enumerate() {
             if let Some(forward) = contour.direction(column.joint) {
                 let sign = if forward { 1.0 } else { -1.0 };
@@ -253,6 +214,10 @@ impl Geometry {
                     *o = sign * power(b, &column.twist);
                 }
             }
+        }
+        let first = dim * self.contours.len();
+        for (q, x) in self.coupling_entries(column) {
+            out[first + q] = x;
         }
         out
     }

@@ -104,7 +104,7 @@ pub fn motion(
         .filter(|&c| held(&geometry.columns[c]).is_none())
         .collect();
     let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
-    let height = geometry.basis.len() * geometry.contours.len();
+    let height = geometry.unknowns();
     let part = Matrix::from_fn(height, free.len(), |r, c| rows[free[c]][r]);
     let stuck = || Unsolved::Stuck;
     let mut speed: Vec<f64> = geometry.columns.iter().map(given).collect();
@@ -130,6 +130,8 @@ pub fn motion(
         }
         right.extend(geometry.basis.iter().map(|b| -power(b, &gain)));
     }
+    // A ratio is the same in every pose, and so rates are tied as speeds are.
+    right.resize(height, 0.0);
     let found = least(&part, &right, fastest * fastest)?.ok_or_else(stuck)?;
     let mut rates = vec![0.0; f];
     for (&c, x) in free.iter().zip(&found) {

@@ -1,12 +1,14 @@
 //! What joints pass on, and what it is worth.
 
+use crate::model::coupling::CoupledFreedom;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::statics::reactions::contact::ContactForce;
+use crate::statics::reactions::couplings::CouplingEquation;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
 
-/// What a joint passes from its first link to its second.
+/// What a joint passes from its first link to its second, without what couplings pass there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointReaction {
     /// The joint.
@@ -21,6 +23,35 @@ pub struct JointReaction {
     pub moment: [f64; 3],
     /// Force `[N]` or torque `[N·m]` of its drive, along the freedom it holds; part of force and moment.
     pub effort: Option<(Freedom, f64)>,
+}
+
+/// What a coupling passes on, beside the reactions of the joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CouplingReaction {
+    /// The freedoms it ties.
+    pub ends: [CoupledFreedom; 2],
+    /// What each joint's second link gets of it along the freedom: torque `[N·m]` of a turn, force `[N]` of a slide. The teeth
+    /// of gears push the link on the other side of the joint by as much the other way.
+    pub efforts: [f64; 2],
+    /// Teeth, where the file says that there are any and where, and the joints bear what they push.
+    pub teeth: Option<ToothForce>,
+}
+
+/// The force of teeth, along the pitch circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToothForce {
+    /// Where they touch now `[m]`, global axes.
+    pub point: [f64; 3],
+    /// On the gear or rack of the first joint, global axes `[N]`.
+    pub force: [f64; 3],
+}
+
+impl ToothForce {
+    /// Magnitude of the force `[N]`.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        dot(self.force, self.force).sqrt()
+    }
 }
 
 impl JointReaction {
@@ -72,16 +103,24 @@ pub enum Uniqueness {
 pub struct Solution {
     /// By joint of the state, in file order.
     pub reactions: Vec<JointReaction>,
+    /// By coupling of the state, in file order.
+    pub couplings: Vec<CouplingReaction>,
     /// Whether they are the only ones.
     pub choice: Uniqueness,
     /// Reactions that load nothing from outside, one set for each redundant constraint (with drives held), greatest
     /// force, or moment by size, 1 N.
     pub self_stresses: Vec<Vec<JointReaction>>,
+    /// What couplings pass of each of these.
+    pub coupling_stresses: Vec<Vec<CouplingReaction>>,
+    /// By coupling, whether these change what it passes.
+    pub couplings_open: Vec<bool>,
     /// By joint, the components that these change, forces along x, y, z of its frame and moments about them: all others are
     /// the same in every reaction of the family.
     pub open: Vec<[bool; 6]>,
     /// The reactions that fit the stated stiffness and misalignments, where stiffness is stated and it matters.
     pub elastic: Option<Vec<JointReaction>>,
+    /// What couplings, which are rigid, pass of those.
+    pub elastic_couplings: Option<Vec<CouplingReaction>>,
     /// What is asked of the contacts with objects.
     pub contacts: Vec<ContactForce>,
     /// Freedoms left with the drives held; the loads do no work on them.
@@ -114,6 +153,20 @@ pub(crate) fn open(joints: usize, size: f64, stresses: &[Vec<JointReaction>]) ->
             for (open, x) in open.iter_mut().zip(components) {
                 *open |= x.abs() > NO_STRESS;
             }
+        }
+    }
+    out
+}
+
+/// The couplings that some self-stress loads.
+pub(crate) fn open_couplings<'x>(
+    couplings: usize,
+    stresses: impl Iterator<Item = &'x [f64]>,
+) -> Vec<bool> {
+    let mut out = vec![false; couplings];
+    for stress in stresses {
+        for (open, x) in out.iter_mut().zip(stress) {
+            *open |= x.abs() > NO_STRESS;
         }
     }
     out
@@ -172,4 +225,27 @@ pub(crate) fn present(
         }
     });
     each.collect()
+}
+
+/// What couplings pass for their unknowns, in SI.
+pub(crate) fn passed_by_couplings(geometry: &Geometry, unknowns: &[f64]) -> Vec<CouplingReaction> {
+    let one = |(c, x): (&CouplingEquation, &f64)| {
+        let effort = |n: usize| {
+            let unit = if c.ends[n].freedom.slides() {
+                1.0
+            } else {
+                geometry.size
+            };
+            -c.entries[n] * x * unit
+        };
+        CouplingReaction {
+            ends: c.ends,
+            efforts: [effort(0), effort(1)],
+            teeth: c.teeth.filter(|_| c.meshes).map(|t| ToothForce {
+                point: [0, 1, 2].map(|i| geometry.middle[i] + geometry.size * t.point[i]),
+                force: t.force.map(|f| f * x),
+            }),
+        }
+    };
+    geometry.couplings.iter().zip(unknowns).map(one).collect()
 }

@@ -10,9 +10,12 @@ use crate::statics::reactions::equations::System;
 use crate::statics::reactions::family;
 use crate::statics::reactions::geometry::{Geometry, Six, power};
 use crate::statics::reactions::inertia::inertia_loads;
-use crate::statics::reactions::solution::{Solution, Uniqueness, open, present, residual};
+use crate::statics::reactions::solution::{
+    Solution, Uniqueness, open, open_couplings, passed_by_couplings, present, residual,
+};
+use crate::statics::reactions::transmitted::Transmitted;
 use crate::statics::reactions::unilateral::pushing;
-use crate::statics::reactions::unsolved::{Unsolved, no_couplings};
+use crate::statics::reactions::unsolved::Unsolved;
 
 /// Work on undriven motions below this fraction of the loads is none.
 const NO_WORK: f64 = 1e-8;
@@ -48,7 +51,6 @@ impl Reactions {
         drives: &[Driven],
         of_contacts: Contacts,
     ) -> Result<Solution, Unsolved> {
-        no_couplings(m, state)?;
         let geometry = Geometry::new(m, state, pose)?;
         let mut of_links = link_loads(m, &m.loads, &geometry, pose, drive, period(drives));
         let inertia = inertia_loads(m, &m.loads, &geometry, pose, drives)?;
@@ -71,7 +73,6 @@ impl Reactions {
         drive: f64,
         drives: &[Driven],
     ) -> Result<Solution, Unsolved> {
-        no_couplings(m, state)?;
         let geometry = Geometry::new(m, state, pose)?;
         let of_links = link_loads(m, loads, &geometry, pose, drive, period(drives));
         Self::bearing(m, loads, &geometry, &of_links, drives, Contacts::AsJoints)
@@ -88,8 +89,8 @@ impl Reactions {
     ) -> Result<Solution, Unsolved> {
         let system = System::new(geometry, drives)?;
         let particular = geometry.along_tree(m.joints.len(), loads_of_links);
-        let mut wrenches = particular.clone();
-        let left = system.solve(&mut wrenches);
+        let mut of = Transmitted::of_joints(geometry, particular.clone());
+        let left = system.solve(&mut of);
         let scale = particular
             .iter()
             .flatten()
@@ -110,35 +111,44 @@ impl Reactions {
             });
         }
         let stresses = system.self_stresses(m.joints.len());
-        let rigid = wrenches.clone();
-        family::least_norm(geometry, &mut wrenches, &stresses);
+        let rigid = of.clone();
+        family::least_norm(geometry, &mut of, &stresses);
         let faces = match of_contacts {
             Contacts::Pushing => contacts(m, geometry)?,
             // Where the side is open, nothing can be said of pulling.
             Contacts::AsJoints => contacts(m, geometry).unwrap_or_default(),
         };
         if of_contacts == Contacts::Pushing {
-            pushing(geometry, &faces, &mut wrenches, &stresses)?;
+            pushing(geometry, &faces, &mut of, &stresses)?;
         }
         // Elastic joints are solved with contacts as joints alone.
         let elastic = match of_contacts {
             Contacts::AsJoints => family::elastic(m, geometry, loads, rigid, &stresses),
             Contacts::Pushing => None,
         };
-        let residual = residual(m, geometry, &wrenches, loads_of_links);
-        let present = |w: &[Six]| present(m, geometry, w, drives);
-        let self_stresses: Vec<_> = stresses.iter().map(|s| present(s)).collect();
+        let residual = residual(m, geometry, &of.joints, loads_of_links);
+        let present = |t: &Transmitted| present(m, geometry, &t.own(geometry), drives);
+        let passed = |t: &Transmitted| passed_by_couplings(geometry, &t.couplings);
+        let self_stresses: Vec<_> = stresses.iter().map(present).collect();
+        let of_couplings = stresses.iter().map(|t| &t.couplings[..]);
         Ok(Solution {
             choice: match of_contacts {
                 _ if stresses.is_empty() => Uniqueness::Unique,
                 Contacts::AsJoints => Uniqueness::MinimumNorm,
                 Contacts::Pushing => Uniqueness::Pushing,
             },
-            contacts: faces.iter().map(|c| c.force(geometry, &wrenches)).collect(),
-            reactions: present(&wrenches),
+            contacts: {
+                let own = of.own(geometry);
+                faces.iter().map(|c| c.force(geometry, &own)).collect()
+            },
+            reactions: present(&of),
+            couplings: passed(&of),
+            couplings_open: open_couplings(geometry.couplings.len(), of_couplings),
+            coupling_stresses: stresses.iter().map(passed).collect(),
             open: open(geometry.joints.len(), geometry.size, &self_stresses),
             self_stresses,
-            elastic: elastic.map(|w| present(&w)),
+            elastic_couplings: elastic.as_ref().map(passed),
+            elastic: elastic.as_ref().map(present),
             undriven: system.undriven(),
             condition: system.condition(),
             residual,

@@ -6,7 +6,8 @@
 
 use crate::statics::cone_programme::{ConeProgramme, Row};
 use crate::statics::reactions::contact::{Contact, Touch};
-use crate::statics::reactions::geometry::{Geometry, Six, about};
+use crate::statics::reactions::geometry::{Geometry, Six};
+use crate::statics::reactions::transmitted::Transmitted;
 use crate::statics::reactions::unsolved::Unsolved;
 use clarabel::solver::SolverStatus;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
@@ -65,36 +66,33 @@ fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgr
 pub(crate) fn pushing(
     geometry: &Geometry,
     contacts: &[Contact],
-    wrenches: &mut [Six],
-    stresses: &[Vec<Six>],
+    of: &mut Transmitted,
+    stresses: &[Transmitted],
 ) -> Result<(), Unsolved> {
-    let allowed = |w: &[Six]| {
-        let mut each = contacts.iter().map(|c| c.force(geometry, w).touch);
+    let allowed = |of: &Transmitted| {
+        let own = of.own(geometry);
+        let mut each = contacts.iter().map(|c| c.force(geometry, &own).touch);
         each.all(|t| matches!(t, Touch::Pushes | Touch::Idle))
     };
     // That of minimum norm is the answer where its contacts push.
-    if allowed(wrenches) {
+    if allowed(of) {
         return Ok(());
     }
-    let scale = wrenches
+    let scale = of
+        .joints
         .iter()
         .flatten()
         .fold(0.0, |a: f64, x| a.max(x.abs()));
     if stresses.is_empty() || scale == 0.0 {
         return Err(Unsolved::Loose);
     }
-    let particular: Vec<Six> = wrenches.iter().map(|w| w.map(|x| x / scale)).collect();
-    let all: Vec<&[Six]> = std::iter::once(&particular[..])
-        .chain(stresses.iter().map(|s| &s[..]))
-        .collect();
-    let flat = |w: &[Six]| -> Vec<f64> {
-        let each = geometry.joints.iter();
-        each.flat_map(|&j| about(&w[j], geometry.points[j]))
-            .collect()
-    };
-    let [first, stressed @ ..] = &all.iter().map(|w| flat(w)).collect::<Vec<_>>()[..] else {
-        return Err(Unsolved::Loose);
-    };
+    let mut particular = of.clone();
+    particular.scale(1.0 / scale);
+    let first = particular.flat(geometry);
+    let stressed: Vec<Vec<f64>> = stresses.iter().map(|s| s.flat(geometry)).collect();
+    let own = std::iter::once(&particular).chain(stresses);
+    let own: Vec<Vec<Six>> = own.map(|t| t.own(geometry)).collect();
+    let all: Vec<&[Six]> = own.iter().map(|w| &w[..]).collect();
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let row = |r: usize| {
         let columns = r..stressed.len();
@@ -102,7 +100,7 @@ pub(crate) fn pushing(
         entries.collect()
     };
     let square: Vec<Row> = (0..stressed.len()).map(row).collect();
-    let linear: Vec<f64> = stressed.iter().map(|s| product(s, first)).collect();
+    let linear: Vec<f64> = stressed.iter().map(|s| product(s, &first)).collect();
     let solution = cones(geometry, contacts, &all)
         .solve(&square, &linear)
         .map_err(Unsolved::Programme)?;
@@ -114,12 +112,10 @@ pub(crate) fn pushing(
         other => return Err(Unsolved::Programme(format!("{other:?}"))),
     }
     for (x, stress) in solution.x.iter().zip(stresses) {
-        for (w, s) in wrenches.iter_mut().flatten().zip(stress.iter().flatten()) {
-            *w += x * scale * s;
-        }
+        of.add(x * scale, stress);
     }
     // What the solver calls solved must be so by the measure that contacts are judged with.
-    if allowed(wrenches) {
+    if allowed(of) {
         Ok(())
     } else {
         Err(Unsolved::Programme(

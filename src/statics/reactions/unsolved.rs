@@ -1,7 +1,6 @@
 //! Why there are no reactions.
 
 use crate::geom::exact::ExactError;
-use crate::model::mechanism::{Mechanism, StateId};
 use thiserror::Error;
 
 /// Why there are no reactions.
@@ -14,15 +13,6 @@ pub enum Unsolved {
     /// The singular values did not converge.
     #[error("the singular values did not converge; check coordinates and loads for extreme values")]
     NoConvergence,
-    /// Joints are coupled.
-    #[error(
-        "joints {coupling} are coupled, and forces that gears or belts carry from joint to joint are not part of the statics; take the \
-         coupling out and drive both joints, or rank by cost alone"
-    )]
-    Coupled {
-        /// The coupling.
-        coupling: String,
-    },
     /// The drives cannot go at their speeds.
     #[error(
         "the drives cannot go at the stated speeds in this pose, a dead point; state another workload.drive_speed, or look at \
@@ -69,17 +59,4 @@ pub enum Unsolved {
         /// Freedoms left with the drives locked.
         mobility: usize,
     },
-}
-
-/// Refuses a mechanism with coupled joints, whose reactions are not those of the joints alone.
-///
-/// # Errors
-/// [`Unsolved::Coupled`] with the first coupling.
-pub fn no_couplings(m: &Mechanism, state: StateId) -> Result<(), Unsolved> {
-    match m.couplings_in(state).next() {
-        None => Ok(()),
-        Some(c) => Err(Unsolved::Coupled {
-            coupling: c.name(m),
-        }),
-    }
 }

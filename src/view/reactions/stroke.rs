@@ -7,7 +7,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};
 use crate::view::reactions::text::NOTHING;
-use crate::view::reactions::{HEADS, JointForces, Reactions};
+use crate::view::reactions::{HEADS, JointForces, Reactions, couplings};
 use crate::view::terminal::layout::table as text_table;
 use crate::view::terminal::si_prefix::prefix;
 use serde::Serialize;
@@ -130,8 +130,10 @@ impl<'a> ReactionsOverStroke<'a> {
         self.peaks(out, &all, first, width)?;
         self.contacts(out, &all, first)?;
         self.drives(out, &all, first)?;
-        self.equilibrium(out, &all)?;
         let unit = self.unit();
+        let passed: Vec<_> = all.iter().map(|(at, r)| (*at, &r.couplings[..])).collect();
+        couplings::greatest(out, &passed, &|x| format!("{} {unit}", self.at(x)))?;
+        self.equilibrium(out, &all)?;
         for position in &self.positions {
             if let Position::Unsolved { drive, error } = position {
                 writeln!(out, "At {} {unit}: {error}", self.at(*drive))?;

@@ -3,7 +3,7 @@
 use crate::format::number::{figure, significant};
 use crate::format::phrase::{list, plural};
 use crate::statics::reactions::NEARLY_SINGULAR;
-use crate::view::reactions::{JointForces, ObjectContact, Reactions};
+use crate::view::reactions::{JointForces, ObjectContact, Reactions, couplings};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
 use std::fmt::Write;
@@ -107,9 +107,9 @@ fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
 }
 
 /// Which components the choice within the family is about.
-fn left_open(reactions: &[JointForces<'_>]) -> String {
+fn left_open(s: &Reactions<'_>) -> String {
     let mut alike: Vec<(&[&str], Vec<&str>)> = Vec::new();
-    for r in reactions.iter().filter(|r| !r.open.is_empty()) {
+    for r in s.reactions.iter().filter(|r| !r.open.is_empty()) {
         match alike.iter_mut().find(|(open, _)| *open == r.open) {
             Some((_, joints)) => joints.push(r.joint),
             None => alike.push((&r.open, vec![r.joint])),
@@ -118,7 +118,12 @@ fn left_open(reactions: &[JointForces<'_>]) -> String {
     let each = alike
         .iter()
         .map(|(open, joints)| format!("{} of {}", list(open), list(joints)));
-    let each: Vec<String> = each.collect();
+    let mut each: Vec<String> = each.collect();
+    let passed = s.couplings.iter().filter(|c| c.open);
+    let passed: Vec<&str> = passed.map(|c| c.coupling.as_str()).collect();
+    if !passed.is_empty() {
+        each.push(format!("what {} pass", list(&passed)));
+    }
     format!(
         "Left open by the self-stresses: {}; all else is the same in the whole family",
         each.join("; ")
@@ -142,7 +147,7 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
         "First link on second, in the joint's own frame (z its axis), moments about its point\n"
     )?;
     if !s.unique {
-        writeln!(out, "{}\n", left_open(&s.reactions))?;
+        writeln!(out, "{}\n", left_open(s))?;
     }
     of_loads(out, s)?;
     // A cone programme is solved to its tolerance, equations to rounding.
@@ -151,6 +156,7 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
     if !s.contacts.is_empty() {
         writeln!(out, "{}\n", contacts(&s.contacts, width))?;
     }
+    couplings::text(out, &s.couplings, width)?;
     drives(out, s, rounding)?;
     equilibrium(out, s)?;
     if !s.self_stresses.is_empty() {
@@ -285,11 +291,13 @@ fn family(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
             ""
         }
     )?;
-    for (i, stress) in s.self_stresses.iter().take(STRESSES).enumerate() {
+    let both = s.self_stresses.iter().zip(&s.coupling_stresses);
+    for (i, (stress, coupled)) in both.take(STRESSES).enumerate() {
         let loaded = stress
             .iter()
             .filter(|r| r.force_magnitude > 1e-9 || r.moment_magnitude > 1e-9 * s.size);
-        let names: Vec<&str> = loaded.map(|r| r.joint).collect();
+        let coupled = couplings::loaded(coupled, s.size);
+        let names: Vec<&str> = loaded.map(|r| r.joint).chain(coupled).collect();
         writeln!(out, "  {}: {}", i + 1, names.join(", "))?;
     }
     if open > STRESSES {
@@ -311,7 +319,8 @@ fn elastic(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> std::fmt:
                 out,
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
                 joints(list, s.size, NOTHING, width)
-            )
+            )?;
+            couplings::elastic(out, s.elastic_couplings.as_deref().unwrap_or_default())
         }
         None if open > 0 && s.choice != "pushing" => writeln!(
             out,

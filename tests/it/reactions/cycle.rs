@@ -194,6 +194,9 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
         ("slider-crank-spatial", 2.0),
         ("bennett", 3.0),
         ("slider-crank-determinate", 2.0),
+        ("geared-five-bar", 2.0),
+        ("geared-gripper", 1.0),
+        ("planetary-gear", 3.0),
     ] {
         let m = moving(name, speed, |x| {
             Inertia::Tensor([x, 1.3 * x, 0.8 * x, 0.1 * x, -0.05 * x, 0.07 * x])
@@ -223,7 +226,7 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
             tried += 1;
         }
     }
-    assert_eq!(tried, 12);
+    assert_eq!(tried, 21);
 }
 
 /// Inertia forces grow with the square of the speed.
