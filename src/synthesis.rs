@@ -5,6 +5,7 @@
 //! finds. Places are whole millimetres, or what a third of a turn makes of them.
 
 mod coordinate;
+mod elimination;
 pub mod figures;
 pub mod layout;
 pub mod layout_quality;
@@ -12,6 +13,8 @@ pub mod mechanism;
 pub mod place;
 pub mod rules;
 pub mod skeleton;
+pub mod stroke;
 pub mod structure;
+pub mod task;
 pub mod velocities;
 pub mod workload;

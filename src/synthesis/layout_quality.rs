@@ -3,6 +3,7 @@
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::skeleton::{Point, Skeleton};
+use crate::synthesis::task::Task;
 use crate::synthesis::velocities::Velocity;
 
 /// Pins nearer to each other than this run into each other.
@@ -24,6 +25,8 @@ pub struct Limits {
     pub transmission: f64,
     /// Crossings of links, and pins that lie on links that they are no part of.
     pub crossings: usize,
+    /// What it is to do.
+    pub task: Task,
 }
 
 impl Default for Limits {
@@ -32,6 +35,7 @@ impl Default for Limits {
             ratio: 8.0,
             transmission: 15.0,
             crossings: 6,
+            task: Task::default(),
         }
     }
 }
@@ -60,7 +64,7 @@ pub struct Looks {
 const ALIGNED: f64 = 2.5;
 
 /// How far a number is beyond a limit, squared, in units of a width.
-fn beyond(over: f64, width: f64) -> f64 {
+pub(super) fn beyond(over: f64, width: f64) -> f64 {
     (over.max(0.0) / width).powi(2)
 }
 
@@ -288,7 +292,7 @@ impl Skeleton<'_> {
 }
 
 /// The transmission angle of a rod: between it and the motion across it at its faster end, in degrees.
-fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
+pub(super) fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
     let along = sub(b, a);
     let (va, vb) = (velocity.at(a), velocity.at(b));
     let speed = length(va).max(length(vb));

@@ -1,7 +1,9 @@
 //! What of a structure does not depend on where its pins are, gathered once for the many places that are tried.
 
 use crate::geom::vector::{add_scaled, sub, unit};
+use crate::synthesis::layout_quality::Limits;
 use crate::synthesis::rules::Rules;
+use crate::synthesis::stroke::closure::Closure;
 use crate::synthesis::structure::Structure;
 use crate::synthesis::velocities::Contours;
 
@@ -27,6 +29,10 @@ pub struct Skeleton<'a> {
     pub rods: Vec<(usize, [usize; 2])>,
     /// What its velocities need.
     pub contours: Contours,
+    /// What its stroke needs.
+    pub closure: Closure,
+    /// What it is to be like and to do.
+    pub limits: Limits,
 }
 
 /// The middle of points.
@@ -42,13 +48,17 @@ pub fn middle(points: &[Point]) -> Point {
 impl<'a> Skeleton<'a> {
     /// Of a structure.
     #[must_use]
-    pub fn new(structure: &'a Structure, rules: Rules) -> Skeleton<'a> {
+    pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Skeleton<'a> {
         let mut of_link = vec![Vec::new(); structure.chain.links()];
         for (i, &(u, v)) in rules.pins.iter().enumerate() {
             of_link[u].push(i);
             of_link[v].push(i);
         }
-        let tips: Vec<Point> = structure.tips().iter().map(|t| t.real()).collect();
+        let tips: Vec<Point> = structure
+            .tips(&limits.task)
+            .iter()
+            .map(|t| t.real())
+            .collect();
         let centre = middle(&tips);
         let r = &structure.roles;
         for (n, &jaw) in r.jaws.iter().enumerate() {
@@ -59,6 +69,8 @@ impl<'a> Skeleton<'a> {
             let pulls = l != r.frame && l != r.driver;
             pulls.then_some((l, [a, b]))
         });
+        let inward: Vec<Point> = tips.iter().map(|t| unit(sub(centre, *t))).collect();
+        let contours = Contours::new(structure);
         Skeleton {
             structure,
             rods: rods.collect(),
@@ -67,9 +79,11 @@ impl<'a> Skeleton<'a> {
                 .map(|points| points.iter().fold(0, |bits, p| bits | 1 << p))
                 .collect(),
             of_link,
-            inward: tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             tips,
-            contours: Contours::new(structure),
+            closure: Closure::new(&contours, &inward),
+            inward,
+            contours,
+            limits,
             rules,
         }
     }

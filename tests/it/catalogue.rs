@@ -3,12 +3,15 @@
 mod carried_on;
 mod chains;
 mod command;
+mod dense_twin;
 mod killed;
 mod motions;
 mod orbits;
 mod out_of_plane;
 mod rows;
 mod store;
+mod stroke;
+mod tasks;
 mod three_jaws;
 mod workload;
 
@@ -182,10 +185,7 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
             panic!("two tips")
         };
         assert!(a[1] < 0.0 && b[1] > 0.0, "{:?}", l.looks);
-        let (menu, workload) = (Spec::default().menu().unwrap(), Workload::default());
-        let file = mechanism_file(&s, &l, &menu, &workload);
-        let mechanism = Mechanism::from_json(&file.json().to_string()).unwrap();
-        let found = figures(&s, &l, &mechanism).unwrap();
+        let found = figures(&s, &l).unwrap();
         ways.push(found.closes);
         assert_eq!(found.closes, -rate.signum(), "{}", s.name());
     });

@@ -7,6 +7,8 @@ mod drawn;
 mod format;
 mod look;
 mod merge;
+mod task;
+mod wanted;
 
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
