@@ -2,7 +2,7 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{OptionEntry, OptionTable};
-use crate::synthesis::layout_quality::Limits;
+use crate::synthesis::limits::Limits;
 use crate::synthesis::mechanism::Menu;
 use crate::synthesis::structure::Form;
 use crate::synthesis::task::Task;

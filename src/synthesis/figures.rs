@@ -2,8 +2,9 @@
 
 use crate::chains::layout_symmetry::Input;
 use crate::synthesis::layout::Layout;
+use crate::synthesis::point::Point;
 use crate::synthesis::rules::Rules;
-use crate::synthesis::skeleton::{Point, Skeleton};
+use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::stroke::forces::ForceFigures;
 use crate::synthesis::stroke::judge::{Grid, Judge};
 use crate::synthesis::stroke::shortfall::Shortfall;

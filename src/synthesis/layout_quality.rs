@@ -2,8 +2,8 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::geom::vector::{cross_plane, dot, length, sub};
-use crate::synthesis::skeleton::{Point, Skeleton};
-use crate::synthesis::task::Task;
+use crate::synthesis::point::Point;
+use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::velocities::Velocity;
 
 /// Pins nearer to each other than this run into each other.
@@ -15,30 +15,6 @@ const ON: f64 = 6.0;
 
 /// A pin nearer than this to the middle of the part that is held is in its way.
 const PART: f64 = 25.0;
-
-/// What a layout must be like to be taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// The longest link over the shortest, the frame left out.
-    pub ratio: f64,
-    /// The worst transmission angle of a rod, in degrees.
-    pub transmission: f64,
-    /// Crossings of links, and pins that lie on links that they are no part of.
-    pub crossings: usize,
-    /// What it is to do.
-    pub task: Task,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Limits {
-            ratio: 8.0,
-            transmission: 15.0,
-            crossings: 6,
-            task: Task::default(),
-        }
-    }
-}
 
 /// Figures of a layout at the pose it is drawn in.
 #[derive(Debug, Clone, PartialEq)]

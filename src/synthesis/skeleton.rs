@@ -1,14 +1,12 @@
 //! What of a structure does not depend on where its pins are, gathered once for the many places that are tried.
 
-use crate::geom::vector::{add_scaled, sub, unit};
-use crate::synthesis::layout_quality::Limits;
+use crate::geom::vector::{sub, unit};
+use crate::synthesis::limits::Limits;
+use crate::synthesis::point::{Point, middle};
 use crate::synthesis::rules::Rules;
 use crate::synthesis::stroke::closure::Closure;
 use crate::synthesis::structure::Structure;
 use crate::synthesis::velocities::Contours;
-
-/// A point of the plane, in millimetres.
-pub type Point = [f64; 2];
 
 /// A structure with the rules of its pins. Points are numbered: pins in the order of the chain's joints, then the tips.
 #[derive(Debug)]
@@ -33,16 +31,6 @@ pub struct Skeleton<'a> {
     pub closure: Closure,
     /// What it is to be like and to do.
     pub limits: Limits,
-}
-
-/// The middle of points.
-#[must_use]
-pub fn middle(points: &[Point]) -> Point {
-    #[allow(clippy::cast_precision_loss, reason = "a few")]
-    let n = points.len().max(1) as f64;
-    points
-        .iter()
-        .fold([0.0, 0.0], |m, p| add_scaled(m, 1.0 / n, *p))
 }
 
 impl<'a> Skeleton<'a> {

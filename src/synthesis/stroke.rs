@@ -6,5 +6,6 @@
 pub mod closure;
 pub mod forces;
 pub mod judge;
+mod pose;
 pub mod shortfall;
 pub mod walk;

@@ -4,7 +4,7 @@ use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{add_scaled, length, sub};
 use crate::synthesis::coordinate::{number, point, turned};
 use crate::synthesis::layout::Layout;
-use crate::synthesis::skeleton::{Point, middle};
+use crate::synthesis::point::{Point, middle};
 use crate::synthesis::structure::Structure;
 use serde::{Deserialize, Serialize};
 

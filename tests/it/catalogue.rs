@@ -29,7 +29,7 @@ use ozols::geom::vector::real;
 use ozols::model::{joint_type::JointType, mechanism::Mechanism};
 use ozols::score::request::{Check, List};
 use ozols::synthesis::figures::figures;
-use ozols::synthesis::layout_quality::Limits;
+use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::{Form, Structure, structures};
 use ozols::synthesis::workload::Workload;
 use ozols::synthesis::{layout, mechanism::mechanism_file};

@@ -6,12 +6,12 @@
 use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{dot, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::skeleton::Point;
+use crate::synthesis::point::Point;
 use crate::synthesis::velocities::{Contours, Side};
 
 /// What a side follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Follows {
+enum SumMover {
     /// The turn that is this unknown.
     Turn(usize),
     /// The slide.
@@ -26,7 +26,7 @@ struct SumSide {
     sign: f64,
     from: usize,
     to: usize,
-    follows: Follows,
+    follows: SumMover,
 }
 
 /// The sums of a structure, whatever its places.
@@ -60,9 +60,9 @@ impl Closure {
             from: s.comes,
             to: s.leaves,
             follows: match contours.unknown[s.link] {
-                Some(unknown) => Follows::Turn(unknown),
-                None if contours.input == Input::Turn => Follows::Turn(drive),
-                None => Follows::Slide,
+                Some(unknown) => SumMover::Turn(unknown),
+                None if contours.input == Input::Turn => SumMover::Turn(drive),
+                None => SumMover::Slide,
             },
         };
         let both = contours.contours.iter().enumerate();
@@ -111,8 +111,8 @@ impl Closure {
         }
         // A side as it has turned, and by how much it differs from what was drawn.
         let moved = |s: &SumSide, [a, b]: Point| match s.follows {
-            Follows::Slide => ([slid, 0.0], None),
-            Follows::Turn(unknown) => {
+            SumMover::Slide => ([slid, 0.0], None),
+            SumMover::Turn(unknown) => {
                 let [c, s] = arms.turns[unknown];
                 let now = [c * a - s * b, s * a + c * b];
                 (sub(now, [a, b]), Some((unknown, quarter(now))))

@@ -1,11 +1,12 @@
 //! Forces in the joints at a pose of the stroke, the jaws each holding the part with a newton, without friction; and what they
 //! say of it: the greatest, how well driver and jaws pass work on, and how much of it friction would take.
 
-use super::judge::LinkPose;
+use super::pose::LinkPose;
 use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{cross_plane, dot, length};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::skeleton::{Point, Skeleton};
+use crate::synthesis::point::Point;
+use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::task::Friction;
 
 /// So many millimetres make a moment as large as a force, so that pivots are chosen evenly.

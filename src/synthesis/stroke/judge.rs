@@ -1,11 +1,13 @@
 //! What places do over the stroke of a task, and what that costs.
 
 use super::forces::{ForceFigures, JointForces};
+use super::pose::LinkPose;
 use super::walk::{StrokeEnd, Walk};
 use crate::chains::layout_symmetry::Input;
-use crate::geom::vector::{add, add_scaled, dot, length, quarter, sub};
+use crate::geom::vector::{add_scaled, dot, length, quarter, sub};
 use crate::synthesis::layout_quality::{beyond, transmission};
-use crate::synthesis::skeleton::{Point, Skeleton};
+use crate::synthesis::point::Point;
+use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::task::{AskedMotion, PARALLEL};
 use crate::synthesis::velocities::Velocity;
 
@@ -64,21 +66,6 @@ impl StrokeFigures {
             .iter()
             .fold(0.0_f64, |m, t| m.max(*t))
             .to_degrees()
-    }
-}
-
-/// Where a link is on the way, and how it moves for a millimetre of the width.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct LinkPose {
-    turn: [f64; 2],
-    shift: Point,
-    pub(super) velocity: Velocity,
-}
-
-impl LinkPose {
-    pub(super) fn point(&self, [x, y]: Point) -> Point {
-        let [c, s] = self.turn;
-        add([c * x - s * y, s * x + c * y], self.shift)
     }
 }
 

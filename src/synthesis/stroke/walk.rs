@@ -5,7 +5,7 @@
 
 use super::closure::{Arms, Closure};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::skeleton::Point;
+use crate::synthesis::point::Point;
 
 /// Corrections of a step at most.
 const CORRECTIONS: usize = 6;

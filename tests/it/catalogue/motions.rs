@@ -4,7 +4,7 @@ use super::{each, form, moved, moved_points};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::layout_quality::Limits;
+use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::Structure;
 
 fn step(s: &Structure) -> f64 {

@@ -5,7 +5,7 @@ use super::{each, each_of, form};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::layout_quality::Limits;
+use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::{AskedMotion, Friction, Task};
 

@@ -10,7 +10,7 @@ use ozols::chains::roles::Subject;
 use ozols::geom::vector::real;
 use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::layout::layout;
-use ozols::synthesis::layout_quality::Limits;
+use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::Structure;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! `ozols catalog query`, `show`, `export` and `page`.
 
 use super::format::CatalogFormat;
-use super::wanted::Wanted;
+use super::wanted::WantedGrippers;
 use crate::api::Scheme;
 use crate::catalog::store::Store;
 use crate::cli::done::Done;
@@ -30,10 +30,10 @@ pub(in crate::cli) struct Query {
     file: PathBuf,
     /// A question in SQL; the best structures where left out. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
     /// tables with all columns explained.
-    #[arg(conflicts_with_all = ["Wanted"])]
+    #[arg(conflicts_with_all = ["WantedGrippers"])]
     sql: Option<String>,
     #[command(flatten)]
-    wanted: Wanted,
+    wanted: WantedGrippers,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: CatalogFormat,

@@ -5,7 +5,7 @@ use itertools::Itertools;
 
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "Filters")]
-pub(super) struct Wanted {
+pub(super) struct WantedGrippers {
     /// Those alone that do the task: open and close as far, with the force and the room asked.
     #[arg(long)]
     does_task: bool,
@@ -47,7 +47,7 @@ pub(super) struct Wanted {
     cost: Option<f64>,
 }
 
-impl Wanted {
+impl WantedGrippers {
     /// The question that asks for it; nothing where nothing is wanted.
     pub(super) fn question(&self) -> Option<String> {
         let bounds = [
