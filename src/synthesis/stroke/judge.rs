@@ -36,7 +36,8 @@ pub struct StrokeFigures {
     pub reached: [f64; 2],
     /// Why no nearer, and no farther, where it is less than the task asks.
     pub ends: [Option<StrokeEnd>; 2],
-    /// The drive's way by the opening where it is least and greatest: twice the force of a jaw of two over the drive's.
+    /// The drive's way by the opening where it is least and greatest, mm or rad a millimetre: by work, the force of each of two jaws
+    /// over the drive's.
     pub rates: [f64; 2],
     /// The drive at both ends, from where it is drawn: mm or rad.
     pub drive: [f64; 2],
