@@ -109,11 +109,12 @@ impl Store {
 
     /// Notes what the catalogue is of, or sees that it is the same.
     fn be_of(&mut self, spec: &str) -> Stored<()> {
-        match self.meta("spec")? {
-            Some(there) if now(&there) != spec => Err(differs(&self.path, &there, spec)),
+        let asked = now(spec);
+        match self.meta("spec")?.map(|there| now(&there)) {
+            Some(there) if there != asked => Err(differs(&self.path, &there, &asked)),
             Some(_) => Ok(()),
             None => {
-                self.set_meta("spec", spec)?;
+                self.set_meta("spec", &asked)?;
                 self.set_meta("ozols", env!("CARGO_PKG_VERSION"))
             }
         }

@@ -98,7 +98,7 @@ fn layouts_made_for_no_task_stay_as_they_are() {
     );
     change(
         &file,
-        "DELETE FROM structures; DELETE FROM layouts; DELETE FROM counts; DELETE FROM ideas;",
+        "DELETE FROM layouts; DELETE FROM counts; DELETE FROM ideas; DELETE FROM structures;",
     );
     tiny(&folder, "fifth.db", &["--input", "slide"]);
     assert_eq!(
