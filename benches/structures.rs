@@ -21,10 +21,8 @@ use ozols::chains::enumerate::chains;
 use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::Subject;
 use ozols::chart::{Axis, Chart, Scale, Series, Style};
-use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::layout;
-use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::structure::{Structure, structures};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -155,15 +153,8 @@ fn one(
         return ([since(begun), 0.0, 0.0], None);
     };
     let to_lay = since(begun);
-    let file = mechanism_file(
-        structure,
-        &laid,
-        &spec.menu().expect("options"),
-        &spec.workload,
-    );
-    let mechanism = Mechanism::from_json(&file.json().to_string()).expect("its own file");
     let begun = now();
-    figures(structure, &laid, &mechanism).expect("coordinates");
+    figures(structure, &laid).expect("a regular pose");
     let to_follow = since(begun);
     let begun = now();
     let row = row(&subject, structure, spec).expect("a row");

@@ -5,14 +5,19 @@
 //! finds. Places are whole millimetres, or what a third of a turn makes of them.
 
 mod coordinate;
+mod elimination;
 pub mod figures;
 pub mod layout;
 pub mod layout_quality;
+pub mod limits;
 pub mod mechanism;
 pub mod place;
+pub mod point;
 pub mod recognize;
 pub mod rules;
 pub mod skeleton;
+pub mod stroke;
 pub mod structure;
+pub mod task;
 pub mod velocities;
 pub mod workload;

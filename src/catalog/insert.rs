@@ -5,7 +5,7 @@ use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
 use crate::format::number;
 use crate::geom::vector::sides;
 use crate::model::ranking::Term;
-use crate::motion::follow::Why;
+use crate::synthesis::stroke::walk::StrokeEnd;
 use crate::synthesis::structure::Structure;
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -82,8 +82,10 @@ fn rounded(x: f64) -> f64 {
 
 fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<()> {
     let (l, f, id) = (&laid.layout.looks, &laid.figures, s.id());
-    let end = |w: Option<Why>| w.map(Why::word);
-    let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded(t[k]));
+    let end = |w: Option<StrokeEnd>| w.map(StrokeEnd::word);
+    // Tips and drive as they grip: as they open, in a hole.
+    let grips = laid.layout.limits.task.grip.sign();
+    let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded(grips * t[k]));
     let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
     put(
         t,
@@ -99,7 +101,7 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
             ("opening_min", &rounded(f.openings[0])),
             ("opening_max", &rounded(f.openings[1])),
             ("travel", &rounded(f.travel)),
-            ("closes", &if f.closes > 0.0 { 1 } else { -1 }),
+            ("closes", &if grips * f.closes > 0.0 { 1 } else { -1 }),
             ("force_min", &rounded(f.force[0])),
             ("force_mean", &rounded(f.force[1])),
             ("force_max", &rounded(f.force[2])),
@@ -128,7 +130,33 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
             ),
         ],
     )?;
+    stroke(t, &id, laid)?;
     found(t, &id, &laid.counts, &laid.symmetric, &laid.ideas)
+}
+
+/// Enters what a layout does of its task.
+fn stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
+    let (task, f) = (&laid.layout.limits.task, &laid.figures);
+    let reached = !f.shortfall.is_some_and(|s| s.is_of_reach());
+    put(
+        t,
+        "strokes",
+        &[
+            ("structure", &id),
+            ("narrowest", &task.narrowest),
+            ("widest", &task.widest),
+            ("reached", &reached),
+            ("force_ratio", &rounded(f.force[2] / f.force[0])),
+            ("transmission", &rounded(f.transmission)),
+            ("pin_force", &rounded(f.forces.peak)),
+            ("efficiency", &rounded(f.forces.efficiency)),
+            ("width", &rounded(f.size[0])),
+            ("height", &rounded(f.size[1])),
+            ("margin_closing", &rounded(f.margin[0])),
+            ("margin_opening", &rounded(f.margin[1])),
+            ("shortfall", &f.shortfall.map(|s| s.to_string())),
+        ],
+    )
 }
 
 /// Enters a drawn mechanism.

@@ -224,7 +224,9 @@ fn lay(
 ) -> Result<Result<Laid, NoLayout>, RowError> {
     let file = mechanism_file(structure, &layout, &spec.menu()?, &spec.workload);
     let built = mechanism(structure, &file)?;
-    let figures = figures(structure, &layout, &built)?;
+    let Some(figures) = figures(structure, &layout) else {
+        return Ok(Err(NoLayout::NotRegular));
+    };
     let method = Method::Auto { tolerance: None };
     let as_built = analyse(&built, &[StateId::FREE], method)?.swap_remove(0);
     if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {

@@ -2,9 +2,10 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{OptionEntry, OptionTable};
-use crate::synthesis::layout_quality::Limits;
+use crate::synthesis::limits::Limits;
 use crate::synthesis::mechanism::Menu;
 use crate::synthesis::structure::Form;
+use crate::synthesis::task::Task;
 use crate::synthesis::workload::Workload;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -13,6 +14,9 @@ use thiserror::Error;
 
 /// Most links of a structure: with more there are millions of structures.
 pub const MOST_LINKS: usize = 12;
+
+/// The widest part of a task, in mm: pins stand within some 100 mm of each other.
+const WIDEST: i64 = 200;
 
 /// What a catalogue is to hold; the file of it, TOML, has the same keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,6 +50,8 @@ pub struct Spec {
     pub nodes: usize,
     /// What ideas are scored under.
     pub workload: Workload,
+    /// What every gripper is to do.
+    pub task: Task,
 }
 
 impl Default for Spec {
@@ -73,6 +79,7 @@ impl Default for Spec {
             crossings: limits.crossings,
             nodes: 1_000_000,
             workload: Workload::default(),
+            task: Task::default(),
         }
     }
 }
@@ -111,6 +118,9 @@ pub enum SpecError {
         "workload: nothing acts on the gripper; give closing, or gravity with part or link_mass"
     )]
     NoLoad,
+    /// A part that is wider than the widest.
+    #[error("narrowest must be less than widest by a millimetre at least")]
+    Widths,
     /// No form is left.
     #[error(
         "no layout is asked for: with two jaws a mirror image needs a slide and half a turn a turning input; three jaws are \
@@ -129,6 +139,7 @@ impl SpecError {
             SpecError::Links(_) => Some("links"),
             SpecError::NoLoad => Some("closing"),
             SpecError::Nothing => Some("symmetries"),
+            SpecError::Widths => Some("narrowest"),
         }
     }
 }
@@ -157,6 +168,12 @@ fn word<T: Copy>(
     })
 }
 
+fn within(what: &'static str, x: f64, from: i64, to: i64) -> Result<(), SpecError> {
+    #[allow(clippy::cast_precision_loss, reason = "small")]
+    let ok = x >= from as f64 && x <= to as f64;
+    ok.then_some(()).ok_or(SpecError::Range { what, from, to })
+}
+
 /// Options that a hinge may be replaced by.
 const OPTIONS: [&str; 8] = [
     "cylindrical",
@@ -177,8 +194,8 @@ impl Spec {
     pub fn links(&self) -> Result<RangeInclusive<usize>, SpecError> {
         let wrong = || SpecError::Links(self.links.clone());
         let all = range(&self.links).map_err(|_| wrong())?;
-        let within = *all.start() >= 4 && *all.end() <= MOST_LINKS;
-        let some = within && all.clone().any(|n| n % 2 == 0);
+        let known = *all.start() >= 4 && *all.end() <= MOST_LINKS;
+        let some = known && all.clone().any(|n| n % 2 == 0);
         some.then_some(all).ok_or_else(wrong)
     }
 
@@ -252,6 +269,7 @@ impl Spec {
             ratio: self.ratio,
             transmission: self.transmission,
             crossings: self.crossings,
+            task: self.task,
         }
     }
 
@@ -261,31 +279,43 @@ impl Spec {
     /// The first thing that is wrong.
     pub fn check(&self) -> Result<(), SpecError> {
         #[allow(clippy::cast_precision_loss, reason = "small")]
-        let range = |what, x: f64, from: i64, to: i64| {
-            let ok = x >= from as f64 && x <= to as f64;
-            ok.then_some(()).ok_or(SpecError::Range { what, from, to })
-        };
-        #[allow(clippy::cast_precision_loss, reason = "small")]
-        let whole = |what, n: usize, from, to| range(what, n as f64, from, to);
+        let whole = |what, n: usize, from, to| within(what, n as f64, from, to);
         whole("jaws", self.jaws, 2, 3)?;
         whole("ideas", self.ideas, 0, 1000)?;
         whole("nodes", self.nodes, 1, 100_000_000)?;
-        range("ratio", self.ratio, 0, 1000)?;
-        range("transmission", self.transmission, 0, 90)?;
+        within("ratio", self.ratio, 0, 1000)?;
+        within("transmission", self.transmission, 0, 90)?;
         let w = &self.workload;
-        range("closing", w.closing, 0, 1_000_000)?;
-        range("part", w.part, 0, 1_000_000)?;
-        range("link_mass", w.link_mass, 0, 1_000_000)?;
+        within("closing", w.closing, 0, 1_000_000)?;
+        within("part", w.part, 0, 1_000_000)?;
+        within("link_mass", w.link_mass, 0, 1_000_000)?;
         for g in w.gravity {
-            range("gravity", g, -1000, 1000)?;
+            within("gravity", g, -1000, 1000)?;
         }
         let weighs = w.gravity != [0.0; 3] && w.part + w.link_mass > 0.0;
         if w.closing == 0.0 && !weighs {
             return Err(SpecError::NoLoad);
         }
+        self.check_task()?;
         self.links()?;
         self.forms()?;
         self.menu().map(|_| ())
+    }
+
+    fn check_task(&self) -> Result<(), SpecError> {
+        let t = &self.task;
+        within("narrowest", t.narrowest, 0, WIDEST)?;
+        within("widest", t.widest, 1, WIDEST)?;
+        if t.span() < 1.0 {
+            return Err(SpecError::Widths);
+        }
+        within("force_ratio", t.force_ratio, 1, 1_000_000)?;
+        for side in t.room {
+            within("room", side, 0, 1_000_000)?;
+        }
+        within("coefficient", t.friction.coefficient, 0, 10)?;
+        within("pin_radius", t.friction.pin_radius, 0, 1000)?;
+        within("guide", t.friction.guide, 1, 10_000)
     }
 
     /// The specification as TOML: the same for the same catalogue, whatever the order of its words.

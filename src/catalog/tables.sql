@@ -33,24 +33,24 @@ CREATE TABLE layouts (
   link_ratio REAL NOT NULL,        -- longest link over shortest
   transmission REAL NOT NULL,      -- worst transmission angle of a rod, degrees
   area REAL NOT NULL,              -- of the box round pins and tips, mm2
-  opening_min REAL NOT NULL,       -- of the stroke followed, mm; of three jaws twice the tips' mean distance from the middle
+  opening_min REAL NOT NULL,       -- of what is reached of the task's stroke, mm; of three jaws twice the tips' mean distance from the middle
   opening_max REAL NOT NULL,
   travel REAL NOT NULL,            -- of the drive between them, mm or rad
-  closes INTEGER NOT NULL,         -- which way the drive goes to close: 1 along x or counter-clockwise, -1 the other
+  closes INTEGER NOT NULL,         -- which way the drive goes to grip: 1 along x or counter-clockwise, -1 the other
   force_min REAL NOT NULL,         -- force of each jaw over the drive's, without friction; N for 1 Nm where it turns
-  force_mean REAL NOT NULL,
+  force_mean REAL NOT NULL,        -- over the opening: the drive's travel over it
   force_max REAL NOT NULL,
   jaw_a_motion TEXT NOT NULL,      -- parallel, swinging, floating
   jaw_b_motion TEXT NOT NULL,
   jaw_c_motion TEXT,
-  tip_a_dx REAL NOT NULL,          -- how the tips move as they close, mm for 1 mm or 1 rad of the drive
+  tip_a_dx REAL NOT NULL,          -- how the tips move as they grip, mm for 1 mm or 1 rad of the drive
   tip_a_dy REAL NOT NULL,
   tip_b_dx REAL NOT NULL,
   tip_b_dy REAL NOT NULL,
   tip_c_dx REAL,
   tip_c_dy REAL,
   jaw_turn REAL NOT NULL,          -- the most that a jaw turns over the stroke, degrees
-  ends_closing TEXT,               -- why the stroke ends before the jaws are closed; NULL where it does not
+  ends_closing TEXT,               -- jaws-turn-back, dead-point, singular: why the stroke ends before the task's; NULL where it does not
   ends_opening TEXT,
   mobility INTEGER NOT NULL,       -- W as built, all joints hinges
   redundant INTEGER NOT NULL,      -- sigma as built
@@ -60,6 +60,21 @@ CREATE TABLE layouts (
   orbits_w1 NOT NULL,              -- of these, up to the symmetry of the layout
   certainty TEXT NOT NULL,         -- exact, or at least
   best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, where the certainty is at least
+) WITHOUT ROWID;
+CREATE TABLE strokes (             -- what a layout does of the task it was made for; none of those that earlier versions made
+  structure TEXT PRIMARY KEY REFERENCES structures(id),
+  narrowest REAL NOT NULL,         -- the part widths asked, mm
+  widest REAL NOT NULL,
+  reached INTEGER NOT NULL,        -- 1: the jaws come as far together and apart as that
+  force_ratio REAL NOT NULL,       -- greatest force of a jaw over the least, over what is reached of the stroke
+  transmission REAL NOT NULL,      -- least angle over the stroke, of rods and by joint forces at driver and jaws, degrees
+  pin_force REAL NOT NULL,         -- greatest joint force over the stroke, N for 1 N of each jaw
+  efficiency REAL NOT NULL,        -- least over the stroke with the friction of the task; to a half it holds itself
+  width REAL NOT NULL,             -- of the box round pins and tips over the stroke, mm
+  height REAL NOT NULL,
+  margin_closing REAL NOT NULL,    -- how far on the jaws could go beyond the task before the stroke ends, mm; a fifth of it at most
+  margin_opening REAL NOT NULL,
+  shortfall TEXT                   -- the worst of what the task asks and this does not; NULL where it does all of it
 ) WITHOUT ROWID;
 CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their own files
   id TEXT PRIMARY KEY,             -- drawn-, and the beginning of the SHA-256 of the file
@@ -103,15 +118,22 @@ CREATE TABLE ideas (
   output_error REAL,               -- of the jaws from the joints' clearances, mm
   PRIMARY KEY (structure, place)
 ) WITHOUT ROWID;
-CREATE VIEW front AS               -- structures that no other with the same input beats: as good in all five, better in one
-SELECT s.id, s.links, l.best_cost, l.force_mean, l.transmission, l.jaw_turn, s.input
-FROM structures s JOIN layouts l ON l.structure = s.id
-WHERE l.best_cost IS NOT NULL AND NOT EXISTS (
-  SELECT 1 FROM structures t JOIN layouts m ON m.structure = t.id
-  WHERE t.input = s.input AND t.links <= s.links AND m.best_cost <= l.best_cost AND m.force_mean >= l.force_mean
-    AND m.transmission >= l.transmission AND m.jaw_turn <= l.jaw_turn
-    AND (t.links < s.links OR m.best_cost < l.best_cost OR m.force_mean > l.force_mean
-      OR m.transmission > l.transmission OR m.jaw_turn < l.jaw_turn));
+CREATE VIEW grippers AS            -- layouts by what a designer asks of them
+SELECT s.id, s.links, s.input, s.symmetry, s.parallel, l.jaw_a_motion AS jaws, l.force_min AS least_force,
+  k.force_ratio, l.opening_min AS narrowest, l.opening_max AS widest, l.jaw_turn AS turn,
+  k.transmission, k.pin_force, k.efficiency, l.travel, k.width, k.height, l.best_cost AS cost, l.determinate_w1 AS redesigns,
+  k.reached, k.shortfall
+FROM structures s JOIN layouts l ON l.structure = s.id LEFT JOIN strokes k ON k.structure = s.id;
+CREATE VIEW front AS               -- of those that do the task, what no other with the same input beats: as good in all six, better in one
+SELECT a.id, a.links, a.cost, a.least_force, a.pin_force, a.turn, a.width * a.height AS area, a.input
+FROM grippers a
+WHERE a.cost IS NOT NULL AND a.reached = 1 AND a.shortfall IS NULL AND NOT EXISTS (
+  SELECT 1 FROM grippers b
+  WHERE b.cost IS NOT NULL AND b.reached = 1 AND b.shortfall IS NULL AND b.input = a.input
+    AND b.links <= a.links AND b.cost <= a.cost AND b.least_force >= a.least_force AND b.pin_force <= a.pin_force
+    AND b.turn <= a.turn AND b.width * b.height <= a.width * a.height
+    AND (b.links < a.links OR b.cost < a.cost OR b.least_force > a.least_force OR b.pin_force < a.pin_force
+      OR b.turn < a.turn OR b.width * b.height < a.width * a.height));
 CREATE VIEW idea_front AS          -- ideas that no other of their structure beats in cost, peak force and moment, and error
 SELECT i.* FROM ideas i
 WHERE i.peak_force IS NOT NULL AND NOT EXISTS (

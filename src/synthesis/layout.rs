@@ -6,10 +6,13 @@ use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
 use crate::closure::tree::forest;
 use crate::geom::vector::add_scaled;
-use crate::synthesis::layout_quality::{Limits, Looks};
+use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::limits::Limits;
 use crate::synthesis::place::Place;
+use crate::synthesis::point::{Point, middle};
 use crate::synthesis::rules::{Rule, Rules};
-use crate::synthesis::skeleton::{Point, Skeleton, middle};
+use crate::synthesis::skeleton::Skeleton;
+use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::structure::Structure;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -18,10 +21,6 @@ use thiserror::Error;
 
 /// Starts of the search for places at most.
 const STARTS: u32 = 6;
-/// Moves tried from a start.
-const MOVES: usize = 1500;
-/// Of these, the last in which velocities count.
-const MOVING: usize = 700;
 /// A layout that costs less than this is taken without looking for a better one.
 const GOOD: f64 = 3.0;
 
@@ -38,6 +37,8 @@ pub struct Layout {
     pub tips: Vec<Place>,
     /// The figures it was taken for.
     pub looks: Looks,
+    /// What it was made for.
+    pub limits: Limits,
     /// The start it was found from.
     pub start: u32,
 }
@@ -92,7 +93,7 @@ pub enum NoLayout {
 /// Why there is none.
 ///
 /// # Complexity
-/// Some thousand looks at places.
+/// Some thousand looks at places, of which some hundred are at a whole stroke.
 pub fn layout(
     subject: &Subject<'_>,
     structure: &Structure,
@@ -102,35 +103,11 @@ pub fn layout(
     let of = (structure.form.symmetry, structure.form.input);
     let swap = working_swap(subject, &structure.roles, of)?;
     let rules = Rules::new(structure, &swap).ok_or(NoLayout::Parallelograms)?;
-    let skeleton = Skeleton::new(structure, rules);
-    let rules = &skeleton.rules;
-    let within = |l: &Looks| {
-        l.ratio <= limits.ratio
-            && l.transmission >= limits.transmission
-            && l.crossings <= limits.crossings
-            && l.straightness >= LEAST_CLOSING
-    };
-    let mut best: Option<(bool, Looks, Vec<Point>, u32)> = None;
-    for start in 0..STARTS {
-        let (at, found) = anneal(&skeleton, &mut random(structure, seed, start));
-        let Some(found) = found else { continue };
-        let better = best
-            .as_ref()
-            .is_none_or(|(ok, b, ..)| (!within(&found), found.penalty) < (!ok, b.penalty));
-        if better {
-            best = Some((within(&found), found, at, start));
-        }
-        if best
-            .as_ref()
-            .is_some_and(|(ok, b, ..)| *ok && b.penalty < GOOD)
-        {
-            break;
-        }
-    }
-    let Some((ok, looks, at, start)) = best else {
-        return Err(NoLayout::Motion(NoGripper::DeadDrive));
-    };
-    if !ok {
+    let skeleton = Skeleton::new(structure, rules, *limits);
+    let found = best_of_starts(&skeleton, seed);
+    let found = found.ok_or(NoLayout::Motion(NoGripper::DeadDrive))?;
+    let looks = found.looks;
+    if !keeps(limits, &looks) {
         return Err(NoLayout::Limits {
             ratio: looks.ratio,
             transmission: looks.transmission,
@@ -138,14 +115,76 @@ pub fn layout(
             straightness: 100.0 * looks.straightness,
         });
     }
+    let rules = &skeleton.rules;
     Ok(Layout {
         pins: rules.pins.clone(),
-        at: rules.places(&at),
-        tips: structure.tips(),
+        at: rules.places(&found.at),
+        tips: structure.tips(&limits.task),
+        limits: *limits,
         images: rules.images().collect(),
         looks,
-        start,
+        start: found.start,
     })
+}
+
+/// Places at the end of a start.
+struct Found {
+    /// Whether the drawn pose keeps the limits.
+    within: bool,
+    /// Whether the stroke does what the task asks.
+    does: bool,
+    looks: Looks,
+    /// What drawn pose and stroke cost.
+    cost: f64,
+    at: Vec<Point>,
+    start: u32,
+}
+
+impl Found {
+    /// Limits first, then the task, then what all costs.
+    fn order(&self) -> (bool, bool, f64) {
+        (!self.within, !self.does, self.cost)
+    }
+}
+
+/// The best places of some starts; of the first alone where those are good. `None` where all end in singular poses.
+fn best_of_starts(skeleton: &Skeleton<'_>, seed: u64) -> Option<Found> {
+    let mut judge = Judge::new(skeleton);
+    let mut best: Option<Found> = None;
+    for start in 0..STARTS {
+        let at = anneal(
+            skeleton,
+            &mut judge,
+            random(skeleton.structure, seed, start),
+        );
+        let (Some(looks), Some(stroke)) = (skeleton.looks(&at), judge.coarse(&at)) else {
+            continue;
+        };
+        let found = Found {
+            cost: looks.penalty + skeleton.stroke_cost(&stroke),
+            does: skeleton.shortfall(&stroke).is_none(),
+            within: keeps(&skeleton.limits, &looks),
+            looks,
+            at,
+            start,
+        };
+        let good = found.within && found.does && found.cost < GOOD;
+        if best.as_ref().is_none_or(|b| found.order() < b.order()) {
+            best = Some(found);
+        }
+        if good {
+            break;
+        }
+    }
+    best
+}
+
+/// Whether a drawn pose keeps the limits.
+fn keeps(limits: &Limits, looks: &Looks) -> bool {
+    looks.ratio <= limits.ratio
+        && looks.transmission >= limits.transmission
+        && looks.crossings <= limits.crossings
+        && looks.straightness >= LEAST_CLOSING
 }
 
 /// The tips' motion must close them by this share at least.
@@ -211,47 +250,139 @@ fn first_places(skeleton: &Skeleton<'_>, random: &mut ChaCha8Rng) -> Vec<Point> 
     at
 }
 
-/// The places at the end of one search, with the tips after the pins, and what they are like.
-fn anneal(skeleton: &Skeleton<'_>, random: &mut ChaCha8Rng) -> (Vec<Point>, Option<Looks>) {
-    let rules = &skeleton.rules;
-    let mut at = first_places(skeleton, random);
-    let movable: Vec<usize> = rules.movable().collect();
-    let (mut now, mut best) = (f64::INFINITY, (f64::INFINITY, at.clone()));
-    let mut before = at.clone();
-    for step in 0..MOVES {
-        let moving = step + MOVING >= MOVES;
-        if step + MOVING == MOVES {
-            let cost = skeleton.penalty(&at, true, f64::INFINITY);
-            now = cost.unwrap_or(f64::INFINITY);
-            best = (now, at.clone());
-        }
-        #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
-        let left = 1.0 - step as f64 / MOVES as f64;
-        let (heat, reach) = (2.0 * left * left, 2.0 + 18.0 * left);
-        #[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
-        let pin = movable[(random.next_u64() % movable.len() as u64) as usize];
-        before.copy_from_slice(&at);
-        at[pin] = match rules.rules[pin] {
-            Rule::OnLine => [at[pin][0] + reach * bell(random), 0.0],
-            _ => [
-                at[pin][0] + reach * bell(random),
-                at[pin][1] + reach * bell(random),
-            ],
-        }
-        .map(f64::round);
-        rules.settle(&mut at);
-        // Taken where exp((now - then) / heat) is above a random number: what is too dear is not looked at to the end.
-        let most = now - heat * unit(random).ln();
-        match skeleton.penalty(&at, moving, most) {
-            Some(then) => {
-                now = then;
-                if moving && now < best.0 {
-                    best = (now, at.clone());
-                }
-            }
-            None => at.copy_from_slice(&before),
+/// What is looked at in a part of a search for places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Look {
+    Places,
+    Motion,
+    Stroke,
+}
+
+/// A part of a search: how many moves, and how warm it is at the beginning and at the end.
+struct Phase {
+    look: Look,
+    moves: usize,
+    warmth: [f64; 2],
+}
+
+/// Places alone, which is cheap; then the motion of the drawn pose, too; then the whole stroke, warmed up again a little.
+const PHASES: [Phase; 3] = [
+    Phase {
+        look: Look::Places,
+        moves: 800,
+        warmth: [1.0, 0.47],
+    },
+    Phase {
+        look: Look::Motion,
+        moves: 700,
+        warmth: [0.47, 0.0],
+    },
+    Phase {
+        look: Look::Stroke,
+        moves: 500,
+        warmth: [0.4, 0.0],
+    },
+];
+
+/// A search for places from one start.
+struct Annealing<'a, 'j> {
+    skeleton: &'a Skeleton<'a>,
+    judge: &'j mut Judge<'a>,
+    random: ChaCha8Rng,
+    movable: Vec<usize>,
+    /// The places, with the tips after the pins, what they cost, and those before the last move.
+    at: Vec<Point>,
+    now: f64,
+    before: Vec<Point>,
+    /// The cheapest of the phase.
+    best: (f64, Vec<Point>),
+}
+
+impl<'a, 'j> Annealing<'a, 'j> {
+    fn new(skeleton: &'a Skeleton<'a>, judge: &'j mut Judge<'a>, mut random: ChaCha8Rng) -> Self {
+        let at = first_places(skeleton, &mut random);
+        Annealing {
+            movable: skeleton.rules.movable().collect(),
+            before: at.clone(),
+            best: (f64::INFINITY, at.clone()),
+            now: f64::INFINITY,
+            skeleton,
+            judge,
+            random,
+            at,
         }
     }
-    let found = skeleton.looks(&best.1);
-    (best.1, found)
+
+    /// What the places cost; `None` where that is more than `most`, or the pose is singular.
+    fn cost(&mut self, look: Look, most: f64) -> Option<f64> {
+        let drawn = (self.skeleton).penalty(&self.at, look != Look::Places, most)?;
+        if look != Look::Stroke {
+            return Some(drawn);
+        }
+        let all = drawn + self.skeleton.stroke_cost(&self.judge.coarse(&self.at)?);
+        (all <= most).then_some(all)
+    }
+
+    /// Whether the places do what the task asks.
+    fn does(&mut self) -> bool {
+        let stroke = self.judge.coarse(&self.at);
+        stroke.is_some_and(|f| self.skeleton.shortfall(&f).is_none())
+    }
+
+    fn phase(&mut self, phase: &Phase) {
+        // A stroke is judged from the best of what was drawn.
+        if phase.look == Look::Stroke {
+            self.at.copy_from_slice(&self.best.1);
+        }
+        self.now = self
+            .cost(phase.look, f64::INFINITY)
+            .unwrap_or(f64::INFINITY);
+        self.best = (self.now, self.at.clone());
+        if phase.look == Look::Stroke && self.now < GOOD && self.does() {
+            return;
+        }
+        let [from, to] = phase.warmth;
+        for step in 0..phase.moves {
+            #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
+            let done = step as f64 / phase.moves as f64;
+            self.step(phase.look, from + (to - from) * done);
+        }
+    }
+
+    /// Tries another place for a pin.
+    fn step(&mut self, look: Look, warmth: f64) {
+        let (heat, reach) = (2.0 * warmth * warmth, 2.0 + 18.0 * warmth);
+        let random = &mut self.random;
+        #[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
+        let pin = self.movable[(random.next_u64() % self.movable.len() as u64) as usize];
+        self.before.copy_from_slice(&self.at);
+        let [x, y] = self.at[pin];
+        self.at[pin] = match self.skeleton.rules.rules[pin] {
+            Rule::OnLine => [x + reach * bell(random), 0.0],
+            _ => [x + reach * bell(random), y + reach * bell(random)],
+        }
+        .map(f64::round);
+        self.skeleton.rules.settle(&mut self.at);
+        // Taken where exp((now - then) / heat) is above a random number: what is too dear is not looked at to the end.
+        let most = self.now - heat * unit(&mut self.random).ln();
+        match self.cost(look, most) {
+            Some(then) => {
+                self.now = then;
+                if then < self.best.0 {
+                    self.best.0 = then;
+                    self.best.1.copy_from_slice(&self.at);
+                }
+            }
+            None => self.at.copy_from_slice(&self.before),
+        }
+    }
+}
+
+/// The places at the end of one search, with the tips after the pins.
+fn anneal<'a>(skeleton: &'a Skeleton<'a>, judge: &mut Judge<'a>, random: ChaCha8Rng) -> Vec<Point> {
+    let mut search = Annealing::new(skeleton, judge, random);
+    for phase in &PHASES {
+        search.phase(phase);
+    }
+    search.best.1
 }

@@ -2,7 +2,8 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::geom::vector::{cross_plane, dot, length, sub};
-use crate::synthesis::skeleton::{Point, Skeleton};
+use crate::synthesis::point::Point;
+use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::velocities::Velocity;
 
 /// Pins nearer to each other than this run into each other.
@@ -14,27 +15,6 @@ const ON: f64 = 6.0;
 
 /// A pin nearer than this to the middle of the part that is held is in its way.
 const PART: f64 = 25.0;
-
-/// What a layout must be like to be taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// The longest link over the shortest, the frame left out.
-    pub ratio: f64,
-    /// The worst transmission angle of a rod, in degrees.
-    pub transmission: f64,
-    /// Crossings of links, and pins that lie on links that they are no part of.
-    pub crossings: usize,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Limits {
-            ratio: 8.0,
-            transmission: 15.0,
-            crossings: 6,
-        }
-    }
-}
 
 /// Figures of a layout at the pose it is drawn in.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,7 +40,7 @@ pub struct Looks {
 const ALIGNED: f64 = 2.5;
 
 /// How far a number is beyond a limit, squared, in units of a width.
-fn beyond(over: f64, width: f64) -> f64 {
+pub(super) fn beyond(over: f64, width: f64) -> f64 {
     (over.max(0.0) / width).powi(2)
 }
 
@@ -288,7 +268,7 @@ impl Skeleton<'_> {
 }
 
 /// The transmission angle of a rod: between it and the motion across it at its faster end, in degrees.
-fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
+pub(super) fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
     let along = sub(b, a);
     let (va, vb) = (velocity.at(a), velocity.at(b));
     let speed = length(va).max(length(vb));

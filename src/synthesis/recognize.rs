@@ -77,7 +77,7 @@ pub struct Recognized {
 /// # Complexity
 /// A few eliminations of six columns a joint.
 pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
-    let plane = Plane::new(m)?;
+    let plane = MotionPlane::new(m)?;
     let present = m.joints_in(StateId::FREE).collect_vec();
     let mut kinds = Vec::with_capacity(present.len());
     let mut merged = UnionFind::<usize>::new(m.links.len());
@@ -174,17 +174,17 @@ fn jaws(m: &Mechanism, body: impl Fn(LinkId) -> Option<usize>) -> Result<[usize;
 }
 
 /// The plane of motion, with the field its numbers are in.
-struct Plane {
+struct MotionPlane {
     exact: ExactField,
     normal: [Residue; 3],
 }
 
-impl Plane {
-    fn new(m: &Mechanism) -> Result<Plane, NoStructure> {
+impl MotionPlane {
+    fn new(m: &Mechanism) -> Result<MotionPlane, NoStructure> {
         let exact = exact_field(m, 0)?;
         if let Mode::Planar { normal } = &m.mode {
             let normal = exact.eval3(normal)?;
-            return Ok(Plane { exact, normal });
+            return Ok(MotionPlane { exact, normal });
         }
         for j in m.joints_in(StateId::FREE) {
             let joint = &m.joints[j];
@@ -194,7 +194,7 @@ impl Plane {
                 let frame = FrameValues::new(&exact, &joint.frame)?;
                 let [x, y, z, ..] = frame.twist(&exact, *turn);
                 let normal = [x, y, z];
-                return Ok(Plane { exact, normal });
+                return Ok(MotionPlane { exact, normal });
             }
         }
         Err(NoStructure::NoPlane)

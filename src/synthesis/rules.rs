@@ -99,6 +99,21 @@ impl Rules {
         })
     }
 
+    /// The pins of a structure without any rule, for places that are known already.
+    #[must_use]
+    pub fn free(structure: &Structure) -> Option<Rules> {
+        let pins = structure.chain.joints();
+        let (frame, driver) = (structure.roles.frame, structure.roles.driver);
+        let input = (frame.min(driver), frame.max(driver));
+        Some(Rules {
+            rules: vec![Rule::Free; pins.len()],
+            order: (0..pins.len()).collect(),
+            symmetry: Symmetry::Generic,
+            input: pins.iter().position(|&p| p == input)?,
+            pins,
+        })
+    }
+
     /// Puts what follows in its place.
     pub fn settle(&self, at: &mut [[f64; 2]]) {
         for &i in &self.order {

@@ -1,12 +1,12 @@
 //! What of a structure does not depend on where its pins are, gathered once for the many places that are tried.
 
-use crate::geom::vector::{add_scaled, sub, unit};
+use crate::geom::vector::{sub, unit};
+use crate::synthesis::limits::Limits;
+use crate::synthesis::point::{Point, middle};
 use crate::synthesis::rules::Rules;
+use crate::synthesis::stroke::closure::Closure;
 use crate::synthesis::structure::Structure;
 use crate::synthesis::velocities::Contours;
-
-/// A point of the plane, in millimetres.
-pub type Point = [f64; 2];
 
 /// A structure with the rules of its pins. Points are numbered: pins in the order of the chain's joints, then the tips.
 #[derive(Debug)]
@@ -27,28 +27,26 @@ pub struct Skeleton<'a> {
     pub rods: Vec<(usize, [usize; 2])>,
     /// What its velocities need.
     pub contours: Contours,
-}
-
-/// The middle of points.
-#[must_use]
-pub fn middle(points: &[Point]) -> Point {
-    #[allow(clippy::cast_precision_loss, reason = "a few")]
-    let n = points.len().max(1) as f64;
-    points
-        .iter()
-        .fold([0.0, 0.0], |m, p| add_scaled(m, 1.0 / n, *p))
+    /// What its stroke needs.
+    pub closure: Closure,
+    /// What it is to be like and to do.
+    pub limits: Limits,
 }
 
 impl<'a> Skeleton<'a> {
     /// Of a structure.
     #[must_use]
-    pub fn new(structure: &'a Structure, rules: Rules) -> Skeleton<'a> {
+    pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Skeleton<'a> {
         let mut of_link = vec![Vec::new(); structure.chain.links()];
         for (i, &(u, v)) in rules.pins.iter().enumerate() {
             of_link[u].push(i);
             of_link[v].push(i);
         }
-        let tips: Vec<Point> = structure.tips().iter().map(|t| t.real()).collect();
+        let tips: Vec<Point> = structure
+            .tips(&limits.task)
+            .iter()
+            .map(|t| t.real())
+            .collect();
         let centre = middle(&tips);
         let r = &structure.roles;
         for (n, &jaw) in r.jaws.iter().enumerate() {
@@ -59,6 +57,8 @@ impl<'a> Skeleton<'a> {
             let pulls = l != r.frame && l != r.driver;
             pulls.then_some((l, [a, b]))
         });
+        let inward: Vec<Point> = tips.iter().map(|t| unit(sub(centre, *t))).collect();
+        let contours = Contours::new(structure);
         Skeleton {
             structure,
             rods: rods.collect(),
@@ -67,9 +67,11 @@ impl<'a> Skeleton<'a> {
                 .map(|points| points.iter().fold(0, |bits, p| bits | 1 << p))
                 .collect(),
             of_link,
-            inward: tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             tips,
-            contours: Contours::new(structure),
+            closure: Closure::new(&contours, &inward),
+            inward,
+            contours,
+            limits,
             rules,
         }
     }

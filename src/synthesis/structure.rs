@@ -5,6 +5,7 @@ use crate::chains::graph6;
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::roles::{Roles, Subject};
 use crate::synthesis::place::Place;
+use crate::synthesis::task::Task;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -135,8 +136,6 @@ pub struct Ring {
 
 /// How far ahead the tips of jaws in front are, in millimetres.
 const REACH: i32 = 120;
-/// Half of the drawn opening, in millimetres.
-const HALF_OPENING: i32 = 15;
 
 impl Structure {
     /// Whether the jaws close on a part over the centre, all of the gripper round it, instead of in front.
@@ -145,11 +144,11 @@ impl Structure {
         self.form.symmetry == Symmetry::HalfTurn || self.roles.jaws.len() > 2
     }
 
-    /// Where the tips of the jaws are, in millimetres.
+    /// Where the tips of the jaws are drawn for a task, in millimetres.
     #[must_use]
-    pub fn tips(&self) -> Vec<Place> {
+    pub fn tips(&self, task: &Task) -> Vec<Place> {
         let ahead = if self.is_round() { 0 } else { REACH };
-        self.outward(HALF_OPENING)
+        self.outward(task.half_opening())
             .into_iter()
             .map(|p| Place {
                 whole: [p.whole[0] + ahead, p.whole[1]],

@@ -6,8 +6,8 @@
 use crate::chains::layout_symmetry::Input;
 use crate::closure::tree::{TreeStep, forest};
 use crate::geom::vector::{add_scaled, quarter, sub};
+use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::structure::Structure;
-use ozols_dense::{Matrix, solve};
 
 /// A velocity of a link: its turning, and the velocity of its point at the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,26 +26,38 @@ impl Velocity {
     }
 }
 
-/// A link of a contour, and the pins by which the contour leaves it and comes to it.
+/// A link of a contour, and the points by which the contour leaves it and comes to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Side {
-    link: usize,
-    leaves: usize,
-    comes: usize,
+pub(super) struct Side {
+    pub(super) link: usize,
+    pub(super) leaves: usize,
+    pub(super) comes: usize,
 }
 
 /// What the links of a structure are joined to, as their velocities need it.
 #[derive(Debug, Clone)]
 pub struct Contours {
     links: usize,
-    driver: usize,
-    input: Input,
+    pub(super) driver: usize,
+    pub(super) input: Input,
     /// Links in the order they are reached from the frame.
-    tree: Vec<TreeStep<usize, usize>>,
+    pub(super) tree: Vec<TreeStep<usize, usize>>,
     /// Of each contour its two ways from the frame, without the links they share.
-    contours: Vec<[Vec<Side>; 2]>,
+    pub(super) contours: Vec<[Vec<Side>; 2]>,
+    /// Of each jaw its way from the frame to the tip.
+    pub(super) tips: Vec<Vec<Side>>,
     /// The place of each link's turning among the unknown; those of frame and driver are known.
-    unknown: Vec<Option<usize>>,
+    pub(super) unknown: Vec<Option<usize>>,
+}
+
+/// The sides of a way from the frame, each link of it with the pin it is reached by, to a point of the last.
+fn sides(way: &[(usize, usize)], to: usize) -> Vec<Side> {
+    let side = |(i, &(link, comes)): (usize, &(usize, usize))| Side {
+        link,
+        comes,
+        leaves: way.get(i + 1).map_or(to, |next| next.1),
+    };
+    way.iter().enumerate().map(side).collect()
 }
 
 impl Contours {
@@ -68,16 +80,10 @@ impl Contours {
             let both = ways[u].iter().zip(&ways[v]);
             // The last link that both pass through is left by different pins, and is a side of either.
             let shared = both.take_while(|(a, b)| a == b).count().saturating_sub(1);
-            [u, v].map(|end| {
-                let way = &ways[end];
-                let side = |i: usize| Side {
-                    link: way[i].0,
-                    comes: way[i].1,
-                    leaves: way.get(i + 1).map_or(pin, |next| next.1),
-                };
-                (shared..way.len()).map(side).collect()
-            })
+            [u, v].map(|end| sides(&ways[end], pin).split_off(shared))
         });
+        let jaws = r.jaws.iter().enumerate();
+        let tips = jaws.map(|(n, &jaw)| sides(&ways[jaw], pins.len() + n));
         let mut count = 0;
         let unknown = (0..n).map(|l| {
             (l != r.frame && l != r.driver).then(|| {
@@ -91,6 +97,7 @@ impl Contours {
             input: structure.form.input,
             unknown: unknown.collect(),
             contours: contours.collect(),
+            tips: tips.collect(),
             tree,
         }
     }
@@ -103,8 +110,7 @@ impl Contours {
     #[must_use]
     pub fn velocities(&self, at: &[[f64; 2]]) -> Option<Vec<Velocity>> {
         let size = 2 * self.contours.len();
-        let mut matrix = Matrix::zeros(size, size);
-        let mut right = vec![0.0; size];
+        let mut system = SmallSystem::new(size, 1);
         // The sum of ω × (leaves - comes) over the one way is that over the other; a slide adds its millimetre, turned back by
         // a quarter as all are.
         for (k, ways) in self.contours.iter().enumerate() {
@@ -113,22 +119,19 @@ impl Contours {
                     let arm = sub(at[side.leaves], at[side.comes]);
                     match (self.unknown[side.link], self.input) {
                         (Some(column), _) => {
-                            matrix[(2 * k, column)] += sign * arm[0];
-                            matrix[(2 * k + 1, column)] += sign * arm[1];
+                            system.add(2 * k, column, sign * arm[0]);
+                            system.add(2 * k + 1, column, sign * arm[1]);
                         }
                         (None, Input::Turn) => {
-                            right[2 * k] -= sign * arm[0];
-                            right[2 * k + 1] -= sign * arm[1];
+                            system.add(2 * k, size, -sign * arm[0]);
+                            system.add(2 * k + 1, size, -sign * arm[1]);
                         }
-                        (None, Input::Slide) => right[2 * k + 1] += sign,
+                        (None, Input::Slide) => system.add(2 * k + 1, size, sign),
                     }
                 }
             }
         }
-        let found = solve(&matrix, &right);
-        if found.iter().any(|x| !x.is_finite()) {
-            return None;
-        }
+        system.solve()?;
         let mut out = vec![Velocity::default(); self.links];
         for s in &self.tree {
             let before = out[s.from];
@@ -139,7 +142,7 @@ impl Contours {
                     shift: [1.0, 0.0],
                 },
                 (column, _) => {
-                    let turning = column.map_or(1.0, |c| found[c]);
+                    let turning = column.map_or(1.0, |c| system.get(c, 0));
                     let slower = before.turning - turning;
                     Velocity {
                         turning,

@@ -4,7 +4,7 @@ use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{add_scaled, length, sub};
 use crate::synthesis::coordinate::{number, point, turned};
 use crate::synthesis::layout::Layout;
-use crate::synthesis::skeleton::{Point, middle};
+use crate::synthesis::point::{Point, middle};
 use crate::synthesis::structure::Structure;
 use serde::{Deserialize, Serialize};
 
@@ -82,8 +82,10 @@ impl Workload {
         };
         let mut out = Vec::new();
         if self.closing > 0.0 {
+            // In a hole the part pushes inward.
+            let holds = layout.limits.task.grip.sign() * self.closing;
             for (n, away) in structure.outward(1).into_iter().enumerate() {
-                let push = away.whole.map(|x| f64::from(x) * self.closing);
+                let push = away.whole.map(|x| f64::from(x) * holds);
                 let [x, y] = turned(push, away.thirds);
                 out.push(entry(n, [x, y, Coordinate::Integer(0)]));
             }

@@ -48,7 +48,7 @@ export function catalogueTests(test) {
       const [best, all] = (await tab.locator("#count").innerText()).match(/\d+/g).map(Number);
       assert.ok(best > 0 && 2 * best < all, `${best} of ${all}`);
       await tab.uncheck("#front");
-      await tab.selectOption("#sort", "force_mean");
+      await tab.selectOption("#sort", "force_min");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length >= 60);
     });
   });
@@ -89,15 +89,15 @@ export function catalogueTests(test) {
         assert.ok(done.anew >= 1 && done.anew <= 2 && done.made <= 2 * done.anew * STEP, JSON.stringify(done));
         await tab.fill("#find", "");
         await work(tab);
-        await tab.selectOption("#sort", "force_mean");
+        await tab.selectOption("#sort", "force_min");
         done = await work(tab);
         assert.ok(done.anew === 1 && done.made <= 2 * STEP, JSON.stringify(done));
         const forces = await tab.locator("#cards .card").evaluateAll((all) => {
-          const of = new Map(data.cards.map((c) => [c.id, c.force_mean]));
+          const of = new Map(data.cards.map((c) => [c.id, c.force_min]));
           return all.map((card) => of.get(card.dataset.id));
         });
         assert.deepEqual(forces, [...forces].sort((a, b) => b - a));
-        assert.equal(forces[0], Math.max(...(await tab.evaluate(() => data.cards.map((c) => c.force_mean)))));
+        assert.equal(forces[0], Math.max(...(await tab.evaluate(() => data.cards.map((c) => c.force_min)))));
         // By keyboard through the first cards, and on: more come before the last is reached.
         const before = await cards(tab).count();
         await cards(tab).nth(before - 1).focus();

@@ -40,7 +40,7 @@ export function multiplied(file, count) {
   data.cards = Array.from({ length: count }, (_, i) => ({
     ...own[i % own.length],
     id: `${own[i % own.length].id}-${i}`,
-    force_mean: ((i * 7919) % count) / 100,
+    force_min: ((i * 7919) % count) / 100,
   }));
   const many = file.replace(".html", `-${count}.html`);
   writeFileSync(many, html.slice(0, begin) + JSON.stringify(data).replaceAll("<", "\\u003c") + html.slice(end));

@@ -3,6 +3,8 @@
 mod carried_on;
 mod chains;
 mod command;
+mod dense_twin;
+mod determinate;
 mod find;
 mod killed;
 mod motions;
@@ -11,24 +13,22 @@ mod out_of_plane;
 mod pairs;
 mod rows;
 mod store;
+mod stroke;
+mod tasks;
 mod three_jaws;
 mod workload;
 
 use itertools::Itertools;
-use num_bigint::BigUint;
 use ozols::catalog::row::{Laid, StructureRow, row};
 use ozols::catalog::spec::Spec;
-use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
-use ozols::chains::graph6;
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
 use ozols::file::schema::{Coordinate, DriveWord};
 use ozols::geom::vector::real;
 use ozols::model::{joint_type::JointType, mechanism::Mechanism};
-use ozols::score::request::{Check, List};
 use ozols::synthesis::figures::figures;
-use ozols::synthesis::layout_quality::Limits;
+use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::{Form, Structure, structures};
 use ozols::synthesis::workload::Workload;
 use ozols::synthesis::{layout, mechanism::mechanism_file};
@@ -184,10 +184,7 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
             panic!("two tips")
         };
         assert!(a[1] < 0.0 && b[1] > 0.0, "{:?}", l.looks);
-        let (menu, workload) = (Spec::default().menu().unwrap(), Workload::default());
-        let file = mechanism_file(&s, &l, &menu, &workload);
-        let mechanism = Mechanism::from_json(&file.json().to_string()).unwrap();
-        let found = figures(&s, &l, &mechanism).unwrap();
+        let found = figures(&s, &l).unwrap();
         ways.push(found.closes);
         assert_eq!(found.closes, -rate.signum(), "{}", s.name());
     });
@@ -293,99 +290,6 @@ fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
         change_input.then(|| joint.drive = DriveWord::default());
     }
     Mechanism::from_json(&file.json().to_string()).unwrap()
-}
-
-/// Determinate variants of W = 1 with the input joint unchanged, of each chain and input joint of so many links. They do not
-/// depend on the jaws, so that the chain's first layout serves every input, those of no essential gripper among them.
-fn with_the_input_unchanged(links: usize) -> Vec<(Chain, (usize, usize), BigUint)> {
-    let mut out = Vec::new();
-    let request = Request {
-        list: List::Nothing,
-        check: Check::None,
-        ..Request::default()
-    };
-    let turning = [form(Input::Turn, Symmetry::Generic, false)];
-    for chain in chains(links, 1).unwrap() {
-        let (chain, automorphisms) = chain.canonical();
-        let subject = Subject::new(&chain, &automorphisms);
-        let first = structures(&subject, 2, &turning).swap_remove(0);
-        let l = layout::layout(&subject, &first, &Limits::default(), 1).unwrap();
-        for (frame, driver) in subject.inputs() {
-            let jaws = (0..links).filter(|l| ![frame, driver].contains(l)).take(2);
-            let mut s = first.clone();
-            (s.roles.frame, s.roles.driver, s.roles.jaws) = (frame, driver, jaws.collect());
-            let mut outcome = ozols::search(&generic(&s, &l, false), &request).unwrap();
-            let count = outcome.determinate.by_mobility.remove(&1).unwrap();
-            out.push((chain.clone(), (frame, driver), count));
-        }
-    }
-    out
-}
-
-/// The sum over all chains and input joints, each of them equal to what the twin counts.
-fn sum_as_the_twin_counts(links: usize) -> BigUint {
-    let all = with_the_input_unchanged(links);
-    for (chain, input, count) in &all {
-        let twin = BigUint::from(out_of_plane::determinate(chain, *input));
-        assert_eq!(*count, twin, "{chain:?} {input:?}");
-    }
-    all.into_iter().map(|(.., count)| count).sum()
-}
-
-/// `topology.md`: W = 1 rows with the input joint unchanged, generic places.
-#[test]
-fn determinate_variants_with_the_input_unchanged_are_as_published() {
-    assert_eq!(sum_as_the_twin_counts(6), BigUint::from(11_732u32));
-}
-
-/// `topology.md` has 12,008,197 here, 41,908 fewer. Each of the 84 inputs is counted alike by the engine and by the twin, at
-/// places of their own each; chains with the same cycle matroid have the same counts; and the inputs of one published sum each
-/// (six links, every joint free) agree to the digit. Pins at special places lose variants, so the lower figure is taken for one
-/// of places that were not generic in all 16 chains.
-///
-/// `cargo test --release --test integration of_eight_links -- --ignored`
-#[test]
-#[ignore = "84 searches twice over, two minutes without optimisation"]
-fn determinate_variants_of_eight_links_are_more_than_published() {
-    assert_eq!(sum_as_the_twin_counts(8), BigUint::from(12_050_105u32));
-}
-
-/// `topology.md`: determinate variants of Watt, Stephenson and three eight-bars, every joint free to be changed.
-#[test]
-fn determinate_variants_of_known_chains_are_as_published() {
-    let known = [
-        (6, None, 212_386u64, 5_556u64),
-        (6, None, 220_808, 6_730),
-        (8, Some("G?Bcro"), 42_701_208, 514_560),
-        (8, Some("G?`F`w"), 42_470_582, 425_244),
-        (8, Some("GCOf?{"), 39_461_211, 307_962),
-    ];
-    let turning = [form(Input::Turn, Symmetry::Generic, false)];
-    let mut found = Vec::new();
-    for links in [6, 8] {
-        let mut seen = Vec::new();
-        each(links, &turning, |subject, s| {
-            let code = graph6::write(&s.chain);
-            let asked = |k: &(usize, Option<&str>, u64, u64)| {
-                k.0 == links
-                    && k.1
-                        .is_none_or(|c| graph6::code(&graph6::read(c).unwrap()) == code)
-            };
-            if seen.contains(&code) || !known.iter().any(asked) {
-                return;
-            }
-            seen.push(code);
-            let l = layout::layout(subject, &s, &Limits::default(), 1).unwrap();
-            let outcome = ozols::search(&generic(&s, &l, true), &Request::default()).unwrap();
-            let one = outcome.determinate.by_mobility[&1].to_string();
-            found.push((links, outcome.determinate.to_string(), one));
-        });
-    }
-    let text = |k: &(usize, Option<&str>, u64, u64)| (k.0, k.2.to_string(), k.3.to_string());
-    assert_eq!(
-        found.into_iter().sorted().collect_vec(),
-        known.iter().map(text).sorted().collect_vec()
-    );
 }
 
 #[test]

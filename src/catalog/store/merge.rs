@@ -98,10 +98,19 @@ impl Store {
     }
 
     fn take_in(&self, part: &Path, version: i64) -> Stored<usize> {
-        let parts = match version {
-            OLDEST => "",
-            _ => "INSERT OR IGNORE INTO main.parts SELECT * FROM part.parts;",
-        };
+        // What each version has beside those before it.
+        let later = [
+            (
+                5,
+                "INSERT OR IGNORE INTO main.parts SELECT * FROM part.parts;",
+            ),
+            (
+                6,
+                "INSERT INTO main.strokes SELECT * FROM part.strokes WHERE structure NOT IN there;",
+            ),
+        ];
+        let later = later.iter().filter(|(since, _)| version >= *since);
+        let later: String = later.map(|(_, statement)| *statement).collect();
         let all = || -> rusqlite::Result<usize> {
             self.attach(part)?;
             // What is there already stays as it is, with no idea of another search of it.
@@ -118,7 +127,7 @@ impl Store {
                  INSERT INTO main.layouts SELECT * FROM part.layouts WHERE structure NOT IN there;
                  INSERT INTO main.counts SELECT * FROM part.counts WHERE structure NOT IN there;
                  INSERT INTO main.ideas SELECT * FROM part.ideas WHERE structure NOT IN there;
-                 {parts}
+                 {later}
                  DROP TABLE there; COMMIT; DETACH DATABASE part;"
             ))?;
             Ok(usize::try_from(added).unwrap_or(0))

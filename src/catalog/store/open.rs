@@ -109,11 +109,12 @@ impl Store {
 
     /// Notes what the catalogue is of, or sees that it is the same.
     fn be_of(&mut self, spec: &str) -> Stored<()> {
-        match self.meta("spec")? {
-            Some(there) if there != spec => Err(differs(&self.path, &there, spec)),
+        let asked = now(spec);
+        match self.meta("spec")?.map(|there| now(&there)) {
+            Some(there) if there != asked => Err(differs(&self.path, &there, &asked)),
             Some(_) => Ok(()),
             None => {
-                self.set_meta("spec", spec)?;
+                self.set_meta("spec", &asked)?;
                 self.set_meta("ozols", env!("CARGO_PKG_VERSION"))
             }
         }
@@ -188,6 +189,11 @@ fn only_questions(asked: AuthContext<'_>) -> Authorization {
         } if !TELLING.contains(&pragma_name) => Authorization::Deny,
         _ => Authorization::Allow,
     }
+}
+
+/// A specification as this version writes it: what an earlier one did not know of is as it is by default.
+fn now(spec: &str) -> String {
+    toml::from_str::<Spec>(spec).map_or_else(|_| spec.to_owned(), |s| s.canonical())
 }
 
 /// What two specifications differ in.

@@ -8,24 +8,43 @@ use rusqlite::Connection;
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables.
-pub(super) const VERSION: i64 = 5;
+pub(super) const VERSION: i64 = 6;
 /// The oldest version that can be carried on: those before lack counts that only building again gives.
 pub(super) const OLDEST: i64 = 4;
 
 /// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
 pub(crate) const TABLES: &str = include_str!("../tables.sql");
 
-/// What each version but the first has beside the one before it, as statements that make it of that one.
-const STEPS: [(i64, &str); 1] = [(
-    5,
-    "CREATE TABLE parts (               -- parts of the structures that are all there
-  part TEXT PRIMARY KEY,           -- 3/7, the third of seven; 1/1 is the whole
-  structures INTEGER NOT NULL      -- how many it has
-) WITHOUT ROWID;",
-)];
+/// What each version but the first has beside the one before it: views that go, and what is made, by the words it begins with in
+/// [`TABLES`].
+const STEPS: [(i64, &str, &[&str]); 2] = [
+    (5, "", &["CREATE TABLE parts"]),
+    (
+        6,
+        "DROP VIEW IF EXISTS front;",
+        &[
+            "CREATE TABLE strokes",
+            "CREATE VIEW grippers",
+            "CREATE VIEW front",
+        ],
+    ),
+];
+
+/// The statement of [`TABLES`] that begins so.
+fn statement(begins: &str) -> &'static str {
+    let rest = TABLES.find(begins).map_or("", |at| &TABLES[at..]);
+    // Comments have semicolons, too, but none at the end of a line.
+    rest.find(";\n").map_or(rest, |end| &rest[..=end])
+}
 
 /// Views in the place of tables that lack something, for whoever reads a version before the one named.
-const VIEWS: [(i64, &str); 7] = [
+const VIEWS: [(i64, &str); 8] = [
+    (
+        6,
+        "CREATE TEMP VIEW strokes AS SELECT NULL AS structure, NULL AS narrowest, NULL AS widest, NULL AS reached, NULL AS force_ratio, \
+         NULL AS transmission, NULL AS pin_force, NULL AS efficiency, NULL AS width, NULL AS height, NULL AS margin_closing, \
+         NULL AS margin_opening, NULL AS shortfall WHERE 0;",
+    ),
     (
         5,
         "CREATE TEMP VIEW parts AS SELECT NULL AS part, NULL AS structures WHERE 0;",
@@ -92,8 +111,9 @@ pub(super) fn make(db: &Connection) -> rusqlite::Result<()> {
 
 /// Brings tables of a version from [`OLDEST`] on up to date, in the transaction that is open.
 pub(super) fn migrate(db: &Connection, from: i64) -> rusqlite::Result<()> {
-    for (version, step) in STEPS.iter().filter(|(version, _)| *version > from) {
-        db.execute_batch(&format!("{step} PRAGMA user_version = {version};"))?;
+    for (version, gone, made) in STEPS.iter().filter(|(version, ..)| *version > from) {
+        let made: String = made.iter().map(|begins| statement(begins)).collect();
+        db.execute_batch(&format!("{gone} {made} PRAGMA user_version = {version};"))?;
     }
     Ok(())
 }
@@ -102,6 +122,10 @@ pub(super) fn migrate(db: &Connection, from: i64) -> rusqlite::Result<()> {
 pub(super) fn fill_in(db: &Connection, found: i64) -> rusqlite::Result<()> {
     for (_, view) in VIEWS.iter().filter(|(version, _)| found < *version) {
         db.execute_batch(view)?;
+    }
+    if found < 6 {
+        let view = statement("CREATE VIEW grippers").replacen("CREATE VIEW", "CREATE TEMP VIEW", 1);
+        db.execute_batch(&view)?;
     }
     Ok(())
 }
@@ -121,8 +145,11 @@ mod tests {
     fn fourth() -> Connection {
         let db = Connection::open_in_memory().unwrap();
         make(&db).unwrap();
-        db.execute_batch("DROP TABLE parts; PRAGMA user_version = 4;")
-            .unwrap();
+        db.execute_batch(
+            "DROP TABLE parts; DROP VIEW front; DROP VIEW grippers; DROP TABLE strokes; CREATE VIEW front AS SELECT 1 AS id; \
+             PRAGMA user_version = 4;",
+        )
+        .unwrap();
         db
     }
 
@@ -143,10 +170,14 @@ mod tests {
     #[test]
     fn every_column_can_be_asked_of_every_version() {
         let without = [
+            (
+                5,
+                "DROP VIEW front; DROP VIEW grippers; DROP TABLE strokes;",
+            ),
             (4, "DROP TABLE parts;"),
             (
                 3,
-                "DROP VIEW front; DROP VIEW idea_front; ALTER TABLE layouts DROP COLUMN closes; ALTER TABLE layouts DROP COLUMN orbits_w1; \
+                "DROP VIEW idea_front; ALTER TABLE layouts DROP COLUMN closes; ALTER TABLE layouts DROP COLUMN orbits_w1; \
                  ALTER TABLE counts DROP COLUMN orbits; ALTER TABLE counts DROP COLUMN symmetric;",
             ),
             (
@@ -160,7 +191,16 @@ mod tests {
         for n in 0..=without.len() {
             let db = Connection::open_in_memory().unwrap();
             make(&db).unwrap();
-            let wanted = ["structures", "layouts", "drawn", "counts", "ideas", "parts"];
+            let wanted = [
+                "structures",
+                "layouts",
+                "drawn",
+                "counts",
+                "ideas",
+                "parts",
+                "strokes",
+                "grippers",
+            ];
             let columns = |table: &str| -> std::collections::BTreeSet<String> {
                 let all = db.prepare(&format!("SELECT * FROM {table}")).unwrap();
                 all.column_names().into_iter().map(str::to_owned).collect()

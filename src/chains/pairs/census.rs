@@ -75,7 +75,7 @@ impl AddAssign for PairGrippers {
 
 /// Where the input joint is, what it is, and whether a jaw is one of its links.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Drive {
+pub struct DriveKind {
     /// Between two moving links; otherwise at the frame.
     pub between: bool,
     /// A jaw is a link of it; otherwise the jaws are apart.
@@ -96,7 +96,7 @@ pub struct PairCensus {
     /// Choices of a frame and an input joint between two other links.
     pub inputs_between: u64,
     /// Choices of jaws with them.
-    pub grippers: BTreeMap<Drive, PairGrippers>,
+    pub grippers: BTreeMap<DriveKind, PairGrippers>,
 }
 
 impl AddAssign for PairCensus {
@@ -129,7 +129,7 @@ impl PairCensus {
             out.inputs_between += u64::from(between);
             let all = grippers.then(|| subject.grippers(frame, &input));
             for roles in all.into_iter().flatten() {
-                let drive = Drive {
+                let drive = DriveKind {
                     between,
                     jaw: roles.has_driven_jaw(),
                     slides: input.pair == Pair::Slide,

@@ -23,14 +23,14 @@ pub struct Classic {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
+struct Scheme {
     about: String,
     pairs: String,
     input: String,
     jaws: String,
 }
 
-impl Entry {
+impl Scheme {
     /// The structure; nothing where the entry cannot be read.
     fn structure(&self) -> Option<PairStructure> {
         let pairs = self.pairs.split(", ").map(|p| p.split(' ').collect_tuple());
@@ -65,8 +65,8 @@ impl Entry {
 /// Never: the text is part of the program, and a test reads it.
 #[must_use]
 pub fn classics() -> Vec<Classic> {
-    let all: BTreeMap<String, Entry> = toml::from_str(TEXT).expect("a test reads it");
-    let classic = |(id, entry): (String, Entry)| Classic {
+    let all: BTreeMap<String, Scheme> = toml::from_str(TEXT).expect("a test reads it");
+    let classic = |(id, entry): (String, Scheme)| Classic {
         structure: entry.structure().expect("a test reads it"),
         about: entry.about,
         id,

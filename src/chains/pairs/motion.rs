@@ -35,7 +35,7 @@ pub enum Image {
 
 /// What a joint forbids its links: rows of (turning, velocity of the point at the origin) of one against the other.
 #[derive(Debug, Clone, Copy)]
-enum Place {
+enum PairRows {
     Hinge([Residue; 2]),
     /// The direction across it.
     Slide([Residue; 2]),
@@ -61,30 +61,30 @@ impl Draw {
             .from_i64((self.random.next_u64() >> 4).cast_signed())
     }
 
-    fn place(&mut self, pair: Pair) -> Place {
+    fn place(&mut self, pair: Pair) -> PairRows {
         match pair {
-            Pair::Hinge => Place::Hinge([self.one(), self.one()]),
-            Pair::Slide => Place::Slide([self.one(), self.one()]),
-            Pair::Gear | Pair::Slot => Place::Line([self.one(), self.one(), self.one()]),
+            Pair::Hinge => PairRows::Hinge([self.one(), self.one()]),
+            Pair::Slide => PairRows::Slide([self.one(), self.one()]),
+            Pair::Gear | Pair::Slot => PairRows::Line([self.one(), self.one(), self.one()]),
         }
     }
 
     /// Of a joint that is its own image; nothing where it cannot be. `across` chooses of two ways, where there are two.
-    fn own_image(&mut self, joint: OwnImage, image: Image, across: bool) -> Option<Place> {
+    fn own_image(&mut self, joint: OwnImage, image: Image, across: bool) -> Option<PairRows> {
         let (zero, one) = (self.field.zero(), self.field.one());
         let straight = [one, zero];
         let upright = [zero, one];
         Some(match (joint.pair, image) {
-            (Pair::Hinge, Image::Mirror) => Place::Hinge([self.one(), zero]),
-            (Pair::Hinge, Image::HalfTurn) => Place::Hinge([zero; 2]),
-            (Pair::Slide, Image::Mirror) if across => Place::Slide(straight),
-            (Pair::Slide, Image::Mirror) => Place::Slide(upright),
-            (Pair::Slide, Image::HalfTurn) => Place::Slide([self.one(), self.one()]),
-            (Pair::Slot, Image::Mirror) if across => Place::Line([self.one(), zero, one]),
-            (Pair::Slot, Image::Mirror) => Place::Line([zero, one, zero]),
-            (Pair::Slot, Image::HalfTurn) => Place::Line([zero, self.one(), self.one()]),
-            (Pair::Gear, Image::Mirror) if joint.swapped => Place::Line([zero, one, zero]),
-            (Pair::Hinge, Image::ThirdTurn) => Place::Hinge([zero; 2]),
+            (Pair::Hinge, Image::Mirror) => PairRows::Hinge([self.one(), zero]),
+            (Pair::Hinge, Image::HalfTurn) => PairRows::Hinge([zero; 2]),
+            (Pair::Slide, Image::Mirror) if across => PairRows::Slide(straight),
+            (Pair::Slide, Image::Mirror) => PairRows::Slide(upright),
+            (Pair::Slide, Image::HalfTurn) => PairRows::Slide([self.one(), self.one()]),
+            (Pair::Slot, Image::Mirror) if across => PairRows::Line([self.one(), zero, one]),
+            (Pair::Slot, Image::Mirror) => PairRows::Line([zero, one, zero]),
+            (Pair::Slot, Image::HalfTurn) => PairRows::Line([zero, self.one(), self.one()]),
+            (Pair::Gear, Image::Mirror) if joint.swapped => PairRows::Line([zero, one, zero]),
+            (Pair::Hinge, Image::ThirdTurn) => PairRows::Hinge([zero; 2]),
             (Pair::Gear, _) | (_, Image::ThirdTurn) => return None,
         })
     }
@@ -114,21 +114,21 @@ fn turned(field: Field, [x, y]: [Residue; 2], image: Image) -> [Residue; 2] {
     }
 }
 
-fn image_of(field: Field, place: Place, image: Image) -> Place {
+fn image_of(field: Field, place: PairRows, image: Image) -> PairRows {
     match place {
-        Place::Hinge(at) => Place::Hinge(turned(field, at, image)),
-        Place::Slide(across) => Place::Slide(turned(field, across, image)),
-        Place::Line([m, x, y]) => {
+        PairRows::Hinge(at) => PairRows::Hinge(turned(field, at, image)),
+        PairRows::Slide(across) => PairRows::Slide(turned(field, across, image)),
+        PairRows::Line([m, x, y]) => {
             let mirrored = image == Image::Mirror;
             let moment = if mirrored { field.neg(m) } else { m };
             let [x, y] = turned(field, [x, y], image);
-            Place::Line([moment, x, y])
+            PairRows::Line([moment, x, y])
         }
     }
 }
 
 /// The motions with link 0 at rest, joints in these places.
-fn motions(field: Field, chain: &PairChain, places: &[(Joint, Place)]) -> Vec<Vec<Velocity>> {
+fn motions(field: Field, chain: &PairChain, places: &[(Joint, PairRows)]) -> Vec<Vec<Velocity>> {
     let (zero, one) = (field.zero(), field.one());
     let mut columns = vec![Vec::with_capacity(2 * places.len()); 3 * (chain.links() - 1)];
     let mut row = |[u, v]: [usize; 2], entries: [Residue; 3]| {
@@ -147,15 +147,15 @@ fn motions(field: Field, chain: &PairChain, places: &[(Joint, Place)]) -> Vec<Ve
     };
     for (joint, place) in places {
         match *place {
-            Place::Hinge([x, y]) => {
+            PairRows::Hinge([x, y]) => {
                 row(joint.links, [field.neg(y), one, zero]);
                 row(joint.links, [x, zero, one]);
             }
-            Place::Slide([x, y]) => {
+            PairRows::Slide([x, y]) => {
                 row(joint.links, [one, zero, zero]);
                 row(joint.links, [zero, x, y]);
             }
-            Place::Line(line) => row(joint.links, line),
+            PairRows::Line(line) => row(joint.links, line),
         }
     }
     let links = |m: Vec<Residue>| {
@@ -204,9 +204,9 @@ fn symmetric_places(
     chain: &PairChain,
     symmetry: &Swap<'_>,
     across: u32,
-) -> Option<Vec<(Joint, Place)>> {
+) -> Option<Vec<(Joint, PairRows)>> {
     let joints = chain.joints();
-    let mut places: Vec<Option<Place>> = vec![None; joints.len()];
+    let mut places: Vec<Option<PairRows>> = vec![None; joints.len()];
     let mut ways = 0;
     for (i, joint) in joints.iter().enumerate() {
         if places[i].is_some() {

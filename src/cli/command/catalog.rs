@@ -6,9 +6,12 @@ mod chains;
 mod drawn;
 mod find;
 mod format;
+mod listing;
 mod look;
 mod merge;
 mod pairs;
+mod task;
+mod wanted;
 
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;

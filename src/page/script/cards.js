@@ -2,7 +2,7 @@
 const data = JSON.parse(document.getElementById('data').textContent);
 const by = (id) => document.getElementById(id);
 const STEP = 60;
-const BIGGEST_FIRST = ['force_mean', 'transmission', 'determinate_w1'];
+const BIGGEST_FIRST = ['force_min', 'transmission', 'determinate_w1'];
 
 function grouped(digits) {
   return String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ',');
@@ -32,7 +32,7 @@ function cardOf(c) {
     gripper(c, `Gripper ${c.drawn ? c.name : c.id}`),
     text('b', c.drawn ? c.name : c.id),
     text('span', `${c.links} links, ${formOf(c)}`),
-    text('span', c.drawn ? c.description : `${c.jaw_c_motion ? 'three jaws' : 'jaws'} ${jawsOf(c)}, ${short(c.force_mean)} ${unit(c)}`),
+    text('span', c.drawn ? c.description : `${c.jaw_c_motion ? 'three jaws' : 'jaws'} ${jawsOf(c)}, ${short(c.force_min)} ${unit(c)} at least`),
     text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
   );
   button.addEventListener('click', () => choose(c, button));
@@ -45,8 +45,8 @@ let shown = [], given = 0;
 // What the filters ask for, read once for all cards.
 function wanted() {
   const [links, input, symmetry, jaws] = ['links', 'input', 'symmetry', 'jaws'].map((id) => by(id).value);
-  const [cost, transmission, force] = ['cost', 'transmission', 'force'].map((id) => (by(id).value === '' ? null : Number(by(id).value)));
-  const front = by('front').checked, find = by('find').value.trim().toLowerCase();
+  const [cost, transmission, force, ratio, turn] = ['cost', 'transmission', 'force', 'ratio', 'turn'].map((id) => (by(id).value === '' ? null : Number(by(id).value)));
+  const front = by('front').checked, does = by('does').checked, find = by('find').value.trim().toLowerCase();
   return (c) =>
     (!links || String(c.links) === links) &&
     (!input || c.input === input) &&
@@ -54,7 +54,10 @@ function wanted() {
     (!jaws || (!c.drawn && motions(c).every((m) => m === jaws))) &&
     (cost === null || (c.best_cost !== null && c.best_cost <= cost)) &&
     (transmission === null || c.transmission >= transmission) &&
-    (force === null || c.force_mean >= force) &&
+    (force === null || c.force_min >= force) &&
+    (ratio === null || (!c.drawn && c.force_max <= ratio * c.force_min)) &&
+    (turn === null || (!c.drawn && c.jaw_turn <= turn)) &&
+    (!does || (c.reached === 1 && !c.shortfall)) &&
     (!front || c.front === 1) &&
     (!find || c.name.toLowerCase().includes(find) || c.id.includes(find));
 }

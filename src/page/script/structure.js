@@ -24,8 +24,13 @@ function choose(c, from) {
     ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}`],
     ['Jaws', `${jawsOf(c)}; they turn by ${short(c.jaw_turn)}° at most`],
     ['Opening', `${short(c.opening_min)} to ${short(c.opening_max)} mm for ${short(c.travel)} ${drive} of the drive${ends.length ? ' (' + ends.join(', ') + ')' : ''}`],
-    ['Force of a jaw', `${short(c.force_mean)} ${unit(c)}, ${short(c.force_min)} to ${short(c.force_max)} over the stroke, without friction`],
+    ['Force of a jaw', `${short(c.force_min)} ${unit(c)} at least, ${short(c.force_max)} at most over the stroke, without friction`],
     ['Transmission', `worst angle ${short(c.transmission)}°, links 1 : ${short(c.link_ratio)}, ${c.crossings} crossings`],
+    ...(c.pin_force ? [
+      ['Task', c.shortfall || 'does all of it'],
+      ['Joints', `${short(c.pin_force)} N at most for 1 N of each jaw; efficiency from ${short(c.efficiency)}`],
+      ['Room', `${short(c.width)} by ${short(c.height)} mm over the stroke`],
+    ] : []),
   ];
   rows.push(
     ['As built', `W = ${c.mobility}, σ = ${c.redundant}; finite mobility ${c.finite}`],

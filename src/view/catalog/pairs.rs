@@ -1,6 +1,6 @@
 //! Counts of chains of pairs and of their grippers for people, and as data.
 
-use crate::chains::pairs::census::{Drive, Kinds, PairCensus, PairGrippers};
+use crate::chains::pairs::census::{DriveKind, Kinds, PairCensus, PairGrippers};
 use crate::chains::pairs::symmetric_census::SymmetricKind;
 use crate::format::number::grouped;
 use crate::view::terminal::layout::{fit, table};
@@ -48,13 +48,13 @@ fn word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
 #[must_use]
 pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, PairCensus>) -> Vec<PairCountsData> {
     let drives = PLACES.into_iter().cartesian_product([false, true]);
-    let drives = drives.map(|((between, jaw), slides)| Drive {
+    let drives = drives.map(|((between, jaw), slides)| DriveKind {
         between,
         jaw,
         slides,
     });
     let drives = drives.collect_vec();
-    let row = |kinds: &Kinds, c: &PairCensus, drive: Drive| {
+    let row = |kinds: &Kinds, c: &PairCensus, drive: DriveKind| {
         let g = c.grippers.get(&drive).copied().unwrap_or_default();
         PairCountsData {
             links,
@@ -128,7 +128,7 @@ type Figure = (&'static str, fn(&PairGrippers) -> u64);
 fn grippers(sum: &PairCensus, width: Option<u16>) -> String {
     let columns = PLACES.map(|(between, jaw)| {
         let mut of = PairGrippers::default();
-        let own = |d: &&Drive| (d.between, d.jaw) == (between, jaw);
+        let own = |d: &&DriveKind| (d.between, d.jaw) == (between, jaw);
         let drives = sum.grippers.keys().filter(own);
         drives.for_each(|d| of += sum.grippers[d]);
         of

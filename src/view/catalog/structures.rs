@@ -93,6 +93,8 @@ pub struct StructureData {
     pub structure: Map<String, Value>,
     /// The row of `layouts`; `None` where it has no layout.
     pub layout: Option<Map<String, Value>>,
+    /// The row of `strokes`; `None` where its layout was made for no task.
+    pub stroke: Option<Map<String, Value>>,
     /// The rows of `counts`.
     pub counts: Vec<Map<String, Value>>,
     /// The rows of `ideas`.
@@ -115,6 +117,7 @@ impl StructureData {
         Ok(StructureData {
             structure: structure.pop().unwrap_or_default(),
             layout: maps("SELECT * FROM layouts WHERE structure = ?1")?.pop(),
+            stroke: maps("SELECT * FROM strokes WHERE structure = ?1")?.pop(),
             counts: maps("SELECT * FROM counts WHERE structure = ?1 ORDER BY mobility, changes")?,
             ideas: maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?,
         })
@@ -146,6 +149,33 @@ fn drawn_text(row: &Map<String, Value>) -> String {
         s("certainty"),
         s("determinate"),
         s("admissible"),
+    )
+}
+
+/// What a layout does of its task; nothing of one that was made for none.
+fn stroke_text(d: &StructureData) -> String {
+    let Some(stroke) = &d.stroke else {
+        return String::new();
+    };
+    let k = of(stroke);
+    let does = match stroke.get("shortfall").and_then(Value::as_str) {
+        None => "does all of it".to_owned(),
+        Some(why) => plain(why).into_owned(),
+    };
+    format!(
+        "Task: parts of {} to {} mm; {does}\n\
+         Over the stroke: forces 1 : {}, worst transmission angle {}°, at most {} N in a joint for 1 N of each jaw, efficiency from {}, \
+         a box of {} by {} mm; {} and {} mm more to the ends of the motion\n",
+        k("narrowest"),
+        k("widest"),
+        k("force_ratio"),
+        k("transmission"),
+        k("pin_force"),
+        k("efficiency"),
+        k("width"),
+        k("height"),
+        k("margin_closing"),
+        k("margin_opening"),
     )
 }
 
@@ -219,9 +249,10 @@ fn structure_text(d: &StructureData) -> String {
         l("force_min"),
         l("force_max"),
     );
+    out += &stroke_text(d);
     let _ = writeln!(
         out,
-        "Looks: links 1 : {}, worst transmission angle {}°, {} crossings",
+        "Drawn: links 1 : {}, worst transmission angle {}°, {} crossings",
         l("link_ratio"),
         l("transmission"),
         l("crossings"),
@@ -307,9 +338,10 @@ pub fn built_text(
 ) -> Result<String, StoreError> {
     let (names, rows) = store.query(
         "SELECT links, input, symmetry || iif(parallel, ' parallel', '') AS layout, count(*) AS structures, \
-         sum(no_layout IS NULL) AS 'laid out', sum(determinate_w1) AS 'determinate, W = 1', min(best_cost) AS 'least cost' \
-         FROM structures LEFT JOIN layouts ON structure = id GROUP BY 1, 2, 3 \
-         UNION ALL SELECT links, input, 'drawn', count(*), NULL, sum(admissible), min(best_cost) FROM drawn GROUP BY 1, 2 \
+         sum(no_layout IS NULL) AS 'laid out', sum(reached AND shortfall IS NULL) AS 'do the task', \
+         sum(determinate_w1) AS 'determinate, W = 1', min(best_cost) AS 'least cost' \
+         FROM structures s LEFT JOIN layouts l ON l.structure = id LEFT JOIN strokes k ON k.structure = id GROUP BY 1, 2, 3 \
+         UNION ALL SELECT links, input, 'drawn', count(*), NULL, NULL, sum(admissible), min(best_cost) FROM drawn GROUP BY 1, 2 \
          ORDER BY 1, 2, 3",
         None,
     )?;

@@ -29,6 +29,7 @@ pub(super) fn whole(file: &str) -> String {
     [
         "structures ORDER BY id",
         "layouts ORDER BY structure",
+        "strokes ORDER BY structure",
         "drawn ORDER BY id",
         "counts ORDER BY structure, mobility, changes",
         "ideas ORDER BY structure, place",

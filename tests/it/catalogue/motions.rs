@@ -1,14 +1,11 @@
 //! Figures of a layout's motion against places solved afresh: transmission angles, forces, travel.
 
-use super::{each, form, moved, moved_points, plain};
+use super::{each, form, moved, moved_points};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
-use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::figures::{LayoutFigures, figures};
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::layout_quality::Limits;
-use ozols::synthesis::mechanism::mechanism_file;
+use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::Structure;
-use ozols::synthesis::workload::Workload;
 
 fn step(s: &Structure) -> f64 {
     match s.form.input {
@@ -89,10 +86,7 @@ fn forces_are_the_drives_way_over_the_jaws() {
             return;
         }
         let l = layout(subject, &s, &Limits::default(), 1).unwrap();
-        let menu = plain(1).menu().unwrap();
-        let file = mechanism_file(&s, &l, &menu, &Workload::default());
-        let m = Mechanism::from_json(&file.json().to_string()).unwrap();
-        let found = figures(&s, &l, &m).unwrap();
+        let found = figures(&s, &l).unwrap();
         let h = step(&s);
         let gap = |drive| {
             let tips = moved(&s, &l, drive);

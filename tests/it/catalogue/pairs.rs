@@ -8,7 +8,7 @@ mod command;
 use itertools::Itertools;
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
-use ozols::chains::pairs::census::{Drive, Kinds, PairCensus, pair_census};
+use ozols::chains::pairs::census::{DriveKind, Kinds, PairCensus, pair_census};
 use ozols::chains::pairs::kind::Pair;
 use ozols::chains::pairs::sharing::Menu;
 use ozols::chains::pairs::symmetric_census::{SymmetricKind, symmetric_census};
@@ -72,7 +72,7 @@ fn row(c: &PairCensus) -> Vec<u64> {
     let mut out = vec![c.chains, c.frames, c.inputs_at_frame, c.inputs_between];
     let places = [false, true].into_iter().cartesian_product([false, true]);
     for ((between, jaw), slides) in places.cartesian_product([false, true]) {
-        let drive = Drive {
+        let drive = DriveKind {
             between,
             jaw,
             slides,

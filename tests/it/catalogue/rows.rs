@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use tempfile::{TempDir, tempdir};
 
 /// All structures of four and six links, made once for the tests that look at them.
-fn all_of_six() -> &'static str {
+pub(super) fn all_of_six() -> &'static str {
     static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
     let (_, file) = FILE.get_or_init(|| {
         let folder = tempdir().unwrap();
@@ -100,8 +100,9 @@ fn the_fronts_are_what_no_other_beats() {
         csv.lines().skip(1).map(row).collect()
     };
     let structures = rows(
-        "SELECT id, input, links, best_cost, -force_mean, -transmission, jaw_turn FROM structures JOIN layouts \
-         ON structure = id WHERE best_cost IS NOT NULL ORDER BY id",
+        "SELECT s.id, input, links, best_cost, -force_min, pin_force, jaw_turn, width * height FROM structures s \
+         JOIN layouts l ON l.structure = s.id JOIN strokes k ON k.structure = s.id \
+         WHERE best_cost IS NOT NULL AND reached = 1 AND shortfall IS NULL ORDER BY s.id",
     );
     let front = rows("SELECT id, input FROM front ORDER BY id");
     let front: Vec<&str> = front.iter().map(|(id, ..)| id.as_str()).collect();

@@ -22,10 +22,17 @@ fn change(file: &str, sql: &str) {
     Connection::open(file).unwrap().execute_batch(sql).unwrap();
 }
 
+/// What version 6 has beside the fifth, taken away.
+const FIFTH: &str = "DROP VIEW front; DROP VIEW grippers; DROP TABLE strokes; CREATE VIEW front AS SELECT id FROM structures; \
+     PRAGMA user_version = 5; UPDATE meta SET value = substr(value, 1, instr(value, char(10) || '[task]')) WHERE key = 'spec';";
+
 /// A catalogue as version 4 made it, and what it holds.
 fn fourth(folder: &TempDir, name: &str) -> (String, String) {
     let file = tiny(folder, name, &[]);
-    change(&file, "DROP TABLE parts; PRAGMA user_version = 4;");
+    change(
+        &file,
+        &format!("{FIFTH} DROP TABLE parts; PRAGMA user_version = 4;"),
+    );
     let held = whole(&file);
     (file, held)
 }
@@ -49,9 +56,55 @@ fn an_older_catalogue_is_read_as_it_is_and_carried_on() {
     assert_eq!(whole(&merged), held);
     // Carried on, it is as if made now.
     tiny(&folder, "fourth.db", &[]);
-    assert_eq!(version(), "user_version\n5\n");
+    assert_eq!(version(), "user_version\n6\n");
     assert_eq!(whole(&file), held);
     ok(&["catalog", "merge", &file, "-o", &merged]);
+}
+
+/// The fifth knew of no task: its layouts are shown without one, stand in no front, and new ones beside them do.
+#[test]
+fn layouts_made_for_no_task_stay_as_they_are() {
+    let folder = tempdir().unwrap();
+    let file = tiny(&folder, "fifth.db", &["--input", "slide"]);
+    change(&file, FIFTH);
+    let count = |table: &str| {
+        let sql = format!("SELECT count(*) AS n FROM {table}");
+        let csv = ok(&["catalog", "query", &file, &sql, "--format", "csv"]);
+        csv.lines().nth(1).unwrap().parse::<u32>().unwrap()
+    };
+    assert_eq!((count("strokes"), count("grippers")), (0, 1));
+    assert!(ok(&["catalog", "query", &file]).contains("slide"));
+    let o = run(&["catalog", "query", &file, "--does-task"]);
+    assert_eq!(o.status.code(), Some(1), "{}", text(&o.stderr));
+    let id = ok(&[
+        "catalog",
+        "query",
+        &file,
+        "SELECT id FROM structures",
+        "--format",
+        "csv",
+    ]);
+    let id = id.lines().nth(1).unwrap();
+    let shown = ok(&["catalog", "show", &file, id]);
+    assert!(
+        shown.contains("Jaws: ") && !shown.contains("Task: "),
+        "{shown}"
+    );
+    // The same command carries on, though its specification says more now, and takes away nothing.
+    tiny(&folder, "fifth.db", &["--input", "slide"]);
+    assert_eq!(
+        (count("strokes"), count("grippers"), count("front")),
+        (0, 1, 0)
+    );
+    change(
+        &file,
+        "DELETE FROM layouts; DELETE FROM counts; DELETE FROM ideas; DELETE FROM structures;",
+    );
+    tiny(&folder, "fifth.db", &["--input", "slide"]);
+    assert_eq!(
+        (count("strokes"), count("grippers"), count("front")),
+        (1, 1, 1)
+    );
 }
 
 /// The third version lacked what only building again gives.
@@ -68,6 +121,7 @@ fn an_early_catalogue_is_read_but_not_added_to() {
         "csv",
     ]);
     let id = id.lines().nth(1).unwrap();
+    change(&file, FIFTH);
     change(
         &file,
         "DROP TABLE parts; PRAGMA user_version = 3; ALTER TABLE counts DROP COLUMN orbits; ALTER TABLE counts DROP COLUMN symmetric;

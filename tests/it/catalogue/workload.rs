@@ -9,7 +9,7 @@ use ozols::file::write;
 use ozols::geom::vector::real;
 use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::layout::layout;
-use ozols::synthesis::layout_quality::Limits;
+use ozols::synthesis::limits::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::workload::Workload;
 use tempfile::tempdir;

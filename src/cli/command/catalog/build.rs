@@ -1,6 +1,7 @@
 //! `ozols catalog build`.
 
 use super::built::built;
+use super::task::TaskArgs;
 use crate::catalog::build::{build, work};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
@@ -52,6 +53,8 @@ pub(in crate::cli) struct Build {
     /// Crossings of links at most; 6 by default.
     #[arg(long, value_name = "N")]
     crossings: Option<usize>,
+    #[command(flatten)]
+    task: TaskArgs,
     /// A file that says all this, in TOML; what is given beside it counts more.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     spec: Option<PathBuf>,
@@ -98,6 +101,7 @@ impl Build {
         spec.ratio = self.ratio.unwrap_or(spec.ratio);
         spec.transmission = self.transmission.unwrap_or(spec.transmission);
         spec.crossings = self.crossings.unwrap_or(spec.crossings);
+        self.task.put(&mut spec.task);
         if seed != 1 {
             spec.seed = seed;
         }

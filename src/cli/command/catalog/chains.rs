@@ -1,6 +1,6 @@
 //! `ozols catalog count` and `chains`.
 
-use super::format::CatalogFormat;
+use super::listing::Listing;
 use super::pairs::PairArgs;
 use crate::catalog::spec::range;
 use crate::chains::census::census;
@@ -9,55 +9,11 @@ use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
-use crate::format::csv::records;
 use crate::view::catalog::chains::{CensusData, ChainData, census_text, chains_text};
 use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueHint};
+use clap::Args as ClapArgs;
 use rayon::prelude::*;
-use serde::Serialize;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
-
-#[derive(Debug, ClapArgs)]
-pub(super) struct Common {
-    /// Mobility of the chains, all of whose joints have one freedom.
-    #[arg(long, value_name = "W", default_value_t = 1)]
-    mobility: usize,
-    /// Output format.
-    #[arg(long, value_enum, default_value = "text")]
-    format: CatalogFormat,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: Option<PathBuf>,
-}
-
-impl Common {
-    /// Refuses chains of several motions where `option` is about those of one.
-    pub(super) fn is_of_one_motion(&self, option: &str) -> anyhow::Result<()> {
-        ensure!(
-            self.mobility == 1,
-            "{option} counts chains of one motion: leave --mobility out"
-        );
-        Ok(())
-    }
-
-    /// Writes what was found, one row each, or as `text` for a terminal of some width.
-    pub(super) fn give<T: Serialize>(
-        &self,
-        all: &[T],
-        text: impl Fn(&[T], Option<u16>) -> String,
-    ) -> anyhow::Result<Done> {
-        let path = self.output.as_deref();
-        output::to(path, |out| {
-            match self.format {
-                CatalogFormat::Text => write!(out, "{}", text(all, output::width(path)))?,
-                CatalogFormat::Json => output::json(out, &all)?,
-                CatalogFormat::Csv => write!(out, "{}", records(all))?,
-            }
-            Ok(Done::Found)
-        })
-    }
-}
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Count {
@@ -70,7 +26,7 @@ pub(in crate::cli) struct Count {
     #[command(flatten)]
     pairs: PairArgs,
     #[command(flatten)]
-    common: Common,
+    listing: Listing,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -79,7 +35,7 @@ pub(in crate::cli) struct Chains {
     #[arg(long, value_name = "N", default_value_t = 8)]
     links: usize,
     #[command(flatten)]
-    common: Common,
+    listing: Listing,
 }
 
 /// Beyond so many links grippers are not counted: there are tens of millions.
@@ -100,11 +56,11 @@ fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
 }
 
 pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
-    let w = a.common.mobility;
+    let w = a.listing.mobility;
     ensure!((1..=6).contains(&w), "--mobility must be 1 to 6");
     let mut bar = Bar::new(args.quiet);
     if a.pairs.are_given() {
-        return a.pairs.count(&a.links, a.chains, &a.common, &mut bar);
+        return a.pairs.count(&a.links, a.chains, &a.listing, &mut bar);
     }
     ensure!(
         *a.links.start() > 3,
@@ -132,7 +88,7 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
         ));
         return Ok(Done::Nothing);
     }
-    a.common.give(&all, census_text)
+    a.listing.give(&all, census_text)
 }
 
 pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {
@@ -141,7 +97,7 @@ pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {
         "chains of up to {MOST_LISTED} links are listed; `ozols catalog count --links {}` counts those",
         a.links
     );
-    let found = chains(a.links, a.common.mobility)?;
+    let found = chains(a.links, a.listing.mobility)?;
     let all: Vec<ChainData> = found.par_iter().map(ChainData::new).collect();
-    a.common.give(&all, chains_text)
+    a.listing.give(&all, chains_text)
 }

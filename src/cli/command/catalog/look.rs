@@ -1,6 +1,7 @@
 //! `ozols catalog query`, `show`, `export` and `page`.
 
 use super::format::CatalogFormat;
+use super::wanted::WantedGrippers;
 use crate::api::Scheme;
 use crate::catalog::store::Store;
 use crate::cli::done::Done;
@@ -17,8 +18,8 @@ use clap::{Args as ClapArgs, ValueHint};
 use std::path::{Path, PathBuf};
 
 /// What is shown where no question is asked: the best of each kind first.
-const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaw_a_motion AS jaws, force_mean AS force, \
-     determinate_w1 AS determinate, best_cost AS cost, round(transmission) AS transmission FROM structures JOIN layouts ON structure = id \
+const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaws, least_force AS force, \
+     redesigns AS determinate, cost, round(transmission) AS transmission FROM grippers \
      UNION ALL SELECT id, links, input, name || iif(mode = 'planar', ' (planar)', ''), NULL, NULL, NULL, admissible, best_cost, NULL FROM drawn) \
      ORDER BY links, layout = 'generic', parallel = 0, cost, transmission DESC, id LIMIT 25";
 
@@ -29,7 +30,10 @@ pub(in crate::cli) struct Query {
     file: PathBuf,
     /// A question in SQL; the best structures where left out. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
     /// tables with all columns explained.
+    #[arg(conflicts_with_all = ["WantedGrippers"])]
     sql: Option<String>,
+    #[command(flatten)]
+    wanted: WantedGrippers,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: CatalogFormat,
@@ -60,7 +64,9 @@ fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
 
 pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
-    let (names, rows) = store.query(a.sql.as_deref().unwrap_or(BEST), None)?;
+    let wanted = a.wanted.question();
+    let asked = a.sql.as_deref().or(wanted.as_deref());
+    let (names, rows) = store.query(asked.unwrap_or(BEST), None)?;
     let answer = QueryAnswer { names, rows };
     let path = a.output.as_deref();
     output::to(path, |out| {

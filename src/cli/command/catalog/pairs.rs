@@ -12,7 +12,7 @@ use clap::Args as ClapArgs;
 use itertools::Itertools;
 use std::ops::RangeInclusive;
 
-use super::chains::Common;
+use super::listing::Listing;
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct PairArgs {
@@ -50,10 +50,10 @@ impl PairArgs {
         &self,
         links: &RangeInclusive<usize>,
         chains_alone: bool,
-        common: &Common,
+        listing: &Listing,
         bar: &mut Bar,
     ) -> anyhow::Result<Done> {
-        common.is_of_one_motion("--pairs")?;
+        listing.is_of_one_motion("--pairs")?;
         ensure!(
             *links.end() <= MOST_LINKS,
             "chains of pairs are counted up to {MOST_LINKS} links: there are too many beyond"
@@ -72,7 +72,7 @@ impl PairArgs {
                 all.extend(symmetric_rows(n, self.at_most, &symmetric_census(n, menu)));
             }
             bar.clear();
-            return common.give(&all, symmetric_text);
+            return listing.give(&all, symmetric_text);
         }
         let mut all = Vec::new();
         for (i, n) in numbers {
@@ -81,6 +81,6 @@ impl PairArgs {
         }
         bar.clear();
         let rows = all.iter().flat_map(|(n, cells)| pair_rows(*n, cells));
-        common.give(&rows.collect_vec(), |_, width| pair_text(&all, width))
+        listing.give(&rows.collect_vec(), |_, width| pair_text(&all, width))
     }
 }

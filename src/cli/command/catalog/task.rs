@@ -1,0 +1,73 @@
+//! The task of a catalogue as options: part widths, grip, motion, force and room.
+
+use crate::synthesis::task::{AskedMotion, HeldFrom, Task};
+use clap::Args as ClapArgs;
+
+#[derive(Debug, ClapArgs)]
+#[command(next_help_heading = "Task")]
+pub(super) struct TaskArgs {
+    /// Widths of the parts to be held, in mm, from the narrowest to the widest; 0..50 by default.
+    #[arg(long, value_name = "A..B", value_parser = widths)]
+    widths: Option<[f64; 2]>,
+    /// Whether parts are held from outside, or from inside a hole of them; outside by default.
+    #[arg(long, value_name = "SIDE", value_parser = side)]
+    grip: Option<HeldFrom>,
+    /// How the jaws are to move: any, parallel or swinging; any by default.
+    #[arg(long, value_name = "MOTION", value_parser = motion)]
+    motion: Option<AskedMotion>,
+    /// The greatest force of a jaw over the least, over the stroke, at most; 3 by default.
+    #[arg(long, value_name = "X")]
+    force_ratio: Option<f64>,
+    /// Width and height of the box round pins and tips over the stroke at most, in mm; any by default.
+    #[arg(long, value_name = "WxH", value_parser = room)]
+    room: Option<[f64; 2]>,
+}
+
+impl TaskArgs {
+    /// Puts what is given in the place of what is there.
+    pub(super) fn put(&self, task: &mut Task) {
+        if let Some([from, to]) = self.widths {
+            (task.narrowest, task.widest) = (from, to);
+        }
+        task.grip = self.grip.unwrap_or(task.grip);
+        task.motion = self.motion.unwrap_or(task.motion);
+        task.force_ratio = self.force_ratio.unwrap_or(task.force_ratio);
+        task.room = self.room.unwrap_or(task.room);
+    }
+}
+
+/// Two numbers with a sign between them.
+fn two(text: &str, between: &str, such: &str) -> Result<[f64; 2], String> {
+    let number = |t: &str| t.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    let both = text
+        .split_once(between)
+        .map(|(a, b)| (number(a), number(b)));
+    match both {
+        Some((Some(a), Some(b))) => Ok([a, b]),
+        _ => Err(format!("write two numbers in mm, such as {such}")),
+    }
+}
+
+fn widths(text: &str) -> Result<[f64; 2], String> {
+    two(text, "..", "0..50")
+}
+
+fn room(text: &str) -> Result<[f64; 2], String> {
+    two(text, "x", "180x120")
+}
+
+fn word<T: Copy>(text: &str, all: &[(T, &'static str)]) -> Result<T, String> {
+    let found = all.iter().find(|(_, word)| *word == text);
+    let known: Vec<&str> = all.iter().map(|(_, word)| *word).collect();
+    found
+        .map(|(t, _)| *t)
+        .ok_or_else(|| format!("none of {}", known.join(", ")))
+}
+
+fn side(text: &str) -> Result<HeldFrom, String> {
+    word(text, &HeldFrom::ALL)
+}
+
+fn motion(text: &str) -> Result<AskedMotion, String> {
+    word(text, &AskedMotion::ALL)
+}

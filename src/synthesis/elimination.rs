@@ -1,0 +1,106 @@
+//! Small systems of equations solved in place, without a new matrix for each.
+
+/// SmallSystem of a square matrix and, beside it, of right sides.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SmallSystem {
+    size: usize,
+    width: usize,
+    entries: Vec<f64>,
+}
+
+impl SmallSystem {
+    /// All zero: `size` unknown, and so many right sides.
+    pub(super) fn new(size: usize, sides: usize) -> SmallSystem {
+        let width = size + sides;
+        SmallSystem {
+            size,
+            width,
+            entries: vec![0.0; size * width],
+        }
+    }
+
+    /// Makes all zero.
+    pub(super) fn clear(&mut self) {
+        self.entries.fill(0.0);
+    }
+
+    /// Adds to an entry; right sides are the columns after the unknown.
+    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.entries[row * self.width + column] += value;
+    }
+
+    /// The value of an unknown for a right side, once solved; before that what is in that row of the side.
+    pub(super) fn get(&self, unknown: usize, side: usize) -> f64 {
+        self.entries[unknown * self.width + self.size + side]
+    }
+
+    /// Solves for all right sides, by elimination with the largest of each column as pivot; the sign of the determinant, or
+    /// `None` where a pivot is nothing beside the largest entry.
+    ///
+    /// # Complexity
+    /// O(n³) for n unknown.
+    pub(super) fn solve(&mut self) -> Option<f64> {
+        let (n, w) = (self.size, self.width);
+        let largest = |m: f64, x: &f64| m.max(x.abs());
+        let most = self.entries.iter().fold(0.0, largest);
+        let mut sign = 1.0;
+        for c in 0..n {
+            let size = |r: &usize| self.entries[r * w + c].abs();
+            let pivot = (c..n).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+            if size(&pivot) <= 1e-12 * most || !size(&pivot).is_finite() {
+                return None;
+            }
+            if pivot != c {
+                sign = -sign;
+                for k in c..w {
+                    self.entries.swap(pivot * w + k, c * w + k);
+                }
+            }
+            let (above, below) = self.entries.split_at_mut((c + 1) * w);
+            let own = &above[c * w..];
+            sign *= own[c].signum();
+            for row in below.chunks_exact_mut(w) {
+                let factor = row[c] / own[c];
+                if factor != 0.0 {
+                    for (x, o) in row[c + 1..].iter_mut().zip(&own[c + 1..]) {
+                        *x -= factor * o;
+                    }
+                }
+            }
+        }
+        for c in (0..n).rev() {
+            let (above, own) = self.entries.split_at_mut(c * w);
+            for side in n..w {
+                own[side] /= own[c];
+            }
+            for row in above.chunks_exact_mut(w) {
+                for side in n..w {
+                    row[side] -= row[c] * own[side];
+                }
+            }
+        }
+        Some(sign)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SmallSystem;
+
+    /// 2x + y = 3 and 5, 4x - y = 9 and 1: by hand (2, -1) and (1, 3); the determinant is -6.
+    #[test]
+    fn both_sides_are_solved_and_the_sign_told() {
+        let mut rows = SmallSystem::new(2, 2);
+        let all = [[2.0, 1.0, 3.0, 5.0], [4.0, -1.0, 9.0, 1.0]];
+        for (r, row) in all.iter().enumerate() {
+            for (c, x) in row.iter().enumerate() {
+                rows.add(r, c, *x);
+            }
+        }
+        assert_eq!(rows.solve(), Some(-1.0));
+        let found = [0, 1].map(|side| [0, 1].map(|x| rows.get(x, side)));
+        assert_eq!(found, [[2.0, -1.0], [1.0, 3.0]]);
+        rows.clear();
+        assert_eq!(rows.solve(), None);
+    }
+}

@@ -1,0 +1,144 @@
+//! The closure of a structure's contours when its links have turned, and how far apart its tips are then.
+//!
+//! Unknown are how far each link but the frame has turned since it was drawn, and how far the drive has gone. A contour is a sum
+//! of sides, vectors between two points of a link that turn with it; what the sides of a tip's way add up to is where it has gone.
+
+use crate::chains::layout_symmetry::Input;
+use crate::geom::vector::{dot, quarter, sub};
+use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::point::Point;
+use crate::synthesis::velocities::{Contours, Side};
+
+/// What a side follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum SumMover {
+    /// The turn that is this unknown.
+    Turn(usize),
+    /// The slide.
+    Slide,
+}
+
+/// A side of a sum: from one point to another.
+#[derive(Debug, Clone, Copy)]
+struct SumSide {
+    /// The contour, or the jaw.
+    sum: usize,
+    sign: f64,
+    from: usize,
+    to: usize,
+    follows: SumMover,
+}
+
+/// The sums of a structure, whatever its places.
+#[derive(Debug, Clone)]
+pub struct Closure {
+    /// How many are unknown; the drive is the last.
+    pub(super) size: usize,
+    contours: Vec<SumSide>,
+    tips: Vec<SumSide>,
+    /// Away from the part, over the number of pairs of jaws: by this the tips' ways add up to the opening.
+    outward: Vec<Point>,
+}
+
+/// Places put into the sums: the sides as vectors.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Arms {
+    contours: Vec<Point>,
+    tips: Vec<Point>,
+    /// Cosine and sine of each unknown.
+    turns: Vec<[f64; 2]>,
+}
+
+impl Closure {
+    /// Of contours, tips closing these ways.
+    #[must_use]
+    pub fn new(contours: &Contours, inward: &[Point]) -> Closure {
+        let drive = contours.unknown.iter().flatten().count();
+        let side = |sum: usize, sign: f64, s: &Side| SumSide {
+            sum,
+            sign,
+            from: s.comes,
+            to: s.leaves,
+            follows: match contours.unknown[s.link] {
+                Some(unknown) => SumMover::Turn(unknown),
+                None if contours.input == Input::Turn => SumMover::Turn(drive),
+                None => SumMover::Slide,
+            },
+        };
+        let both = contours.contours.iter().enumerate();
+        let both = both.flat_map(|(k, [plus, minus])| {
+            let plus = plus.iter().map(move |s| side(k, 1.0, s));
+            plus.chain(minus.iter().map(move |s| side(k, -1.0, s)))
+        });
+        let tips = contours.tips.iter().enumerate();
+        let tips = tips.flat_map(|(n, way)| way.iter().map(move |s| side(n, 1.0, s)));
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let pairs = inward.len() as f64 / 2.0;
+        Closure {
+            size: drive + 1,
+            contours: both.collect(),
+            tips: tips.collect(),
+            outward: inward.iter().map(|i| i.map(|x| -x / pairs)).collect(),
+        }
+    }
+
+    /// Puts places in.
+    pub(super) fn place(&self, at: &[Point], arms: &mut Arms) {
+        let vector = |s: &SumSide| sub(at[s.to], at[s.from]);
+        arms.contours.clear();
+        arms.contours.extend(self.contours.iter().map(vector));
+        arms.tips.clear();
+        arms.tips.extend(self.tips.iter().map(vector));
+        arms.turns.resize(self.size, [1.0, 0.0]);
+    }
+
+    /// By how much the sums miss when the unknown are `x` and the tips are to be so much farther apart than drawn, with the
+    /// rates of that; beside it what makes the rates by the width. The largest miss, in millimetres.
+    ///
+    /// # Complexity
+    /// A step a side.
+    pub(super) fn fill(
+        &self,
+        arms: &mut Arms,
+        x: &[f64],
+        wider: f64,
+        rows: &mut SmallSystem,
+    ) -> f64 {
+        let (last, slid) = (self.size - 1, x[self.size - 1]);
+        for (turn, angle) in arms.turns.iter_mut().zip(x) {
+            let (sine, cosine) = angle.sin_cos();
+            *turn = [cosine, sine];
+        }
+        // A side as it has turned, and by how much it differs from what was drawn.
+        let moved = |s: &SumSide, [a, b]: Point| match s.follows {
+            SumMover::Slide => ([slid, 0.0], None),
+            SumMover::Turn(unknown) => {
+                let [c, s] = arms.turns[unknown];
+                let now = [c * a - s * b, s * a + c * b];
+                (sub(now, [a, b]), Some((unknown, quarter(now))))
+            }
+        };
+        rows.clear();
+        let (right, width) = (self.size, self.size + 1);
+        for (s, &arm) in self.contours.iter().zip(&arms.contours) {
+            let (by, rate) = moved(s, arm);
+            let (column, rate) = rate.unwrap_or((last, [1.0, 0.0]));
+            for k in 0..2 {
+                rows.add(2 * s.sum + k, column, s.sign * rate[k]);
+                rows.add(2 * s.sum + k, right, s.sign * by[k]);
+            }
+        }
+        let mut open = -wider;
+        for (s, &arm) in self.tips.iter().zip(&arms.tips) {
+            let (by, rate) = moved(s, arm);
+            let (column, rate) = rate.unwrap_or((last, [1.0, 0.0]));
+            let outward = self.outward[s.sum];
+            rows.add(last, column, dot(rate, outward));
+            open += dot(by, outward);
+        }
+        rows.add(last, right, open);
+        rows.add(last, width, 1.0);
+        let all = (0..self.size).map(|row| rows.get(row, 0).abs());
+        all.fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,125 @@
+//! What a stroke does not do of what the task asks: the worst of it, in words.
+
+use super::judge::StrokeFigures;
+use super::walk::StrokeEnd;
+use crate::synthesis::skeleton::Skeleton;
+use crate::synthesis::task::{AskedMotion, PARALLEL};
+use thiserror::Error;
+
+/// What is not done, from what matters most on.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Shortfall {
+    /// The jaws do not close so far.
+    #[error("closes to {reached:.1} mm where {asked} mm is asked: {}", why.words())]
+    Closing {
+        /// The least width reached, in mm.
+        reached: f64,
+        /// The least asked, in mm.
+        asked: f64,
+        /// Why.
+        why: StrokeEnd,
+    },
+    /// The jaws do not open so far.
+    #[error("opens to {reached:.1} mm where {asked} mm is asked: {}", why.words())]
+    Opening {
+        /// The greatest width reached, in mm.
+        reached: f64,
+        /// The greatest asked, in mm.
+        asked: f64,
+        /// Why.
+        why: StrokeEnd,
+    },
+    /// A jaw opens while the others close.
+    #[error("a jaw opens on a part of the stroke on which the jaws close")]
+    WrongWay,
+    /// The force changes too much.
+    #[error("the greatest force of a jaw is {ratio:.1} times the least where {most} are allowed")]
+    ForceRatio {
+        /// The greatest over the least.
+        ratio: f64,
+        /// At most.
+        most: f64,
+    },
+    /// A jaw that is to be parallel turns.
+    #[error("a jaw turns by {turn:.1}° where it is to be parallel")]
+    Turn {
+        /// By how much, in degrees.
+        turn: f64,
+    },
+    /// A jaw that is to swing has no hinge in the frame.
+    #[error("a jaw that is to swing has no hinge in the frame")]
+    NotSwinging,
+    /// It needs more room.
+    #[error("takes {:.0} mm by {:.0} mm where there are {} by {}", size[0], size[1], room[0], room[1])]
+    Room {
+        /// The box over the stroke, in mm.
+        size: [f64; 2],
+        /// The room, in mm.
+        room: [f64; 2],
+    },
+    /// Rods pull badly somewhere.
+    #[error("the transmission angle falls to {worst:.0}° over the stroke where {least}° are asked")]
+    Transmission {
+        /// The worst, in degrees.
+        worst: f64,
+        /// The least allowed, in degrees.
+        least: f64,
+    },
+}
+
+impl Shortfall {
+    /// Whether it is that the jaws do not come as far together or apart as is asked.
+    #[must_use]
+    pub fn is_of_reach(&self) -> bool {
+        matches!(self, Shortfall::Closing { .. } | Shortfall::Opening { .. })
+    }
+}
+
+impl Skeleton<'_> {
+    /// The first that a stroke lacks of what the task asks.
+    #[must_use]
+    pub fn shortfall(&self, f: &StrokeFigures) -> Option<Shortfall> {
+        let (structure, limits) = (self.structure, &self.limits);
+        let task = &limits.task;
+        if let Some(why) = f.ends[0] {
+            let (reached, asked) = (f.reached[0], task.narrowest);
+            return Some(Shortfall::Closing {
+                reached,
+                asked,
+                why,
+            });
+        }
+        if let Some(why) = f.ends[1] {
+            let (reached, asked) = (f.reached[1], task.widest);
+            return Some(Shortfall::Opening {
+                reached,
+                asked,
+                why,
+            });
+        }
+        if f.straightness <= 0.0 {
+            return Some(Shortfall::WrongWay);
+        }
+        let (ratio, most) = (f.force_ratio(), task.force_ratio);
+        if ratio > most {
+            return Some(Shortfall::ForceRatio { ratio, most });
+        }
+        let roles = &structure.roles;
+        let swings = |&jaw: &usize| structure.chain.joined(roles.frame, jaw);
+        let turn = f.turn();
+        match task.motion {
+            AskedMotion::Parallel if turn > PARALLEL => return Some(Shortfall::Turn { turn }),
+            AskedMotion::Swinging if !roles.jaws.iter().all(swings) => {
+                return Some(Shortfall::NotSwinging);
+            }
+            AskedMotion::Any | AskedMotion::Parallel | AskedMotion::Swinging => {}
+        }
+        let (size, room) = (f.size, task.room);
+        if (0..2).any(|k| room[k] > 0.0 && size[k] > room[k]) {
+            return Some(Shortfall::Room { size, room });
+        }
+        let (worst, least) = (f.transmission, limits.transmission);
+        (worst < least).then_some(Shortfall::Transmission { worst, least })
+    }
+}

@@ -1,0 +1,192 @@
+//! From the drawn pose step by step to wider and narrower parts, by Newton's method.
+//!
+//! A step is halved where the first correction is large beside it, where the determinant changes its sign, or where the drive
+//! would turn back: so no step passes a singular pose or a dead point unseen.
+
+use super::closure::{Arms, Closure};
+use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::point::Point;
+
+/// Corrections of a step at most.
+const CORRECTIONS: usize = 6;
+/// The first correction over its step at most.
+const CORRECTION: f64 = 0.25;
+/// Contours that are open by less than this are closed, in millimetres.
+const CLOSED: f64 = 1e-8;
+/// So many millimetres of the drive count as a radian of a link, when steps and corrections are compared.
+const RADIAN: f64 = 50.0;
+/// A drive that is so many times faster by the width than in the drawn pose is near to where the jaws turn back; one that is
+/// so many times slower, to a dead point.
+const FAR: f64 = 4.0;
+
+/// Why a stroke ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StrokeEnd {
+    /// The jaws turn back while the drive goes on.
+    JawsTurnBack,
+    /// The drive turns back while the jaws could go on.
+    DeadPoint,
+    /// Links lock, or their motion branches.
+    Singular,
+}
+
+impl StrokeEnd {
+    /// Word for data.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            StrokeEnd::JawsTurnBack => "jaws-turn-back",
+            StrokeEnd::DeadPoint => "dead-point",
+            StrokeEnd::Singular => "singular",
+        }
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            StrokeEnd::JawsTurnBack => "there the jaws turn back while the drive goes on",
+            StrokeEnd::DeadPoint => "there the drive turns back",
+            StrokeEnd::Singular => "there the links lock",
+        }
+    }
+}
+
+/// A pose on the way.
+#[derive(Debug, Clone)]
+pub struct Walk<'a> {
+    closure: &'a Closure,
+    arms: Arms,
+    rows: SmallSystem,
+    /// How much farther apart the tips are than drawn, in millimetres.
+    pub(super) wider: f64,
+    /// The unknown: turns in rad, then the drive in mm or rad.
+    pub(super) x: Vec<f64>,
+    /// Their rates by the width.
+    pub(super) rates: Vec<f64>,
+    /// Sign of the determinant.
+    sign: f64,
+    trial: Vec<f64>,
+    drawn_rate: f64,
+}
+
+impl<'a> Walk<'a> {
+    /// Room for walks.
+    #[must_use]
+    pub fn new(closure: &'a Closure) -> Walk<'a> {
+        let n = closure.size;
+        Walk {
+            closure,
+            arms: Arms::default(),
+            rows: SmallSystem::new(n, 2),
+            wider: 0.0,
+            x: vec![0.0; n],
+            rates: vec![0.0; n],
+            sign: 0.0,
+            trial: vec![0.0; n],
+            drawn_rate: 0.0,
+        }
+    }
+
+    /// Stands at the drawn pose of places, pins and then tips; `false` where that is singular.
+    pub fn stand(&mut self, at: &[Point]) -> bool {
+        self.closure.place(at, &mut self.arms);
+        self.back()
+    }
+
+    /// Stands at the drawn pose again.
+    pub fn back(&mut self) -> bool {
+        self.wider = 0.0;
+        self.trial.fill(0.0);
+        self.sign = 0.0;
+        let stands = self.correct(0.0, f64::INFINITY);
+        self.x.fill(0.0);
+        self.drawn_rate = self.rate().abs();
+        stands && self.drawn_rate > 0.0
+    }
+
+    /// How fast the drive goes by the width: mm or rad a millimetre.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        self.rates.last().copied().unwrap_or(0.0)
+    }
+
+    fn size(&self, of: impl Fn(usize) -> f64) -> f64 {
+        let last = self.closure.size - 1;
+        let turns = (0..last).map(|i| of(i).abs());
+        turns.fold(of(last).abs() / RADIAN, f64::max)
+    }
+
+    /// Closes the contours at a width from the trial, and takes it where the first correction is at most `most`.
+    fn correct(&mut self, wider: f64, most: f64) -> bool {
+        for n in 0..CORRECTIONS {
+            let trial = &self.trial;
+            let miss = (self.closure).fill(&mut self.arms, trial, wider, &mut self.rows);
+            let Some(sign) = self.rows.solve() else {
+                return false;
+            };
+            if miss < CLOSED {
+                let rate = self.rows.get(self.closure.size - 1, 1);
+                let same = self.sign == 0.0 || (sign == self.sign && rate * self.rate() > 0.0);
+                if !same || !rate.is_finite() {
+                    return false;
+                }
+                self.sign = sign;
+                self.x.copy_from_slice(&self.trial);
+                for (i, r) in self.rates.iter_mut().enumerate() {
+                    *r = self.rows.get(i, 1);
+                }
+                self.wider = wider;
+                return true;
+            }
+            if n == 0 && self.size(|i| self.rows.get(i, 0)) > most {
+                return false;
+            }
+            for i in 0..self.trial.len() {
+                self.trial[i] -= self.rows.get(i, 0);
+            }
+        }
+        false
+    }
+
+    /// Goes on until the tips are so much farther apart than drawn.
+    ///
+    /// # Errors
+    /// Why it ends before, nearer to that end than `finest` millimetres; the pose is the last.
+    ///
+    /// # Complexity
+    /// O(n³) for n links, for each of some corrections a step.
+    pub fn advance(&mut self, wider: f64, finest: f64) -> Result<(), StrokeEnd> {
+        let mut step = wider - self.wider;
+        while self.wider != wider {
+            let left = wider - self.wider;
+            let to = if step.abs() >= left.abs() {
+                wider
+            } else {
+                self.wider + step
+            };
+            let by = to - self.wider;
+            for i in 0..self.trial.len() {
+                self.trial[i] = self.x[i] + by * self.rates[i];
+            }
+            let most = CORRECTION * self.size(|i| by * self.rates[i]);
+            if self.correct(to, most) {
+                step *= 2.0;
+                continue;
+            }
+            step = by / 2.0;
+            if step.abs() < finest {
+                return Err(self.end());
+            }
+        }
+        Ok(())
+    }
+
+    fn end(&self) -> StrokeEnd {
+        match self.rate().abs() / self.drawn_rate {
+            fast if fast > FAR => StrokeEnd::JawsTurnBack,
+            slow if slow < 1.0 / FAR => StrokeEnd::DeadPoint,
+            _ => StrokeEnd::Singular,
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! What a gripper is to do: which parts it takes and how, how its jaws may move, and the room there is.
+
+use serde::{Deserialize, Serialize};
+
+/// From which side the jaws hold a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HeldFrom {
+    /// Round it: the jaws hold as they close.
+    Outside,
+    /// In a hole of it: the jaws hold as they open.
+    Inside,
+}
+
+impl HeldFrom {
+    /// Every side with its word.
+    pub const ALL: [(HeldFrom, &'static str); 2] =
+        [(HeldFrom::Outside, "outside"), (HeldFrom::Inside, "inside")];
+
+    /// 1 where the jaws hold as they close, -1 where they do as they open.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            HeldFrom::Outside => 1.0,
+            HeldFrom::Inside => -1.0,
+        }
+    }
+}
+
+/// How the jaws are to move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AskedMotion {
+    /// As they like.
+    Any,
+    /// Without turning.
+    Parallel,
+    /// About hinges in the frame.
+    Swinging,
+}
+
+impl AskedMotion {
+    /// Every motion with its word.
+    pub const ALL: [(AskedMotion, &'static str); 3] = [
+        (AskedMotion::Any, "any"),
+        (AskedMotion::Parallel, "parallel"),
+        (AskedMotion::Swinging, "swinging"),
+    ];
+}
+
+/// What every gripper of a catalogue is to do, alike.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Task {
+    /// The width of the narrowest part, in mm: so near the tips come to each other.
+    pub narrowest: f64,
+    /// The width of the widest part, in mm.
+    pub widest: f64,
+    /// From which side parts are held.
+    pub grip: HeldFrom,
+    /// How the jaws are to move.
+    pub motion: AskedMotion,
+    /// The greatest force of a jaw over the least, over the stroke, at most.
+    pub force_ratio: f64,
+    /// Width and height of the box round pins and tips over the stroke at most, in mm; 0 where it may be of any size.
+    pub room: [f64; 2],
+    /// What efficiencies are reckoned with.
+    pub friction: Friction,
+}
+
+/// Dry friction in the joints.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Friction {
+    /// Force of friction over the normal force.
+    pub coefficient: f64,
+    /// Radius of the pins, in mm.
+    pub pin_radius: f64,
+    /// Length of the guide of a sliding driver, in mm.
+    pub guide: f64,
+}
+
+impl Default for Friction {
+    /// Greased steel: 0.1; pins of 8 mm, a guide of 40 mm.
+    fn default() -> Friction {
+        Friction {
+            coefficient: 0.1,
+            pin_radius: 4.0,
+            guide: 40.0,
+        }
+    }
+}
+
+impl Default for Task {
+    /// Parts of up to 50 mm, from outside, with a force that is at most three times the least.
+    fn default() -> Task {
+        Task {
+            narrowest: 0.0,
+            widest: 50.0,
+            grip: HeldFrom::Outside,
+            motion: AskedMotion::Any,
+            force_ratio: 3.0,
+            room: [0.0; 2],
+            friction: Friction::default(),
+        }
+    }
+}
+
+/// Half of what a gripper is drawn open by where the task has room for it, in millimetres.
+const HALF_OPENING: i32 = 15;
+/// A jaw that is to be parallel turns by this at most over the stroke, in degrees.
+pub(super) const PARALLEL: f64 = 1.0;
+
+impl Task {
+    /// Half the distance of the tips as a gripper is drawn, in whole millimetres: within the stroke, and not nothing.
+    #[must_use]
+    pub fn half_opening(&self) -> i32 {
+        let drawn = f64::from(2 * HALF_OPENING);
+        if self.narrowest < drawn && drawn < self.widest {
+            return HALF_OPENING;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "some millimetres")]
+        let half = ((self.narrowest + self.widest) / 4.0).round() as i32;
+        half.max(1)
+    }
+
+    /// By how much the tips go apart over the stroke, in millimetres.
+    #[must_use]
+    pub fn span(&self) -> f64 {
+        self.widest - self.narrowest
+    }
+}

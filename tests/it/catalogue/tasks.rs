@@ -1,0 +1,225 @@
+//! The task of a catalogue as a file and as options, the filters, and what rows say of it.
+
+use super::command::{at, fails, ok};
+use super::rows::all_of_six;
+use crate::common::{json, run};
+use ozols::geom::vector::real;
+use ozols::model::mechanism::Mechanism;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use tempfile::tempdir;
+
+fn rows(file: &str, question: &[&str]) -> Vec<Value> {
+    let words = ["catalog", "query", file, "--format", "json"];
+    json(&[&words[..], question].concat())
+        .as_array()
+        .unwrap()
+        .clone()
+}
+
+#[test]
+fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "wide.db");
+    let words = "catalog build --links 6 --input turn --symmetry generic --ideas 1 --widths 0..190 --quiet -o";
+    ok(&words.split(' ').chain([file.as_str()]).collect::<Vec<_>>());
+    let sql = "SELECT s.id, reached, shortfall, ends_closing, ends_opening, opening_min, opening_max, k.force_ratio, force_min, force_max, \
+               s.id IN (SELECT id FROM front) AS front FROM structures s JOIN layouts l ON l.structure = s.id \
+               JOIN strokes k ON k.structure = s.id";
+    let all = rows(&file, &[sql]);
+    let mut short = 0;
+    for row in &all {
+        let number = |key: &str| row[key].as_f64().unwrap();
+        let ends = !row["ends_closing"].is_null() || !row["ends_opening"].is_null();
+        let whole = (number("opening_min"), number("opening_max")) == (0.0, 190.0);
+        assert_eq!((row["reached"] == 1, ends), (whole, !whole), "{row}");
+        assert!(whole || !row["shortfall"].is_null(), "{row}");
+        assert!(row["shortfall"].is_null() || row["front"] == 0, "{row}");
+        let ratio = number("force_max") / number("force_min");
+        assert!((number("force_ratio") / ratio - 1.0).abs() < 1e-3, "{row}");
+        assert!(!row["shortfall"].is_null() || ratio <= 3.001, "{row}");
+        short += usize::from(!whole);
+    }
+    assert!(short > 0 && all.len() > 20, "{short} of {}", all.len());
+    let id = all.iter().find(|r| r["reached"] == 0).unwrap()["id"]
+        .as_str()
+        .unwrap();
+    let shown = ok(&["catalog", "show", &file, id]);
+    assert!(
+        shown.contains("Task: parts of 0 to 190 mm; ") && shown.contains("is asked: there"),
+        "{shown}"
+    );
+}
+
+/// Every filter against a look at all rows.
+#[test]
+fn filters_leave_what_is_as_good() {
+    let file = all_of_six();
+    let all = rows(file, &["SELECT * FROM grippers"]);
+    let front: BTreeSet<String> = rows(file, &["SELECT id FROM front"])
+        .iter()
+        .map(|r| r["id"].to_string())
+        .collect();
+    let number = |r: &Value, key: &str| r[key].as_f64().unwrap();
+    type Keeps<'a> = Box<dyn Fn(&Value) -> bool + 'a>;
+    let least = |key: &'static str, x: f64| -> Keeps<'_> { Box::new(move |r| number(r, key) >= x) };
+    let most = |key: &'static str, x: f64| -> Keeps<'_> { Box::new(move |r| number(r, key) <= x) };
+    let filters: Vec<(&[&str], Keeps<'_>)> = vec![
+        (&["--least-force", "0.8"], least("least_force", 0.8)),
+        (&["--force-ratio", "1.7"], most("force_ratio", 1.7)),
+        (&["--turn", "15"], most("turn", 15.0)),
+        (&["--transmission", "25"], least("transmission", 25.0)),
+        (&["--pin-force", "3.5"], most("pin_force", 3.5)),
+        (&["--efficiency", "0.9"], least("efficiency", 0.9)),
+        (&["--travel", "30"], most("travel", 30.0)),
+        (&["--width", "140"], most("width", 140.0)),
+        (&["--height", "100"], most("height", 100.0)),
+        (&["--cost", "6"], most("cost", 6.0)),
+        (
+            &["--stroke", "49.5"],
+            Box::new(|r| number(r, "widest") - number(r, "narrowest") >= 49.5),
+        ),
+        (&["--does-task"], Box::new(|r| r["shortfall"].is_null())),
+        (
+            &["--front"],
+            Box::new(|r| front.contains(&r["id"].to_string())),
+        ),
+        (
+            &["--turn", "20", "--transmission", "20"],
+            Box::new(|r| number(r, "turn") <= 20.0 && number(r, "transmission") >= 20.0),
+        ),
+    ];
+    let mut cutting = 0;
+    for (words, keeps) in &filters {
+        let ids =
+            |of: &[Value]| -> BTreeSet<String> { of.iter().map(|r| r["id"].to_string()).collect() };
+        let kept: Vec<Value> = all.iter().filter(|r| keeps(r)).cloned().collect();
+        let found = rows(file, words);
+        assert_eq!(ids(&found), ids(&kept), "{words:?}");
+        cutting += usize::from(!kept.is_empty() && kept.len() < all.len());
+    }
+    assert!(cutting > 8, "{cutting}");
+    let both = run(&["catalog", "query", file, "SELECT 1", "--front"]);
+    assert_eq!(both.status.code(), Some(2));
+}
+
+/// A file and options ask for the same, and another task is another catalogue.
+#[test]
+fn a_task_is_a_table_and_options() {
+    let folder = tempdir().unwrap();
+    let (spec, one, two) = (
+        at(&folder, "task.toml"),
+        at(&folder, "1.db"),
+        at(&folder, "2.db"),
+    );
+    let text = "links = \"4\"\nideas = 1\n[task]\nnarrowest = 10\nwidest = 40\ngrip = \"inside\"\nmotion = \"swinging\"\nforce_ratio = 2\nroom = [200, 150]\n";
+    std::fs::write(&spec, text).unwrap();
+    ok(&["catalog", "build", "--spec", &spec, "--quiet", "-o", &one]);
+    let words = "catalog build --links 4 --ideas 1 --widths 10..40 --grip inside --motion swinging --force-ratio 2 --room 200x150 --quiet -o";
+    let words: Vec<&str> = words.split(' ').chain([two.as_str()]).collect();
+    ok(&words);
+    assert_eq!(super::command::whole(&one), super::command::whole(&two));
+    fails(
+        &[
+            "catalog", "build", "--links", "4", "--ideas", "1", "-o", &one,
+        ],
+        "differs",
+    );
+    for (line, says) in [
+        ("narrowest = 60", "task.toml:2: narrowest must be less"),
+        ("widest = 500", "task.toml:2: widest must be from 1 to 200"),
+        ("force_ratio = 0.5", "force_ratio must be from 1"),
+        ("grip = \"above\"", "line 2"),
+        ("friction = { coefficient = -1 }", "coefficient must be"),
+        ("colour = 1", "colour"),
+    ] {
+        std::fs::write(&spec, format!("[task]\n{line}\n")).unwrap();
+        fails(
+            &[
+                "catalog",
+                "build",
+                "--spec",
+                &spec,
+                "-o",
+                &at(&folder, "no.db"),
+            ],
+            says,
+        );
+    }
+    for (words, says) in [
+        (["--widths", "50"], "such as 0..50"),
+        (["--grip", "above"], "none of outside, inside"),
+        (["--room", "9"], "such as 180x120"),
+    ] {
+        fails(
+            &[
+                &["catalog", "build", "-o", &at(&folder, "no.db")],
+                &words[..],
+            ]
+            .concat(),
+            says,
+        );
+    }
+}
+
+/// In a hole the part pushes the jaws inward, the drive goes the other way to hold, and the force is as large.
+#[test]
+fn parts_are_held_from_inside_by_the_other_way() {
+    let folder = tempdir().unwrap();
+    let built = |side: &str| -> (Vec<Value>, Vec<f64>) {
+        let file = at(&folder, &format!("{side}.db"));
+        let words = [
+            "catalog",
+            "build",
+            "--links",
+            "6",
+            "--symmetry",
+            "mirror",
+            "--ideas",
+            "1",
+            "--grip",
+            side,
+            "--quiet",
+            "-o",
+        ];
+        ok(&[&words[..], &[&file]].concat());
+        let all = rows(
+            &file,
+            &[
+                "SELECT structure, closes, force_min, tip_a_dx, tip_a_dy FROM layouts ORDER BY structure",
+            ],
+        );
+        let pushes = all.iter().map(|row| {
+            let toml = at(&folder, "m.toml");
+            ok(&[
+                "catalog",
+                "export",
+                &file,
+                row["structure"].as_str().unwrap(),
+                "-o",
+                &toml,
+            ]);
+            let m = Mechanism::from_file(&toml).unwrap();
+            let up = m
+                .loads
+                .forces
+                .iter()
+                .find(|f| real(&f.point)[1] > 0.0)
+                .unwrap();
+            real(&up.force)[1]
+        });
+        let pushes = pushes.collect();
+        (all, pushes)
+    };
+    let ((out, from_outside), (inn, from_inside)) = (built("outside"), built("inside"));
+    assert!(!out.is_empty() && out.len() == inn.len());
+    for (a, b) in out.iter().zip(&inn) {
+        let number = |r: &Value, key: &str| r[key].as_f64().unwrap();
+        assert_eq!(number(a, "force_min"), number(b, "force_min"));
+        for key in ["closes", "tip_a_dx", "tip_a_dy"] {
+            assert_eq!(number(a, key), -number(b, key), "{key}");
+        }
+    }
+    assert!(from_outside.iter().all(|y| *y == 100.0), "{from_outside:?}");
+    assert!(from_inside.iter().all(|y| *y == -100.0), "{from_inside:?}");
+}
