@@ -28,8 +28,8 @@ pub enum NoStructure {
     /// Numbers without exact values.
     #[error(transparent)]
     Exact(#[from] ExactError),
-    /// No joint turns about one axis.
-    #[error("no joint turns about one axis alone, so that there is no plane of motion")]
+    /// No joint turns.
+    #[error("no joint turns, so that there is no plane of motion")]
     NoPlane,
     /// A joint that has no kind.
     #[error(
@@ -75,7 +75,7 @@ pub struct Recognized {
 /// Why it has none.
 ///
 /// # Complexity
-/// A few eliminations of six columns a joint.
+/// A few eliminations of six columns for each joint and each axis.
 pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let plane = MotionPlane::new(m)?;
     let present = m.joints_in(StateId::FREE).collect_vec();
@@ -186,18 +186,38 @@ impl MotionPlane {
             let normal = exact.eval3(normal)?;
             return Ok(MotionPlane { exact, normal });
         }
+        // The axis about which the most joints turn or across which they slide.
+        let mut best: Option<(usize, MotionPlane)> = None;
         for j in m.joints_in(StateId::FREE) {
             let joint = &m.joints[j];
-            let freedoms = joint.joint_type.freedoms();
-            let turns = freedoms.iter().filter(|f| f.turns()).collect_vec();
-            if let [turn] = turns[..] {
-                let frame = FrameValues::new(&exact, &joint.frame)?;
+            let frame = FrameValues::new(&exact, &joint.frame)?;
+            let turns = joint.joint_type.freedoms().iter().filter(|f| f.turns());
+            for turn in turns {
                 let [x, y, z, ..] = frame.twist(&exact, *turn);
-                let normal = [x, y, z];
-                return Ok(MotionPlane { exact, normal });
+                let plane = MotionPlane {
+                    exact: exact.clone(),
+                    normal: [x, y, z],
+                };
+                let moving = plane.moving(m)?;
+                if best.as_ref().is_none_or(|(most, _)| moving > *most) {
+                    best = Some((moving, plane));
+                }
             }
         }
-        Err(NoStructure::NoPlane)
+        best.map(|(_, plane)| plane).ok_or(NoStructure::NoPlane)
+    }
+
+    /// How many joints are of a kind in the plane.
+    fn moving(&self, m: &Mechanism) -> Result<usize, NoStructure> {
+        let mut out = 0;
+        for j in m.joints_in(StateId::FREE) {
+            match self.kind(&m.joints[j]) {
+                Ok(kind) => out += usize::from(kind.is_some()),
+                Err(NoStructure::Kind { .. }) => {}
+                Err(e) => return Err(e),
+            }
+        }
+        Ok(out)
     }
 
     fn span(&self, twists: impl IntoIterator<Item = [Residue; 6]>) -> Echelon {

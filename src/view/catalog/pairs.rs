@@ -86,7 +86,7 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, PairCensus>) -> Vec<PairCou
 const LEGEND: &str = "\
 All up to isomorphism; pairs of one freedom are hinges and slides, of two gear pairs (racks, too) and slots (pins in slots, cams, wedges).
 A chain has one motion in nearly all places, in which every two links move; a gear pair has a carrier.
-Input: a hinge or a slide, at the frame or between two moving links. Driven: a jaw is a link of it; otherwise the jaws are apart.
+Columns: the input, a hinge or a slide, is at the frame or between two moving links; a jaw is one of its links (driven), or apart from it.
 Essential: no smaller moving part holds frame, input joint and jaws; what stands below counts these alone.
 Only translate: both jaws keep their attitude in nearly all places. Graph symmetric: swapping the jaws changes nothing, frame
 and input joint in place. Mirror, half turn: they move so in places so symmetric, otherwise generic (drawn at random modulo a prime).
@@ -134,8 +134,8 @@ fn grippers(sum: &PairCensus, width: Option<u16>) -> String {
         of
     });
     let heads = PLACES.map(|(between, jaw)| {
-        let place = word(between, ["between links", "input at the frame"]);
-        format!("{place}, {}", word(jaw, ["jaw driven", "jaws apart"]))
+        let place = word(between, ["between", "at frame"]);
+        format!("{place}, {}", word(jaw, ["driven", "apart"]))
     });
     let heads = std::iter::once("grippers of two jaws").chain(heads.iter().map(String::as_str));
     let figures: [Figure; 8] = [
