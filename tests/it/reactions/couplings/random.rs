@@ -75,12 +75,12 @@ pub(super) fn train(random: &mut Random) -> String {
         );
         slides.push(kind == "prismatic");
     }
-    for l in 2..=n {
+    for (l, slide) in slides.iter().enumerate().skip(2) {
         let to = 1 + random.below(l as u64 - 1);
         let ratio = random.one_of(&[-2, -1, 3, -3, 5]);
         let gear = random.below(10) < 7;
         // The twin knows a rack before its pinion.
-        let [a, b] = if slides[l] { [l, to] } else { [to, l] };
+        let [a, b] = if *slide { [l, to] } else { [to, l] };
         text += &format!(
             "[[coupling]]\njoints = [\"j{a}\", \"j{b}\"]\nratio = {ratio}\ngear = {gear}\n"
         );
