@@ -3,7 +3,7 @@
 use crate::catalog::store::{Store, StoreError};
 use crate::chains::graph6;
 use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use serde_json::Value;
@@ -53,7 +53,11 @@ fn read(row: &[Value]) -> Option<PairStructure> {
         let driven = slides && [u, v] == input;
         Joint {
             links: [u, v],
-            pair: if driven { Pair::Slide } else { Pair::Hinge },
+            pair: if driven {
+                PairKind::Slide
+            } else {
+                PairKind::Hinge
+            },
         }
     });
     Some(PairStructure {

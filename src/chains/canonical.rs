@@ -106,8 +106,8 @@ pub fn canonical(graph: &Weighted) -> Canonical {
     }
 }
 
-/// After all neighbours of a vertex.
-const NOTHING: u32 = u32::MAX;
+/// After all neighbours of a vertex: less than any, so that of two lists that begin alike the shorter is the lesser.
+const NOTHING: u32 = 0;
 
 struct LabelSearch<'a> {
     graph: &'a Weighted,

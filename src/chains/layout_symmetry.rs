@@ -5,7 +5,7 @@
 
 use crate::chains::chain::Chain;
 use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, generic_motions, motions_in_way};
 use crate::chains::roles::{Roles, Subject};
 use itertools::Itertools;
@@ -109,7 +109,11 @@ fn with_input(chain: &Chain, roles: &Roles, input: Input) -> PairChain {
         let slides = driven && input == Input::Slide;
         Joint {
             links: [u, v],
-            pair: if slides { Pair::Slide } else { Pair::Hinge },
+            pair: if slides {
+                PairKind::Slide
+            } else {
+                PairKind::Hinge
+            },
         }
     });
     PairChain::new(chain.links(), joints)

@@ -4,7 +4,7 @@
 //! too. So a gripper and its redesign have the same structure.
 
 use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use crate::closure::twist::FrameValues;
@@ -18,7 +18,6 @@ use crate::model::mechanism::{Joint, Mechanism, Mode, Role};
 use crate::rank::exact::field::exact_field;
 use itertools::Itertools;
 use petgraph::unionfind::UnionFind;
-use std::collections::BTreeMap;
 use thiserror::Error;
 
 /// Why a mechanism is no structure of the catalogue's kind.
@@ -107,25 +106,20 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         own.map(|(_, link)| link.id.clone()).collect_vec()
     });
     let names = names.collect_vec();
-    let mut pairs = BTreeMap::new();
-    let mut add = |links: [usize; 2], pair: Pair| match pairs.insert(links, pair) {
-        None => Ok(()),
-        Some(_) => {
-            let [a, b] = links.map(|l| names[l].join(" "));
-            Err(NoStructure::Twice(a, b))
-        }
-    };
-    for (&j, kind) in present.iter().zip(&kinds) {
-        if let Some(kind) = kind {
-            add(ends(j), *kind)?;
-        }
-    }
+    let joints = present.iter().zip(kinds);
+    let mut joints = joints
+        .filter_map(|(&j, pair)| Some((ends(j), pair?)))
+        .collect_vec();
     for coupling in m.couplings_in(StateId::FREE) {
         let gears = geared(coupling, ends);
         let gears = gears.ok_or_else(|| NoStructure::Coupling(coupling.name(m)))?;
-        add(gears, Pair::Gear)?;
+        joints.push((gears, PairKind::Gear));
     }
-    let joints = pairs.into_iter();
+    let twice = joints.iter().map(|j| j.0).duplicates().next();
+    if let Some([a, b]) = twice.map(|links| links.map(|l| names[l].join(" "))) {
+        return Err(NoStructure::Twice(a, b));
+    }
+    let joints = joints.into_iter();
     let joints = joints.map(|(links, pair)| PairJoint { links, pair });
     let chain = PairChain::new(bodies.len(), joints);
     let frame = body(m.frame()).unwrap_or(0);
@@ -155,7 +149,7 @@ fn input(
 ) -> Result<[usize; 2], NoStructure> {
     let driven = present.iter().filter(|&&j| m.joints[j].drive);
     let driven = driven.map(|&j| ends(j)).collect_vec();
-    let lower = |[u, v]: [usize; 2]| chain.between(u, v).is_some_and(Pair::is_lower);
+    let lower = |[u, v]: [usize; 2]| chain.between(u, v).is_some_and(PairKind::is_lower);
     match driven[..] {
         [one] if lower(one) => Ok(one),
         _ => Err(NoStructure::Drives(driven.len())),
@@ -187,24 +181,23 @@ impl MotionPlane {
             return Ok(MotionPlane { exact, normal });
         }
         // The axis about which the most joints turn or across which they slide.
-        let mut best: Option<(usize, MotionPlane)> = None;
+        let mut best: Option<(usize, [Residue; 3])> = None;
+        let normal = [exact.field().zero(); 3];
+        let mut plane = MotionPlane { exact, normal };
         for j in m.joints_in(StateId::FREE) {
             let joint = &m.joints[j];
-            let frame = FrameValues::new(&exact, &joint.frame)?;
-            let turns = joint.joint_type.freedoms().iter().filter(|f| f.turns());
-            for turn in turns {
-                let [x, y, z, ..] = frame.twist(&exact, *turn);
-                let plane = MotionPlane {
-                    exact: exact.clone(),
-                    normal: [x, y, z],
-                };
+            let frame = FrameValues::new(&plane.exact, &joint.frame)?;
+            for turn in joint.joint_type.freedoms().iter().filter(|f| f.turns()) {
+                let [x, y, z, ..] = frame.twist(&plane.exact, *turn);
+                plane.normal = [x, y, z];
                 let moving = plane.moving(m)?;
-                if best.as_ref().is_none_or(|(most, _)| moving > *most) {
-                    best = Some((moving, plane));
+                if best.is_none_or(|(most, _)| moving > most) {
+                    best = Some((moving, plane.normal));
                 }
             }
         }
-        best.map(|(_, plane)| plane).ok_or(NoStructure::NoPlane)
+        plane.normal = best.ok_or(NoStructure::NoPlane)?.1;
+        Ok(plane)
     }
 
     /// How many joints are of a kind in the plane.
@@ -229,7 +222,7 @@ impl MotionPlane {
     }
 
     /// What a joint is in the plane; nothing where it does not move there.
-    fn kind(&self, joint: &Joint) -> Result<Option<Pair>, NoStructure> {
+    fn kind(&self, joint: &Joint) -> Result<Option<PairKind>, NoStructure> {
         let frame = FrameValues::new(&self.exact, &joint.frame)?;
         let freedoms = joint.joint_type.freedoms();
         let twists = freedoms.iter().map(|&f| frame.twist(&self.exact, f));
@@ -252,9 +245,9 @@ impl MotionPlane {
         let turns = shared(&all) - slides;
         match (turns, slides) {
             (0, 0) => Ok(None),
-            (1, 0) => Ok(Some(Pair::Hinge)),
-            (0, 1) => Ok(Some(Pair::Slide)),
-            (1, 1) => Ok(Some(Pair::Slot)),
+            (1, 0) => Ok(Some(PairKind::Hinge)),
+            (0, 1) => Ok(Some(PairKind::Slide)),
+            (1, 1) => Ok(Some(PairKind::Slot)),
             _ => Err(NoStructure::Kind {
                 joint: joint.id.clone(),
                 turns,

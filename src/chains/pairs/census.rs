@@ -2,7 +2,7 @@
 
 use crate::chains::pairs::chain::{MOST_LINKS, PairChain};
 use crate::chains::pairs::graphs::biconnected_graphs;
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairSubject;
 use crate::chains::pairs::sharing::{Menu, Sharing};
 use rayon::prelude::*;
@@ -26,9 +26,9 @@ impl Kinds {
     #[must_use]
     pub fn of(chain: &PairChain) -> Kinds {
         Kinds {
-            slides: chain.count(Pair::Slide),
-            gears: chain.count(Pair::Gear),
-            slots: chain.count(Pair::Slot),
+            slides: chain.count(PairKind::Slide),
+            gears: chain.count(PairKind::Gear),
+            slots: chain.count(PairKind::Slot),
         }
     }
 
@@ -132,7 +132,7 @@ impl PairCensus {
                 let drive = DriveKind {
                     between,
                     jaw: roles.has_driven_jaw(),
-                    slides: input.pair == Pair::Slide,
+                    slides: input.pair == PairKind::Slide,
                 };
                 let counts = out.grippers.entry(drive).or_default();
                 counts.all += 1;

@@ -1,7 +1,7 @@
 //! A chain whose joints are of several kinds.
 
 use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 
 /// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.
 pub const MOST_LINKS: usize = 12;
@@ -18,7 +18,7 @@ pub struct Joint {
     /// The links.
     pub links: [usize; 2],
     /// The kind.
-    pub pair: Pair,
+    pub pair: PairKind,
 }
 
 impl Joint {
@@ -49,8 +49,8 @@ impl PairChain {
 
     /// What joins two links.
     #[must_use]
-    pub fn between(&self, u: usize, v: usize) -> Option<Pair> {
-        Pair::of_weight(self.pairs.weight(u, v))
+    pub fn between(&self, u: usize, v: usize) -> Option<PairKind> {
+        PairKind::of_weight(self.pairs.weight(u, v))
     }
 
     /// The joints, by their greater link and then by the lesser.
@@ -64,7 +64,7 @@ impl PairChain {
 
     /// How many joints are of a kind.
     #[must_use]
-    pub fn count(&self, pair: Pair) -> usize {
+    pub fn count(&self, pair: PairKind) -> usize {
         self.joints().iter().filter(|j| j.pair == pair).count()
     }
 
@@ -94,12 +94,12 @@ impl PairChain {
     pub fn has_carriers(&self) -> bool {
         let is_carrier = |link: usize, [u, v]: [usize; 2]| {
             let both = [self.between(link, u), self.between(link, v)];
-            let lower = both.iter().all(|p| p.is_some_and(Pair::is_lower));
-            lower && both.contains(&Some(Pair::Hinge))
+            let lower = both.iter().all(|p| p.is_some_and(PairKind::is_lower));
+            lower && both.contains(&Some(PairKind::Hinge))
         };
         let mut joints = self.joints().into_iter();
         joints.all(|j| {
-            j.pair != Pair::Gear || (0..self.links()).any(|link| is_carrier(link, j.links))
+            j.pair != PairKind::Gear || (0..self.links()).any(|link| is_carrier(link, j.links))
         })
     }
 

@@ -1,7 +1,7 @@
 //! Gripper schemes that are well known, as structures.
 
 use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use itertools::Itertools;
@@ -23,14 +23,14 @@ pub struct Classic {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Scheme {
+struct Written {
     about: String,
     pairs: String,
     input: String,
     jaws: String,
 }
 
-impl Scheme {
+impl Written {
     /// The structure; nothing where the entry cannot be read.
     fn structure(&self) -> Option<PairStructure> {
         let pairs = self.pairs.split(", ").map(|p| p.split(' ').collect_tuple());
@@ -43,7 +43,7 @@ impl Scheme {
         };
         let both = |words: &str| words.split_once(' ').and_then(|(a, b)| two(a, b));
         let joint = |&(a, b, kind): &(&str, &str, &str)| {
-            let pair = Pair::ALL.iter().find(|k| kind.chars().eq([k.2]))?.0;
+            let pair = PairKind::ALL.iter().find(|k| kind.chars().eq([k.2]))?.0;
             let links = two(a, b)?;
             Some(Joint { links, pair })
         };
@@ -65,8 +65,8 @@ impl Scheme {
 /// Never: the text is part of the program, and a test reads it.
 #[must_use]
 pub fn classics() -> Vec<Classic> {
-    let all: BTreeMap<String, Scheme> = toml::from_str(TEXT).expect("a test reads it");
-    let classic = |(id, entry): (String, Scheme)| Classic {
+    let all: BTreeMap<String, Written> = toml::from_str(TEXT).expect("a test reads it");
+    let classic = |(id, entry): (String, Written)| Classic {
         structure: entry.structure().expect("a test reads it"),
         about: entry.about,
         id,

@@ -2,7 +2,7 @@
 
 /// A pair of links in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Pair {
+pub enum PairKind {
     /// They turn about a pin.
     Hinge = 1,
     /// One slides along the other.
@@ -13,37 +13,37 @@ pub enum Pair {
     Slot,
 }
 
-impl Pair {
+impl PairKind {
     /// Every kind with the word and the letter it has in codes.
-    pub const ALL: [(Pair, &'static str, char); 4] = [
-        (Pair::Hinge, "hinge", 'R'),
-        (Pair::Slide, "slide", 'P'),
-        (Pair::Gear, "gear", 'G'),
-        (Pair::Slot, "slot", 'S'),
+    pub const ALL: [(PairKind, &'static str, char); 4] = [
+        (PairKind::Hinge, "hinge", 'R'),
+        (PairKind::Slide, "slide", 'P'),
+        (PairKind::Gear, "gear", 'G'),
+        (PairKind::Slot, "slot", 'S'),
     ];
 
     /// The word used for it.
     #[must_use]
     pub fn name(self) -> &'static str {
-        Pair::ALL[self as usize - 1].1
+        PairKind::ALL[self as usize - 1].1
     }
 
     /// Its letter in codes.
     #[must_use]
     pub fn letter(self) -> char {
-        Pair::ALL[self as usize - 1].2
+        PairKind::ALL[self as usize - 1].2
     }
 
     /// The kind of a weight of a graph's edge, where there is an edge.
     #[must_use]
-    pub fn of_weight(weight: u8) -> Option<Pair> {
+    pub fn of_weight(weight: u8) -> Option<PairKind> {
         let at = usize::from(weight).checked_sub(1)?;
-        Pair::ALL.get(at).map(|kind| kind.0)
+        PairKind::ALL.get(at).map(|kind| kind.0)
     }
 
     /// Whether it leaves one freedom; the others leave two.
     #[must_use]
     pub fn is_lower(self) -> bool {
-        matches!(self, Pair::Hinge | Pair::Slide)
+        matches!(self, PairKind::Hinge | PairKind::Slide)
     }
 }

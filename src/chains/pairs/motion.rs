@@ -8,7 +8,7 @@
 //! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it.
 
 use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::linalg::echelon::relations;
 use crate::linalg::modp::{Field, Residue};
 use chacha20::ChaCha8Rng;
@@ -61,11 +61,11 @@ impl Draw {
             .from_i64((self.random.next_u64() >> 4).cast_signed())
     }
 
-    fn place(&mut self, pair: Pair) -> PairRows {
+    fn place(&mut self, pair: PairKind) -> PairRows {
         match pair {
-            Pair::Hinge => PairRows::Hinge([self.one(), self.one()]),
-            Pair::Slide => PairRows::Slide([self.one(), self.one()]),
-            Pair::Gear | Pair::Slot => PairRows::Line([self.one(), self.one(), self.one()]),
+            PairKind::Hinge => PairRows::Hinge([self.one(), self.one()]),
+            PairKind::Slide => PairRows::Slide([self.one(), self.one()]),
+            PairKind::Gear | PairKind::Slot => PairRows::Line([self.one(), self.one(), self.one()]),
         }
     }
 
@@ -75,17 +75,17 @@ impl Draw {
         let straight = [one, zero];
         let upright = [zero, one];
         Some(match (joint.pair, image) {
-            (Pair::Hinge, Image::Mirror) => PairRows::Hinge([self.one(), zero]),
-            (Pair::Hinge, Image::HalfTurn) => PairRows::Hinge([zero; 2]),
-            (Pair::Slide, Image::Mirror) if across => PairRows::Slide(straight),
-            (Pair::Slide, Image::Mirror) => PairRows::Slide(upright),
-            (Pair::Slide, Image::HalfTurn) => PairRows::Slide([self.one(), self.one()]),
-            (Pair::Slot, Image::Mirror) if across => PairRows::Line([self.one(), zero, one]),
-            (Pair::Slot, Image::Mirror) => PairRows::Line([zero, one, zero]),
-            (Pair::Slot, Image::HalfTurn) => PairRows::Line([zero, self.one(), self.one()]),
-            (Pair::Gear, Image::Mirror) if joint.swapped => PairRows::Line([zero, one, zero]),
-            (Pair::Hinge, Image::ThirdTurn) => PairRows::Hinge([zero; 2]),
-            (Pair::Gear, _) | (_, Image::ThirdTurn) => return None,
+            (PairKind::Hinge, Image::Mirror) => PairRows::Hinge([self.one(), zero]),
+            (PairKind::Hinge, Image::HalfTurn) => PairRows::Hinge([zero; 2]),
+            (PairKind::Slide, Image::Mirror) if across => PairRows::Slide(straight),
+            (PairKind::Slide, Image::Mirror) => PairRows::Slide(upright),
+            (PairKind::Slide, Image::HalfTurn) => PairRows::Slide([self.one(), self.one()]),
+            (PairKind::Slot, Image::Mirror) if across => PairRows::Line([self.one(), zero, one]),
+            (PairKind::Slot, Image::Mirror) => PairRows::Line([zero, one, zero]),
+            (PairKind::Slot, Image::HalfTurn) => PairRows::Line([zero, self.one(), self.one()]),
+            (PairKind::Gear, Image::Mirror) if joint.swapped => PairRows::Line([zero, one, zero]),
+            (PairKind::Hinge, Image::ThirdTurn) => PairRows::Hinge([zero; 2]),
+            (PairKind::Gear, _) | (_, Image::ThirdTurn) => return None,
         })
     }
 }
@@ -93,7 +93,7 @@ impl Draw {
 /// A joint that a symmetry carries to itself.
 #[derive(Debug, Clone, Copy)]
 struct OwnImage {
-    pair: Pair,
+    pair: PairKind,
     /// Whether its links change places.
     swapped: bool,
 }
@@ -101,7 +101,7 @@ struct OwnImage {
 impl OwnImage {
     /// Whether there are two ways to lie.
     fn has_two_ways(self, image: Image) -> bool {
-        image == Image::Mirror && matches!(self.pair, Pair::Slide | Pair::Slot)
+        image == Image::Mirror && matches!(self.pair, PairKind::Slide | PairKind::Slot)
     }
 }
 

@@ -2,7 +2,7 @@
 //! automorphisms.
 
 use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, Velocity, motion, symmetric_motions};
 use itertools::Itertools;
 use std::cell::OnceCell;
@@ -261,7 +261,7 @@ impl<'a> PairSubject<'a> {
     /// Pairs that are not hinges, those that `swap` carries to each other as one.
     #[must_use]
     pub fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
-        let others = self.joints.iter().filter(|j| j.pair != Pair::Hinge);
+        let others = self.joints.iter().filter(|j| j.pair != PairKind::Hinge);
         let first = |j: &&Joint| {
             let [u, v] = j.links.map(|l| swap[l]);
             [u.min(v), u.max(v)] >= j.links

@@ -5,7 +5,7 @@
 
 use crate::chains::canonical::Weighted;
 use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use itertools::Itertools;
 use std::cmp::Ordering;
@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 #[derive(Debug, Clone, Copy)]
 pub struct Menu<'a> {
     /// Kinds beside hinges.
-    pub kinds: &'a [Pair],
+    pub kinds: &'a [PairKind],
     /// Orbits of pairs that are not hinges at most.
     pub most: usize,
 }
@@ -101,7 +101,7 @@ impl<'a> Sharing<'a> {
         };
         let two = menu.kinds.iter().copied().filter(|k| !k.is_lower());
         let two = two.collect_vec();
-        let slides = menu.kinds.contains(&Pair::Slide);
+        let slides = menu.kinds.contains(&PairKind::Slide);
         let most_slides = if slides { self.orbits.len() } else { 0 };
         let orbits = 0..self.orbits.len();
         let fewest = higher.div_ceil(2);
@@ -119,9 +119,9 @@ impl<'a> Sharing<'a> {
             for kinds in kinds.multi_cartesian_product() {
                 let sliding = (0..=most).flat_map(|n| others.iter().copied().combinations(n));
                 for sliding in sliding {
-                    let mut pairs = vec![Pair::Hinge; self.joints.len()];
+                    let mut pairs = vec![PairKind::Hinge; self.joints.len()];
                     let given = places.iter().copied().zip(kinds.iter().copied());
-                    let slides = sliding.into_iter().map(|o| (o, Pair::Slide));
+                    let slides = sliding.into_iter().map(|o| (o, PairKind::Slide));
                     for (orbit, pair) in given.chain(slides) {
                         let own = |j: &usize| self.orbits[orbit].0 >> j & 1 == 1;
                         (0..pairs.len()).filter(own).for_each(|j| pairs[j] = pair);
@@ -133,7 +133,7 @@ impl<'a> Sharing<'a> {
     }
 
     /// Visits the chain of these kinds where it is one and no symmetry makes a lesser list of it.
-    fn judge(&self, pairs: &[Pair], visit: &mut impl FnMut(PairChain, Vec<&Vec<usize>>)) {
+    fn judge(&self, pairs: &[PairKind], visit: &mut impl FnMut(PairChain, Vec<&Vec<usize>>)) {
         let mut keeping = Vec::new();
         for (image, automorphism) in &self.images {
             match image.iter().map(|&j| pairs[j]).cmp(pairs.iter().copied()) {
@@ -146,7 +146,7 @@ impl<'a> Sharing<'a> {
         let joints = joints.map(|(&links, &pair)| Joint { links, pair });
         let chain = PairChain::new(self.links, joints);
         // Without slides the count of every part has told it already.
-        let slides = pairs.contains(&Pair::Slide);
+        let slides = pairs.contains(&PairKind::Slide);
         if chain.has_carriers() && (!slides || moves_throughout(&chain)) {
             visit(chain, keeping);
         }

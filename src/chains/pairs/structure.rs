@@ -2,7 +2,7 @@
 
 use crate::chains::canonical::{Weighted, canonical};
 use crate::chains::pairs::chain::PairChain;
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::{PairRoles, PairSubject};
 use itertools::Itertools;
 
@@ -58,7 +58,7 @@ impl PairStructure {
         let pairs = (0..order.len()).flat_map(|v| (0..v).map(move |u| (u, v)));
         let letter = |(u, v): (usize, usize)| {
             let pair = self.chain.between(order[u], order[v]);
-            pair.map_or('-', Pair::letter)
+            pair.map_or('-', PairKind::letter)
         };
         let ([i, k], [a, b]) = (roles.input, roles.jaws);
         let letters = pairs.map(letter).join("");

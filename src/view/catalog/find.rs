@@ -3,7 +3,7 @@
 use crate::catalog::find::Entry;
 use crate::chains::pairs::census::Kinds;
 use crate::chains::pairs::classics::classics_of;
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use crate::chains::pairs::roles::PairSubject;
 use crate::chains::pairs::structure::PairStructure;
@@ -72,14 +72,14 @@ impl FoundData {
         let symmetries = in_count.then(|| subject.symmetries(roles));
         let kinds = Kinds::of(chain);
         let [u, v] = roles.input;
-        let slides = chain.between(u, v) == Some(Pair::Slide);
+        let slides = chain.between(u, v) == Some(PairKind::Slide);
         let names = |links: &Vec<usize>| links.iter().map(|&l| found.names[l].join("+")).collect();
         let classics = classics_of(&essential_part(found)).into_iter();
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
             links: chain.links(),
-            hinges: chain.count(Pair::Hinge),
+            hinges: chain.count(PairKind::Hinge),
             slides: kinds.slides,
             gears: kinds.gears,
             slots: kinds.slots,

@@ -129,7 +129,7 @@ fn a_pin_in_a_slot_is_a_slot_and_a_ball_a_hinge() {
 fn what_is_no_structure_says_why() {
     let undriven = SLOT_GRIPPER.replace("drive = true", "");
     let one_jaw = SLOT_GRIPPER.replacen("role = \"output\"", "", 1);
-    let wide = SLOT_GRIPPER.replacen("\"slotted\"", "\"planar\"", 1);
+    let wide = SLOT_GRIPPER.replacen("type = \"slotted\"", "type = \"planar\"", 1);
     for (name, bad, said) in [
         ("undriven.toml", &undriven, "0 joints are driven"),
         ("one_jaw.toml", &one_jaw, "1 links are outputs"),

@@ -9,14 +9,14 @@ use itertools::Itertools;
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
 use ozols::chains::pairs::census::{DriveKind, Kinds, PairCensus, pair_census};
-use ozols::chains::pairs::kind::Pair;
+use ozols::chains::pairs::kind::PairKind;
 use ozols::chains::pairs::sharing::Menu;
 use ozols::chains::pairs::symmetric_census::{SymmetricKind, symmetric_census};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-pub(super) const ALL: [Pair; 3] = [Pair::Slide, Pair::Gear, Pair::Slot];
+pub(super) const ALL: [PairKind; 3] = [PairKind::Slide, PairKind::Gear, PairKind::Slot];
 
 /// More than any chain of six links has.
 const ANY: usize = 15;
@@ -165,7 +165,7 @@ fn as_many_symmetric_ones_as_are_published() {
 /// Made by halves or found among all: two ways to the same grippers, of eight links, too, where nothing is published.
 #[test]
 fn halves_give_the_symmetric_ones_of_all() {
-    let (slides, slots) = (&[Pair::Slide][..], &[Pair::Slot][..]);
+    let (slides, slots) = (&[PairKind::Slide][..], &[PairKind::Slot][..]);
     for (links, kinds) in [
         (5, &ALL[..]),
         (6, slides),
@@ -257,7 +257,7 @@ fn slots_are_rods() {
             }
         }
         let slots_alone = Menu {
-            kinds: &[Pair::Slot],
+            kinds: &[PairKind::Slot],
             most: slots,
         };
         let found = pair_census(links, slots_alone, false);
@@ -276,7 +276,7 @@ fn slots_are_rods() {
 fn one_slide_is_one_input_joint() {
     for (links, inputs) in [(4, 1), (6, 6), (8, 84), (10, 2_307)] {
         let slide = Menu {
-            kinds: &[Pair::Slide],
+            kinds: &[PairKind::Slide],
             most: 1,
         };
         let found = pair_census(links, slide, false);
@@ -294,7 +294,7 @@ fn slides_alone() {
     let known: [&[u64]; 3] = [&[1, 1, 2], &[2, 6, 16, 19, 9], &[16, 84, 345, 776]];
     for (links, known) in [4, 6, 8].into_iter().zip(known) {
         let slides = Menu {
-            kinds: &[Pair::Slide],
+            kinds: &[PairKind::Slide],
             most: known.len() - 1,
         };
         let found = pair_census(links, slides, false);

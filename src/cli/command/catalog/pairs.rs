@@ -1,7 +1,7 @@
 //! `ozols catalog count --pairs`.
 
 use crate::chains::pairs::census::pair_census;
-use crate::chains::pairs::kind::Pair;
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::pairs::symmetric_census::symmetric_census;
 use crate::cli::done::Done;
@@ -18,7 +18,7 @@ use super::listing::Listing;
 pub(super) struct PairArgs {
     /// Chains with other pairs than hinges, too: slide, gear (or rack), slot (pin in a slot, cam, wedge).
     #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
-    pairs: Vec<Pair>,
+    pairs: Vec<PairKind>,
     /// Pairs that are not hinges at most; with --up-to-symmetry a left and a right one count once.
     #[arg(long, value_name = "K", default_value_t = 3, requires = "pairs")]
     at_most: usize,
@@ -27,8 +27,8 @@ pub(super) struct PairArgs {
     up_to_symmetry: bool,
 }
 
-fn kind(word: &str) -> Result<Pair, String> {
-    let others = Pair::ALL.iter().filter(|k| k.0 != Pair::Hinge);
+fn kind(word: &str) -> Result<PairKind, String> {
+    let others = PairKind::ALL.iter().filter(|k| k.0 != PairKind::Hinge);
     let found = others.clone().find(|k| k.1 == word).map(|k| k.0);
     found.ok_or_else(|| {
         let known = others.map(|k| k.1).join(", ");

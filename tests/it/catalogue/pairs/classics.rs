@@ -4,7 +4,7 @@ use super::{menu, shared};
 use itertools::Itertools;
 use ozols::chains::pairs::census::visit_pair_chains;
 use ozols::chains::pairs::chain::{Joint, PairChain};
-use ozols::chains::pairs::kind::Pair;
+use ozols::chains::pairs::kind::PairKind;
 use ozols::chains::pairs::motion::moves_throughout;
 use ozols::chains::pairs::roles::{PairRoles, PairSubject};
 use serde_json::Value;
@@ -22,7 +22,7 @@ fn two(scheme: &Value, links: &Value) -> [usize; 2] {
 
 fn joint(scheme: &Value, joint: &Value) -> Joint {
     let letter = joint[2].as_str().unwrap().chars().next();
-    let kind = Pair::ALL.iter().find(|k| Some(k.2) == letter);
+    let kind = PairKind::ALL.iter().find(|k| Some(k.2) == letter);
     Joint {
         links: two(scheme, joint),
         pair: kind.unwrap().0,
@@ -88,7 +88,11 @@ fn classic_schemes_are_in_the_count() {
             "halfturn",
             "halfturn_but_input",
         ];
-        assert_eq!(own.map(Value::from), keys.map(|k| check[k].clone()), "{id}");
+        // What is not said of ten links was too dear for the program that checked them.
+        for (key, own) in keys.into_iter().zip(own) {
+            let said = &check[key];
+            assert!(said.is_null() || *said == own, "{id}: {key} is {own}");
+        }
         let most = usize::try_from(scheme["pairs_not_hinges"].as_u64().unwrap()).unwrap();
         if links <= 5 || links == 6 && most <= 3 || most <= 1 {
             assert_eq!(visits(&chain, most), 1, "{id}");

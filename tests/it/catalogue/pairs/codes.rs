@@ -4,7 +4,7 @@ use super::{ANY, menu, shared_bytes};
 use flate2::read::GzDecoder;
 use itertools::Itertools;
 use ozols::chains::pairs::census::visit_pair_chains;
-use ozols::chains::pairs::kind::Pair;
+use ozols::chains::pairs::kind::PairKind;
 use ozols::chains::pairs::roles::{PairRoles, PairSubject};
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -19,7 +19,7 @@ fn code(subject: &PairSubject<'_>, roles: &PairRoles, place: &[usize]) -> String
         subject
             .chain
             .between(at(u), at(v))
-            .map_or('-', Pair::letter)
+            .map_or('-', PairKind::letter)
     };
     let letters = pairs.map(letter).join("");
     let both = |[a, b]: [usize; 2]| [place[a].min(place[b]), place[a].max(place[b])];
