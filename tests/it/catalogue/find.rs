@@ -3,6 +3,7 @@
 use crate::common::{built_in, json, ozols, text};
 use ozols::chains::pairs::classics::classics;
 use ozols::synthesis::recognize::{NoStructure, recognize};
+use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
@@ -10,14 +11,21 @@ use std::path::Path;
 #[test]
 fn built_in_grippers_are_what_they_are_known_as() {
     for (name, id) in [
-        ("gripper-10", "parallelogram-piston"),
+        ("parallelogram-gripper", "parallelogram-piston"),
+        ("rack-gripper", "rack-two-segments"),
+        ("lever-slot-gripper", "wedge-levers"),
         ("geared-gripper", "geared-parallelograms"),
     ] {
         let data = json(&["catalog", "find", name, "--json"]);
         let known = data["classics"].as_array().unwrap();
         assert!(known.iter().any(|c| c["id"] == id), "{name}: {known:?}");
     }
-    let data = json(&["catalog", "find", "gripper-10", "--json"]);
+    // None of these, so that the exit code is 1.
+    let o = ozols(&["catalog", "find", "gripper-10", "--json"])
+        .output()
+        .unwrap();
+    assert_eq!(o.status.code(), Some(1));
+    let data: Value = serde_json::from_str(text(&o.stdout)).unwrap();
     assert_eq!(data["links"], 10);
     assert_eq!([&data["hinges"], &data["slides"]], [12, 1]);
     assert_eq!([&data["mirror"], &data["essential"]], [true, true]);

@@ -53,8 +53,6 @@ pub(in crate::cli) struct Build {
     /// Crossings of links at most; 6 by default.
     #[arg(long, value_name = "N")]
     crossings: Option<usize>,
-    #[command(flatten)]
-    task: TaskArgs,
     /// A file that says all this, in TOML; what is given beside it counts more.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     spec: Option<PathBuf>,
@@ -64,6 +62,9 @@ pub(in crate::cli) struct Build {
     /// The database; where there is one of the same catalogue, what it has not is added.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: PathBuf,
+    // Last: what follows would stand under its heading in the help.
+    #[command(flatten)]
+    task: TaskArgs,
 }
 
 impl Build {

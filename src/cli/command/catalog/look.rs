@@ -32,14 +32,15 @@ pub(in crate::cli) struct Query {
     /// tables with all columns explained.
     #[arg(conflicts_with_all = ["WantedGrippers"])]
     sql: Option<String>,
-    #[command(flatten)]
-    wanted: WantedGrippers,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: CatalogFormat,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: Option<PathBuf>,
+    // Last: what follows would stand under its heading in the help.
+    #[command(flatten)]
+    wanted: WantedGrippers,
 }
 
 /// The catalogue in a file.
