@@ -55,7 +55,9 @@ pub enum NoStructure {
     #[error("{0} links are outputs where two jaws are to be: mark them with role = \"output\"")]
     Jaws(usize),
     /// Links too few or too many.
-    #[error("{0} links move in the plane; structures have 3 to {MOST_LINKS}")]
+    #[error(
+        "{0} links are left that move against each other in one plane; structures have 3 to {MOST_LINKS}"
+    )]
     Links(usize),
 }
 

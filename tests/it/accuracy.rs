@@ -1,5 +1,6 @@
 //! The survey of the methods, and where the naive formulas fail.
 
+use crate::common::quick_accuracy;
 use ozols::accuracy::AnswerVerdict;
 use ozols::accuracy::pictures;
 use ozols::accuracy::stability::change::Noise;
@@ -267,14 +268,13 @@ fn special_mechanisms_are_those_of_their_seed() {
 #[test]
 fn a_quick_run_writes_charts_whose_right_cells_are_right() {
     let folder = tempfile::tempdir().unwrap();
-    let at = folder.path().join("new");
-    let said = run(&["accuracy", "--quick", "-o", at.to_str().unwrap()]);
+    let (said, at) = quick_accuracy();
     assert!(
         said.contains(&format!("right of {}", cases().unwrap().len()))
             && said.contains("Recommended default tolerance")
     );
     let mut svgs = 0;
-    for entry in std::fs::read_dir(&at).unwrap() {
+    for entry in std::fs::read_dir(at).unwrap() {
         let path = entry.unwrap().path();
         let text = std::fs::read_to_string(&path).unwrap();
         match path.extension().unwrap().to_str().unwrap() {
@@ -339,7 +339,7 @@ fn a_quick_run_writes_charts_whose_right_cells_are_right() {
         "-o",
         other.to_str().unwrap(),
     ]);
-    for (one, two) in verdicts(&at).into_iter().zip(verdicts(&other)) {
+    for (one, two) in verdicts(at).into_iter().zip(verdicts(&other)) {
         assert!(one == two, "{} differs between runs", one.0);
     }
 }

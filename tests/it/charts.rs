@@ -1,6 +1,6 @@
 //! Every chart that the program writes: two labels or more on each axis.
 
-use crate::common::run;
+use crate::common::{quick_accuracy, run};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -75,7 +75,6 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
             "best-cost",
         ],
         &["bench", "--quick", "four-bar", "-o", &at("bench")],
-        &["accuracy", "--quick", "-o", &at("accuracy")],
     ];
     for args in commands {
         let done = run(args);
@@ -87,6 +86,7 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
     }
     let mut all = Vec::new();
     pictures(folder.path(), &mut all);
+    pictures(quick_accuracy().1, &mut all);
     let (mut charts, mut wrong) = (0, Vec::new());
     for path in all {
         let Some(found) = labels(&fs::read_to_string(&path).unwrap()) else {

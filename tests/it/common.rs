@@ -4,7 +4,9 @@ use assert_cmd::Command;
 use ozols::Mechanism;
 use serde_json::Value;
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Output;
+use std::sync::OnceLock;
 
 pub(crate) fn ozols(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
@@ -44,6 +46,19 @@ pub(crate) fn out(args: &[&str]) -> String {
 
 pub(crate) fn json(args: &[&str]) -> Value {
     serde_json::from_str(&out(args)).unwrap()
+}
+
+/// What `ozols accuracy --quick` says, and the folder it writes to: run once for all tests, as it takes most of a minute.
+pub(crate) fn quick_accuracy() -> (&'static str, &'static Path) {
+    static RUN: OnceLock<(String, PathBuf)> = OnceLock::new();
+    let (said, folder) = RUN.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("quick-accuracy");
+        let _ = fs::remove_dir_all(&folder);
+        let done = run(&["accuracy", "--quick", "-o", folder.to_str().unwrap()]);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        (text(&done.stdout), folder)
+    });
+    (said, folder)
 }
 
 /// A built-in mechanism.
