@@ -42,7 +42,7 @@ fn labels(svg: &str) -> Option<[usize; 2]> {
 fn each_axis_of_each_chart_has_two_labels_or_more() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let commands: [&[&str]; 8] = [
+    let commands: [&[&str]; 7] = [
         &[
             "statics",
             "parallel-shears",

@@ -63,9 +63,10 @@ fn run_line(line: &str, folder: &Path) {
         Some((l, f)) => (l, Some(f)),
         None => (line, None),
     };
-    let mut words: Vec<&str> = line.split_whitespace().skip(1).collect();
+    let words: Vec<&str> = line.split_whitespace().skip(1).collect();
+    // The same again but for repeats; `accuracy -o` is run elsewhere with a few.
     if words[0] == "accuracy" && !words.contains(&"--quick") {
-        words.push("--quick");
+        return;
     }
     let o = ozols(&words).current_dir(folder).output().unwrap();
     assert_eq!(o.status.code(), Some(0), "{line}: {}", text(&o.stderr));

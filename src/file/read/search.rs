@@ -62,18 +62,21 @@ pub(crate) fn search(
     }
     let mut grouped = Vec::new();
     let mut joints = |ids: &[String], under, path: &[DocumentStep], out: &mut Findings| {
-        let joints = ids
-            .iter()
-            .filter_map(|id| joint_by_id(mechanism, id, path, out))
-            .collect_vec();
-        for &j in &joints {
-            if grouped.contains(&j) {
+        let named = ids.iter();
+        let named = named.filter_map(|id| joint_by_id(mechanism, id, path, out));
+        let mut named = named.collect_vec();
+        // Whether images are so is asked of each joint once: thousands of mistaken pairs took minutes.
+        named.retain(|&j| {
+            let first = !grouped.contains(&j);
+            if first {
+                grouped.push(j);
+            } else {
                 let joint = mechanism.joints[j].id.clone();
                 out.add(path, ProblemKind::RepeatedImage { joint, under });
             }
-            grouped.push(j);
-        }
-        joints
+            first
+        });
+        named
     };
     for (i, pair) in file.search.mirror.iter().enumerate() {
         if let [a, b] = joints(pair, "mirror", &index(&key(&at, "mirror"), i), out)[..] {

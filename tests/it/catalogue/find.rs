@@ -25,7 +25,7 @@ fn built_in_grippers_are_what_they_are_known_as() {
         .output()
         .unwrap();
     assert_eq!(o.status.code(), Some(1));
-    let data: Value = serde_json::from_str(text(&o.stdout)).unwrap();
+    let data: Value = serde_json::from_str(&text(&o.stdout)).unwrap();
     assert_eq!(data["links"], 10);
     assert_eq!([&data["hinges"], &data["slides"]], [12, 1]);
     assert_eq!([&data["mirror"], &data["essential"]], [true, true]);
