@@ -2,8 +2,7 @@
 
 use crate::catalog::store::{Store, StoreError};
 use crate::chains::graph6;
-use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::chain::{PairChain, ordered};
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use serde_json::Value;
@@ -47,25 +46,13 @@ fn read(row: &[Value]) -> Option<PairStructure> {
     let slides = row.get(3)?.as_str()? == "slide";
     let link = |i: usize| usize::try_from(row.get(i)?.as_u64()?).ok();
     let (frame, driver) = (link(4)?, link(5)?);
-    let (a, b) = (link(6)?, link(7)?);
-    let input = [frame.min(driver), frame.max(driver)];
-    let joints = chain.joints().into_iter().map(|(u, v)| {
-        let driven = slides && [u, v] == input;
-        Joint {
-            links: [u, v],
-            pair: if driven {
-                PairKind::Slide
-            } else {
-                PairKind::Hinge
-            },
-        }
-    });
+    let input = ordered([frame, driver]);
     Some(PairStructure {
-        chain: PairChain::new(chain.links(), joints),
+        chain: PairChain::hinged(&chain, slides.then_some(input)),
         roles: PairRoles {
             frame,
             input,
-            jaws: [a.min(b), a.max(b)],
+            jaws: ordered([link(6)?, link(7)?]),
         },
     })
 }

@@ -50,6 +50,18 @@ impl Weighted {
         &self.weight[v * self.vertices..(v + 1) * self.vertices]
     }
 
+    /// The graph with so many vertices more, joined to none.
+    #[must_use]
+    pub(super) fn widened(&self, new: usize) -> Weighted {
+        let mut out = Weighted::new(self.vertices + new);
+        for u in 0..self.vertices {
+            for v in 0..self.vertices {
+                out.set(u, v, self.weight(u, v));
+            }
+        }
+        out
+    }
+
     /// The same graph with its vertices in another order.
     #[must_use]
     pub fn renumbered(&self, order: &[usize]) -> Weighted {

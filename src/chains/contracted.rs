@@ -47,10 +47,7 @@ pub(super) fn edges(graph: &Weighted) -> Vec<(usize, usize)> {
 /// A cubic graph with one loop more: a new edge between the middles of two edges.
 fn with_edge_between(graph: &Weighted, edges: [(usize, usize); 2], same: bool) -> Weighted {
     let n = graph.vertices();
-    let mut out = Weighted::new(n + 2);
-    for (u, v) in (0..n).tuple_combinations() {
-        out.set(u, v, graph.weight(u, v));
-    }
+    let mut out = graph.widened(2);
     let mut add = |u: usize, v: usize, by: i8| {
         let weight = out.weight(u, v).saturating_add_signed(by);
         out.set(u, v, weight);

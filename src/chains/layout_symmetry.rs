@@ -3,9 +3,7 @@
 //! A symmetric graph is not enough: with pins in places that mirror each other the motion is often another, or the drive is
 //! dead.
 
-use crate::chains::chain::Chain;
-use crate::chains::pairs::chain::{Joint, PairChain};
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::chain::{PairChain, ordered};
 use crate::chains::pairs::motion::{Image, Swap, generic_motions, motions_in_way};
 use crate::chains::roles::{Roles, Subject};
 use itertools::Itertools;
@@ -102,23 +100,6 @@ pub enum NoGripper {
     Together,
 }
 
-/// A chain of hinges whose input joint may slide.
-fn with_input(chain: &Chain, roles: &Roles, input: Input) -> PairChain {
-    let joints = chain.joints().into_iter().map(|(u, v)| {
-        let driven = [(u, v), (v, u)].contains(&(roles.frame, roles.driver));
-        let slides = driven && input == Input::Slide;
-        Joint {
-            links: [u, v],
-            pair: if slides {
-                PairKind::Slide
-            } else {
-                PairKind::Hinge
-            },
-        }
-    });
-    PairChain::new(chain.links(), joints)
-}
-
 /// Whether a gripper laid out so that `swap` is its symmetry has one motion, in which the input moves, and the jaws
 /// against each other.
 ///
@@ -133,7 +114,8 @@ pub fn moves(
     (symmetry, input): (Symmetry, Input),
     swap: &[usize],
 ) -> Result<(), NoGripper> {
-    let chain = with_input(subject.chain, roles, input);
+    let slide = (input == Input::Slide).then(|| ordered([roles.frame, roles.driver]));
+    let chain = PairChain::hinged(subject.chain, slide);
     let placed = |image| {
         let swap = Swap { links: swap, image };
         motions_in_way(&chain, swap, roles.frame, 0)

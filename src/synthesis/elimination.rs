@@ -1,6 +1,6 @@
 //! Small systems of equations solved in place, without a new matrix for each.
 
-/// SmallSystem of a square matrix and, beside it, of right sides.
+/// A square matrix and, beside it, right sides.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SmallSystem {
     size: usize,

@@ -3,7 +3,7 @@
 //! What a joint does in the plane is what of its motions lies there: a ball is a hinge, a pin with play along its axis is one,
 //! too. So a gripper and its redesign have the same structure.
 
-use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain};
+use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
@@ -94,10 +94,7 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let used = present.iter().flat_map(|&j| m.joints[j].links);
     let bodies = used.map(|l| merged.find(l.index())).unique().collect_vec();
     let body = |l: LinkId| bodies.iter().position(|&b| b == merged.find(l.index()));
-    let ends = |j: JointId| {
-        let [a, b] = m.joints[j].links.map(|l| body(l).unwrap_or(0));
-        [a.min(b), a.max(b)]
-    };
+    let ends = |j: JointId| ordered(m.joints[j].links.map(|l| body(l).unwrap_or(0)));
     if !(3..=MOST_LINKS).contains(&bodies.len()) {
         return Err(NoStructure::Links(bodies.len()));
     }
@@ -140,7 +137,7 @@ fn geared(coupling: &Coupling, ends: impl Fn(JointId) -> [usize; 2]) -> Option<[
     let carrier = a.into_iter().find(|l| b.contains(l))?;
     let other = |links: [usize; 2]| links.into_iter().find(|l| *l != carrier);
     let (u, v) = (other(a)?, other(b)?);
-    (u != v).then(|| [u.min(v), u.max(v)])
+    (u != v).then(|| ordered([u, v]))
 }
 
 fn input(

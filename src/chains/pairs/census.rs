@@ -31,12 +31,6 @@ impl Kinds {
             slots: chain.count(PairKind::Slot),
         }
     }
-
-    /// All of them.
-    #[must_use]
-    pub fn all(self) -> usize {
-        self.slides + self.gears + self.slots
-    }
 }
 
 /// Counts of choices of jaws with one kind of input in one place.
@@ -183,9 +177,9 @@ pub fn visit_pair_chains(links: usize, menu: Menu<'_>, visit: &(impl Fn(&PairSub
 pub fn pair_census(links: usize, menu: Menu<'_>, grippers: bool) -> BTreeMap<Kinds, PairCensus> {
     let all = Mutex::new(BTreeMap::<Kinds, PairCensus>::new());
     visit_pair_chains(links, menu, &|subject| {
-        let one = PairCensus::of(subject, grippers);
+        let (kinds, one) = (Kinds::of(subject.chain), PairCensus::of(subject, grippers));
         let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
-        *all.entry(Kinds::of(subject.chain)).or_default() += one;
+        *all.entry(kinds).or_default() += one;
     });
     all.into_inner().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,6 +1,7 @@
 //! A chain whose joints are of several kinds.
 
 use crate::chains::canonical::{Weighted, canonical};
+use crate::chains::chain::Chain;
 use crate::chains::pairs::kind::PairKind;
 
 /// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.
@@ -10,6 +11,18 @@ pub const MOST_LINKS: usize = 12;
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PairChain {
     pairs: Weighted,
+}
+
+/// Two links, the lesser first.
+#[must_use]
+pub fn ordered([u, v]: [usize; 2]) -> [usize; 2] {
+    [u.min(v), u.max(v)]
+}
+
+/// Where an automorphism takes two links, the lesser first.
+#[must_use]
+pub fn carried(links: [usize; 2], by: &[usize]) -> [usize; 2] {
+    ordered(links.map(|l| by[l]))
 }
 
 /// A joint of a chain: its links, the lesser first, and its kind.
@@ -39,6 +52,22 @@ impl PairChain {
             pairs.set(u, v, joint.pair as u8);
         }
         PairChain { pairs }
+    }
+
+    /// A chain of hinges, of which one may slide instead, given by its links, the lesser first.
+    #[must_use]
+    pub fn hinged(chain: &Chain, slide: Option<[usize; 2]>) -> PairChain {
+        let joints = chain.joints().into_iter().map(|(u, v)| {
+            let links = [u, v];
+            let slides = slide == Some(links);
+            let pair = if slides {
+                PairKind::Slide
+            } else {
+                PairKind::Hinge
+            };
+            Joint { links, pair }
+        });
+        PairChain::new(chain.links(), joints)
     }
 
     /// Number of links.

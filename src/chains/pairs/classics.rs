@@ -1,6 +1,6 @@
 //! Gripper schemes that are well known, as structures.
 
-use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::chain::{Joint, PairChain, ordered};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
@@ -37,10 +37,7 @@ impl Written {
         let pairs: Vec<(&str, &str, &str)> = pairs.collect::<Option<_>>()?;
         let names = pairs.iter().flat_map(|p| [p.0, p.1]).unique().collect_vec();
         let place = |name: &str| names.iter().position(|n| *n == name);
-        let two = |a: &str, b: &str| {
-            let (a, b) = (place(a)?, place(b)?);
-            Some([a.min(b), a.max(b)])
-        };
+        let two = |a: &str, b: &str| Some(ordered([place(a)?, place(b)?]));
         let both = |words: &str| words.split_once(' ').and_then(|(a, b)| two(a, b));
         let joint = |&(a, b, kind): &(&str, &str, &str)| {
             let pair = PairKind::ALL.iter().find(|k| kind.chars().eq([k.2]))?.0;

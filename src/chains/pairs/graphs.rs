@@ -12,10 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The graph with a path of new vertices between two of its own.
 fn with_ear(graph: &Weighted, ends: [usize; 2], new: usize) -> Weighted {
     let n = graph.vertices();
-    let mut out = Weighted::new(n + new);
-    for (u, v) in (0..n).tuple_combinations() {
-        out.set(u, v, graph.weight(u, v));
-    }
+    let mut out = graph.widened(new);
     let way = std::iter::once(ends[0]).chain(n..n + new).chain([ends[1]]);
     for (u, v) in way.tuple_windows() {
         out.set(u, v, 1);

@@ -5,6 +5,7 @@
 
 use crate::chains::canonical::{Weighted, canonical};
 use crate::chains::contracted::is_biconnected;
+use crate::chains::pairs::chain::ordered;
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -44,31 +45,20 @@ fn grown(marked: &Weighted, most: usize, most_twos: usize) -> Vec<Weighted> {
     let pairs = (0..n).flat_map(|v| (0..v).map(move |u| [u, v]));
     let within = pairs.filter_map(|joint @ [u, v]| {
         let image = joint.map(|l| swap[l]);
-        let first = [image[0].min(image[1]), image[0].max(image[1])] >= joint;
+        let first = ordered(image) >= joint;
         (first && marked.weight(u, v) & !SWAPPED == 0).then(|| with_orbit(marked, joint, image))
     });
     let mut out: Vec<Weighted> = within.collect();
     let twos = swap.iter().enumerate().filter(|(u, v)| u < *v).count();
     for (u, &image) in swap.iter().enumerate().filter(|(u, v)| u <= *v) {
         if n - 2 * twos < most - 2 * most_twos {
-            out.push(with_orbit(&widened(marked, 1), [u, n], [image, n]));
+            out.push(with_orbit(&marked.widened(1), [u, n], [image, n]));
         }
         if twos < most_twos {
-            out.push(with_orbit(&widened(marked, 2), [u, n], [image, n + 1]));
+            let mut two = marked.widened(2);
+            two.set(n, n + 1, SWAPPED);
+            out.push(with_orbit(&two, [u, n], [image, n + 1]));
         }
-    }
-    out
-}
-
-/// With new vertices, one or two that change places.
-fn widened(marked: &Weighted, new: usize) -> Weighted {
-    let n = marked.vertices();
-    let mut out = Weighted::new(n + new);
-    for (u, v) in (0..n).tuple_combinations() {
-        out.set(u, v, marked.weight(u, v));
-    }
-    if new == 2 {
-        out.set(n, n + 1, SWAPPED);
     }
     out
 }

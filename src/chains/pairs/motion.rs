@@ -7,7 +7,7 @@
 //! of action. Where a symmetry carries a joint to itself, its place is special: a hinge lies on the mirror line, a slide goes
 //! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it.
 
-use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
 use crate::linalg::echelon::relations;
 use crate::linalg::modp::{Field, Residue};
@@ -244,8 +244,7 @@ pub struct Swap<'a> {
 
 impl Swap<'_> {
     fn joint(&self, joint: &Joint) -> [usize; 2] {
-        let [u, v] = joint.links.map(|l| self.links[l]);
-        [u.min(v), u.max(v)]
+        carried(joint.links, self.links)
     }
 
     fn own_image(&self, joint: &Joint) -> OwnImage {

@@ -1,7 +1,7 @@
 //! What links of a chain of pairs do in a gripper: frame, input joint and two jaws, each choice once up to the chain's
 //! automorphisms.
 
-use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, Velocity, motion, symmetric_motions};
 use itertools::Itertools;
@@ -22,11 +22,10 @@ impl PairRoles {
     /// Where an automorphism takes them.
     #[must_use]
     pub fn image(&self, by: &[usize]) -> PairRoles {
-        let both = |[a, b]: [usize; 2]| [by[a].min(by[b]), by[a].max(by[b])];
         PairRoles {
             frame: by[self.frame],
-            input: both(self.input),
-            jaws: both(self.jaws),
+            input: carried(self.input, by),
+            jaws: carried(self.jaws, by),
         }
     }
 
@@ -136,8 +135,8 @@ impl<'a> PairSubject<'a> {
         let lower = self.joints.iter().filter(|j| j.pair.is_lower());
         let all = lower.cartesian_product(0..self.chain.links());
         let first = |&(j, frame): &(&Joint, usize)| {
-            self.is_first(&(frame, j.links), |&(f, [u, v]), a| {
-                (a[f], [a[u].min(a[v]), a[u].max(a[v])])
+            self.is_first(&(frame, j.links), |&(f, links), a| {
+                (a[f], carried(links, a))
             })
         };
         all.filter(first).map(|(j, frame)| (frame, *j)).collect()
@@ -146,10 +145,7 @@ impl<'a> PairSubject<'a> {
     /// Every choice of jaws with a drive.
     #[must_use]
     pub fn grippers(&self, frame: usize, input: &Joint) -> Vec<PairRoles> {
-        let keeps = |a: &&&Vec<usize>| {
-            let [u, v] = input.links.map(|l| a[l]);
-            a[frame] == frame && [u.min(v), u.max(v)] == input.links
-        };
+        let keeps = |a: &&&Vec<usize>| a[frame] == frame && carried(input.links, a) == input.links;
         let keeping: Vec<_> = self.automorphisms.iter().filter(keeps).collect();
         let jaws = (0..self.chain.links()).filter(|&l| l != frame);
         let all = jaws.tuple_combinations().map(|(a, b)| PairRoles {
@@ -165,10 +161,7 @@ impl<'a> PairSubject<'a> {
     #[must_use]
     pub fn symmetric_roles(&self, swap: &[usize]) -> Vec<PairRoles> {
         let n = swap.len();
-        let own = |j: &&Joint| {
-            let [u, v] = j.links.map(|l| swap[l]);
-            j.pair.is_lower() && [u.min(v), u.max(v)] == j.links
-        };
+        let own = |j: &&Joint| j.pair.is_lower() && carried(j.links, swap) == j.links;
         let inputs = self.joints.iter().filter(own);
         let frames = (0..n).filter(|&l| swap[l] == l);
         let jaws = (0..n).filter(|&l| l < swap[l]).map(|l| [l, swap[l]]);
@@ -218,8 +211,7 @@ impl<'a> PairSubject<'a> {
             if s.links[roles.frame] != roles.frame || s.links[a] != b {
                 continue;
             }
-            let [u, v] = roles.input.map(|l| s.links[l]);
-            let keeps_input = [u.min(v), u.max(v)] == roles.input;
+            let keeps_input = carried(roles.input, s.links) == roles.input;
             let works = |motions: &[Vec<Velocity>]| motions.iter().any(|m| roles.moves_in(m));
             let (mirror, half_turn) = (works(&s.mirror), works(&s.half_turn));
             out.graph |= keeps_input;
@@ -262,10 +254,7 @@ impl<'a> PairSubject<'a> {
     #[must_use]
     pub fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
         let others = self.joints.iter().filter(|j| j.pair != PairKind::Hinge);
-        let first = |j: &&Joint| {
-            let [u, v] = j.links.map(|l| swap[l]);
-            [u.min(v), u.max(v)] >= j.links
-        };
+        let first = |j: &&Joint| carried(j.links, swap) >= j.links;
         others.filter(first).count()
     }
 }

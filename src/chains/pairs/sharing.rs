@@ -4,7 +4,7 @@
 //! nothing is to change places.
 
 use crate::chains::canonical::Weighted;
-use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use itertools::Itertools;
@@ -67,8 +67,8 @@ impl<'a> Sharing<'a> {
         let joints = pairs.filter(|&[u, v]| graph.weight(u, v) > 0);
         let joints = joints.collect_vec();
         let image = |a: &[usize]| {
-            let place = |&[u, v]: &[usize; 2]| {
-                let links = [a[u].min(a[v]), a[u].max(a[v])];
+            let place = |&links: &[usize; 2]| {
+                let links = carried(links, a);
                 joints.iter().position(|&j| j == links).unwrap_or(0)
             };
             joints.iter().map(place).collect_vec()

@@ -1,8 +1,9 @@
 //! A gripper as a structure: a chain of pairs with its roles, under a name that does not depend on numbers.
 
 use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::pairs::chain::PairChain;
+use crate::chains::pairs::chain::{PairChain, ordered};
 use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::motion::moves_throughout;
 use crate::chains::pairs::roles::{PairRoles, PairSubject};
 use itertools::Itertools;
 
@@ -41,17 +42,11 @@ impl PairStructure {
         out
     }
 
-    /// Which link stands at each place of the canonical numbering.
-    #[must_use]
-    pub fn order(&self) -> Vec<usize> {
-        canonical(&self.weighted()).order
-    }
-
     /// The name: a letter for each two links, (0, 1), (0, 2), (1, 2) and so on, then frame, input and jaws, in canonical
     /// numbering; equal for two structures exactly where they are the same.
     #[must_use]
     pub fn name(&self) -> String {
-        let order = self.order();
+        let order = canonical(&self.weighted()).order;
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, &l)| place[l] = at);
         let roles = self.roles.image(&place);
@@ -65,22 +60,22 @@ impl PairStructure {
         format!("{letters} f{} i{i}-{k} j{a},{b}", roles.frame)
     }
 
-    /// The smallest moving part that holds all roles, where there is one, by its links.
+    /// The links of the smallest moving part that holds all roles: all links where the structure is essential, or has in nearly
+    /// all places no one motion in which every two links move, so that counting tells nothing of parts.
     ///
     /// # Complexity
     /// A step for each set of links.
     #[must_use]
-    pub fn smaller(&self) -> Option<Vec<usize>> {
+    pub fn essential_links(&self) -> Vec<usize> {
         let automorphisms = self.chain.automorphisms();
         let automorphisms = automorphisms.iter().collect_vec();
         let subject = PairSubject::new(&self.chain, &automorphisms);
         let parts = subject.moving_parts_with(&self.roles);
-        let least = parts.min_by_key(|p| p.count_ones())?;
-        Some(
-            (0..self.chain.links())
-                .filter(|l| least >> l & 1 == 1)
-                .collect(),
-        )
+        let least = parts.min_by_key(|p| p.count_ones());
+        let least = least.filter(|_| moves_throughout(&self.chain));
+        let links = 0..self.chain.links();
+        let within = |l: &usize| least.is_none_or(|part| part >> l & 1 == 1);
+        links.filter(within).collect()
     }
 
     /// The structure of some of the links alone, with the joints between them.
@@ -89,7 +84,7 @@ impl PairStructure {
         let place = |l: usize| links.iter().position(|&x| x == l);
         let joints = self.chain.joints().into_iter().filter_map(|mut j| {
             let [u, v] = j.links.map(place);
-            j.links = [u?.min(v?), u?.max(v?)];
+            j.links = ordered([u?, v?]);
             Some(j)
         });
         let mut places = vec![0; self.chain.links()];

@@ -40,15 +40,17 @@ pub fn symmetric_census(links: usize, menu: Menu<'_>) -> BTreeMap<SymmetricKind,
             let sharing = Sharing::new(&graph.graph, &graph.automorphisms, &graph.swap);
             sharing.share(menu, &mut |chain, automorphisms| {
                 let subject = PairSubject::new(&chain, &automorphisms);
-                let found = grippers(&subject, graph);
+                let orbits = subject.other_pairs_up_to(&graph.swap);
+                let found = grippers(&subject, graph).into_iter();
+                let found = found.map(|(half_turn, roles)| {
+                    let chain = chain.clone();
+                    let key = PairStructure { chain, roles }.key();
+                    (half_turn, roles.has_driven_jaw(), key)
+                });
+                // Numbered before others have to wait.
+                let found: Vec<_> = found.collect();
                 let mut least = least.lock().unwrap_or_else(PoisonError::into_inner);
-                for (half_turn, roles) in found {
-                    let structure = PairStructure {
-                        chain: chain.clone(),
-                        roles,
-                    };
-                    let key = (half_turn, roles.has_driven_jaw(), structure.key());
-                    let orbits = subject.other_pairs_up_to(&graph.swap);
+                for key in found {
                     let known = least.entry(key).or_insert(orbits);
                     *known = orbits.min(*known);
                 }

@@ -60,21 +60,22 @@ pub struct FoundData {
 }
 
 impl FoundData {
-    /// Of a mechanism's structure, with the entries of a catalogue where one was asked for those of [`essential_part`].
+    /// Of a mechanism's structure and the smallest part of it that holds all roles, given by its links, with the entries of a
+    /// catalogue that are this part, where one was asked.
     #[must_use]
-    pub fn new(found: &Recognized, entries: Option<Vec<Entry>>) -> FoundData {
+    pub fn new(found: &Recognized, part: &[usize], entries: Option<Vec<Entry>>) -> FoundData {
         let PairStructure { chain, roles } = &found.structure;
         let in_count = chain.has_carriers() && moves_throughout(chain);
         let automorphisms = chain.automorphisms();
         let automorphisms = automorphisms.iter().collect_vec();
         let subject = PairSubject::new(chain, &automorphisms);
-        let smaller = in_count.then(|| found.structure.smaller()).flatten();
+        let essential = part.len() == chain.links();
         let symmetries = in_count.then(|| subject.symmetries(roles));
         let kinds = Kinds::of(chain);
         let [u, v] = roles.input;
         let slides = chain.between(u, v) == Some(PairKind::Slide);
-        let names = |links: &Vec<usize>| links.iter().map(|&l| found.names[l].join("+")).collect();
-        let classics = classics_of(&essential_part(found)).into_iter();
+        let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
+        let classics = classics_of(&found.structure.part(part)).into_iter();
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
@@ -95,8 +96,8 @@ impl FoundData {
                 "apart"
             },
             in_count,
-            essential: in_count.then_some(smaller.is_none()),
-            essential_part: smaller.as_ref().map(names),
+            essential: in_count.then_some(essential),
+            essential_part: (in_count && !essential).then(names),
             translating: in_count.then(|| subject.is_translating(roles)),
             mirror: symmetries.map(|s| s.mirror),
             mirror_but_input: symmetries.map(|s| s.mirror_but_input),
@@ -117,15 +118,6 @@ impl FoundData {
     pub fn is_known(&self) -> bool {
         !self.classics.is_empty() || self.catalogue.as_ref().is_some_and(|c| !c.is_empty())
     }
-}
-
-/// The smallest part of a structure that holds all roles, the whole where there is no smaller one.
-#[must_use]
-pub fn essential_part(found: &Recognized) -> PairStructure {
-    let whole = &found.structure;
-    let counted = moves_throughout(&whole.chain);
-    let smaller = counted.then(|| whole.smaller()).flatten();
-    smaller.map_or_else(|| whole.clone(), |links| whole.part(&links))
 }
 
 /// A paragraph on each of structure, scheme and catalogue.

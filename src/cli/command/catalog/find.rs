@@ -7,7 +7,7 @@ use crate::cli::option::load;
 use crate::cli::option::named::File;
 use crate::cli::terminal::output;
 use crate::synthesis::recognize::recognize;
-use crate::view::catalog::find::{FoundData, essential_part, found_text};
+use crate::view::catalog::find::{FoundData, found_text};
 use anyhow::Context;
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
@@ -36,9 +36,9 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
         )
     })?;
     let store = a.within.as_deref().map(open).transpose()?;
-    let part = essential_part(&found);
-    let known = store.map(|s| entries(&s, &part)).transpose()?;
-    let data = FoundData::new(&found, known);
+    let part = found.structure.essential_links();
+    let known = store.map(|s| entries(&s, &found.structure.part(&part)));
+    let data = FoundData::new(&found, &part, known.transpose()?);
     let path = a.output.as_deref();
     output::to(path, |out| {
         if a.json {

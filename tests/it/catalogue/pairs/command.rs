@@ -1,14 +1,10 @@
 //! `ozols catalog count --pairs` as people and programs read it.
 
-use crate::common::{json, ozols, text};
+use crate::common::{json, out, ozols, text};
 use itertools::Itertools;
 
 fn count(more: &[&str]) -> String {
-    let o = ozols(&[&["catalog", "count"], more].concat())
-        .output()
-        .unwrap();
-    assert!(o.status.success(), "{}", text(&o.stderr));
-    text(&o.stdout).to_owned()
+    out(&[&["catalog", "count"], more].concat())
 }
 
 #[test]
