@@ -7,16 +7,8 @@ function changesOf(idea) {
   });
 }
 
-function choose(c, from) {
-  const dialog = by('chosen');
-  const head = document.createElement('header');
-  const close = text('button', 'Close', { type: 'button' });
-  close.addEventListener('click', () => dialog.close());
-  head.append(text('h2', c.id, { id: 'chosen-name' }), close);
-  const figure = document.createElement('div');
-  const draw = (idea) => figure.replaceChildren(gripper(c, `Gripper ${c.id}${idea ? ', idea ' + idea.place : ''}`, idea ? changesOf(idea) : []));
-  draw(null);
-  const list = document.createElement('dl');
+/** The figures of a gripper, each with its name. */
+function figuresOf(c) {
   const drive = c.input === 'slide' ? 'mm' : 'rad';
   const ends = [['closing', c.ends_closing], ['opening', c.ends_opening]].filter((e) => e[1]).map((e) => `${e[0]}: ${e[1]}`);
   const rows = c.drawn ? [['Mechanism', c.name], ['', c.description], ['Form', `${c.links} links, ${c.joints} joints, ${formOf(c)}`]] : [
@@ -32,11 +24,23 @@ function choose(c, from) {
       ['Room', `${short(c.width)} by ${short(c.height)} mm over the stroke`],
     ] : []),
   ];
-  rows.push(
+  return rows.concat([
     ['As built', `W = ${c.mobility}, σ = ${c.redundant}; finite mobility ${c.finite}`],
     ['Without redundant', `${least(c)}${grouped(c.determinate)} assignments, ${grouped(c.determinate_w1)} of them ${c.drawn ? 'that move as it does now' : 'with W = 1'}`],
-  );
-  for (const [name, value] of rows) list.append(text('dt', name), text('dd', value));
+  ]);
+}
+
+function choose(c, from) {
+  const dialog = by('chosen');
+  const head = document.createElement('header');
+  const close = text('button', 'Close', { type: 'button' });
+  close.addEventListener('click', () => dialog.close());
+  head.append(text('h2', c.id, { id: 'chosen-name' }), close);
+  const figure = document.createElement('div');
+  const draw = (idea) => figure.replaceChildren(gripper(c, `Gripper ${c.id}${idea ? ', idea ' + idea.place : ''}`, idea ? changesOf(idea) : []));
+  draw(null);
+  const list = document.createElement('dl');
+  for (const [name, value] of figuresOf(c)) list.append(text('dt', name), text('dd', value));
   const two = document.createElement('div');
   two.className = 'two';
   two.append(figure, list);
