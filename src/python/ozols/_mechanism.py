@@ -276,7 +276,7 @@ class Mechanism:
         (136800, 6240, 11.5)
         """
         given = {name: value for name, value in locals().items() if name not in ("self", "progress")}
-        return Outcome(_native.search(self._native, _asked(given), progress))
+        return Outcome(_native.search(self._native, _asked(given), progress), Mechanism)
 
     def __repr__(self) -> str:
         data = self.to_dict()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
@@ -37,20 +37,19 @@ class Variant(View):
     ``print(variant)`` shows it in one line.
     """
 
-    __slots__ = ("_native",)
+    __slots__ = ("_made", "_native")
 
-    def __init__(self, native: _native.Variant) -> None:
+    def __init__(self, native: _native.Variant, made: Callable[[_native.Mechanism], Mechanism]) -> None:
         super().__init__(json.loads(native.data))
         self._native = native
+        self._made = made
 
     def __str__(self) -> str:
         return self._native.text
 
     def mechanism(self) -> Mechanism:
         """The redesign as a mechanism of its own."""
-        from ._mechanism import Mechanism
-
-        return Mechanism(self._native.mechanism())
+        return self._made(self._native.mechanism())
 
     def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
         """The redesign with its changes marked, as ``ozols draw --variant``."""
@@ -81,8 +80,12 @@ class Outcome(Sequence[Variant]):
     1000
     """
 
-    def __init__(self, native: _native.Outcome) -> None:
+    def __init__(self, native: _native.Outcome, made: Callable[[_native.Mechanism], Mechanism]) -> None:
         self._native = native
+        self._made = made
+
+    def _shown(self, variants: Iterable[_native.Variant]) -> Iterator[Variant]:
+        return (Variant(v, self._made) for v in variants)
 
     @cached_property
     def counts(self) -> View:
@@ -146,15 +149,15 @@ class Outcome(Sequence[Variant]):
     @cached_property
     def variants(self) -> list[Variant]:
         """The variants asked for, the best first."""
-        return list(map(Variant, self._native.variants(False, None, 0)))
+        return list(self._shown(self._native.variants(False, None, 0)))
 
     def all(self) -> Iterator[Variant]:
         """Every admissible variant, the cheapest first, however many there are: a million takes no more memory than ten."""
-        return map(Variant, self._native.variants(True, None, 0))
+        return self._shown(self._native.variants(True, None, 0))
 
     def sample(self, count: int, seed: int = 1) -> Iterator[Variant]:
         """Admissible variants drawn at random, each with the same chance."""
-        return map(Variant, self._native.variants(False, count, seed))
+        return self._shown(self._native.variants(False, count, seed))
 
     def __iter__(self) -> Iterator[Variant]:
         return iter(self.variants)

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._mechanism import Mechanism
 from ._parts import Digest, shared_out
 from ._parts import build as build_parts
 
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
     import pandas
     import polars
     import pyarrow
-
-    from ._mechanism import Mechanism
 
 #: The tables, each with what its rows are told apart by.
 TABLES = {
@@ -83,8 +82,6 @@ class Catalog:
 
     def mechanism(self, id: str) -> Mechanism:
         """A structure that was laid out, or what was drawn, as a mechanism."""
-        from ._mechanism import Mechanism
-
         sql = "SELECT mechanism FROM layouts WHERE structure = ?1 UNION ALL SELECT mechanism FROM drawn WHERE id = ?1"
         found = self._db.execute(sql, [id]).fetchone()
         if found is None:
