@@ -49,45 +49,43 @@ pub enum Error {
     Export(#[from] ExportError),
 }
 
-impl Mechanism {
-    /// One of the mechanisms that are built in, by the name that [`builtin::names`] or `ozols list` gives.
-    ///
-    /// # Errors
-    /// Where there is none of this name.
-    pub fn builtin(name: &str) -> Result<Mechanism, Error> {
-        let text = builtin::text(name).ok_or_else(|| Error::NotBuiltIn(name.to_owned()))?;
-        Ok(mechanism_from_str(&format!("{name}.toml"), text)?)
-    }
+/// One of the mechanisms that are built in, by the name that [`builtin::names`] or `ozols list` gives.
+///
+/// # Errors
+/// Where there is none of this name.
+pub fn built_in(name: &str) -> Result<Mechanism, Error> {
+    let text = builtin::text(name).ok_or_else(|| Error::NotBuiltIn(name.to_owned()))?;
+    Ok(mechanism_from_str(&format!("{name}.toml"), text)?)
+}
 
-    /// Reads a mechanism file (JSON where its name ends in .json, else TOML) or a robot description or CAD assembly (URDF,
-    /// MJCF, SDF, FCStd, ASMT, by the ending). What was approximated in a description is in the report of [`import`].
-    ///
-    /// # Errors
-    /// Where the file cannot be read, and every problem in it, each with its place.
-    pub fn from_file(path: impl AsRef<Path>) -> Result<Mechanism, Error> {
-        let path = path.as_ref();
-        let name = path.display().to_string();
-        if robots::is_description(&name) {
-            return Ok(import(path, &Options::default())?.mechanism);
-        }
-        Ok(mechanism_from_bytes(&name, &bytes(path, MAX_BYTES)?)?)
+/// Reads a mechanism file (JSON where its name ends in .json, else TOML) or a robot description or CAD assembly (URDF,
+/// MJCF, SDF, FCStd, ASMT, by the ending). What was approximated in a description is in the report of [`import`].
+///
+/// # Errors
+/// Where the file cannot be read, and every problem in it, each with its place.
+pub fn open(path: impl AsRef<Path>) -> Result<Mechanism, Error> {
+    let path = path.as_ref();
+    let name = path.display().to_string();
+    if robots::is_description(&name) {
+        return Ok(import(path, &Options::default())?.mechanism);
     }
+    Ok(mechanism_from_bytes(&name, &bytes(path, MAX_BYTES)?)?)
+}
 
-    /// Reads the text of a mechanism file in TOML.
-    ///
-    /// # Errors
-    /// Every problem found, each with its place.
-    pub fn from_toml(text: &str) -> Result<Mechanism, Error> {
-        Ok(mechanism_from_str("mechanism.toml", text)?)
-    }
+/// Reads the text of a mechanism file in TOML.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn from_toml(text: &str) -> Result<Mechanism, Error> {
+    Ok(mechanism_from_str("mechanism.toml", text)?)
+}
 
-    /// Reads the text of a mechanism file in JSON.
-    ///
-    /// # Errors
-    /// Every problem found, each with its place.
-    pub fn from_json(text: &str) -> Result<Mechanism, Error> {
-        Ok(mechanism_from_str("mechanism.json", text)?)
-    }
+/// Reads the text of a mechanism file in JSON.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn from_json(text: &str) -> Result<Mechanism, Error> {
+    Ok(mechanism_from_str("mechanism.json", text)?)
 }
 
 /// The bytes of a file, one more than `limit` at most: the reader of them says that there are too many.
@@ -175,7 +173,7 @@ fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>
 /// `[Pogrebnyak 2018]` for the figures of the example.
 ///
 /// ```
-/// let gripper = ozols::Mechanism::builtin("gripper-10")?;
+/// let gripper = ozols::built_in("gripper-10")?;
 /// let free = &ozols::analyze(&gripper)?[0];
 /// assert_eq!((free.mobility, free.redundant), (1, 11));
 /// # Ok::<(), ozols::Error>(())
@@ -213,7 +211,7 @@ pub fn search(mechanism: &Mechanism, request: &Request) -> Result<Outcome, Error
 ///
 /// # Examples
 /// ```
-/// let m = ozols::Mechanism::builtin("four-bar")?;
+/// let m = ozols::built_in("four-bar")?;
 /// assert!(ozols::export(&m, "urdf")?.contains("<robot"));
 /// # Ok::<(), ozols::Error>(())
 /// ```

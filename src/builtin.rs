@@ -53,6 +53,13 @@ pub fn text(name: &str) -> Option<&'static str> {
     files().find(|f| name_of(f) == Some(name))?.contents_utf8()
 }
 
+/// Every built-in mechanism by its name, ascending, with its file.
+#[must_use]
+pub fn all() -> Vec<(&'static str, &'static str)> {
+    let with = |name| Some((name, text(name)?));
+    names().into_iter().filter_map(with).collect()
+}
+
 /// Names of the mechanisms of a family, ascending.
 fn members(folder: &str) -> Vec<&'static str> {
     let dir = CATALOGS.get_dir(folder).into_iter();

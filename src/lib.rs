@@ -14,7 +14,7 @@
 //! # Example
 //!
 //! ```
-//! let gripper = ozols::Mechanism::builtin("gripper-10")?;
+//! let gripper = ozols::built_in("gripper-10")?;
 //! let free = &ozols::analyze(&gripper)?[0];
 //! assert_eq!((free.mobility, free.redundant), (1, 11)); // [Pogrebnyak 2018]
 //!
@@ -50,46 +50,32 @@
 //! - `[Klyuchkovskyi 1999]` S. M. Klyuchkovskyi, a universal module of transport and feeding mechanisms for robots and
 //!   cyclic automata, UDC 621.01, 1999.
 
-pub use api::{Error, Scheme, analyze, draw, export, import, search};
+pub use api::{
+    Error, Scheme, analyze, built_in, draw, export, from_json, from_toml, import, open, search,
+};
 pub use model::mechanism::Mechanism;
 pub use redundancy::analysis::StateAnalysis as Analysis;
 pub use score::outcome::Outcome;
 pub use score::outcome::variant::Variant;
 pub use score::request::Request;
 
-pub mod accuracy;
+#[cfg(feature = "cli")]
+use ozols_kernel::format;
+
+pub use ozols_catalogue::{catalog, chains, synthesis};
+pub use ozols_evaluation::{accuracy, score, sweep};
+pub use ozols_files::{file, robots};
+pub use ozols_forces::{drive, grip, statics};
+pub use ozols_kernel::{
+    closure, geom, linalg, meant, model, motion, rank, redundancy, search, shard, verify,
+};
+pub use ozols_plot::chart;
+pub use ozols_show::{draw, page, terms, view};
+
 mod api;
 pub mod builtin;
-pub mod catalog;
-pub mod chains;
-pub mod chart;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod closure;
-pub mod draw;
-pub mod drive;
-pub mod file;
-mod format;
-pub mod geom;
-pub mod grip;
 pub mod guide;
-pub mod linalg;
-pub mod meant;
-pub mod model;
-pub mod motion;
-pub mod page;
-pub mod rank;
-pub mod redundancy;
-pub mod robots;
-pub mod score;
-pub mod search;
-pub mod shard;
-pub mod statics;
 #[cfg(feature = "cli")]
 pub mod studio;
-mod svg;
-pub mod sweep;
-pub mod synthesis;
-pub mod terms;
-pub mod verify;
-pub mod view;

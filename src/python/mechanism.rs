@@ -16,7 +16,7 @@ pub(crate) struct Mechanism(pub(crate) ozols::Mechanism);
 impl Mechanism {
     #[staticmethod]
     fn builtin(name: &str) -> PyResult<Self> {
-        ozols::Mechanism::builtin(name).map(Self).map_err(refused)
+        ozols::built_in(name).map(Self).map_err(refused)
     }
 
     /// A mechanism file, or a robot description with what is doubtful about it.
@@ -25,18 +25,18 @@ impl Mechanism {
         if robots::is_description(&path.display().to_string()) {
             return robot(py, path, &Options::default());
         }
-        let read = py.detach(|| ozols::Mechanism::from_file(path));
+        let read = py.detach(|| ozols::open(path));
         Ok((Self(read.map_err(refused)?), String::new()))
     }
 
     #[staticmethod]
     fn from_toml(text: &str) -> PyResult<Self> {
-        ozols::Mechanism::from_toml(text).map(Self).map_err(refused)
+        ozols::from_toml(text).map(Self).map_err(refused)
     }
 
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
-        ozols::Mechanism::from_json(text).map(Self).map_err(refused)
+        ozols::from_json(text).map(Self).map_err(refused)
     }
 
     #[staticmethod]

@@ -1,6 +1,7 @@
 //! The page: its frame, its scripts and its style. The report and the studio draw with the same scripts.
 
 use crate::draw::SHEET_STYLE;
+use crate::page::{LOOK, SHARED};
 use maud::{DOCTYPE, Markup, html};
 use std::borrow::Cow;
 
@@ -9,43 +10,33 @@ use std::borrow::Cow;
 macro_rules! part {
     ($path:literal) => {
         (
-            concat!(env!("CARGO_MANIFEST_DIR"), "/src/", $path),
-            include_str!(concat!("../", $path)),
+            concat!(env!("CARGO_MANIFEST_DIR"), "/src/studio/", $path),
+            include_str!($path),
         )
     };
 }
 
-/// The scripts by idea, in the order they are run: those of the report, and behind them the studio's own.
-const SCRIPTS: [(&str, &str); 27] = [
-    part!("page/script/element.js"),
-    part!("page/script/hull.js"),
-    part!("page/script/scene.js"),
-    part!("page/script/solids.js"),
-    part!("page/script/fittings.js"),
-    part!("page/script/bodies.js"),
-    part!("page/script/shaded.js"),
-    part!("page/script/closure.js"),
-    part!("page/script/player.js"),
-    part!("page/script/drag.js"),
-    part!("studio/script/talk.js"),
-    part!("studio/script/things.js"),
-    part!("studio/script/number.js"),
-    part!("studio/script/camera.js"),
-    part!("studio/script/preview.js"),
-    part!("studio/script/sheet.js"),
-    part!("studio/script/snap.js"),
-    part!("studio/script/build.js"),
-    part!("studio/script/tools.js"),
-    part!("studio/script/pointer.js"),
-    part!("studio/script/inspect.js"),
-    part!("studio/script/verdict.js"),
-    part!("studio/script/ideas.js"),
-    part!("studio/script/text.js"),
-    part!("studio/script/shelf.js"),
-    part!("studio/script/keys.js"),
-    part!("studio/script/main.js"),
+/// The studio's own scripts by idea, in the order they are run, after those that the report's page shares with it.
+const SCRIPTS: [(&str, &str); 17] = [
+    part!("script/talk.js"),
+    part!("script/things.js"),
+    part!("script/number.js"),
+    part!("script/camera.js"),
+    part!("script/preview.js"),
+    part!("script/sheet.js"),
+    part!("script/snap.js"),
+    part!("script/build.js"),
+    part!("script/tools.js"),
+    part!("script/pointer.js"),
+    part!("script/inspect.js"),
+    part!("script/verdict.js"),
+    part!("script/ideas.js"),
+    part!("script/text.js"),
+    part!("script/shelf.js"),
+    part!("script/keys.js"),
+    part!("script/main.js"),
 ];
-const STYLES: [(&str, &str); 2] = [part!("page/look.css"), part!("studio/studio.css")];
+const STYLES: [(&str, &str); 2] = [LOOK, part!("studio.css")];
 
 /// The picture of the window's tab.
 pub(super) const ICON: &str = include_str!("icon.svg");
@@ -56,7 +47,7 @@ fn now((path, built_in): (&str, &'static str)) -> Cow<'static, str> {
 }
 
 pub(super) fn script() -> String {
-    SCRIPTS.into_iter().map(now).collect()
+    SHARED.into_iter().chain(SCRIPTS).map(now).collect()
 }
 
 pub(super) fn style() -> String {

@@ -2,7 +2,6 @@
 
 use super::disk::{BLANK, Opening};
 use crate::builtin;
-use crate::model::mechanism::Mechanism;
 use crate::page::scenes::still_picture;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -30,7 +29,7 @@ pub(super) fn list() -> Value {
         .collect();
     let built_in = builtin::families().into_iter().map(|(family, names)| {
         let all = names.into_iter().map(|name| {
-            let m = Mechanism::builtin(name).ok();
+            let m = crate::built_in(name).ok();
             json!({ "name": name, "what": m.map(|m| m.description) })
         });
         json!({ "family": family, "all": all.collect::<Vec<_>>() })
@@ -57,8 +56,8 @@ pub(super) fn opening(name: &str, folder: PathBuf) -> Option<Opening> {
 pub(super) fn picture(name: &str) -> Option<String> {
     let own = OWN.iter().find(|(n, ..)| *n == name);
     let m = match own {
-        Some((_, _, text)) => Mechanism::from_toml(text),
-        None => Mechanism::builtin(name),
+        Some((_, _, text)) => crate::from_toml(text),
+        None => crate::built_in(name),
     };
     let Ok(m) = m else {
         // An empty sheet has no picture of its own.

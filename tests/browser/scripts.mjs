@@ -10,10 +10,11 @@ const read = (file) => readFileSync(path.join(root, file), "utf8");
 /** The scripts that a page has, in the order of its Rust file. */
 const listed = (file, pattern, folder) => [...read(file).matchAll(pattern)].map((m) => path.join(folder, m[1]));
 
+const SHARED = listed("src/show/page.rs", /part!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show");
 const PAGES = {
-  report: listed("src/page.rs", /include_str!\("(page\/script\/[\w/]+\.js)"\)/g, "src").filter((f) => !f.endsWith("live.js")),
-  studio: listed("src/studio/paper.rs", /part!\("([\w/]+\.js)"\)/g, "src"),
-  catalogue: listed("src/page/catalogue.rs", /include_str!\("(script\/[\w/]+\.js)"\)/g, "src/page"),
+  report: [...SHARED, ...listed("src/show/page.rs", /include_str!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show").filter((f) => !f.endsWith("live.js"))],
+  studio: [...SHARED, ...listed("src/studio/paper.rs", /part!\("([\w/]+\.js)"\)/g, "src/studio")],
+  catalogue: listed("src/show/page/catalogue.rs", /include_str!\("(script\/[\w/]+\.js)"\)/g, "src/show/page"),
 };
 
 /** What no script may have, and why. */

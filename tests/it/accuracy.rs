@@ -10,6 +10,7 @@ use ozols::accuracy::stability::special::SpecialKind;
 use ozols::accuracy::survey::{Reply, Survey, cases};
 use ozols::accuracy::timing::Stopwatch;
 use ozols::accuracy::tuned::tolerances;
+use ozols::builtin;
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::scalars::Reals;
@@ -25,7 +26,7 @@ static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
         clock: || Duration::ZERO,
         repeat: 1,
     };
-    Survey::new(watch, &mut |_, _| {}).unwrap()
+    Survey::new(&builtin::all(), watch, &mut |_, _| {}).unwrap()
 });
 
 fn index(name: &str) -> usize {
@@ -39,7 +40,7 @@ fn reply(case: &str, method: &str) -> &'static Reply {
 
 #[test]
 fn finite_auto_and_modular_are_right_everywhere() {
-    assert!(cases().unwrap().len() >= 117);
+    assert!(cases(&builtin::all()).unwrap().len() >= 117);
     let mut wrong = Vec::new();
     for name in ["finite", "auto"] {
         for (case, r) in SURVEY.of_method(index(name)) {
@@ -270,8 +271,10 @@ fn a_quick_run_writes_charts_whose_right_cells_are_right() {
     let folder = tempfile::tempdir().unwrap();
     let (said, at) = quick_accuracy();
     assert!(
-        said.contains(&format!("right of {}", cases().unwrap().len()))
-            && said.contains("Recommended default tolerance")
+        said.contains(&format!(
+            "right of {}",
+            cases(&builtin::all()).unwrap().len()
+        )) && said.contains("Recommended default tolerance")
     );
     let mut svgs = 0;
     for entry in std::fs::read_dir(at).unwrap() {

@@ -1,27 +1,12 @@
 //! The page "How to add": its files exist, and its lists are the only ones.
 
+use crate::sources::{below, root, without_tests};
 use ozols::model::joint_type::JointType;
 use ozols::model::ranking::Term;
 use ozols::rank::method::registry;
 use std::fs;
-use std::path::{Path, PathBuf};
 
 const PAGE: &str = include_str!("../../src/guide/adding.md");
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, out);
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            out.push(path);
-        }
-    }
-}
 
 #[test]
 fn the_files_and_names_of_the_page_exist() {
@@ -31,8 +16,7 @@ fn the_files_and_names_of_the_page_exist() {
     for file in &files {
         assert!(root().join(file).exists(), "{file}");
     }
-    let mut all = Vec::new();
-    sources(&root().join("src"), &mut all);
+    let all = below(&root().join("src"));
     let code: String = all.iter().map(|f| fs::read_to_string(f).unwrap()).collect();
     for name in quoted.iter().filter(|q| !q.contains(['/', ' ', '-'])) {
         // Python's classes are called with a point.
@@ -44,8 +28,7 @@ fn the_files_and_names_of_the_page_exist() {
 
 /// Files outside `homes` in which a word stands by itself, in quotes or in a longer text; comments and tests aside.
 fn elsewhere(word: &str, homes: &[&str]) -> Vec<String> {
-    let mut all = Vec::new();
-    sources(&root().join("src"), &mut all);
+    let all = below(&root().join("src"));
     let part_of_word = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
     let alone = |line: &str| {
         let code = line.split("//").next().unwrap();
@@ -58,7 +41,7 @@ fn elsewhere(word: &str, homes: &[&str]) -> Vec<String> {
         .map(|f| {
             let name = f.strip_prefix(root()).unwrap().to_str().unwrap().to_owned();
             let text = fs::read_to_string(f).unwrap();
-            (name, crate::layering::without_tests(&text))
+            (name, without_tests(&text))
         })
         .filter(|(name, text)| {
             !homes.iter().any(|h| name.starts_with(h)) && text.lines().any(alone)
@@ -70,8 +53,7 @@ fn elsewhere(word: &str, homes: &[&str]) -> Vec<String> {
 /// A new ranking term meets the compiler in the three files of the page, and in no other.
 #[test]
 fn ranking_terms_are_listed_in_their_three_files() {
-    let mut all = Vec::new();
-    sources(&root().join("src"), &mut all);
+    let all = below(&root().join("src"));
     let mut exhaustive: Vec<String> = Vec::new();
     for f in &all {
         let text = fs::read_to_string(f).unwrap();
@@ -82,9 +64,9 @@ fn ranking_terms_are_listed_in_their_three_files() {
     }
     exhaustive.sort();
     let of_the_page = [
-        "src/model/ranking.rs",
-        "src/score/evaluation/lower_bound.rs",
-        "src/score/evaluation/terms.rs",
+        "src/evaluation/score/evaluation/lower_bound.rs",
+        "src/evaluation/score/evaluation/terms.rs",
+        "src/kernel/model/ranking.rs",
     ];
     assert_eq!(exhaustive, of_the_page);
     assert!(of_the_page.iter().all(|f| PAGE.contains(f)));
@@ -92,7 +74,7 @@ fn ranking_terms_are_listed_in_their_three_files() {
         // "cost" and the like are words of other tables, too.
         if term.name().contains('-') {
             assert_eq!(
-                elsewhere(term.name(), &["src/model/ranking.rs"]),
+                elsewhere(term.name(), &["src/kernel/model/ranking.rs"]),
                 [""; 0],
                 "{term:?}"
             );
@@ -121,7 +103,11 @@ fn the_schema_and_the_help_have_every_term_and_joint_type() {
 #[test]
 fn the_words_of_rank_methods_stand_in_their_own_files() {
     // The studies of accuracy ask some methods by name.
-    let homes = ["src/rank/", "src/accuracy/", "src/view/accuracy/"];
+    let homes = [
+        "src/kernel/rank/",
+        "src/evaluation/accuracy/",
+        "src/show/view/accuracy/",
+    ];
     for method in registry::ALL {
         let name = method.name();
         // These are words of other tables, too.
@@ -137,7 +123,7 @@ fn the_words_of_rank_methods_stand_in_their_own_files() {
 #[test]
 fn every_field_of_a_request_is_an_option_and_a_keyword() {
     let read = |file: &str| fs::read_to_string(root().join(file)).unwrap();
-    let request = read("src/score/request.rs");
+    let request = read("src/evaluation/score/request.rs");
     let (_, fields) = request.split_once("pub struct Request {").unwrap();
     let (fields, _) = fields.split_once("\n}").unwrap();
     let fields = fields.lines().filter_map(|l| l.trim().strip_prefix("pub "));
@@ -156,8 +142,8 @@ fn every_field_of_a_request_is_an_option_and_a_keyword() {
 fn every_column_of_the_catalogue_is_entered_by_its_name() {
     let read = |file: &str| fs::read_to_string(root().join(file)).unwrap();
     let (sql, insert) = (
-        read("src/catalog/tables.sql"),
-        read("src/catalog/insert.rs"),
+        read("src/catalogue/catalog/tables.sql"),
+        read("src/catalogue/catalog/insert.rs"),
     );
     let mut tables = 0;
     for table in sql.split("CREATE TABLE ").skip(1) {

@@ -289,7 +289,7 @@ fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
         joint.point = [x, y, "0".to_owned()].map(Coordinate::Expression);
         change_input.then(|| joint.drive = DriveWord::default());
     }
-    Mechanism::from_json(&file.json().to_string()).unwrap()
+    ozols::from_json(&file.json().to_string()).unwrap()
 }
 
 #[test]
@@ -304,7 +304,7 @@ fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
         let StructureRow { laid: Ok(laid), .. } = row(subject, &s, &plain(3)).unwrap() else {
             return;
         };
-        let again = Mechanism::from_toml(&laid.file).unwrap();
+        let again = ozols::from_toml(&laid.file).unwrap();
         let free = &analyze(&again).unwrap()[0];
         assert_eq!((free.mobility, free.redundant), laid.as_built);
         let request = Request {

@@ -63,7 +63,7 @@ pub(crate) fn quick_accuracy() -> (&'static str, &'static Path) {
 
 /// A built-in mechanism.
 pub(crate) fn built_in(name: &str) -> Mechanism {
-    Mechanism::builtin(name).unwrap()
+    ozols::built_in(name).unwrap()
 }
 
 /// A count, written as a string.

@@ -1,73 +1,61 @@
 //! Imports go downward only.
 
+use crate::sources::{CRATES, below, rooms, root, without_tests};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// The layers, lowest first; modules of one row do not import each other, except where a row says so by order.
-const LAYERS: [&[&str]; 20] = [
-    &["format", "shard"],
-    &["linalg", "terms", "guide", "builtin"],
-    &["geom", "verify", "chains"],
-    &["svg"],
-    &["chart"],
-    &["model"],
-    &["closure"],
-    &["motion", "meant"],
-    &["rank", "statics"],
-    &["grip", "drive"],
-    &["redundancy", "file"],
-    &["search", "robots", "synthesis"],
-    &["score", "draw"],
-    &["accuracy", "catalog"],
-    &["sweep"],
-    &["api"],
-    &["view"],
-    &["page"],
-    &["studio"],
-    &["cli"],
+/// The layers, lowest first, each with the folder of its crate; rooms of one row do not import each other. Between crates the
+/// compiler holds them, within one this test does.
+const LAYERS: [(&str, &[&str]); 29] = [
+    ("kernel", &["format", "shard"]),
+    ("kernel", &["linalg"]),
+    ("kernel", &["geom", "verify"]),
+    ("kernel", &["model"]),
+    ("kernel", &["closure"]),
+    ("kernel", &["motion", "meant"]),
+    ("kernel", &["rank"]),
+    ("kernel", &["redundancy"]),
+    ("kernel", &["search"]),
+    ("forces", &["statics"]),
+    ("forces", &["grip", "drive"]),
+    ("plot", &["svg"]),
+    ("plot", &["chart"]),
+    ("files", &["file"]),
+    ("files", &["robots"]),
+    ("evaluation", &["score"]),
+    ("evaluation", &["accuracy"]),
+    ("evaluation", &["sweep"]),
+    ("catalogue", &["chains"]),
+    ("catalogue", &["synthesis"]),
+    ("catalogue", &["catalog"]),
+    ("show", &["terms"]),
+    ("show", &["draw"]),
+    ("show", &["view"]),
+    ("show", &["page"]),
+    ("", &["guide", "builtin"]),
+    ("", &["api"]),
+    ("", &["studio"]),
+    ("", &["cli"]),
 ];
 
-fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            // A crate of its own.
-            if !path.join("Cargo.toml").exists() {
-                sources(&path, out);
-            }
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            out.push(path);
-        }
-    }
-}
-
 fn layer(module: &str) -> Option<usize> {
-    LAYERS.iter().position(|row| row.contains(&module))
+    LAYERS.iter().position(|(_, row)| row.contains(&module))
 }
 
 #[test]
 fn no_module_imports_upward_or_sideways() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let (mut files, mut wrong) = (Vec::new(), Vec::new());
-    sources(&root, &mut files);
-    for file in files {
-        let inside = file.strip_prefix(&root).unwrap();
-        let module = inside
-            .components()
-            .next()
-            .unwrap()
-            .as_os_str()
-            .to_str()
-            .unwrap()
-            .trim_end_matches(".rs");
-        // src/dense is a crate of its own, which knows nothing of this one.
-        if ["lib", "main", "dense"].contains(&module) {
-            continue;
-        }
+    let mut wrong = Vec::new();
+    for source in rooms() {
+        let module = source.module.split('/').next().unwrap();
         let own = layer(module)
             .unwrap_or_else(|| panic!("{module} has no place in the layers; give it one"));
-        for (n, line) in fs::read_to_string(&file).unwrap().lines().enumerate() {
+        assert_eq!(LAYERS[own].0, source.of, "the crate of {module}");
+        for (n, line) in fs::read_to_string(&source.path)
+            .unwrap()
+            .lines()
+            .enumerate()
+        {
             for used in line.split("crate::").skip(1) {
                 let used: String = used
                     .chars()
@@ -75,11 +63,7 @@ fn no_module_imports_upward_or_sideways() {
                     .collect();
                 let Some(other) = layer(&used) else { continue };
                 if used != module && other >= own {
-                    wrong.push(format!(
-                        "{}:{}: {module} -> {used}",
-                        inside.display(),
-                        n + 1
-                    ));
+                    wrong.push(format!("{}:{}: {module} -> {used}", source.module, n + 1));
                 }
             }
         }
@@ -87,48 +71,41 @@ fn no_module_imports_upward_or_sideways() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// A crate imports those of lower layers, and each room is in one.
+#[test]
+fn crates_are_in_the_order_of_the_layers() {
+    let mut order: Vec<&str> = LAYERS.iter().map(|(of, _)| *of).collect();
+    order.dedup();
+    assert_eq!(order[..CRATES.len()], CRATES);
+    for (n, of) in CRATES.into_iter().enumerate() {
+        let manifest = root().join(format!("src/{of}/Cargo.toml"));
+        let manifest: toml::Table = fs::read_to_string(manifest).unwrap().parse().unwrap();
+        let needs = manifest["dependencies"].as_table().unwrap();
+        for higher in &CRATES[n..] {
+            assert!(
+                !needs.contains_key(&format!("ozols-{higher}")),
+                "{of} -> {higher}"
+            );
+        }
+    }
+}
+
 /// What a person reads at one sitting.
 const LINES: usize = 450;
 
 #[test]
 fn no_file_is_longer_than_a_sitting() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = Vec::new();
-    for folder in ["src", "src/dense", "src/python", "tests/it", "benches"] {
-        sources(&root.join(folder), &mut files);
-    }
+    let folders = ["src", "tests/it", "benches"].map(|f| below(&root().join(f)));
+    let mut files = folders.concat();
     let lines = |f: &PathBuf| fs::read_to_string(f).unwrap().lines().count();
     files.retain(|f| lines(f) > LINES);
     assert!(files.is_empty(), "over {LINES} lines: {files:#?}");
 }
 
-/// A source file without its tests: each item under `#[cfg(test)]` is left out, what follows it stays.
-pub(crate) fn without_tests(text: &str) -> String {
-    let mut out: Vec<&str> = Vec::new();
-    let mut lines = text.lines();
-    while let Some(line) = lines.next() {
-        if line.trim_start() != "#[cfg(test)]" {
-            out.push(line);
-            continue;
-        }
-        let indent = &line[..line.len() - line.trim_start().len()];
-        let close = format!("{indent}}}");
-        let item = lines.find(|l| !l.trim_start().starts_with("#["));
-        if item.is_some_and(|i| !i.ends_with([';', '}'])) {
-            lines.find(|l| *l == close);
-        }
-    }
-    out.join("\n")
-}
-
 /// A file as a module, such as `rank/method`, and its source without comments and tests.
 fn modules() -> BTreeMap<String, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut files = Vec::new();
-    sources(&root, &mut files);
-    let named = files.into_iter().map(|file| {
-        let inside = file.strip_prefix(&root).unwrap().with_extension("");
-        let text = fs::read_to_string(&file).unwrap();
+    let named = rooms().into_iter().map(|source| {
+        let text = fs::read_to_string(&source.path).unwrap();
         let code = without_tests(&text);
         // Who may see an item is no import.
         let code: Vec<&str> = code
@@ -141,12 +118,9 @@ fn modules() -> BTreeMap<String, String> {
                 first.into_iter().chain(seen)
             })
             .collect();
-        let name = inside.to_str().unwrap().replace('\\', "/");
-        (name, code.join("\n"))
+        (source.module, code.join("\n"))
     });
-    named
-        .filter(|(name, _)| !["lib", "main"].contains(&name.as_str()))
-        .collect()
+    named.collect()
 }
 
 /// The paths that begin where `rest` does, a group such as `a::{b, c::d}` written out, and what follows them.
@@ -263,15 +237,14 @@ fn no_files_import_each_other_in_a_circle() {
 
 #[test]
 fn the_architecture_page_names_every_room_in_order() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = fs::read_to_string(root.join("src/guide/architecture.md")).unwrap();
+    let page = fs::read_to_string(root().join("src/guide/architecture.md")).unwrap();
     let rows = page.lines().filter_map(|l| l.strip_prefix("| `"));
     let all: Vec<&str> = rows
         .flat_map(|l| l.split(" | ").next().unwrap().split(", "))
         .map(|room| room.trim_matches('`'))
         .collect();
     let (inner, named): (Vec<&str>, Vec<&str>) = all.into_iter().partition(|r| r.contains("::"));
-    let folders = fs::read_dir(root.join("src/search")).unwrap();
+    let folders = fs::read_dir(root().join("src/kernel/search")).unwrap();
     let folders = folders.map(|e| e.unwrap().path()).filter(|p| p.is_dir());
     let mut folders: Vec<String> = folders
         .map(|p| format!("search::{}", p.file_name().unwrap().display()))
@@ -282,5 +255,6 @@ fn the_architecture_page_names_every_room_in_order() {
     assert_eq!(inner, folders);
     let layers: Vec<usize> = named.iter().map(|room| layer(room).unwrap()).collect();
     assert!(layers.is_sorted(), "{named:?}");
-    assert_eq!(named.len(), LAYERS.concat().len());
+    let rooms: usize = LAYERS.iter().map(|(_, row)| row.len()).sum();
+    assert_eq!(named.len(), rooms);
 }

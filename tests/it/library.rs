@@ -10,7 +10,7 @@ use ozols::search::question::conditions::Symmetry;
 use ozols::view::search::csv;
 use ozols::view::search::json;
 use ozols::view::search::text;
-use ozols::{Error, Mechanism, Outcome, Request, Scheme};
+use ozols::{Error, Outcome, Request, Scheme};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 fn search(name: &str, request: &Request) -> Outcome {
@@ -213,7 +213,7 @@ fn formats_and_drawings_are_those_of_the_command() {
     let svg = ozols::draw(&m, Scheme::Kinematic).unwrap();
     assert_eq!(svg, printed(&["draw", "four-bar", "--kind", "kinematic"]));
     let toml = ozols::export(&m, "toml").unwrap();
-    let again = Mechanism::from_toml(&toml).unwrap();
+    let again = ozols::from_toml(&toml).unwrap();
     assert_eq!(ozols::export(&again, "toml").unwrap(), toml);
 }
 
@@ -246,11 +246,11 @@ fn errors_read_as_those_of_the_command() {
     let printed = String::from_utf8(printed.unwrap().stderr).unwrap();
     assert_eq!(printed.trim(), format!("error: {why}"));
     assert!(matches!(
-        Mechanism::builtin("nosuch"),
+        ozols::built_in("nosuch"),
         Err(Error::NotBuiltIn(name)) if name == "nosuch"
     ));
     assert!(matches!(
-        Mechanism::from_file("/nosuch/file.toml"),
+        ozols::open("/nosuch/file.toml"),
         Err(Error::Read { .. })
     ));
 }

@@ -31,6 +31,7 @@ mod reactions;
 mod report_page;
 mod robots;
 mod search;
+mod sources;
 mod statics;
 mod structure;
 mod studio;

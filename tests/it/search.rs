@@ -7,6 +7,7 @@ mod certify;
 mod costs;
 mod held;
 pub(crate) mod ideas;
+mod inside;
 mod least_model;
 mod order;
 mod self_stresses;

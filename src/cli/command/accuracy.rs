@@ -4,6 +4,7 @@ use crate::accuracy::folder;
 use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::Survey;
 use crate::accuracy::timing::Stopwatch;
+use crate::builtin;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::terminal::machine;
@@ -39,7 +40,8 @@ pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     let mut bar = Bar::new(args.quiet);
     let clock = machine::processor_time;
     let machine = machine::machine();
-    let survey = Survey::new(Stopwatch { clock, repeat }, &mut |done, of| {
+    let built_in = builtin::all();
+    let survey = Survey::new(&built_in, Stopwatch { clock, repeat }, &mut |done, of| {
         bar.step("timing the methods", done, of);
     })?;
     if let Some(folder) = &a.output {
@@ -48,7 +50,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
             seed: args.seed,
             clock,
         };
-        let studies = stability::all(&survey.cases, effort, &mut |what, done, of| {
+        let studies = stability::all(&built_in, &survey.cases, effort, &mut |what, done, of| {
             bar.step(what, done, of);
         })?;
         let files = folder::files(&survey, &studies, &machine);

@@ -5,7 +5,7 @@ use crate::cli::done::Done;
 use crate::cli::terminal::did_you_mean;
 use crate::cli::terminal::output;
 use crate::format::csv;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::StateId;
 use crate::redundancy::figures::figures;
 use crate::view::terminal::layout::{fit, table};
 use anyhow::Context;
@@ -146,7 +146,7 @@ fn rows(
     family: &'static str,
     name: &'static str,
 ) -> anyhow::Result<Vec<ListRow>> {
-    let m = Mechanism::builtin(name)?;
+    let m = crate::built_in(name)?;
     let about = format!("{name} {family} {}", m.description).to_lowercase();
     if !words.iter().all(|w| about.contains(w)) {
         return Ok(Vec::new());

@@ -58,7 +58,7 @@ fn orbits_are_those_of_a_list_of_all_variants() {
                 return;
             };
             seen += 1;
-            let m = Mechanism::from_toml(&laid.file).unwrap();
+            let m = ozols::from_toml(&laid.file).unwrap();
             let to = images(&m, |[x, y]| match symmetry {
                 Symmetry::Mirror => [x, -y],
                 Symmetry::HalfTurn => [-x, -y],

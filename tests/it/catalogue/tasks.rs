@@ -4,7 +4,6 @@ use super::command::{at, fails, ok};
 use super::rows::all_of_six;
 use crate::common::{json, run};
 use ozols::geom::vector::real;
-use ozols::model::mechanism::Mechanism;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use tempfile::tempdir;
@@ -199,7 +198,7 @@ fn parts_are_held_from_inside_by_the_other_way() {
                 "-o",
                 &toml,
             ]);
-            let m = Mechanism::from_file(&toml).unwrap();
+            let m = ozols::open(&toml).unwrap();
             let up = m
                 .loads
                 .forces

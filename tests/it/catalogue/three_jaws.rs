@@ -8,7 +8,6 @@ use ozols::catalog::row::row;
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
 use ozols::geom::vector::real;
-use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::layout::layout;
 use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::Structure;
@@ -130,7 +129,7 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
         let row = row(subject, &s, &plain(3)).unwrap();
         let laid = row.laid.unwrap();
         seen += 1;
-        let m = Mechanism::from_toml(&laid.file).unwrap();
+        let m = ozols::from_toml(&laid.file).unwrap();
         let turn = subject.swaps(&s.roles).next().unwrap();
         let places: BTreeMap<(usize, usize), [f64; 2]> = m
             .joints

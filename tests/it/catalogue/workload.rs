@@ -7,7 +7,6 @@ use ozols::catalog::spec::Spec;
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::file::write;
 use ozols::geom::vector::real;
-use ozols::model::mechanism::Mechanism;
 use ozols::synthesis::layout::layout;
 use ozols::synthesis::limits::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
@@ -55,7 +54,7 @@ fn the_force_ratio_is_that_of_the_lever_arms() {
         "-o",
         &file,
     ]);
-    let m = Mechanism::from_file(&file).unwrap();
+    let m = ozols::open(&file).unwrap();
     let pin = |name: &str| {
         let [x, y, _] = real(&m.joints[m.joint(name).unwrap()].frame.point);
         [x, y]

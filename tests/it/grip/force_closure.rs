@@ -3,7 +3,6 @@
 mod programme;
 
 use crate::common::{built_in, json, near, run_on};
-use ozols::Mechanism;
 use ozols::grip::clamped_part::{ClampedPart, PartError};
 use ozols::grip::force_closure::{ForceClosure, closure};
 use ozols::grip::tolerance_samples::{ClosureShares, shares};
@@ -62,7 +61,7 @@ drive = true
 }
 
 pub(crate) fn part(text: &str) -> ClampedPart {
-    let m = Mechanism::from_toml(text).unwrap();
+    let m = ozols::from_toml(text).unwrap();
     let state = m.state("clamped").unwrap();
     ClampedPart::new(&m, state).unwrap()
 }
@@ -331,7 +330,7 @@ fn what_has_no_part_between_contacts_is_refused() {
     let none = ClampedPart::new(&m, StateId::FREE);
     assert!(matches!(none, Err(PartError::NoPart { .. })));
     let text = vice(&[flat(0.1, ""), flat(-0.1, "")]).replacen("\"fixed\"", "\"revolute\"", 1);
-    let m = Mechanism::from_toml(&text).unwrap();
+    let m = ozols::from_toml(&text).unwrap();
     let joined = ClampedPart::new(&m, m.state("clamped").unwrap());
     assert!(
         matches!(joined, Err(PartError::Joined { .. })),

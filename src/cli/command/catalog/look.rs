@@ -6,7 +6,6 @@ use crate::api::Scheme;
 use crate::catalog::store::Store;
 use crate::cli::done::Done;
 use crate::cli::terminal::output;
-use crate::model::mechanism::Mechanism;
 use crate::page::catalogue::catalogue;
 use crate::redundancy::analysis::exact_field;
 use crate::search::Search;
@@ -106,7 +105,7 @@ pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
     let id = store.find(&a.id)?;
     if let Some(picture) = &a.svg {
-        let mechanism = Mechanism::from_toml(&laid_out(&store, &a.file, &id)?)?;
+        let mechanism = crate::from_toml(&laid_out(&store, &a.file, &id)?)?;
         let drawn = crate::api::draw(&mechanism, Scheme::Kinematic)?;
         output::to(Some(picture), |out| {
             out.write_all(drawn.as_bytes())?;
@@ -149,12 +148,12 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
     let text = laid_out(&store, &a.file, &id)?;
     let text = match a.idea {
         None if a.to == "toml" => text,
-        None => crate::cli::command::export::text(&Mechanism::from_toml(&text)?, &a.to, None)?,
+        None => crate::cli::command::export::text(&crate::from_toml(&text)?, &a.to, None)?,
         Some(k) => {
             let choices = store
                 .choices(&id, k)?
                 .with_context(|| format!("{id} has no idea {k} in {}", a.file.display()))?;
-            let mechanism = Mechanism::from_toml(&text)?;
+            let mechanism = crate::from_toml(&text)?;
             let field = exact_field(&mechanism, 0)?;
             let search = Search::new(field, mechanism, Conditions::default())?;
             let mut made = variant_mechanism::realize(&search, &choices);

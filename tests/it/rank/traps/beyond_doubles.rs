@@ -77,7 +77,7 @@ fn a_rod_that_is_a_hair_longer_is_never_said_to_move() {
                     "{longer} {third}: {found:?}"
                 );
                 assert!(!exact || found.is_proven(), "{longer} {third}: {found:?}");
-                let m = ozols::Mechanism::from_toml(&text).unwrap();
+                let m = ozols::from_toml(&text).unwrap();
                 let whole = &ozols::analyze(&m).unwrap()[0];
                 assert!(
                     whole.finite.could_be(0),

@@ -1,0 +1,9 @@
+//! Catalogues of grippers: chains up to isomorphism, places for their joints, and rows of what was found in a database.
+
+use ozols_evaluation::score;
+use ozols_files::{file, robots};
+use ozols_kernel::{closure, format, geom, linalg, model, rank, redundancy, search, shard};
+
+pub mod catalog;
+pub mod chains;
+pub mod synthesis;

@@ -1,0 +1,83 @@
+//! How right and how fast each method is, and where its numbers fail.
+//!
+//! The [`survey`] asks every method of [`crate::rank::method`] about every built-in mechanism; [`stability`] moves
+//! geometry, size, scale, noise and tolerance until answers turn wrong; [`searching`] compares the ways of searching.
+//! Verdicts are the same on every run; only times differ.
+
+pub mod cases;
+pub mod folder;
+pub mod lattice;
+mod pareto;
+pub mod pictures;
+pub mod searching;
+pub mod stability;
+pub mod survey;
+pub mod timing;
+pub mod tuned;
+
+use crate::rank::method::{Answer, NoAnswer, Quantity};
+
+/// The built-in mechanisms, each its name and the text of its file; the front door has them.
+pub type BuiltIn<'a> = &'a [(&'a str, &'a str)];
+
+/// The true figures of a state of a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Truth {
+    /// f - rank J at the pose of the file.
+    pub instantaneous: i64,
+    /// The motion that is really there.
+    pub finite: i64,
+}
+
+/// What an answer is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AnswerVerdict {
+    /// The finite mobility.
+    Right,
+    /// The mobility at the pose, which is all the method speaks of, but not the finite one; by how much.
+    Pose(i64),
+    /// Wrong by so much.
+    Wrong(i64),
+    /// The method applies, but its arithmetic failed.
+    Failed,
+    /// The method does not apply.
+    Silent,
+}
+
+impl AnswerVerdict {
+    /// The verdict on an answer.
+    #[must_use]
+    pub fn on(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
+        match answer {
+            Ok(a) if a.mobility == truth.finite => AnswerVerdict::Right,
+            Ok(a) if a.quantity == Quantity::Instantaneous && a.mobility == truth.instantaneous => {
+                AnswerVerdict::Pose(a.mobility - truth.finite)
+            }
+            Ok(a) => AnswerVerdict::Wrong(a.mobility - truth.finite),
+            Err(NoAnswer::Failed(_)) => AnswerVerdict::Failed,
+            Err(_) => AnswerVerdict::Silent,
+        }
+    }
+
+    /// Whether the answer is the one the method promises: the finite mobility, or the one at the pose where that is what
+    /// it speaks of.
+    #[must_use]
+    pub(crate) fn keeps_promise(answer: &Result<Answer, NoAnswer>, truth: Truth) -> bool {
+        answer.as_ref().is_ok_and(|a| match a.quantity {
+            Quantity::Instantaneous => a.mobility == truth.instantaneous,
+            Quantity::Count | Quantity::Finite => a.mobility == truth.finite,
+        })
+    }
+
+    /// One word for programs.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            AnswerVerdict::Right => "right",
+            AnswerVerdict::Pose(_) => "right at the pose",
+            AnswerVerdict::Wrong(_) => "wrong",
+            AnswerVerdict::Failed => "failed",
+            AnswerVerdict::Silent => "does not apply",
+        }
+    }
+}

@@ -1,0 +1,360 @@
+//! A commented mechanism file to start from, made of one that exists.
+//!
+//! The words are those of the schema, so they cannot differ from what `ozols schema` says. Nothing of the file is
+//! moved, and nothing taken away but the claims of publications, which are not of the new mechanism: comments are put before the first table and the first key of each kind.
+
+use crate::file::schema::json_schema;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use toml_edit::{Decor, DocumentMut, InlineTable, Item, Table, TomlError};
+
+/// Columns of a comment.
+const COLUMNS: usize = 100;
+
+/// What to edit, by the path of the key; the schema says what each key is.
+const ADVICE: [(&str, &str); 10] = [
+    ("description", "Say what yours is."),
+    ("sources", "Put your own, or delete this."),
+    (
+        "link",
+        "Begin each with [[link]]. Exactly one is the frame, at least one an output.",
+    ),
+    (
+        "joint",
+        "Begin each with [[joint]]. Points, axes and types are what to edit first.",
+    ),
+    (
+        "joint.point",
+        "Each coordinate is a number, or an exact expression in quotes such as \"sqrt(3)/2\", \"cos(36deg)\", \"1/3\".",
+    ),
+    (
+        "contour",
+        "May be left out: then the shortest are taken. Edit these when you add or remove joints, or delete them.",
+    ),
+    ("search", "Name the joints that you can make."),
+    ("search.mirror", "Delete this where yours is not symmetric."),
+    (
+        "ranking",
+        "Without this table the cheapest variants come first.",
+    ),
+    (
+        "expected",
+        "They hold for the mechanism as it was built in: `ozols check` says where they differ from yours. Change or delete them.",
+    ),
+];
+
+/// The text of a mechanism file without what publications say of it, and the figures that hold for it as it is.
+///
+/// # Errors
+/// Where the text is no TOML.
+pub fn plain(text: &str) -> Result<String, TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    document.remove("claim");
+    document.remove("expected");
+    Ok(document.to_string())
+}
+
+/// The text of a mechanism file under another name, with a comment on every kind of table and key.
+///
+/// `from` is said to be the mechanism that it was made of. Complexity: one pass over the text.
+///
+/// # Errors
+/// Where the text is no TOML.
+pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    document.remove("claim");
+    if let Some(old) = document.get_mut("name").and_then(Item::as_value_mut) {
+        let decor = old.decor().clone();
+        *old = name.into();
+        *old.decor_mut() = decor;
+    }
+    let root = json_schema();
+    let mut writer = TemplateWriter {
+        root: &root,
+        seen: BTreeSet::new(),
+    };
+    writer.table(document.as_table_mut(), &root, "");
+    let mut head = String::new();
+    let mut say = |text: &str| comment(&mut head, text);
+    say(&format!(
+        "{name}: a mechanism for ozols, made of the built-in {from} by `ozols new`."
+    ));
+    say(
+        "Edit it, then: `ozols check FILE` says what is wrong, `ozols analyze FILE` what is redundant, `ozols search FILE` what to change.",
+    );
+    let more = unused(&root, [document.as_table()].into_iter());
+    if !more.is_empty() {
+        say(&format!(
+            "Keys and tables it does without: {} (see `ozols schema`).",
+            more.join(", ")
+        ));
+    }
+    head.push('\n');
+    Ok(head + &document.to_string())
+}
+
+struct TemplateWriter<'a> {
+    root: &'a Value,
+    /// Paths already explained.
+    seen: BTreeSet<String>,
+}
+
+impl TemplateWriter<'_> {
+    fn table(&mut self, table: &mut Table, schema: &Value, path: &str) {
+        let keys: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).collect();
+        for key in keys {
+            let (at, property) = property(schema, path, &key);
+            let Some(property) = property else { continue };
+            let inner = resolve(self.root, property).unwrap_or(property);
+            let first = self.seen.insert(at.clone());
+            let mut words = String::new();
+            if first {
+                explain(&mut words, property, inner, &at);
+            }
+            match table.get_mut(&key) {
+                Some(Item::Value(value)) => {
+                    if first && let Some(keys) = inline(value) {
+                        inline_keys(&mut words, &keys, inner);
+                    }
+                    if let Some(mut key) = table.key_mut(&key) {
+                        put(key.leaf_decor_mut(), "", &words);
+                    }
+                }
+                Some(Item::Table(t)) => {
+                    if t.is_implicit() {
+                        self.seen.remove(&at);
+                    } else {
+                        if first {
+                            also(&mut words, inner, std::iter::once(&*t));
+                        }
+                        put(t.decor_mut(), "\n", &words);
+                    }
+                    self.table(t, inner, &at);
+                }
+                Some(Item::ArrayOfTables(list)) => {
+                    if first {
+                        also(&mut words, inner, list.iter());
+                    }
+                    if let Some(t) = list.iter_mut().next() {
+                        put(t.decor_mut(), "\n", &words);
+                    }
+                    for t in list.iter_mut() {
+                        self.table(t, inner, &at);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// The schema of a key and the path it is known by; keys that the user chooses, such as names of joint types, are `*`.
+fn property<'s>(schema: &'s Value, path: &str, key: &str) -> (String, Option<&'s Value>) {
+    let join = |k: &str| match path {
+        "" => k.to_owned(),
+        _ => format!("{path}.{k}"),
+    };
+    match schema["properties"].get(key) {
+        Some(p) => (join(key), Some(p)),
+        None => (join("*"), schema.get("additionalProperties")),
+    }
+}
+
+/// The definition that a property, the items of its list, or one of its alternatives refers to.
+fn resolve<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value> {
+    if let Some(reference) = property["$ref"].as_str() {
+        let found = root.pointer(reference.trim_start_matches('#'))?;
+        return match found.get("properties") {
+            Some(_) => Some(found),
+            // One of several forms: the table is the one that has keys.
+            None => resolve(root, found).or(Some(found)),
+        };
+    }
+    let alternatives = property["anyOf"].as_array();
+    let within = alternatives.into_iter().flatten();
+    within
+        .chain(property.get("items"))
+        .find_map(|p| resolve(root, p))
+}
+
+/// What a key is and what to edit.
+fn explain(out: &mut String, property: &Value, inner: &Value, path: &str) {
+    let own = property["description"].as_str().unwrap_or_default();
+    let advice = ADVICE.iter().find(|(p, _)| *p == path);
+    let mut text = own.to_owned();
+    if let Some((_, advice)) = advice {
+        text = format!("{text} {advice}");
+    }
+    comment(out, &text);
+    // Conventions of a table, such as its units, stand with its definition.
+    let convention = inner["description"]
+        .as_str()
+        .filter(|d| d.contains("in the file's unit") && inner.get("properties").is_some());
+    if let Some(text) = convention {
+        comment(out, text);
+    }
+}
+
+/// The keys of a table in braces, or of the tables of a list.
+fn inline(value: &toml_edit::Value) -> Option<BTreeSet<String>> {
+    let keys = |t: &InlineTable| t.iter().map(|(k, _)| k.to_owned()).collect::<BTreeSet<_>>();
+    let found: BTreeSet<String> = match value {
+        toml_edit::Value::InlineTable(t) => keys(t),
+        toml_edit::Value::Array(list) => list
+            .iter()
+            .filter_map(toml_edit::Value::as_inline_table)
+            .flat_map(keys)
+            .collect(),
+        _ => BTreeSet::new(),
+    };
+    (!found.is_empty()).then_some(found)
+}
+
+fn inline_keys(out: &mut String, keys: &BTreeSet<String>, schema: &Value) {
+    let known = schema["properties"].as_object();
+    for (key, property) in known.into_iter().flatten() {
+        if let Some(d) = property["description"]
+            .as_str()
+            .filter(|_| keys.contains(key))
+        {
+            comment(out, &format!("{key}: {d}"));
+        }
+    }
+}
+
+/// The keys that none of these tables has.
+fn also<'t>(out: &mut String, schema: &Value, tables: impl Iterator<Item = &'t Table>) {
+    let more = unused(schema, tables);
+    if !more.is_empty() {
+        comment(out, &format!("May also have: {}.", more.join(", ")));
+    }
+}
+
+fn unused<'s, 't>(schema: &'s Value, tables: impl Iterator<Item = &'t Table>) -> Vec<&'s str> {
+    let used: BTreeSet<&str> = tables.flat_map(|t| t.iter().map(|(k, _)| k)).collect();
+    let known = schema["properties"].as_object();
+    known
+        .into_iter()
+        .flat_map(|k| k.keys())
+        .map(String::as_str)
+        .filter(|k| !used.contains(k))
+        .collect()
+}
+
+/// Appends a comment, filled to the columns.
+fn comment(out: &mut String, text: &str) {
+    if text.trim().is_empty() {
+        return;
+    }
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let options = textwrap::Options::new(COLUMNS).break_words(false);
+    for line in textwrap::wrap(&words, options.initial_indent("# ").subsequent_indent("# ")) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "{line}");
+    }
+}
+
+/// Puts a comment before what a decoration belongs to: after blank lines and what stands above them, before what the file
+/// says of it already.
+fn put(decor: &mut Decor, default: &str, words: &str) {
+    if words.is_empty() {
+        return;
+    }
+    let there = decor.prefix().and_then(|p| p.as_str()).unwrap_or(default);
+    let blank = there.rfind("\n\n").map(|i| i + 2);
+    let lead = there.len() - there.trim_start_matches(['\n', '\r']).len();
+    let (above, own) = there.split_at(blank.unwrap_or(0).max(lead));
+    // Our words and the file's are told apart by an empty comment.
+    let between = if own.starts_with('#') { "#\n" } else { "" };
+    decor.set_prefix(format!("{above}{words}{between}{own}"));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::commented;
+    use crate::file::schema::MechanismFile;
+    use ozols::builtin;
+
+    /// The lines of a file that are not of its claims, nor comments on them.
+    fn unclaimed(text: &str) -> Vec<&str> {
+        let (mut claim, mut kept) = (false, Vec::new());
+        for line in text.lines() {
+            if line.starts_with('[') {
+                claim = line == "[[claim]]";
+                while claim && kept.pop_if(|l: &mut &str| l.starts_with('#')).is_some() {}
+            }
+            if !claim {
+                kept.push(line);
+            }
+        }
+        kept
+    }
+
+    #[test]
+    fn every_line_of_every_built_in_file_is_kept() {
+        for name in builtin::names() {
+            let text = builtin::text(name).expect("it is built in");
+            let new = commented(text, name, "mine").expect("it is TOML");
+            assert!(
+                !new.contains("[[claim]]"),
+                "{name}: claims are of the mechanism that they are about"
+            );
+            let mut lines = new.lines();
+            let kept = unclaimed(text).into_iter();
+            for line in kept.filter(|l| !l.starts_with("name = ") && !l.is_empty()) {
+                assert!(lines.any(|l| l == line), "{name}: lost {line:?}\n{new}");
+            }
+            assert!(new.contains("\nname = \"mine\""), "{name}");
+        }
+    }
+
+    #[test]
+    fn the_file_says_the_same_under_another_name() {
+        let json = |text: &str| {
+            let file: MechanismFile = toml::from_str(text).expect("it is valid");
+            let mut json = file.json();
+            json.as_object_mut().expect("it is a table").remove("claim");
+            (json["name"].take(), json)
+        };
+        for name in builtin::names() {
+            let text = builtin::text(name).expect("it is built in");
+            let new = commented(text, name, "a \"b\"\n# c").expect("it is TOML");
+            let (new_name, new) = json(&new);
+            assert_eq!(new_name, "a \"b\"\n# c");
+            assert_eq!(new, json(text).1, "{name}");
+        }
+    }
+
+    #[test]
+    fn each_kind_of_key_is_explained_where_it_first_stands() {
+        let text = builtin::text("gripper-10-loaded").expect("it is built in");
+        let new = commented(text, "gripper-10-loaded", "mine").expect("it is TOML");
+        for (comment, key) in [
+            ("# Name, unique among links.", "id = \"0\""),
+            ("# Mass in kg.", "mass = 0.25"),
+            ("# Name, unique among joints.", "id = \"0-1\""),
+            ("# The force in N.", "force = [0, 60, 0]"),
+            ("# weight: Its weight, 1 by default.", "terms = ["),
+        ] {
+            assert_eq!(new.matches(comment).count(), 1, "{comment}\n{new}");
+            let at = new.find(comment).expect("counted");
+            let line = new[at..].lines().nth(1);
+            assert_eq!(line, Some(key), "{comment}");
+        }
+        assert!(new.contains("May also have: "), "{new}");
+    }
+
+    #[test]
+    fn every_advice_is_of_a_key_that_exists() {
+        let root = crate::file::schema::json_schema();
+        for (path, _) in super::ADVICE {
+            let mut schema = &root;
+            for key in path.split('.') {
+                let next = &schema["properties"][key];
+                assert!(next.is_object(), "{path}");
+                schema = super::resolve(&root, next).unwrap_or(next);
+            }
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Reading a mechanism from text.
+
+use crate::file::control_characters::controls;
+use crate::file::digits;
+use crate::file::findings::{Finding, Findings};
+use crate::file::locate::Document;
+use crate::file::problem::{ImportError, Problem, ProblemKind};
+use crate::file::read::value::parameters::{Parameter, Values, parameters};
+use crate::file::read::{build, build_at};
+use crate::file::schema::MechanismFile;
+use crate::model::mechanism::Mechanism;
+
+/// Largest file read, in bytes.
+pub const MAX_BYTES: usize = 4 << 20;
+
+/// Reads a mechanism from the bytes of a file; names that end in `.json` are JSON, all others TOML.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, ImportError> {
+    mechanism_from_str(name, text_of(name, bytes)?)
+}
+
+/// Reads a mechanism from text; names that end in `.json` are JSON, all others TOML.
+///
+/// # Errors
+/// Every problem found, each with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::file::text::mechanism_from_str;
+/// let m = mechanism_from_str("mine.toml", ozols::builtin::text("four-bar").unwrap()).unwrap();
+/// assert_eq!(m.joints.len(), 4);
+/// // Every problem has its place and a remedy.
+/// let why = mechanism_from_str("mine.toml", "name = 3").unwrap_err();
+/// assert!(why.to_string().contains("mine.toml"));
+/// ```
+pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
+    read(name, text, build)
+}
+
+/// The same at values of its parameters; those not given have their defaults.
+///
+/// # Errors
+/// Every problem found, each with its place.
+pub fn mechanism_at(name: &str, text: &str, values: &Values) -> Result<Mechanism, ImportError> {
+    read(name, text, |file| build_at(file, values))
+}
+
+/// The parameters of a file by name, ascending.
+///
+/// # Errors
+/// Every problem with them, each with its place.
+///
+/// # Examples
+/// ```
+/// use ozols::file::text::parameters_of;
+/// let text = ozols::builtin::text("parallelogram-3-rods").unwrap();
+/// assert!(!parameters_of("rods.toml", text).unwrap().is_empty());
+/// ```
+pub fn parameters_of(name: &str, text: &str) -> Result<Vec<Parameter>, ImportError> {
+    read(name, text, |file| {
+        let mut out = Findings::default();
+        let found = parameters(file, &mut out);
+        out.unless(found)
+    })
+}
+
+/// The text in the bytes of a file that is not too large.
+pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> {
+    let fail = |kind| ImportError {
+        file: name.to_owned(),
+        text: String::new(),
+        problems: vec![Problem { kind, span: None }],
+    };
+    if bytes.len() > MAX_BYTES {
+        return Err(fail(ProblemKind::TooLarge {
+            bytes: bytes.len(),
+            limit: MAX_BYTES,
+        }));
+    }
+    std::str::from_utf8(bytes).map_err(|e| {
+        fail(ProblemKind::NotUtf8 {
+            at: e.valid_up_to(),
+        })
+    })
+}
+
+/// Reads a file and makes something of it.
+pub fn read<T>(
+    name: &str,
+    text: &str,
+    make: impl FnOnce(&MechanismFile) -> Result<T, Vec<Finding>>,
+) -> Result<T, ImportError> {
+    let fail = |problems| ImportError {
+        file: name.to_owned(),
+        text: text.to_owned(),
+        problems,
+    };
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        return Err(fail(vec![Problem {
+            kind: ProblemKind::Empty,
+            span: None,
+        }]));
+    }
+    let file = if is_json(name) {
+        from_json(text)
+    } else {
+        from_toml(text)
+    };
+    let mut file = file.map_err(|p| fail(vec![p]))?;
+    digits::keep(&mut file, text, is_json(name));
+    // Written out they are no TOML and no JSON: only what is escaped can hold any.
+    let controls = if text.contains('\\') {
+        controls(&file)
+    } else {
+        Vec::new()
+    };
+    let made = if controls.is_empty() {
+        make(&file)
+    } else {
+        Err(controls)
+    };
+    made.map_err(|found| {
+        let document = Document::new(text, is_json(name));
+        let mut problems: Vec<Problem> = found
+            .into_iter()
+            .map(|(path, kind)| Problem {
+                kind,
+                span: document.as_ref().and_then(|d| d.span(&path)),
+            })
+            .collect();
+        problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
+        fail(problems)
+    })
+}
+
+/// Whether a file of this name is JSON.
+pub(crate) fn is_json(name: &str) -> bool {
+    std::path::Path::new(name)
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"))
+}
+
+fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
+    toml::from_str(text).map_err(|e| {
+        let message = if e.message().contains("as i128") {
+            // The deserializer's own words speak of its types.
+            "this whole number is beyond 64 bits; choose another length_unit, or write it as a decimal".to_owned()
+        } else {
+            with_remedy(e.message().trim().replace('\n', ", "))
+        };
+        Problem { kind: ProblemKind::Syntax { message }, span: e.span() }
+    })
+}
+
+/// What to do about a value that is missing or of another kind.
+fn with_remedy(message: String) -> String {
+    if message == "floating-point number overflowed" {
+        return format!("{message}; choose another length_unit");
+    }
+    if let Some((_, n)) = message.split_once(", expected an array of length ") {
+        return format!("{message}; write {n} values, no more and no fewer");
+    }
+    let missing = message.strip_prefix("missing field `");
+    match missing.and_then(|rest| rest.strip_suffix('`')) {
+        Some("id") => format!("{message}; give it a name of its own"),
+        Some(_) => format!("{message}; add it (`ozols new` writes a file with all fields)"),
+        None => message,
+    }
+}
+
+fn from_json(text: &str) -> Result<MechanismFile, Problem> {
+    serde_json::from_str(text).map_err(|e| {
+        let line_start: usize = text
+            .split_inclusive('\n')
+            .take(e.line().saturating_sub(1))
+            .map(str::len)
+            .sum();
+        let line = text
+            .get(line_start..)
+            .and_then(|t| t.lines().next())
+            .unwrap_or("");
+        let mut at = e.column().saturating_sub(1).min(line.len());
+        while !line.is_char_boundary(at) {
+            at -= 1;
+        }
+        let full = e.to_string();
+        let message = full
+            .rsplit_once(" at line ")
+            .map_or(full.as_str(), |(m, _)| m);
+        let message = with_remedy(message.to_owned());
+        let end = (at + 1..=line.len())
+            .find(|&i| line.is_char_boundary(i))
+            .unwrap_or(line.len());
+        Problem {
+            kind: ProblemKind::Syntax { message },
+            span: Some(line_start + at..line_start + end),
+        }
+    })
+}

@@ -1,0 +1,7 @@
+//! What mechanisms are read from and written to: mechanism files, robot descriptions, CAD assemblies.
+
+use ozols_forces::statics;
+use ozols_kernel::{closure, format, geom, linalg, model, motion, rank, redundancy};
+
+pub mod file;
+pub mod robots;

@@ -1,0 +1,335 @@
+//! Independent contours: those the file names, completed to a minimum cycle basis.
+
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use itertools::Itertools;
+use petgraph::graph::{EdgeIndex, EdgeReference, NodeIndex, UnGraph};
+use petgraph::visit::EdgeRef;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// A closed walk through joints; `forward` where the walk goes from `links[0]` to `links[1]` of the joint.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Contour {
+    /// The joints in order round the contour, with the direction they are passed in.
+    pub joints: Vec<(JointId, bool)>,
+    /// The links in order; `links[i]` is left through `joints[i]`.
+    pub links: Vec<LinkId>,
+}
+
+impl Contour {
+    /// The name the field uses: the links in order, as in `0-1-2-3`.
+    #[must_use]
+    pub fn name(&self, mechanism: &Mechanism) -> String {
+        self.links
+            .iter()
+            .map(|&l| mechanism.links[l].id.as_str())
+            .join("-")
+    }
+
+    /// The direction a joint is passed in, if it is part of the contour.
+    #[must_use]
+    pub fn direction(&self, joint: JointId) -> Option<bool> {
+        self.joints
+            .iter()
+            .find(|(j, _)| *j == joint)
+            .map(|(_, d)| *d)
+    }
+}
+
+/// Puts a set of joints that forms one closed walk in order, starting at its first joint; `None` if it is not one.
+#[must_use]
+pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour> {
+    let mut left: Vec<JointId> = joints.to_vec();
+    if left.is_empty() || !left.iter().all_unique() {
+        return None;
+    }
+    let first = left.remove(0);
+    let [start, mut at] = mechanism.joints[first].links;
+    // Walk on through the file's second joint where the order given allows it.
+    if left.first().is_some_and(|&j| {
+        mechanism.joints[j].links.contains(&start) && !mechanism.joints[j].links.contains(&at)
+    }) {
+        at = start;
+    }
+    let forward = at == mechanism.joints[first].links[1];
+    let start = if forward {
+        start
+    } else {
+        mechanism.joints[first].links[1]
+    };
+    let (mut walk, mut links) = (vec![(first, forward)], vec![start]);
+    while !left.is_empty() {
+        let i = left
+            .iter()
+            .position(|&j| mechanism.joints[j].links.contains(&at))?;
+        let j = left.remove(i);
+        let forward = mechanism.joints[j].links[0] == at;
+        links.push(at);
+        walk.push((j, forward));
+        at = mechanism.joints[j].links[usize::from(forward)];
+    }
+    (at == start && links.iter().all_unique()).then_some(Contour {
+        joints: walk,
+        links,
+    })
+}
+
+/// A basis of the contours of a state: the contours the file names, then those of the free state, each completed by
+/// the shortest independent contours (a minimum cycle basis where the file names none).
+///
+/// # Complexity
+/// O(n·m log m) to find the n·m candidates, O(m/64 · k) for each that is looked at; those are the ones no longer than
+/// the longest contour of the basis, for n links, m joints, k contours.
+///
+/// # Sources
+/// Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J. Comput. 16 (1987).
+///
+/// # Examples
+/// ```
+/// use ozols::closure::contour::contour_basis;
+/// use ozols::model::mechanism::StateId;
+/// let gripper = ozols::built_in("gripper-10").unwrap();
+/// assert_eq!(contour_basis(&gripper, StateId::FREE).len(), 4);
+/// ```
+#[must_use]
+pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
+    let mut basis = Basis {
+        words: mechanism.joints.len().div_ceil(64),
+        rows: Vec::new(),
+    };
+    let mut contours = Vec::new();
+    // The contours of the free state come first, so that what a state adds is at the end.
+    let states: &[StateId] = if state == StateId::FREE {
+        &[StateId::FREE]
+    } else {
+        &[StateId::FREE, state]
+    };
+    for &st in states {
+        let all: Vec<JointId> = mechanism.joints_in(state).collect();
+        let present: Vec<JointId> = mechanism
+            .joints_in(st)
+            .filter(|j| all.binary_search(j).is_ok())
+            .collect();
+        let named = mechanism
+            .contours
+            .iter()
+            .filter(|c| c.iter().all(|j| present.contains(j)));
+        for walk in named.filter_map(|c| closed_walk(mechanism, c)) {
+            if basis.insert(&walk.joints.iter().map(|&(j, _)| j).collect_vec()) {
+                contours.push(walk);
+            }
+        }
+        let rank = present.len() + components(mechanism, &present) - touched(mechanism, &present);
+        for cycle in shortest_cycles(mechanism, &present) {
+            if contours.len() == rank {
+                break;
+            }
+            if basis.insert(&cycle) {
+                contours.extend(closed_walk(mechanism, &cycle));
+            }
+        }
+    }
+    contours
+}
+
+fn touched(mechanism: &Mechanism, joints: &[JointId]) -> usize {
+    joints
+        .iter()
+        .flat_map(|&j| mechanism.joints[j].links)
+        .unique()
+        .count()
+}
+
+fn components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
+    let mut sets = petgraph::unionfind::UnionFind::<usize>::new(mechanism.links.len());
+    let merged = joints
+        .iter()
+        .filter(|&&j| {
+            let [a, b] = mechanism.joints[j].links;
+            sets.union(a.index(), b.index())
+        })
+        .count();
+    touched(mechanism, joints) - merged
+}
+
+/// Horton's candidates, shortest first: for each link v and joint (x, y), the shortest paths from v with the joint.
+fn shortest_cycles(
+    mechanism: &Mechanism,
+    present: &[JointId],
+) -> impl Iterator<Item = Vec<JointId>> {
+    // A small distinct excess on each weight makes shortest paths unique, which Horton's theorem needs; it also makes
+    // the choice among equals follow the order of the file.
+    const UNIT: u64 = 1 << 44;
+    let mut graph = Graph::default();
+    for _ in &mechanism.links {
+        graph.add_node(());
+    }
+    for (i, &j) in present.iter().enumerate() {
+        let [a, b] = mechanism.joints[j].links;
+        let excess = (i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 38;
+        graph.add_edge(
+            NodeIndex::new(a.index()),
+            NodeIndex::new(b.index()),
+            (j, UNIT + (i as u64 + 1) * (1 << 20) + (excess & 0xf_ffff)),
+        );
+    }
+    let trees: Vec<Tree> = graph.node_indices().map(|v| Tree::new(&graph, v)).collect();
+    // (length, v, joint): the cycles themselves are written out only as they are asked for.
+    let mut heap: BinaryHeap<Reverse<(u64, usize, usize)>> = trees
+        .iter()
+        .enumerate()
+        .flat_map(|(v, tree)| {
+            let closing = graph.edge_references().filter_map(|e| tree.closes(e));
+            closing.map(move |(length, e)| Reverse((length, v, e)))
+        })
+        .collect::<Vec<_>>()
+        .into();
+    let mut waiting: Vec<Vec<JointId>> = Vec::new();
+    std::iter::from_fn(move || {
+        if waiting.is_empty() {
+            // All of one length, nearly always one cycle seen from each of its links.
+            let Reverse((length, ..)) = heap.peek()?;
+            let length = *length;
+            let mut equal: Vec<(Vec<JointId>, Vec<JointId>)> = Vec::new();
+            while let Some(Reverse((l, v, e))) = heap.peek().copied() {
+                if l != length {
+                    break;
+                }
+                heap.pop();
+                let cycle = trees[v].cycle(&graph, e);
+                equal.push((cycle.iter().copied().sorted().collect_vec(), cycle));
+            }
+            equal.sort_unstable();
+            equal.dedup_by(|a, b| a.0 == b.0);
+            waiting.extend(equal.into_iter().rev().map(|(_, cycle)| from_first(&cycle)));
+        }
+        waiting.pop()
+    })
+}
+
+type Graph = UnGraph<(), (JointId, u64)>;
+
+/// The end of a joint that is not `x`.
+fn other_end(e: EdgeReference<'_, (JointId, u64)>, x: NodeIndex) -> NodeIndex {
+    if e.source() == x {
+        e.target()
+    } else {
+        e.source()
+    }
+}
+
+/// Shortest paths from one link.
+struct Tree {
+    /// Distance of each link that can be reached.
+    dist: Vec<Option<u64>>,
+    /// The last joint on the path to each link.
+    last: Vec<Option<EdgeIndex>>,
+    /// The first joint on the path to each link: paths with different ones meet nowhere.
+    first: Vec<Option<EdgeIndex>>,
+}
+
+impl Tree {
+    /// Dijkstra's algorithm, O(m log m).
+    fn new(graph: &Graph, from: NodeIndex) -> Tree {
+        let mut dist: Vec<Option<u64>> = vec![None; graph.node_count()];
+        let mut settled = Vec::with_capacity(graph.node_count());
+        let mut heap = BinaryHeap::from([Reverse((0, from))]);
+        while let Some(Reverse((d, x))) = heap.pop() {
+            if dist[x.index()].is_some() {
+                continue;
+            }
+            dist[x.index()] = Some(d);
+            settled.push(x);
+            for e in graph.edges(x) {
+                let y = other_end(e, x);
+                if dist[y.index()].is_none() {
+                    heap.push(Reverse((d + e.weight().1, y)));
+                }
+            }
+        }
+        let mut last = vec![None; graph.node_count()];
+        let mut first = vec![None; graph.node_count()];
+        for &x in settled.iter().skip(1) {
+            let back = graph.edges(x).find(|e| {
+                let before = dist[other_end(*e, x).index()];
+                before.map(|d| d + e.weight().1) == dist[x.index()]
+            });
+            if let Some(e) = back {
+                last[x.index()] = Some(e.id());
+                first[x.index()] = first[other_end(e, x).index()].or(Some(e.id()));
+            }
+        }
+        Tree { dist, last, first }
+    }
+
+    /// The length of the closed walk through a joint, where the two shortest paths to its ends share only their first link. O(1).
+    fn closes(&self, e: EdgeReference<'_, (JointId, u64)>) -> Option<(u64, usize)> {
+        let (x, y) = (e.source().index(), e.target().index());
+        let (dx, dy) = (self.dist[x]?, self.dist[y]?);
+        let in_tree = dx.abs_diff(dy) == e.weight().1;
+        let apart = self.first[x] != self.first[y];
+        (!in_tree && apart).then(|| (dx + dy + e.weight().1, e.id().index()))
+    }
+
+    /// The joints of that walk, in order.
+    fn cycle(&self, graph: &Graph, e: usize) -> Vec<JointId> {
+        let e = EdgeIndex::new(e);
+        let Some((x, y)) = graph.edge_endpoints(e) else {
+            return Vec::new();
+        };
+        let path = |mut x: NodeIndex| {
+            let mut out = Vec::new();
+            while let Some(e) = self.last[x.index()] {
+                out.push(graph[e].0);
+                let Some((a, b)) = graph.edge_endpoints(e) else {
+                    break;
+                };
+                x = if a == x { b } else { a };
+            }
+            out
+        };
+        let mut cycle = path(x);
+        cycle.push(graph[e].0);
+        cycle.extend(path(y).into_iter().rev());
+        cycle
+    }
+}
+
+/// Starts a contour at its first joint in file order, and goes on towards the earlier of its neighbours.
+fn from_first(cycle: &[JointId]) -> Vec<JointId> {
+    let first = cycle.iter().position_min().unwrap_or(0);
+    let mut rotated = cycle[first..].to_vec();
+    rotated.extend_from_slice(&cycle[..first]);
+    if rotated.len() > 2 && rotated[1] > rotated[rotated.len() - 1] {
+        rotated[1..].reverse();
+    }
+    rotated
+}
+
+/// Independent sets of joints over the field of two elements.
+struct Basis {
+    words: usize,
+    rows: Vec<(usize, Vec<u64>)>,
+}
+
+impl Basis {
+    fn insert(&mut self, cycle: &[JointId]) -> bool {
+        let mut bits = vec![0u64; self.words];
+        for &j in cycle {
+            bits[j.index() / 64] ^= 1 << (j.index() % 64);
+        }
+        for (pivot, row) in &self.rows {
+            if bits[pivot / 64] >> (pivot % 64) & 1 == 1 {
+                bits.iter_mut().zip(row).for_each(|(b, r)| *b ^= r);
+            }
+        }
+        let pivot = bits
+            .iter()
+            .position(|&w| w != 0)
+            .map(|w| w * 64 + bits[w].trailing_zeros() as usize);
+        if let Some(pivot) = pivot {
+            self.rows.push((pivot, bits));
+        }
+        pivot.is_some()
+    }
+}

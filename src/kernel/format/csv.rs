@@ -1,0 +1,91 @@
+//! Comma-separated values as RFC 4180 has them, with bare line feeds.
+
+use serde::Serialize;
+use std::borrow::Cow;
+
+/// A cell that no spreadsheet takes for a formula: words that begin like one get an apostrophe before them, numbers stay.
+pub(crate) fn cell(text: &str) -> Cow<'_, str> {
+    let formula = text.len() > 1 && text.starts_with(['=', '+', '-', '@']);
+    if formula && text.parse::<f64>().is_err() {
+        return Cow::Owned(format!("'{text}"));
+    }
+    Cow::Borrowed(text)
+}
+
+/// A `cell` as it stands in a line, quoted where it must be: for lines that are put together by hand.
+pub fn encoded(text: &str) -> String {
+    if text.is_empty() {
+        return String::new();
+    }
+    let mut line = table::<[&str; 1], &str>(&[text], []);
+    line.pop();
+    line
+}
+
+/// A table with the heads of its columns, as text. What is too long to be held as a whole is written row by row of
+/// [`encoded`] cells.
+pub fn table<Row, Cell>(heads: &[&str], rows: impl IntoIterator<Item = Row>) -> String
+where
+    Row: IntoIterator<Item = Cell>,
+    Cell: AsRef<str>,
+{
+    let mut out = csv::Writer::from_writer(Vec::new());
+    let mut written = out.write_record(heads.iter().map(|h| cell(h).into_owned()));
+    for row in rows {
+        let cells = row.into_iter().map(|c| cell(c.as_ref()).into_owned());
+        written = written.and_then(|()| out.write_record(cells));
+    }
+    text(written, out)
+}
+
+/// A table of one row a value, under the names of its fields. Figures are to be text already: how many digits they have is
+/// not for this to say.
+pub fn records<Row: Serialize>(rows: impl IntoIterator<Item = Row>) -> String {
+    let mut out = csv::Writer::from_writer(Vec::new());
+    let mut written = Ok(());
+    for row in rows {
+        written = written.and_then(|()| out.serialize(row));
+    }
+    text(written, out)
+}
+
+fn text(written: csv::Result<()>, out: csv::Writer<Vec<u8>>) -> String {
+    written.expect("memory takes rows of plain cells, as many in each");
+    let bytes = out.into_inner().expect("memory needs no flushing");
+    String::from_utf8(bytes).expect("cells are text")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{encoded, table};
+
+    #[test]
+    fn no_word_is_taken_for_a_formula() {
+        let rows = [
+            ["=HYPERLINK(1)", "-1.5e-3"],
+            ["@a", "-"],
+            ["+b", "-inf"],
+            ["-c", "x=1"],
+        ];
+        assert_eq!(
+            table(&["=a", "b"], rows),
+            "'=a,b\n'=HYPERLINK(1),-1.5e-3\n'@a,-\n'+b,-inf\n'-c,x=1\n"
+        );
+    }
+
+    #[test]
+    fn a_line_of_encoded_cells_is_that_of_a_table() {
+        let cells = ["1,5", "", "=a", "say \"x\"", "plain", "two\nlines", "-1"];
+        let line = cells.map(encoded).join(",") + "\n";
+        assert_eq!(line, table::<[&str; 0], &str>(&cells, []));
+    }
+
+    #[test]
+    fn cells_with_commas_quotes_and_line_ends_are_quoted() {
+        let rows = [["1,5", "say \"x\""], ["", "two\nlines"]];
+        assert_eq!(
+            table(&["a", "b"], rows),
+            "a,b\n\"1,5\",\"say \"\"x\"\"\"\n,\"two\nlines\"\n"
+        );
+    }
+}

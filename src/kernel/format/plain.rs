@@ -1,0 +1,99 @@
+//! Foreign text as it may stand before a person: no character of it steers the terminal.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+/// Whether a character turns the order of letters round: the marks, embeddings and isolates of Unicode's bidirectional text.
+#[must_use]
+pub fn turns(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text with such characters spelt out, as `\u{202e}`.
+#[must_use]
+pub fn straight(text: &str) -> Cow<'_, str> {
+    spelt(text, turns)
+}
+
+/// Whether a character does something else than stand for itself: what steers terminals, and what turns the order of letters
+/// round. Ends of lines and tabulators are let through.
+fn steers(c: char) -> bool {
+    turns(c) || c.is_control() && !matches!(c, '\n' | '\t')
+}
+
+/// A text with such characters spelt out, as `\u{1b}`.
+#[must_use]
+pub fn plain(text: &str) -> Cow<'_, str> {
+    spelt(text, steers)
+}
+
+/// The same for a line or a cell: ends of lines are spelt out, too.
+#[must_use]
+pub fn line(text: &str) -> Cow<'_, str> {
+    spelt(text, |c| steers(c) || c == '\n')
+}
+
+/// A text that has colours of ours: those are let through, `ESC [ 1 m`, and nothing else.
+#[must_use]
+pub fn coloured(text: &str) -> Cow<'_, str> {
+    if !text.chars().any(steers) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find("\u{1b}[") {
+        let (before, from) = rest.split_at(at);
+        out += &plain(before);
+        let digits = from[2..].find(|c: char| !c.is_ascii_digit() && c != ';');
+        let end = digits.map_or(from.len(), |n| n + 2);
+        let whole = from[end..].starts_with('m');
+        let (colour, after) = from.split_at(end + usize::from(whole));
+        if whole {
+            out += colour
+        } else {
+            out += &plain(colour)
+        }
+        rest = after;
+    }
+    out += &plain(rest);
+    Cow::Owned(out)
+}
+
+fn spelt(text: &str, steers: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.chars().any(&steers) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        if steers(c) {
+            let _ = write!(out, "\\u{{{:x}}}", u32::from(c));
+        } else {
+            out.push(c)
+        }
+    }
+    Cow::Owned(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{coloured, line, plain};
+
+    #[test]
+    fn what_steers_a_terminal_is_spelt_out() {
+        assert_eq!(
+            plain("a\u{1b}[2Jb\r\u{9b}1m\u{7f}"),
+            "a\\u{1b}[2Jb\\u{d}\\u{9b}1m\\u{7f}"
+        );
+        assert_eq!(plain("\u{202e}abc"), "\\u{202e}abc");
+        assert_eq!(plain("σ = 0\n\té"), "σ = 0\n\té");
+        assert_eq!(line("a\nb"), "a\\u{a}b");
+    }
+
+    #[test]
+    fn colours_of_ours_stay() {
+        let ours = "\u{1b}[1m\u{1b}[31;1merror:\u{1b}[0m x\u{1b}[m";
+        assert_eq!(coloured(ours), ours);
+        assert_eq!(coloured("\u{1b}[2J\u{1b}[1"), "\\u{1b}[2J\\u{1b}[1");
+        assert_eq!(coloured("\u{1b}]0;x\u{7}"), "\\u{1b}]0;x\\u{7}");
+    }
+}

@@ -1,0 +1,446 @@
+//! From text to an expression: a recursive descent with limits on size and depth.
+
+use super::error::ExprError;
+use super::node::{Expr, Function, NodeKind};
+use super::rational::{MAX_BITS, bits, decimal, fraction};
+use super::written::{Digits, WrittenNumber};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+use std::str::FromStr;
+
+/// The longest text [`Expr`] is read from, in bytes.
+pub const MAX_TEXT: usize = 1000;
+/// The deepest nesting of parentheses and functions in a text.
+pub const MAX_NESTING: usize = 64;
+/// The largest decimal exponent (`1e400`), either sign.
+pub const MAX_EXPONENT: i64 = 400;
+/// The largest power (`x^64`), either sign.
+pub const MAX_POWER: i64 = 64;
+/// The largest denominator of an angle in turns; finer angles leave no primes of 61 bits to compute with.
+pub const MAX_ANGLE_DENOMINATOR: u64 = 1 << 44;
+
+/// What a word that is none of an expression's own stands for, where it stands for a number.
+pub(crate) type Names<'n> = &'n mut dyn FnMut(&str) -> Option<Expr>;
+
+/// The words of expressions, which no number can have for a name.
+pub const WORDS: [&str; 7] = ["pi", "deg", "sqrt", "cos", "sin", "tan", "cot"];
+
+impl FromStr for Expr {
+    type Err = ExprError;
+
+    /// Reads decimals, `+ - * /`, `^integer`, parentheses, `sqrt`, and `cos sin tan cot` of rational angles.
+    ///
+    /// # Errors
+    /// An [`ExprError`] naming the byte where the text is malformed, out of limits, or has no real value.
+    fn from_str(text: &str) -> Result<Expr, ExprError> {
+        Expr::with_names(text, false, &mut |_| None)
+    }
+}
+
+impl Expr {
+    /// Reads an expression in which words may be names of numbers, and `pi` one outside angles ([`Expr::pi`]):
+    /// `5/(2*pi)`.
+    ///
+    /// # Errors
+    /// As [`Expr::from_str`].
+    pub fn with_names(
+        text: &str,
+        pi_is_a_number: bool,
+        names: Names<'_>,
+    ) -> Result<Expr, ExprError> {
+        if text.len() > MAX_TEXT / 5
+            && let Some(e) = fraction(text)
+                .map(Expr::rational)
+                .filter(|e| e.to_f64().is_finite())
+        {
+            return Ok(e);
+        }
+        if text.len() > MAX_TEXT {
+            return Err(ExprError::TooLong { len: text.len() });
+        }
+        let mut named = false;
+        let mut parser = Parser {
+            text,
+            pos: 0,
+            depth: 0,
+            pi_is_a_number,
+            names: &mut |word| names(word).inspect(|_| named = true),
+        };
+        if parser.peek().is_none() {
+            return Err(ExprError::Empty);
+        }
+        let start = parser.pos;
+        let value = parser.sum()?;
+        if parser.peek().is_some() {
+            return Err(parser.unexpected("an operator or the end"));
+        }
+        let read = number(value, start)?;
+        // Short texts without powers are not written much longer.
+        if !named && (text.len() > MAX_TEXT / 5 || text.contains(['e', 'E', '^'])) {
+            match read.to_string().len() {
+                len if len > MAX_TEXT => return Err(ExprError::WrittenTooLong { len }),
+                _ => {}
+            }
+        }
+        Ok(read)
+    }
+}
+
+/// What a part of the text stands for.
+enum Value {
+    Number(Expr),
+    /// An angle in turns.
+    Angle(BigRational),
+}
+
+fn number(value: Value, at: usize) -> Result<Expr, ExprError> {
+    match value {
+        Value::Number(e) => finite(e, at),
+        Value::Angle(_) => Err(ExprError::AngleOutside { at }),
+    }
+}
+
+/// Refuses what no double can hold, and fractions of such numbers: what is read must be readable where it is written again.
+fn finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
+    let holds = |n: &BigInt| n.bits() < 1024;
+    let rational = e.rational_ref();
+    if e.to_f64().is_finite() && rational.is_none_or(|r| holds(r.numer()) && holds(r.denom())) {
+        Ok(e)
+    } else {
+        Err(ExprError::NotFinite { at })
+    }
+}
+
+fn angle(turns: BigRational, at: usize) -> Result<Value, ExprError> {
+    if bits(&turns) > MAX_BITS {
+        Err(ExprError::TooManyDigits { at })
+    } else {
+        Ok(Value::Angle(turns))
+    }
+}
+
+struct Parser<'a, 'n> {
+    text: &'a str,
+    /// Always on a character boundary: only ASCII is ever consumed.
+    pos: usize,
+    depth: usize,
+    /// Outside angles.
+    pi_is_a_number: bool,
+    names: Names<'n>,
+}
+
+impl<'a> Parser<'a, '_> {
+    /// The next byte that is not white space.
+    fn peek(&mut self) -> Option<u8> {
+        while self.here().is_some_and(|b| b.is_ascii_whitespace()) {
+            self.pos += 1;
+        }
+        self.here()
+    }
+
+    fn here(&self) -> Option<u8> {
+        self.text.as_bytes().get(self.pos).copied()
+    }
+
+    fn take_while(&mut self, keep: impl Fn(u8) -> bool) -> &'a str {
+        let start = self.pos;
+        while self.here().is_some_and(&keep) {
+            self.pos += 1;
+        }
+        self.text.get(start..self.pos).unwrap_or("")
+    }
+
+    fn unexpected(&self, expected: &'static str) -> ExprError {
+        let found = match self.text.get(self.pos..).and_then(|t| t.chars().next()) {
+            Some(c) => format!("`{}`", c.escape_debug()),
+            None => "the end of the text".to_owned(),
+        };
+        ExprError::Unexpected {
+            at: self.pos,
+            found,
+            expected,
+        }
+    }
+
+    fn expect(&mut self, byte: u8, expected: &'static str) -> Result<(), ExprError> {
+        if self.peek() == Some(byte) {
+            self.pos += 1;
+            Ok(())
+        } else {
+            Err(self.unexpected(expected))
+        }
+    }
+
+    fn sum(&mut self) -> Result<Value, ExprError> {
+        let mut left = self.product()?;
+        while let Some(op @ (b'+' | b'-')) = self.peek() {
+            let at = self.pos;
+            self.pos += 1;
+            let right = self.product()?;
+            left = match (left, right) {
+                (Value::Number(a), Value::Number(b)) => {
+                    Value::Number(finite(if op == b'+' { a + b } else { a - b }, at)?)
+                }
+                (Value::Angle(a), Value::Angle(b)) => {
+                    angle(if op == b'+' { a + b } else { a - b }, at)?
+                }
+                _ => return Err(ExprError::AngleOutside { at }),
+            };
+        }
+        Ok(left)
+    }
+
+    fn product(&mut self) -> Result<Value, ExprError> {
+        let mut left = self.unary()?;
+        while let Some(op @ (b'*' | b'/')) = self.peek() {
+            let at = self.pos;
+            self.pos += 1;
+            let right = self.unary()?;
+            let outside = || ExprError::AngleOutside { at };
+            left = if op == b'*' {
+                match (left, right) {
+                    (Value::Number(a), Value::Number(b)) => Value::Number(finite(a * b, at)?),
+                    (Value::Angle(a), Value::Number(b)) | (Value::Number(b), Value::Angle(a)) => {
+                        angle(a * b.rational_ref().ok_or_else(outside)?, at)?
+                    }
+                    (Value::Angle(_), Value::Angle(_)) => return Err(outside()),
+                }
+            } else {
+                let Value::Number(b) = right else {
+                    return Err(outside());
+                };
+                if b.0.enclosure.has_zero() {
+                    return Err(ExprError::DivisionByZero { at });
+                }
+                match left {
+                    Value::Number(a) => Value::Number(finite(
+                        a.div(&b).ok_or(ExprError::DivisionByZero { at })?,
+                        at,
+                    )?),
+                    Value::Angle(a) => angle(a / b.rational_ref().ok_or_else(outside)?, at)?,
+                }
+            };
+        }
+        Ok(left)
+    }
+
+    fn unary(&mut self) -> Result<Value, ExprError> {
+        let mut negative = false;
+        while let Some(sign @ (b'-' | b'+')) = self.peek() {
+            negative ^= sign == b'-';
+            self.pos += 1;
+        }
+        let value = self.power()?;
+        Ok(match value {
+            Value::Number(e) if negative => Value::Number(-e),
+            Value::Angle(t) if negative => Value::Angle(-t),
+            other => other,
+        })
+    }
+
+    fn power(&mut self) -> Result<Value, ExprError> {
+        let base = self.atom()?;
+        if self.peek() != Some(b'^') {
+            return Ok(base);
+        }
+        let at = self.pos;
+        self.pos += 1;
+        let base = number(base, at)?;
+        let sign = match self.peek() {
+            Some(b'-') => -1,
+            _ => 1,
+        };
+        if matches!(self.here(), Some(b'-' | b'+')) {
+            self.pos += 1;
+        }
+        if !self.peek().is_some_and(|b| b.is_ascii_digit()) {
+            return Err(self.unexpected("an integer power"));
+        }
+        let out_of_range = ExprError::PowerOutOfRange { at };
+        let n: i64 = self
+            .take_while(|b| b.is_ascii_digit())
+            .parse()
+            .map_err(|_| out_of_range.clone())?;
+        if n > MAX_POWER {
+            return Err(out_of_range);
+        }
+        if matches!(self.peek(), Some(b'^' | b'.')) {
+            return Err(self.unexpected("parentheses around the power, or an integer power"));
+        }
+        let n = sign * n;
+        if n < 0 && base.0.enclosure.has_zero() {
+            return Err(ExprError::DivisionByZero { at });
+        }
+        let result = match base.rational_ref() {
+            _ if n == 0 => Expr::from(1),
+            _ if n == 1 => base,
+            Some(r) => {
+                // Checked on the enclosure first: the exact power of a large number is the costly part.
+                finite(Expr::new(NodeKind::Pow(base.clone(), n)), at)?;
+                if bits(r).saturating_mul(n.unsigned_abs()) > MAX_BITS {
+                    return Err(ExprError::TooManyDigits { at });
+                }
+                Expr::rational(num_traits::Pow::pow(r, n as i32))
+            }
+            None => Expr::new(NodeKind::Pow(base, n)),
+        };
+        Ok(Value::Number(finite(result, at)?))
+    }
+
+    fn atom(&mut self) -> Result<Value, ExprError> {
+        match self.peek() {
+            Some(b'0'..=b'9' | b'.') => {
+                let value = self.decimal()?;
+                self.degrees(value)
+            }
+            Some(b'(') => {
+                let at = self.pos;
+                let value = self.parentheses()?;
+                match value {
+                    Value::Number(e) => match e.rational_ref() {
+                        Some(_) => self.degrees(e),
+                        None if self.word_is_deg() => Err(ExprError::NotAnAngle {
+                            at,
+                            function: "deg",
+                        }),
+                        None => Ok(Value::Number(e)),
+                    },
+                    other => Ok(other),
+                }
+            }
+            Some(b) if b.is_ascii_alphabetic() => self.word(),
+            _ => Err(self.unexpected("a number, a function or `(`")),
+        }
+    }
+
+    fn parentheses(&mut self) -> Result<Value, ExprError> {
+        if self.depth >= MAX_NESTING {
+            return Err(ExprError::TooDeep { at: self.pos });
+        }
+        self.depth += 1;
+        self.expect(b'(', "`(`")?;
+        let value = self.sum()?;
+        self.expect(b')', "an operator or `)`")?;
+        self.depth -= 1;
+        Ok(value)
+    }
+
+    fn word_is_deg(&mut self) -> bool {
+        let _ = self.peek();
+        let rest = self.text.get(self.pos..).unwrap_or("");
+        rest.starts_with("deg")
+            && !rest
+                .as_bytes()
+                .get(3)
+                .is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_')
+    }
+
+    /// Turns a rational into an angle where the suffix `deg` follows.
+    fn degrees(&mut self, e: Expr) -> Result<Value, ExprError> {
+        if !self.word_is_deg() {
+            return Ok(Value::Number(e));
+        }
+        let at = self.pos;
+        self.pos += 3;
+        match e.rational_ref() {
+            Some(r) => angle(r / BigInt::from(360), at),
+            None => Err(ExprError::NotAnAngle {
+                at,
+                function: "deg",
+            }),
+        }
+    }
+
+    fn decimal(&mut self) -> Result<Expr, ExprError> {
+        let at = self.pos;
+        let whole = self.take_while(|b| b.is_ascii_digit());
+        let mut fraction = "";
+        let point = self.here() == Some(b'.');
+        if point {
+            self.pos += 1;
+            fraction = self.take_while(|b| b.is_ascii_digit());
+        }
+        if whole.is_empty() && fraction.is_empty() {
+            return Err(ExprError::BadNumber { at });
+        }
+        let mut exponent = 0i64;
+        if let Some(b'e' | b'E') = self.here() {
+            self.pos += 1;
+            let negative = self.here() == Some(b'-');
+            if let Some(b'-' | b'+') = self.here() {
+                self.pos += 1;
+            }
+            let digits = self.take_while(|b| b.is_ascii_digit());
+            if digits.is_empty() {
+                return Err(ExprError::BadNumber { at });
+            }
+            exponent = digits.parse().unwrap_or(i64::MAX);
+            if exponent > MAX_EXPONENT {
+                return Err(ExprError::ExponentOutOfRange { at });
+            }
+            if negative {
+                exponent = -exponent;
+            }
+        }
+        let value = decimal(whole, fraction, exponent).ok_or(ExprError::BadNumber { at })?;
+        let digits = Digits::of(whole, fraction, exponent, point);
+        let written = digits.map_or(WrittenNumber::Whole, WrittenNumber::Decimal);
+        finite(Expr::rational(value).written_as(written), at)
+    }
+
+    fn word(&mut self) -> Result<Value, ExprError> {
+        let at = self.pos;
+        let word = self.take_while(|b| b.is_ascii_alphanumeric() || b == b'_');
+        let (function, name) = match word {
+            "pi" if self.pi_is_a_number => return Ok(Value::Number(Expr::pi())),
+            "pi" => return Ok(Value::Angle(BigRational::new(1.into(), 2.into()))),
+            "sqrt" => {
+                let inner = number(self.parentheses()?, at)?;
+                return inner
+                    .sqrt()
+                    .map(Value::Number)
+                    .ok_or(ExprError::NegativeRoot { at });
+            }
+            "cos" => (Function::Cos, "cos"),
+            "sin" => (Function::Sin, "sin"),
+            "tan" => (Function::Tan, "tan"),
+            "cot" => (Function::Tan, "cot"),
+            _ => {
+                let unknown = || ExprError::UnknownWord {
+                    at,
+                    word: word.to_owned(),
+                };
+                let named = (self.names)(word).ok_or_else(unknown)?;
+                return match named.rational_ref() {
+                    Some(_) => self.degrees(named),
+                    None => Ok(Value::Number(named)),
+                };
+            }
+        };
+        let outside = std::mem::replace(&mut self.pi_is_a_number, false);
+        let argument = self.parentheses()?;
+        self.pi_is_a_number = outside;
+        let turns = match argument {
+            Value::Angle(t) => t,
+            Value::Number(e) if e.is_zero_rational() => BigRational::zero(),
+            Value::Number(_) => return Err(ExprError::NotAnAngle { at, function: name }),
+        };
+        // cot a = tan(90deg - a)
+        let turns = if name == "cot" {
+            BigRational::new(1.into(), 4.into()) - turns
+        } else {
+            turns
+        };
+        let turns = &turns - turns.floor();
+        let (Some(k), Some(n)) = (turns.numer().to_u64(), turns.denom().to_u64()) else {
+            return Err(ExprError::AngleTooFine { at });
+        };
+        if n > MAX_ANGLE_DENOMINATOR {
+            return Err(ExprError::AngleTooFine { at });
+        }
+        Expr::trig(function, k, n)
+            .map(Value::Number)
+            .ok_or(ExprError::Pole { at, function: name })
+    }
+}

@@ -1,0 +1,391 @@
+//! The validated mechanism and its parts.
+
+use crate::geom::expr::Expr;
+use crate::model::claim::Claim;
+use crate::model::coupling::Coupling;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::loads::{Loads, MassProperties};
+use crate::model::ranking::{Ranking, TypeOverride};
+use std::sync::Arc;
+
+pub use crate::model::id::{JointId, LinkId, StateId};
+
+/// What a link is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Fixed to the ground; exactly one link.
+    Frame,
+    /// Its motion is the working motion.
+    Output,
+    /// A body handled from outside, such as the clamped part.
+    Object,
+    /// Any other link.
+    Inner,
+}
+
+/// A rigid body.
+#[derive(Debug, Clone)]
+pub struct Link {
+    /// The name used in the file.
+    pub id: String,
+    /// What the link is for.
+    pub role: Role,
+    /// Its mass, where the file states one.
+    pub mass: Option<MassProperties>,
+}
+
+/// A point fixed to a link that drawings show: the foot of a leg, the face of a jaw.
+#[derive(Debug, Clone)]
+pub struct PointOfInterest {
+    /// The name used in the file.
+    pub id: String,
+    /// The link that it is fixed to.
+    pub link: LinkId,
+    /// Where it is at the pose of the file, in its length unit.
+    pub point: [Expr; 3],
+}
+
+/// Where a joint is and how it is turned: z = `axis`, x = `reference` made perpendicular to it, y = z × x.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// Origin of the joint, in the file's length unit, global axes.
+    pub point: [Expr; 3],
+    /// Direction of z; nonzero, of any length.
+    pub axis: [Expr; 3],
+    /// Direction that x is made from; nonzero and not parallel to the axis.
+    pub reference: [Expr; 3],
+    /// Translation along z per radian, for helical joints, in the file's length unit.
+    pub pitch: Expr,
+}
+
+impl Frame {
+    /// Whether two frames are written alike; `false` says nothing.
+    pub fn is_same(&self, other: &Frame) -> bool {
+        let same = |a: &[Expr; 3], b: &[Expr; 3]| a.iter().zip(b).all(|(a, b)| a.is_same(b));
+        same(&self.point, &other.point)
+            && same(&self.axis, &other.axis)
+            && same(&self.reference, &other.reference)
+            && self.pitch.is_same(&other.pitch)
+    }
+}
+
+/// A realizable joint that a search may put at a place.
+#[derive(Debug, Clone)]
+pub struct JointOption {
+    /// The word shown in results; unique among the options of one joint.
+    pub name: String,
+    /// The type.
+    pub joint_type: JointType,
+    /// The frame at this joint's place (its own `reference` or `pitch` may differ from the present joint's).
+    pub frame: Frame,
+    /// The option's own cost in thousandths, where the file states one.
+    pub cost_milli: Option<i64>,
+    /// The state whose search alone offers it; any search where there is none.
+    pub state: Option<StateId>,
+}
+
+/// A joint between two links. Its twist is the motion of `links[1]` relative to `links[0]`.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// The name used in the file.
+    pub id: String,
+    /// The two links.
+    pub links: [LinkId; 2],
+    /// The present type.
+    pub joint_type: JointType,
+    /// Place and orientation.
+    pub frame: Frame,
+    /// Whether the mechanism is driven here.
+    pub drive: bool,
+    /// The freedom that is driven, where the file names it; of a driven joint alone.
+    pub drive_freedom: Option<Freedom>,
+    /// The states the joint is present in; `None` for all of them.
+    pub states: Option<Vec<StateId>>,
+    /// What a search may put here, the present joint first; only the present joint when it must stay.
+    pub options: Vec<JointOption>,
+    /// Unloading joints that a search may insert in series here, with an extra link; empty where not allowed.
+    pub unloading: Vec<JointOption>,
+}
+
+impl Joint {
+    /// Whether it is present in a state.
+    #[must_use]
+    pub fn is_in(&self, state: StateId) -> bool {
+        self.states.as_ref().is_none_or(|s| s.contains(&state))
+    }
+
+    /// Whether the drive may be this freedom: the one named, or any where none is.
+    #[must_use]
+    pub fn drives(&self, freedom: Freedom) -> bool {
+        self.drive && self.drive_freedom.is_none_or(|named| named == freedom)
+    }
+
+    /// What a search may put here or insert here.
+    pub fn offered(&self) -> impl Iterator<Item = &JointOption> {
+        self.options.iter().chain(&self.unloading)
+    }
+}
+
+/// Whether motions are spatial or confined to a plane.
+#[derive(Debug, Clone)]
+pub enum Mode {
+    /// Six rows per contour.
+    Spatial,
+    /// Three rows per contour: rotation about `normal` and the two translations across it.
+    Planar {
+        /// Normal of the plane of motion.
+        normal: [Expr; 3],
+    },
+}
+
+/// A unit of length, for labels; calculations are done in the file's own unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LengthUnit {
+    /// The symbol, such as `mm`.
+    pub symbol: &'static str,
+    /// Metres in one unit.
+    pub metres: f64,
+}
+
+/// What a file says a mechanism's figures are, with where that is published.
+#[derive(Debug, Clone, Default)]
+pub struct Expected {
+    /// Name of the state.
+    pub state: String,
+    /// W at the pose of the file.
+    pub mobility: Option<i64>,
+    /// W of the motion that is really there; smaller than at the pose where the pose is singular or shaky.
+    pub finite_mobility: Option<i64>,
+    /// Dimension of the output links' motion.
+    pub working_mobility: Option<i64>,
+    /// W less the working mobility.
+    pub local_mobility: Option<i64>,
+    /// σ of the whole.
+    pub redundant: Option<i64>,
+    /// σ that the state adds to the free one.
+    pub external_redundant: Option<i64>,
+    /// Publication or derivation.
+    pub source: String,
+}
+
+/// Costs that the search adds up, in thousandths; see `score::cost` for the defaults.
+#[derive(Debug, Clone, Default)]
+pub struct CostSpec {
+    /// Cost of a joint type by its name.
+    pub by_type_milli: Vec<(String, i64)>,
+    /// Cost of changing a joint at all.
+    pub change_milli: Option<i64>,
+    /// Cost of the extra link of an unloading joint.
+    pub link_milli: Option<i64>,
+    /// Cost of changing a driven joint besides.
+    pub driven_milli: Option<i64>,
+    /// Cost of a harmful redundant constraint that a searched state adds.
+    pub harmful_milli: Option<i64>,
+}
+
+/// What the file asks of a search.
+#[derive(Debug, Clone, Default)]
+pub struct SearchSpec {
+    /// Links besides the outputs that must not gain a motion.
+    pub hold: Vec<LinkId>,
+    /// Pairs of joints that are mirror images of each other.
+    pub mirror: Vec<(JointId, JointId)>,
+    /// Joints that become each other when the mechanism is turned, each the next and the last the first: two by half a turn,
+    /// three by a third. Not beside mirror images.
+    pub turn: Vec<Vec<JointId>>,
+    /// Costs.
+    pub costs: CostSpec,
+}
+
+impl SearchSpec {
+    /// The joint that another becomes by the mechanism's symmetry; itself where nothing names it.
+    #[must_use]
+    pub fn image(&self, j: JointId) -> JointId {
+        let pairs = self.mirror.iter().flat_map(|&(a, b)| [(a, b), (b, a)]);
+        let next = |g: &Vec<JointId>| {
+            let at = g.iter().position(|&x| x == j)?;
+            Some(g[(at + 1) % g.len()])
+        };
+        let by_turn = self.turn.iter().find_map(next);
+        let by_mirror = pairs.into_iter().find(|p| p.0 == j).map(|p| p.1);
+        by_mirror.or(by_turn).unwrap_or(j)
+    }
+
+    /// How often the symmetry is done until all is back in place; 1 where there is none.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        match (self.mirror.is_empty(), self.turn.first()) {
+            (false, _) => 2,
+            (true, Some(group)) => group.len(),
+            (true, None) => 1,
+        }
+    }
+}
+
+/// A validated mechanism.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    /// Short name.
+    pub name: String,
+    /// One or two sentences for people.
+    pub description: String,
+    /// Where the mechanism and its figures come from.
+    pub sources: Vec<String>,
+    /// Unit of all lengths.
+    pub length_unit: LengthUnit,
+    /// Spatial or planar.
+    pub mode: Mode,
+    /// The links.
+    pub links: Vec<Link>,
+    /// The joints.
+    pub joints: Vec<Joint>,
+    /// Joints that move in a fixed ratio, in file order.
+    pub couplings: Vec<Coupling>,
+    /// Names of the states; the first is `free`.
+    pub states: Vec<String>,
+    /// The contour basis the file names, as lists of joints, if any.
+    pub contours: Vec<Vec<JointId>>,
+    /// What the file asks of a search.
+    pub search: SearchSpec,
+    /// Loads and drive.
+    pub loads: Loads,
+    /// How variants are ranked, where the file says so.
+    pub ranking: Option<Ranking>,
+    /// What the file says of joint types.
+    pub joint_types: Vec<TypeOverride>,
+    /// Points of interest.
+    pub points: Vec<PointOfInterest>,
+    /// Known figures.
+    pub expected: Vec<Expected>,
+    /// What publications say of it, so or not.
+    pub claims: Vec<Claim>,
+}
+
+impl From<&Mechanism> for Arc<Mechanism> {
+    fn from(mechanism: &Mechanism) -> Self {
+        Arc::new(mechanism.clone())
+    }
+}
+
+impl Mechanism {
+    /// The ids of the links, in file order.
+    pub fn link_ids(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = LinkId> + ExactSizeIterator + Clone + use<> {
+        LinkId::first(self.links.len())
+    }
+
+    /// The ids of the joints, in file order.
+    pub fn joint_ids(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = JointId> + ExactSizeIterator + Clone + use<> {
+        JointId::first(self.joints.len())
+    }
+
+    /// The ids of the states, the free one first.
+    pub fn state_ids(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = StateId> + ExactSizeIterator + Clone + use<> {
+        StateId::first(self.states.len())
+    }
+
+    /// The links with their ids, in file order.
+    pub fn links_with_ids(&self) -> impl Iterator<Item = (LinkId, &Link)> {
+        self.link_ids().zip(&self.links)
+    }
+
+    /// The joints with their ids, in file order.
+    pub fn joints_with_ids(&self) -> impl Iterator<Item = (JointId, &Joint)> {
+        self.joint_ids().zip(&self.joints)
+    }
+
+    /// The states' names with their ids, the free one first.
+    pub fn states_with_ids(&self) -> impl Iterator<Item = (StateId, &String)> {
+        self.state_ids().zip(&self.states)
+    }
+
+    /// The joints present in a state, in file order.
+    pub fn joints_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
+        self.joint_ids()
+            .filter(move |&j| self.joints[j].is_in(state))
+    }
+
+    /// The joints that a state has and the free one has not, in file order.
+    pub fn joints_added_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
+        let only_here = |j: &JointId| !self.joints[*j].is_in(StateId::FREE);
+        self.joints_in(state).filter(only_here)
+    }
+
+    /// The couplings of a state, those whose joints are present in it, in file order.
+    pub fn couplings_in(&self, state: StateId) -> impl Iterator<Item = &Coupling> + '_ {
+        let present = move |j: JointId| self.joints[j].is_in(state);
+        self.couplings
+            .iter()
+            .filter(move |c| c.ends.iter().all(|e| present(e.joint)))
+    }
+
+    /// The couplings of a joint, by index, each with the end that is this joint's.
+    pub fn couplings_of(&self, joint: JointId) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let of = move |(q, c): (usize, &Coupling)| Some((q, c.end_at(joint)?));
+        self.couplings.iter().enumerate().filter_map(of)
+    }
+
+    /// The frame link.
+    ///
+    /// # Panics
+    /// Never: a validated mechanism has one.
+    #[must_use]
+    pub fn frame(&self) -> LinkId {
+        self.link_ids()
+            .find(|&l| self.links[l].role == Role::Frame)
+            .expect("a validated mechanism has a frame")
+    }
+
+    /// Whether digits of π stand in the pitch of a screw, so that nothing about the mechanism is exact.
+    #[must_use]
+    pub fn has_pi(&self) -> bool {
+        self.joints.iter().any(|j| j.frame.pitch.has_pi())
+    }
+
+    /// "frame 0", in words for people; a link that is called "frame" is not called it twice.
+    #[must_use]
+    pub fn frame_words(&self) -> String {
+        match self.links[self.frame()].id.as_str() {
+            "frame" => "frame".to_owned(),
+            id => format!("frame {id}"),
+        }
+    }
+
+    /// The link with this id.
+    #[must_use]
+    pub fn link(&self, id: &str) -> Option<LinkId> {
+        self.link_ids().find(|&l| self.links[l].id == id)
+    }
+
+    /// The state with this name.
+    #[must_use]
+    pub fn state(&self, name: &str) -> Option<StateId> {
+        self.state_ids().find(|&s| self.states[s] == name)
+    }
+
+    /// The joint with this id.
+    #[must_use]
+    pub fn joint(&self, id: &str) -> Option<JointId> {
+        self.joint_ids().find(|&j| self.joints[j].id == id)
+    }
+}
+
+impl Coupling {
+    /// Its name for people: the two joints, each with its freedom where it has several.
+    #[must_use]
+    pub fn name(&self, mechanism: &Mechanism) -> String {
+        let [a, b] = self.ends.map(|e| {
+            let joint = &mechanism.joints[e.joint];
+            match joint.joint_type.freedoms() {
+                [_] => joint.id.clone(),
+                _ => format!("{}:{}", joint.id, e.freedom.name()),
+            }
+        });
+        format!("{a} ~ {b}")
+    }
+}

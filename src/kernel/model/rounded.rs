@@ -1,0 +1,300 @@
+//! Coordinates that were rounded, measured or computed in floating point, told by their digits, and how finely they are
+//! rounded.
+//!
+//! Exact ranks take every digit at its word, so an axis that is parallel to another but for the last digit counts as
+//! tilted, and constraints that are redundant in truth count as independent.
+
+mod class;
+mod long;
+pub mod ratio;
+mod source;
+mod uncertainty;
+
+use crate::geom::expr::{End, Expr, PI_DIGITS, WrittenNumber};
+use crate::geom::vector::{length, real};
+use crate::model::mechanism::{Frame, Mechanism, Mode};
+use std::collections::BTreeMap;
+use std::fmt;
+
+use class::is_rounded;
+pub use long::{LONG_DIRECTION, LONG_LENGTH};
+pub use source::{Largest, Sources};
+pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
+
+/// Decimals with at least this many significant digits count as measured or computed, not chosen.
+pub const DIGITS: usize = 9;
+/// One in so many of those has the unit or a coarser one: a last digit that happens to be 0 is one in ten.
+const SHARE: usize = 5;
+
+/// A unit in the last place of coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// Of points and pitches, in the file's unit of length; 0 where they are exact.
+    pub length: f64,
+    /// Of the components of directions of unit length; 0 where they are exact.
+    pub direction: f64,
+}
+
+/// Why a mechanism looks rounded, and how finely.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rounded {
+    /// How many coordinates look so.
+    pub coordinates: usize,
+    /// Where the first of them is, such as `axis of joint 2-3`.
+    pub place: String,
+    /// Its value as text.
+    pub value: String,
+    /// The unit in their last place.
+    pub units: Units,
+    /// Whether digits of π make it look so, and nothing else.
+    pub pi: bool,
+    /// The fewest digits among those that look measured, [`DIGITS`] or more; none where no coordinate does.
+    pub digits: Option<usize>,
+}
+
+impl Rounded {
+    /// A relative tolerance that errors of measured coordinates stay below, at least 1e-9 and at most 1e-6; none where no
+    /// coordinate looks measured.
+    #[must_use]
+    pub fn tolerance(&self) -> Option<f64> {
+        let digits = i32::try_from(self.digits?).unwrap_or(i32::MAX);
+        Some(10f64.powi(2 - digits.min(300)).clamp(1e-9, 1e-6))
+    }
+}
+
+impl fmt::Display for Rounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the {} has {}", self.place, self.value)?;
+        match self.coordinates {
+            0 | 1 => Ok(()),
+            n => write!(f, ", and {} more coordinates are like it", n - 1),
+        }
+    }
+}
+
+/// What is seen of a mechanism's decimals.
+#[derive(Default)]
+struct SeenDecimals {
+    /// Units of long lengths, and of long components of directions, by their size.
+    units: [BTreeMap<u64, f64>; 2],
+    /// Number, place and value as text of the first coordinate, for those that look measured and for all.
+    first: [Option<(usize, String, String)>; 2],
+    digits: Option<usize>,
+    /// How many of those that look measured have π.
+    pi: usize,
+}
+
+impl SeenDecimals {
+    /// Takes in a coordinate of a vector of length `norm`, 0 for a length, that is long from so many digits on.
+    fn see(&mut self, v: &Expr, (norm, least): (f64, usize), place: &dyn Fn() -> String) {
+        let direction = norm > 0.0;
+        let long = |d: &Decimal| d.digits.is_none_or(|n| n >= least);
+        let Some(decimal) = decimal(v).filter(long) else {
+            return;
+        };
+        let of = if direction { norm } else { 1.0 };
+        // A value that is used at several joints is one number.
+        let size = v.to_f64().abs().to_bits();
+        self.units[usize::from(direction)].insert(size, decimal.unit / of);
+        let digits = decimal.digits.filter(|n| *n >= DIGITS);
+        let measured = digits.is_some();
+        self.pi += usize::from(measured && v.has_pi());
+        self.digits = self.digits.into_iter().chain(digits).min();
+        for (first, counts) in self.first.iter_mut().zip([measured, true]) {
+            if counts {
+                first.get_or_insert_with(|| (0, place(), text(v))).0 += 1;
+            }
+        }
+    }
+
+    fn see_frame(&mut self, f: &Frame, at: &dyn Fn() -> String) {
+        for (what, vector, direction) in [
+            ("point", &f.point, false),
+            ("axis", &f.axis, true),
+            ("reference", &f.reference, true),
+        ] {
+            let kind = if direction {
+                kind_of(vector)
+            } else {
+                (0.0, LONG_LENGTH)
+            };
+            for c in vector {
+                self.see(c, kind, &|| format!("{what} of {}", at()));
+            }
+        }
+        self.see(&f.pitch, (0.0, LONG_LENGTH), &|| {
+            format!("pitch of {}", at())
+        });
+    }
+}
+
+/// The length of a direction, and from how many digits on its components are long.
+fn kind_of(direction: &[Expr; 3]) -> (f64, usize) {
+    let least = if is_rounded(direction) {
+        1
+    } else {
+        LONG_DIRECTION
+    };
+    (length(real(direction)), least)
+}
+
+/// A coordinate as it is told.
+fn text(v: &Expr) -> String {
+    if v.has_pi() {
+        format!("{v}, with {PI_DIGITS} decimals of pi")
+    } else {
+        format!("{:?}", v.to_f64())
+    }
+}
+
+/// The coarsest unit that enough decimals share; 0 of none.
+fn shared(mut units: Vec<f64>) -> f64 {
+    units.sort_by(|a, b| b.total_cmp(a));
+    let enough = units.len().div_ceil(SHARE);
+    enough.checked_sub(1).map_or(0.0, |i| units[i])
+}
+
+/// Whether coordinates of the joints, their options, or the plane are decimals long enough to have been rounded: lengths of
+/// four significant digits and more, directions of three, or of two where they are of length 1 to within them and not exactly. Fractions and roots written as such are exact however long their
+/// decimals are, and so are whole numbers.
+#[must_use]
+pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
+    let mut seen = SeenDecimals::default();
+    for joint in &mechanism.joints {
+        seen.see_frame(&joint.frame, &|| format!("joint {}", joint.id));
+        // Options mostly share the joint's place; only what is their own counts.
+        for o in joint.offered() {
+            let own = |a: &[Expr; 3], b: &[Expr; 3]| real(a) != real(b);
+            if own(&o.frame.point, &joint.frame.point)
+                || own(&o.frame.axis, &joint.frame.axis)
+                || own(&o.frame.reference, &joint.frame.reference)
+                || o.frame.pitch.to_f64() != joint.frame.pitch.to_f64()
+            {
+                seen.see_frame(&o.frame, &|| {
+                    format!("option {} of joint {}", o.name, joint.id)
+                });
+            }
+        }
+    }
+    if let Mode::Planar { normal } = &mechanism.mode {
+        for c in normal {
+            seen.see(c, kind_of(normal), &|| "normal of the plane".to_owned());
+        }
+    }
+    let [measured, any] = seen.first;
+    let pi = measured.as_ref().is_some_and(|m| m.0 == seen.pi);
+    let (coordinates, place, value) = measured.or(any)?;
+    let [lengths, directions] = seen.units;
+    Some(Rounded {
+        coordinates,
+        place,
+        value,
+        units: Units {
+            length: shared(lengths.into_values().collect()),
+            direction: shared(directions.into_values().collect()),
+        },
+        pi,
+        digits: seen.digits,
+    })
+}
+
+/// What the digits of a number say.
+struct Decimal {
+    /// Significant digits; none where what the number is worth is stated.
+    digits: Option<usize>,
+    /// One unit in the last place.
+    unit: f64,
+}
+
+/// Of a decimal, of what has decimals of pi in it, and of what is stated not to be exact; `None` for all that is exact.
+fn decimal(expr: &Expr) -> Option<Decimal> {
+    if expr.has_pi() {
+        let places = i32::try_from(PI_DIGITS).unwrap_or(i32::MAX);
+        return Some(Decimal {
+            digits: Some(PI_DIGITS),
+            unit: 10f64.powi(-places),
+        });
+    }
+    match expr.written() {
+        // The `.0` behind a whole number says nothing.
+        WrittenNumber::Decimal(d) if d.end != End::Float => Some(Decimal {
+            digits: Some(d.significant),
+            unit: 2.0 * d.half,
+        }),
+        WrittenNumber::Stated(half) if half > 0.0 => Some(Decimal {
+            digits: measured(expr),
+            unit: 2.0 * half,
+        }),
+        _ => None,
+    }
+}
+
+/// The significant digits of a number as a double, where they are so many that it was measured or computed.
+fn measured(expr: &Expr) -> Option<usize> {
+    match Expr::from_f64(expr.to_f64()).ok()?.written() {
+        WrittenNumber::Decimal(d) => Some(d.significant).filter(|n| *n >= DIGITS),
+        _ => None,
+    }
+}
+
+/// Whether a coordinate may have been rounded: a decimal, or a whole number that may be one whose last digits are 0.
+#[must_use]
+pub fn may_be_rounded(expr: &Expr) -> bool {
+    expr.rational_ref().is_some_and(|r| r.is_integer()) || decimal(expr).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_have_digits_and_a_unit() {
+        let of =
+            |s: &str| decimal(&s.parse::<Expr>().unwrap()).map(|d| (d.digits.unwrap(), d.unit));
+        assert_eq!(of("0.8660254037844386"), Some((16, 1e-16)));
+        assert_eq!(of("-12.7"), Some((3, 0.1)));
+        assert_eq!(of("0.49400"), Some((5, 1e-5)));
+        assert_eq!(of("1e-9"), Some((1, 1e-9)));
+        assert_eq!(of("0.000123456789"), Some((9, 1e-12)));
+        for exact in [
+            "1/3",
+            "sqrt(3)/2",
+            "1/4096",
+            "123456789/10^20",
+            "123456789012",
+            "80.0",
+            "cos(36deg)",
+        ] {
+            assert_eq!(of(exact), None, "{exact}");
+        }
+    }
+
+    #[test]
+    fn the_unit_is_the_coarsest_that_a_fifth_shares() {
+        assert_eq!(shared(vec![]), 0.0);
+        // One last digit in ten is 0.
+        let mut units = vec![1e-6; 9];
+        units.push(1e-5);
+        assert_eq!(shared(units.clone()), 1e-6);
+        units.extend([1e-5, 1e-4]);
+        assert_eq!(shared(units), 1e-5);
+    }
+
+    #[test]
+    fn the_tolerance_follows_the_digits() {
+        let with = |digits| Rounded {
+            coordinates: 1,
+            place: String::new(),
+            value: String::new(),
+            units: Units {
+                length: 0.0,
+                direction: 0.0,
+            },
+            pi: false,
+            digits,
+        };
+        assert_eq!(with(Some(16)).tolerance(), Some(1e-9));
+        assert!((with(Some(9)).tolerance().unwrap() - 1e-7).abs() < 1e-20);
+        assert_eq!(with(None).tolerance(), None);
+    }
+}

@@ -1,0 +1,71 @@
+//! How well numbers are known that are calculated from those of another file.
+
+use super::class::{NumberClass, NumberKind};
+use super::long::{LONG_DIRECTION, LONG_LENGTH};
+use crate::geom::expr::{End, Expr, WrittenNumber};
+
+/// The numbers that places are calculated from, as they are written.
+#[derive(Debug, Default)]
+pub struct Sources {
+    /// Lengths.
+    pub lengths: Vec<Expr>,
+    /// Directions and quaternions.
+    pub directions: Vec<Vec<Expr>>,
+    /// Angles in radians.
+    pub angles: Vec<Expr>,
+}
+
+/// The largest half units of numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Largest {
+    /// Of lengths.
+    pub length: f64,
+    /// Of directions of length 1.
+    pub direction: f64,
+    /// Of turns, in radians.
+    pub turn: f64,
+}
+
+impl Sources {
+    /// The largest half units of long decimals, each as [`uncertainties`](super::uncertainties) takes it; none where there is
+    /// none.
+    pub fn largest(&self) -> Option<Largest> {
+        let (mut lengths, mut directions) = (NumberClass::default(), NumberClass::default());
+        self.lengths
+            .iter()
+            .for_each(|e| lengths.see(e, NumberKind::Length));
+        self.directions
+            .iter()
+            .for_each(|v| directions.see_direction(v));
+        self.angles
+            .iter()
+            .for_each(|e| directions.see(e, NumberKind::Direction));
+        let [lengths, directions] = [lengths, directions].map(NumberClass::counted);
+        if !lengths.is_long() && !directions.is_long() {
+            return None;
+        }
+        let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, f64::max);
+        // Short ones are chosen.
+        let long = |class: &NumberClass, e: &Expr, least: usize| match e.written() {
+            WrittenNumber::Decimal(d) if d.significant >= least && d.end != End::Float => {
+                class.decimal(d)
+            }
+            _ => 0.0,
+        };
+        let turn = |e: &Expr| long(&directions, e, LONG_DIRECTION);
+        let of = |v: &Vec<Expr>| {
+            let real: Vec<f64> = v.iter().map(Expr::to_f64).collect();
+            let norm = real.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let halves = directions.direction(v);
+            let most = halves.into_iter().fold(0.0, f64::max);
+            if norm > 0.0 { most / norm } else { 0.0 }
+        };
+        // Quaternions turn frames.
+        let quaternions = self.directions.iter().filter(|v| v.len() == 4);
+        Some(Largest {
+            length: largest(&mut self.lengths.iter().map(|e| long(&lengths, e, LONG_LENGTH))),
+            direction: largest(&mut self.directions.iter().map(of)),
+            turn: largest(&mut self.angles.iter().map(turn).chain(quaternions.map(of))),
+        })
+    }
+}

@@ -1,0 +1,393 @@
+//! The diagrams that answer a question: of the determinate variants, and of the admissible ones.
+
+pub(in crate::search) mod at_most;
+pub(in crate::search) mod budget;
+pub(in crate::search) mod complements;
+pub mod orders;
+pub(in crate::search) mod self_stress;
+pub(in crate::search) mod staging;
+pub(in crate::search) mod two_sided;
+
+use crate::search::answer::counts::total;
+use crate::search::answer::estimate::Estimate;
+use crate::search::answer::proven_cheapest::UpTo;
+use crate::search::answer::proven_cheapest::cost_of;
+use crate::search::answer::proven_cheapest::up_to;
+use crate::search::answer::{random_cuts, samples};
+use crate::search::build::at_most::at_most;
+use crate::search::build::orders::{Orders, orders};
+use crate::search::build::self_stress::{in_self_stress_space, nothing};
+use crate::search::build::staging::{Laid, Staged, both_ends, laid};
+use crate::search::build::two_sided::two_sided;
+use crate::search::diagram::completion::{Ceiling, Missing};
+use crate::search::diagram::layer::CUT;
+use crate::search::diagram::product::product;
+use crate::search::diagram::redundancy_so_far::Limits;
+use crate::search::diagram::stage::Stage;
+use crate::search::diagram::{self, Diagram, Progress, Stop};
+use crate::search::question::Question;
+use crate::search::reduce::plane_split::Model;
+use num_bigint::BigUint;
+use num_traits::Zero;
+
+/// Diagrams of one question.
+#[derive(Debug)]
+pub struct Diagrams {
+    /// Of the variants that meet the redundancy condition of the free state.
+    pub determinate: Diagram,
+    /// Of those that meet every condition that does not depend on counts of changes and mobility.
+    pub admissible: Diagram,
+    /// The cheapest of the admissible ones, where they are wanted and that diagram is not whole.
+    pub cheapest: Option<UpTo>,
+    /// About how many determinate and admissible variants there are, where their diagrams are cut down and a seed is given.
+    pub estimates: [Option<Estimate>; 2],
+    /// The variables in the order the admissible diagram takes them.
+    pub order: Vec<usize>,
+    /// Rows of the closure equations for each contour that they are built of: fewer than a twist has numbers where the rest is
+    /// the same whatever is chosen; of each part, where the equations fall apart into two that choices change.
+    pub rows_per_contour: Vec<usize>,
+}
+
+impl Diagrams {
+    /// The less complete of the two reasons for stopping.
+    #[must_use]
+    pub fn stop(&self) -> Stop {
+        self.determinate.stop.or(self.admissible.stop)
+    }
+
+    /// The cost in thousandths up to which every admissible variant is known; `None` where of none it can be said.
+    #[must_use]
+    pub fn known_up_to(&self) -> Option<i64> {
+        let whole = self.admissible.stop == Stop::Exhausted;
+        let bounded = self.cheapest.as_ref().map(|c| c.cost_milli);
+        if whole { Some(i64::MAX) } else { bounded }
+    }
+}
+
+/// Builds a diagram under a ceiling.
+type Build<'a> = &'a mut dyn FnMut(&mut Ceiling<'_>) -> Diagram;
+
+/// Whether a diagram is cut down to its limits.
+fn is_cut(stop: Stop) -> bool {
+    matches!(stop, Stop::NodeBudget | Stop::Memory)
+}
+
+fn is_whole(of: &Diagram) -> bool {
+    of.stop == Stop::Exhausted
+}
+
+/// Whether a diagram is whole and has no variant.
+fn is_empty(of: &Diagram) -> bool {
+    is_whole(of) && of.terminals.is_empty()
+}
+
+/// Builds both diagrams.
+pub fn build(
+    question: &Question,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagrams {
+    build_in(question, &orders(question), cancelled, progress)
+}
+
+/// Builds both diagrams in given orders.
+pub fn build_in(
+    question: &Question,
+    orders: &Orders,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagrams {
+    if let Some(out) = build_parts(question, orders, cancelled, progress) {
+        return out;
+    }
+    let model = &question.least.whole;
+    let Laid {
+        determinate: first,
+        admissible: second,
+        order,
+    } = laid(question, orders, model);
+    let mut whole = |staged: &Staged<'_>, admissible: bool| {
+        if !question.conditions.counted {
+            return uncounted(question, staged, cancelled, progress);
+        }
+        let whole = built(question, model, staged, admissible, cancelled, progress);
+        if !is_cut(whole.stop) {
+            return whole;
+        }
+        let build = &mut |limits: &Limits| {
+            within_limits(
+                question, model, staged, limits, admissible, cancelled, progress,
+            )
+        };
+        let worth = |d: &Diagram| total(question, d, admissible);
+        budget::best(&staged.limits, whole, build, &worth)
+    };
+    let determinate = whole(&first, false);
+    let admissible = match &second {
+        // What is not determinate is not admissible.
+        Some(_) if is_empty(&determinate) => nothing(model, &order),
+        Some(second) => whole(second, true),
+        None => determinate.clone(),
+    };
+    let mut out = Diagrams {
+        determinate,
+        admissible,
+        cheapest: None,
+        estimates: [None, None],
+        order,
+        rows_per_contour: vec![model.space.dim],
+    };
+    let second = second.as_ref().unwrap_or(&first);
+    let kept = usize::from(question.conditions.keep_output) * model.kept.len();
+    let build = &mut |ceiling: &mut Ceiling<'_>| {
+        let (stages, limits) = (second.stages(), &second.limits);
+        let ceiling = Some(ceiling);
+        one_end(
+            question, model, stages, limits, ceiling, cancelled, progress,
+        )
+    };
+    prove(question, &mut out, second, kept, build);
+    out.estimates = estimates(question, &out, [&first, second], kept, cancelled);
+    out
+}
+
+/// About how many variants there are, determinate and admissible ones, of diagrams that are cut; `kept` is the least dimension of the last
+/// nodes of the admissible one.
+fn estimates(
+    question: &Question,
+    built: &Diagrams,
+    [first, second]: [&Staged<'_>; 2],
+    kept: usize,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> [Option<Estimate>; 2] {
+    let seed = match question.conditions.estimate {
+        Some(seed) if is_cut(built.stop()) => seed,
+        _ => return [None, None],
+    };
+    let estimate = |staged, end, diagram: &Diagram, admissible, possible: Option<&BigUint>| {
+        if !is_cut(diagram.stop) {
+            return None;
+        }
+        let found = estimated(question, staged, end, seed, admissible, cancelled)?;
+        Some(found.bounded(&total(question, diagram, admissible), possible))
+    };
+    let determinate = estimate(first, 0, &built.determinate, false, None);
+    let possible = match &determinate {
+        Some(e) => e.at_most.clone(),
+        None => is_whole(&built.determinate).then(|| total(question, &built.determinate, false)),
+    };
+    let admissible = estimate(second, kept, &built.admissible, true, possible.as_ref());
+    [determinate, admissible]
+}
+
+/// About how many variants there are, determinate or admissible ones: by samples of a larger set where there is no searched state and
+/// no redundant constraint is allowed, else by random cuts; `end` is the least dimension of the last nodes.
+fn estimated(
+    question: &Question,
+    staged: &Staged<'_>,
+    end: usize,
+    seed: u64,
+    admissible: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Estimate> {
+    let (model, limits) = (&question.least.whole, &staged.limits);
+    if question.conditions.state.is_none() {
+        let keep_output = admissible && question.conditions.keep_output;
+        let order = &staged.order;
+        let of = at_most(question, model, order, limits, keep_output, cancelled);
+        let found = of.and_then(|of| samples::estimate(question, &of, seed, admissible, cancelled));
+        if found.is_some() {
+            return found;
+        }
+    }
+    let stages = staged.stages();
+    let missing = Missing::new(&model.space, stages, limits, end);
+    random_cuts::estimate(
+        question, stages, limits, &missing, seed, admissible, cancelled,
+    )
+}
+
+/// Builds both diagrams from those of the two parts that the closure equations fall apart into; none where they do not, or
+/// where a diagram does not fit the limits.
+fn build_parts(
+    question: &Question,
+    orders: &Orders,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Option<Diagrams> {
+    let parts = question
+        .least
+        .parts
+        .as_ref()
+        .filter(|_| question.conditions.counted)?;
+    let laid = parts.each_ref().map(|part| laid(question, orders, part));
+    let mut both = |staged: [&Staged<'_>; 2], admissible: bool| {
+        let mut built = |part: usize| {
+            let (part, staged) = (&parts[part], staged[part]);
+            let d = built(question, part, staged, admissible, cancelled, progress);
+            is_whole(&d).then_some(d)
+        };
+        product([&built(0)?, &built(1)?], &staged[0].limits)
+    };
+    let [one, two] = &laid;
+    let determinate = both([&one.determinate, &two.determinate], false)?;
+    let admissible = match (&one.admissible, &two.admissible) {
+        (Some(_), Some(_)) if is_empty(&determinate) => nothing(&parts[0], &one.order),
+        (Some(one), Some(two)) => both([one, two], true)?,
+        _ => determinate.clone(),
+    };
+    Some(Diagrams {
+        determinate,
+        admissible,
+        cheapest: None,
+        estimates: [None, None],
+        order: one.order.clone(),
+        rows_per_contour: parts.iter().map(|p| p.space.dim).collect(),
+    })
+}
+
+/// The diagram of a question, of the motions of live links, cut down to its limits where it does not fit them; under a ceiling or not.
+pub(in crate::search) fn one_end(
+    question: &Question,
+    model: &Model,
+    stages: &[Stage],
+    limits: &Limits,
+    ceiling: Option<&mut Ceiling<'_>>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagram {
+    let (field, space) = (question.exact.field(), &model.space);
+    diagram::of_live_links(field, space, stages, limits, ceiling, cancelled, progress)
+}
+
+/// Nodes of a diagram before it is asked whether there is any variant at all.
+const AT_ONCE: usize = 20_000;
+
+/// The diagram of a question: where it does not fit the limits and no state is searched, from both ends; where that does not fit either,
+/// cut down.
+fn built(
+    question: &Question,
+    model: &Model,
+    staged: &Staged<'_>,
+    admissible: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagram {
+    let limits = &staged.limits;
+    let mut within = |limits| {
+        within_limits(
+            question, model, staged, limits, admissible, cancelled, progress,
+        )
+    };
+    if question.conditions.state.is_some() {
+        return within(limits);
+    }
+    let few = Limits {
+        nodes: limits.nodes.min(AT_ONCE),
+        ..limits.clone()
+    };
+    let mut built = within(&few);
+    if !is_cut(built.stop) {
+        return built;
+    }
+    let keep_output = admissible && question.conditions.keep_output;
+    let order = &staged.order;
+    let most = at_most(question, model, order, &few, keep_output, cancelled);
+    if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
+        return nothing(model, order);
+    }
+    if few.nodes < limits.nodes {
+        built = within(limits);
+    }
+    if limits.already < limits.internal || !is_cut(built.stop) {
+        return built;
+    }
+    let parts = both_ends(question, model, staged.stages(), keep_output);
+    let within = (limits, keep_output);
+    two_sided(question, model, &parts, within, cancelled, progress).unwrap_or(built)
+}
+
+/// The diagram of a question, cut down where it does not fit the limits: in the space dual to self-stresses where there is no searched
+/// state and every choice has the motions of its present joint, otherwise of the motions of live links.
+fn within_limits(
+    question: &Question,
+    model: &Model,
+    staged: &Staged<'_>,
+    limits: &Limits,
+    admissible: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagram {
+    if question.conditions.state.is_none() {
+        let keep_output = admissible && question.conditions.keep_output;
+        let order = &staged.order;
+        let added = in_self_stress_space(
+            question,
+            model,
+            order,
+            limits,
+            keep_output,
+            cancelled,
+            progress,
+        );
+        if let Some(added) = added {
+            return added;
+        }
+    }
+    let stages = staged.stages();
+    one_end(question, model, stages, limits, None, cancelled, progress)
+}
+
+/// The diagram of a question that is not to be counted.
+fn uncounted(
+    question: &Question,
+    staged: &Staged<'_>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagram {
+    let few = &Limits {
+        nodes: CUT,
+        ..staged.limits.clone()
+    };
+    let model = &question.least.whole;
+    let stages = staged.stages();
+    let mut few = one_end(question, model, stages, few, None, cancelled, progress);
+    if few.stop != Stop::Interrupted {
+        few.stop = Stop::NotCounted;
+    }
+    few
+}
+
+/// Finds the cheapest admissible variants where they are wanted and not all are known; `end` is the least dimension of
+/// the last nodes.
+fn prove(
+    question: &Question,
+    out: &mut Diagrams,
+    staged: &Staged<'_>,
+    end: usize,
+    build: Build<'_>,
+) {
+    let most = BigUint::from(question.conditions.cheapest);
+    let known = matches!(out.admissible.stop, Stop::Exhausted | Stop::Interrupted);
+    if known || most.is_zero() {
+        return;
+    }
+    let space = &question.least.whole.space;
+    let missing = Missing::new(space, staged.stages(), &staged.limits, end);
+    if missing.root().is_none() {
+        // There is none, by dimensions alone.
+        out.admissible.stop = Stop::Exhausted;
+        return;
+    }
+    let known = cost_of(question, &out.admissible, &most).flatten();
+    let proof = up_to(question, &missing, (&most, known), build);
+    match proof.up_to {
+        // Nothing had to be left out: what has no completion by dimensions made the diagram too large.
+        Some(all) if all.cost_milli == i64::MAX => out.admissible = all.diagram,
+        up_to => out.cheapest = up_to,
+    }
+    // Where it was cancelled depends on the clock, so that there is nothing to compare with a twin.
+    if proof.stop == Stop::Interrupted {
+        out.admissible.stop = Stop::Interrupted;
+    }
+}

@@ -1,0 +1,104 @@
+//! Diagrams built in the space dual to the self-stresses of the present joints.
+//!
+//! A node is what the choices so far add there, within what the rest can still reach: the rest must reach all that is missing, or
+//! the node is dead. That space is smaller than the motions of all live links, and nodes that differ in what a present joint to
+//! come allows anyway are one in it. It holds for the free state, whose joints all have their present motion in every variant.
+
+use crate::linalg::modp::{Field, Residue};
+use crate::search::diagram::adding::{Adding, adding};
+use crate::search::diagram::minimize::minimal;
+use crate::search::diagram::redundancy_so_far::{Limits, Spent};
+use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress};
+use crate::search::question::Question;
+use crate::search::reduce::plane_split::Model;
+use crate::search::reduce::self_stress_space::SelfStressSpace;
+
+/// A stage, within limits.
+struct Added<'a> {
+    field: Field,
+    stage: &'a Adding,
+    limits: &'a Limits,
+}
+
+impl Carries for Added<'_> {
+    fn variable(&self) -> usize {
+        self.stage.variable
+    }
+
+    fn worker(&self) -> Worker {
+        Worker::new(self.field, 0)
+    }
+
+    fn effort(&self, bytes: usize) -> usize {
+        bytes / size_of::<Residue>() * self.stage.width
+    }
+
+    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
+        worker.children_added(self.stage, matrix, spent, self.limits, out);
+    }
+}
+
+/// The space dual to self-stresses for the variables of a question in an order; none where a choice lacks a motion of its present joint.
+pub(in crate::search) fn space(
+    question: &Question,
+    model: &Model,
+    order: &[usize],
+    keep_output: bool,
+) -> Option<SelfStressSpace> {
+    let kept = if keep_output {
+        &question.kept.0[..]
+    } else {
+        &[]
+    };
+    let field = question.exact.field();
+    SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)
+}
+
+/// The diagram of a question without a searched state, for the variables in an order: the smallest there is, or what fits the limits;
+/// none where a choice lacks a motion of its present joint.
+///
+/// # Complexity
+/// O(nodes · choices · s²) field operations for s present self-stresses.
+pub(in crate::search) fn in_self_stress_space(
+    question: &Question,
+    model: &Model,
+    order: &[usize],
+    limits: &Limits,
+    keep_output: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Option<Diagram> {
+    let field = question.exact.field();
+    let added = space(question, model, order, keep_output)?;
+    let already = limits.already.saturating_add(added.lasting);
+    if already > limits.internal {
+        return Some(nothing(model, order));
+    }
+    let stages = adding(field, order, &added);
+    let over = |stage| Added {
+        field,
+        stage,
+        limits,
+    };
+    let stages: Vec<Added<'_>> = stages.iter().map(over).collect();
+    let within = (limits, already, None);
+    let built = diagram::build(&model.space, &stages, within, cancelled, progress);
+    let stop = built.stop;
+    let smallest = minimal(built.layers, built.terminals);
+    Some(Diagram { stop, ..smallest })
+}
+
+/// The diagram of no variant, for variables in an order.
+pub(in crate::search) fn nothing(model: &Model, order: &[usize]) -> Diagram {
+    let layer = |(t, &variable): (usize, &usize)| {
+        let choices = model.space.variables[variable].choices.len();
+        Layer {
+            variable,
+            nodes: 1,
+            choices,
+            edges: vec![DEAD; choices * usize::from(t == 0)],
+        }
+    };
+    minimal(order.iter().enumerate().map(layer).collect(), Vec::new())
+}

@@ -1,0 +1,203 @@
+//! Points, segments, polygons and rectangles of a picture.
+
+use super::xml::number;
+pub use crate::geom::vector::{add, cross_plane as cross, dot, norm, scale, sub};
+use std::fmt::Write as _;
+
+/// A point of the picture; y goes down.
+pub type Point = [f64; 2];
+
+/// A rectangle of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Its left edge.
+    pub left: f64,
+    /// Its upper edge.
+    pub top: f64,
+    /// Its right edge.
+    pub right: f64,
+    /// Its lower edge.
+    pub bottom: f64,
+}
+
+impl Rect {
+    /// The rectangle of a size round a middle.
+    #[must_use]
+    pub fn around(middle: Point, width: f64, height: f64) -> Rect {
+        Rect {
+            left: middle[0] - width / 2.0,
+            top: middle[1] - height / 2.0,
+            right: middle[0] + width / 2.0,
+            bottom: middle[1] + height / 2.0,
+        }
+    }
+
+    /// Whether the two share an area.
+    #[must_use]
+    pub fn overlaps(&self, other: &Rect) -> bool {
+        self.left < other.right
+            && other.left < self.right
+            && self.top < other.bottom
+            && other.top < self.bottom
+    }
+
+    /// The rectangle with a margin on every side.
+    #[must_use]
+    pub fn grown(&self, by: f64) -> Rect {
+        Rect {
+            left: self.left - by,
+            top: self.top - by,
+            right: self.right + by,
+            bottom: self.bottom + by,
+        }
+    }
+
+    /// The least rectangle round both.
+    #[must_use]
+    pub fn with(&self, other: &Rect) -> Rect {
+        Rect {
+            left: self.left.min(other.left),
+            top: self.top.min(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+
+    /// The area that the two share.
+    pub(crate) fn overlap(&self, other: &Rect) -> f64 {
+        let across = self.right.min(other.right) - self.left.max(other.left);
+        let down = self.bottom.min(other.bottom) - self.top.max(other.top);
+        across.max(0.0) * down.max(0.0)
+    }
+
+    /// Whether no part of it lies outside another.
+    pub(crate) fn within(&self, room: &Rect) -> bool {
+        self.left >= room.left
+            && self.top >= room.top
+            && self.right <= room.right
+            && self.bottom <= room.bottom
+    }
+
+    /// Its middle.
+    #[must_use]
+    pub fn middle(&self) -> Point {
+        [
+            (self.left + self.right) / 2.0,
+            (self.top + self.bottom) / 2.0,
+        ]
+    }
+
+    /// The point of it that is nearest to `p`.
+    pub fn nearest(&self, p: Point) -> Point {
+        [
+            p[0].clamp(self.left, self.right),
+            p[1].clamp(self.top, self.bottom),
+        ]
+    }
+
+    pub fn moved(&self, by: Point) -> Rect {
+        Rect {
+            left: self.left + by[0],
+            top: self.top + by[1],
+            right: self.right + by[0],
+            bottom: self.bottom + by[1],
+        }
+    }
+
+    /// Whether a segment touches it.
+    pub fn meets(&self, a: Point, b: Point) -> bool {
+        let within = |p: Point| {
+            (self.left..=self.right).contains(&p[0]) && (self.top..=self.bottom).contains(&p[1])
+        };
+        let corners = [
+            [self.left, self.top],
+            [self.right, self.top],
+            [self.right, self.bottom],
+            [self.left, self.bottom],
+        ];
+        within(a)
+            || within(b)
+            || segments_cross(a, b, corners[0], corners[2])
+            || segments_cross(a, b, corners[1], corners[3])
+    }
+}
+
+/// The mean of some points; the origin if there are none.
+pub fn mean(points: impl Iterator<Item = Point>) -> Point {
+    let (mut sum, mut n) = ([0.0, 0.0], 0.0f64);
+    for p in points {
+        sum = add(sum, p);
+        n += 1.0;
+    }
+    scale(sum, 1.0 / n.max(1.0))
+}
+
+/// The direction of a vector; across where it has none.
+pub fn unit(a: Point) -> Point {
+    let length = norm(a);
+    if length > 1e-12 {
+        scale(a, 1.0 / length)
+    } else {
+        [1.0, 0.0]
+    }
+}
+
+/// The distance of a point from a segment.
+pub fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let along = sub(b, a);
+    let length = dot(along, along);
+    let t = if length > 1e-18 {
+        (dot(sub(p, a), along) / length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    norm(sub(p, add(a, scale(along, t))))
+}
+
+/// Whether two segments share no value of one coordinate.
+pub fn apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]))
+}
+
+/// Whether two segments cross, ends not counted.
+pub fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
+    let side = |p, q, r| cross(sub(q, p), sub(r, p));
+    side(a, b, c) * side(a, b, d) < -1e-15 && side(c, d, a) * side(c, d, b) < -1e-15
+}
+
+/// The area of a polygon.
+pub fn area(polygon: &[Point]) -> f64 {
+    let n = polygon.len();
+    let twice: f64 = (0..n)
+        .map(|i| cross(polygon[i], polygon[(i + 1) % n]))
+        .sum();
+    twice.abs() / 2.0
+}
+
+/// Whether a point is inside a polygon (even-odd).
+pub fn inside(p: Point, polygon: &[Point]) -> bool {
+    let mut odd = false;
+    for (i, &a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % polygon.len()];
+        if (a[1] > p[1]) != (b[1] > p[1])
+            && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+        {
+            odd = !odd;
+        }
+    }
+    odd
+}
+
+/// The data of the path through some points.
+pub fn polyline(points: &[Point], closed: bool) -> String {
+    let mut d = String::new();
+    for (i, p) in points.iter().enumerate() {
+        let c = if i == 0 { 'M' } else { 'L' };
+        // writing to a string does not fail
+        let _ = write!(d, "{c}{} {}", number(p[0]), number(p[1]));
+    }
+    if closed {
+        d.push('Z');
+    }
+    d
+}

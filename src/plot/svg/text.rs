@@ -1,0 +1,145 @@
+//! The room that text takes, and text cut and broken to fit a room.
+
+use crate::format::plain::straight;
+
+/// The width of `text` at `size` pixels, taken wide: the fonts are not known here.
+pub fn width(text: &str, size: f64) -> f64 {
+    let of = |c| {
+        if c < '\u{1100}' || ('\u{2000}'..'\u{2070}').contains(&c) {
+            0.6
+        } else {
+            1.0
+        }
+    };
+    text.chars().map(of).sum::<f64>() * size
+}
+
+/// `text` in one line, cut to `room` pixels.
+pub fn cut(text: &str, size: f64, room: f64) -> String {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    if width(&text, size) <= room {
+        return text;
+    }
+    let mut short = String::new();
+    for c in text.chars() {
+        short.push(c);
+        if width(&short, size) > room - size {
+            short.pop();
+            break;
+        }
+    }
+    format!("{}…", short.trim_end())
+}
+
+/// Names in one line, each shortened in its middle to `room` pixels; different names never come out alike.
+pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
+    let straight: Vec<String> = all
+        .iter()
+        .map(|n| straight(&cut(n, size, f64::INFINITY)).into_owned())
+        .collect();
+    let whole: Vec<Vec<char>> = straight.iter().map(|n| n.chars().collect()).collect();
+    let fits = |n: usize| width(&straight[n], size) <= room;
+    // Characters that are left beside the dots, the widest ones taken for all.
+    let wide = |c: &&char| width(&c.to_string(), size) > 0.6 * size;
+    let left = |n: usize| {
+        let one = if whole[n].iter().any(|c| wide(&c)) {
+            size
+        } else {
+            0.6 * size
+        };
+        ((room / one) as usize).saturating_sub(1).max(2)
+    };
+    // Of the characters left, so many at the front.
+    let short = |n: usize, front: usize| -> String {
+        let (chars, left) = (&whole[n], left(n));
+        let (front, back) = (front.min(left), left - front.min(left));
+        let (head, tail) = (&chars[..front], &chars[chars.len() - back..]);
+        head.iter().chain(&['…']).chain(tail).collect()
+    };
+    let mut out: Vec<String> = Vec::new();
+    for (n, name) in straight.iter().enumerate() {
+        if fits(n) {
+            out.push(name.clone());
+            continue;
+        }
+        let middle = left(n).div_ceil(2);
+        let taken = |s: &String| {
+            let before = out
+                .iter()
+                .zip(&straight)
+                .any(|(o, of)| o == s && of != name);
+            before || (0..all.len()).any(|k| fits(k) && straight[k] == *s && straight[k] != *name)
+        };
+        // From the middle outwards, and a number where every cut is another's.
+        let cuts = (0..=left(n)).flat_map(|by| [middle.checked_sub(by), Some(middle + by)]);
+        let free = cuts
+            .flatten()
+            .filter(|f| *f <= left(n))
+            .map(|f| short(n, f))
+            .find(|s| !taken(s));
+        out.push(free.unwrap_or_else(|| {
+            let numbered = |k: usize| {
+                let short = short(n, middle);
+                let number = format!("…{k}");
+                let kept = short.chars().count().saturating_sub(number.chars().count());
+                short
+                    .chars()
+                    .take(kept)
+                    .chain(number.chars())
+                    .collect::<String>()
+            };
+            (2..).map(numbered).find(|s| !taken(s)).unwrap_or_default()
+        }));
+    }
+    out
+}
+
+/// `text` in lines of at most `room` pixels; a longer word is cut.
+pub(crate) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let word = cut(word, size, room);
+        if let Some(line) = lines.last_mut() {
+            let longer = format!("{line} {word}");
+            if width(&longer, size) <= room {
+                *line = longer;
+                continue;
+            }
+        }
+        lines.push(word);
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{names, width};
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn long_names_are_shortened_in_their_middle_and_stay_apart() {
+        let same = |n: usize| format!("left_front_suspension_{n:03}_of_the_long_wheelbase_version");
+        let all: Vec<String> = (0..300).map(same).collect();
+        let all: Vec<&str> = all
+            .iter()
+            .map(String::as_str)
+            .chain(["A", "short"])
+            .collect();
+        let short = names(&all, 11.0, 90.0);
+        assert!(short.iter().all(|s| width(s, 11.0) <= 90.0), "{short:?}");
+        assert_eq!(short.iter().collect::<BTreeSet<_>>().len(), all.len());
+        assert!(
+            short[0].starts_with("left_") && short[0].ends_with("ersion"),
+            "{}",
+            short[0]
+        );
+        assert_eq!(short[300..], ["A", "short"]);
+        // The same name is the same text.
+        assert_eq!(
+            names(&[all[0], all[0]], 11.0, 90.0),
+            [short[0].clone(), short[0].clone()]
+        );
+        // Nothing turns letters round, and nothing is two lines.
+        assert_eq!(names(&["a\u{202e}b\nc"], 11.0, 150.0), ["a\\u{202e}b c"]);
+    }
+}

@@ -1,0 +1,143 @@
+//! A small XML writer: it closes what it opens, escapes what it is given and writes numbers in one way.
+
+use crate::format::number::decimals;
+use crate::format::plain::straight;
+
+/// A document being written.
+#[derive(Debug, Default)]
+pub struct Xml {
+    out: String,
+    open: Vec<&'static str>,
+}
+
+/// A start tag being written; it is closed by one of the methods that take it.
+#[must_use]
+#[derive(Debug)]
+pub struct Tag<'a> {
+    xml: &'a mut Xml,
+    name: &'static str,
+}
+
+impl Xml {
+    /// Begins an element.
+    pub fn tag(&mut self, name: &'static str) -> Tag<'_> {
+        self.out.push('<');
+        self.out.push_str(name);
+        Tag { xml: self, name }
+    }
+
+    /// Text inside the innermost open element.
+    pub(crate) fn text(&mut self, text: &str) {
+        escape(&mut self.out, text);
+    }
+
+    /// Text that is known to be plain already.
+    pub fn raw(&mut self, text: &'static str) {
+        self.out.push_str(text);
+    }
+
+    /// Elements that this writer has finished before.
+    pub fn piece(&mut self, elements: &str) {
+        self.out.push_str(elements);
+    }
+
+    /// Ends the innermost open element.
+    pub fn end(&mut self) {
+        if let Some(name) = self.open.pop() {
+            self.out.push_str("</");
+            self.out.push_str(name);
+            self.out.push('>');
+            if !matches!(name, "tspan" | "title") {
+                self.out.push('\n');
+            }
+        }
+    }
+
+    /// Ends every open element and gives the document.
+    pub fn finish(mut self) -> String {
+        while !self.open.is_empty() {
+            self.end();
+        }
+        self.out
+    }
+}
+
+impl Tag<'_> {
+    /// An attribute with text.
+    pub fn set(self, name: &str, value: &str) -> Self {
+        self.xml.out.push(' ');
+        self.xml.out.push_str(name);
+        self.xml.out.push_str("=\"");
+        escape(&mut self.xml.out, value);
+        self.xml.out.push('"');
+        self
+    }
+
+    /// An attribute with a number.
+    pub fn num(self, name: &str, value: f64) -> Self {
+        self.set(name, &number(value))
+    }
+
+    /// Leaves the element open.
+    pub fn open(self) {
+        self.xml.out.push('>');
+        self.xml.open.push(self.name);
+    }
+
+    /// Ends the element with nothing inside.
+    pub fn close(self) {
+        self.xml.out.push_str("/>\n");
+    }
+
+    /// Ends the element with text inside.
+    pub fn text(self, text: &str) {
+        self.xml.out.push('>');
+        escape(&mut self.xml.out, text);
+        self.xml.open.push(self.name);
+        self.xml.end();
+    }
+
+    /// Ends the element with text inside and the whole of it as a tooltip, should it differ.
+    pub(crate) fn text_and_tip(self, text: &str, whole: &str) {
+        self.xml.out.push('>');
+        self.xml.open.push(self.name);
+        if text != whole {
+            self.xml.tag("title").text(whole);
+        }
+        escape(&mut self.xml.out, text);
+        self.xml.end();
+    }
+
+    /// Ends the element with a tooltip inside, if there is one to show.
+    pub fn tip(self, tip: &str) {
+        if tip.is_empty() {
+            return self.close();
+        }
+        self.xml.out.push('>');
+        self.xml.open.push(self.name);
+        self.xml.tag("title").text(tip);
+        self.xml.end();
+    }
+}
+
+/// A coordinate: at most two decimals, no trailing zeros, no negative zero.
+pub fn number(value: f64) -> String {
+    decimals(value, 2)
+}
+
+/// Appends `text` so that it is plain character data anywhere in XML or HTML; a character XML forbids becomes U+FFFD, and one
+/// that turns letters round is spelt out.
+pub(crate) fn escape(out: &mut String, text: &str) {
+    for c in straight(text).chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\t' | '\n' => out.push(c),
+            '\0'..='\x1f' | '\x7f'..='\u{9f}' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            _ => out.push(c),
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Drawings of a mechanism as self-contained SVG: the structural scheme, and the kinematic scheme from the coordinates.
+//!
+//! Both are for printing as well as for the screen: light and dark by the reader's setting, no script, no font file, the
+//! same bytes for the same input. Labels never touch each other or a symbol; where there is no room beside what they
+//! name, they stand farther away on a leader.
+
+mod kinematic;
+pub mod marks;
+mod place;
+#[cfg(feature = "png")]
+pub mod png;
+mod scheme;
+mod sheet;
+mod subject;
+mod symbol;
+
+pub use crate::svg::plane::Rect;
+pub use kinematic::moving::{Moved, kinematic_along, kinematic_moving};
+pub use kinematic::scene::{Scene, Shown, kinematic_scene};
+pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed, kinematic_with};
+
+pub use place::view_direction::Sight;
+pub use scheme::{scheme, scheme_with};
+pub use sheet::STYLE as SHEET_STYLE;
+pub use sheet::{Drawing, Label};
+pub use subject::{Marks, Subject};
+pub use symbol::pairs::joint_type;
+pub use symbol::swap::Swap;
+
+/// How large a picture of a drawing is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Size {
+    /// Pixels for each of the drawing's.
+    Scale(f64),
+    /// Its width in pixels.
+    Width(u32),
+}

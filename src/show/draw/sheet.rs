@@ -1,0 +1,439 @@
+//! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
+
+pub(in crate::draw) mod labels;
+pub(in crate::draw) mod shapes;
+
+use crate::svg::plane::{Point, Rect, add, polyline};
+use crate::svg::text::{cut, width};
+use crate::svg::xml::{Xml, number};
+
+/// The space around everything.
+pub(super) const PAD: f64 = 20.0;
+/// The size of ids.
+pub(super) const SMALL: f64 = 11.0;
+/// The size of the legend.
+const TEXT: f64 = 12.0;
+/// The height of a row of the legend.
+pub(super) const ROW: f64 = 22.0;
+const SWATCH: f64 = 40.0;
+/// A legend's row is cut beyond this.
+const WIDEST: f64 = 560.0;
+
+/// The look. Its classes are its own, so that charts and drawings may share a page; colours stand outright, since many
+/// viewers of files know no CSS variables.
+pub const STYLE: &str = include_str!("sheet/sheet.css");
+
+/// A text of a drawing and the room it takes at 0.6 of its size a character.
+#[derive(Debug, Clone)]
+pub struct Label {
+    /// The text.
+    pub text: String,
+    /// Its room.
+    pub rect: Rect,
+}
+
+/// A finished drawing.
+#[derive(Debug, Clone)]
+pub struct Drawing {
+    /// The picture.
+    pub svg: String,
+    /// Its width in pixels.
+    pub width: f64,
+    /// Its height in pixels.
+    pub height: f64,
+    /// Every text.
+    pub labels: Vec<Label>,
+    /// The room of the joints' symbols; a joint's class stands inside its own.
+    pub symbols: Vec<Rect>,
+}
+
+/// What stands in front of a legend's text.
+#[derive(Debug, Clone)]
+pub(super) enum Swatch {
+    /// The tint of a contour with so many redundant constraints, and its number.
+    Tint(usize, String),
+    /// Drawn by the caller's function into the middle given.
+    Symbol(fn(&mut Sheet, Point)),
+    /// A joint with text in it.
+    Joint(&'static str, String),
+    /// Shapes round the origin.
+    Shapes(Vec<Shape>),
+}
+
+/// A finished piece of drawing.
+#[derive(Debug, Clone)]
+pub(super) enum Shape {
+    /// A path.
+    Path {
+        class: String,
+        points: Vec<Point>,
+        closed: bool,
+    },
+    /// A circle.
+    Circle {
+        at: Point,
+        radius: f64,
+        class: String,
+    },
+}
+
+impl Shape {
+    /// The points of a path; none of a circle.
+    pub(super) fn points(&self) -> &[Point] {
+        match self {
+            Shape::Path { points, .. } => points,
+            Shape::Circle { .. } => &[],
+        }
+    }
+
+    /// An open path.
+    pub(super) fn line(class: String, points: Vec<Point>) -> Shape {
+        Shape::Path {
+            class,
+            points,
+            closed: false,
+        }
+    }
+}
+
+/// A drawing under way.
+#[derive(Debug)]
+pub(super) struct Sheet {
+    xml: Xml,
+    size: Point,
+    /// Where the coordinates of the open groups begin.
+    origin: Point,
+    labels: Vec<Label>,
+    symbols: Vec<Rect>,
+}
+
+/// The texts round a drawing.
+#[derive(Debug)]
+pub(super) struct Caption<'a> {
+    pub(super) title: &'a str,
+    /// Two lines.
+    pub(super) subtitle: [&'a str; 2],
+    pub(super) description: &'a str,
+    pub(super) legend: Vec<(Swatch, String)>,
+}
+
+/// The room that title and legend leave: where the drawing's own rectangle is moved to.
+#[derive(Debug)]
+pub(super) struct SheetPlan {
+    /// What to add to the drawing's coordinates.
+    pub(super) shift: Point,
+    pub(super) size: Point,
+    columns: usize,
+    column: f64,
+    pub(super) legend_top: f64,
+}
+
+/// How wide a sheet with such a drawing is at least.
+const LEAST: f64 = 580.0;
+
+/// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
+pub(super) fn plan(caption: &Caption<'_>, area: Rect, strip: f64) -> SheetPlan {
+    let rows = &caption.legend;
+    let widest = rows.iter().map(|(_, t)| width(t, TEXT));
+    let column = SWATCH + widest.fold(0.0, f64::max).min(WIDEST) + 24.0;
+    // a long legend has two columns, however narrow the drawing is
+    let least = if rows.len() > 8 { 2.0 } else { 1.0 };
+    let inner = (area.right - area.left)
+        .max(LEAST)
+        .max(least * column - 24.0);
+    let columns = (((inner + 24.0) / column) as usize).clamp(1, 4);
+    let lines = rows.len().div_ceil(columns);
+    let head = PAD + 62.0;
+    let legend_top = head + (area.bottom - area.top) + 18.0 + strip;
+    let shift = [
+        PAD + (inner - (area.right - area.left)) / 2.0 - area.left,
+        head - area.top,
+    ];
+    SheetPlan {
+        shift,
+        size: [
+            inner + 2.0 * PAD,
+            legend_top + ROW * lines as f64 + PAD - if lines == 0 { 10.0 } else { 0.0 },
+        ],
+        columns,
+        column,
+        legend_top,
+    }
+}
+
+impl Sheet {
+    /// Begins a sheet.
+    pub(super) fn new(caption: &Caption<'_>, plan: &SheetPlan) -> Sheet {
+        let [w, h] = plan.size;
+        let mut xml = Xml::default();
+        xml.tag("svg")
+            .set("xmlns", "http://www.w3.org/2000/svg")
+            .set("class", "ozd")
+            .num("width", w.ceil())
+            .num("height", h.ceil())
+            .set(
+                "viewBox",
+                &format!("0 0 {} {}", number(w.ceil()), number(h.ceil())),
+            )
+            .set("role", "img")
+            .open();
+        xml.tag("title").text(caption.title);
+        xml.raw("\n");
+        xml.tag("desc").text(caption.description);
+        xml.tag("style").open();
+        xml.raw("\n");
+        xml.raw(STYLE);
+        xml.end();
+        xml.tag("rect")
+            .set("class", "bg")
+            .num("width", w.ceil())
+            .num("height", h.ceil())
+            .close();
+        let mut sheet = Sheet {
+            xml,
+            size: plan.size,
+            origin: [0.0; 2],
+            labels: Vec::new(),
+            symbols: Vec::new(),
+        };
+        let room = w - 2.0 * PAD;
+        let title = cut(caption.title, 18.0, room);
+        sheet.text("title", 18.0, [PAD, PAD + 8.0], Anchor::Start, &title);
+        for (i, line) in caption.subtitle.iter().enumerate() {
+            let y = PAD + 30.0 + 17.0 * i as f64;
+            let line = cut(line, 13.0, room);
+            sheet.text("sub", 13.0, [PAD, y], Anchor::Start, &line);
+        }
+        sheet
+    }
+
+    /// An empty sheet without title or size, for a piece of a drawing.
+    pub(super) fn piece() -> Sheet {
+        Sheet {
+            xml: Xml::default(),
+            size: [0.0; 2],
+            origin: [0.0; 2],
+            labels: Vec::new(),
+            symbols: Vec::new(),
+        }
+    }
+
+    /// The elements of a piece.
+    pub(super) fn into_text(self) -> String {
+        self.xml.finish()
+    }
+
+    /// Draws something into a group round `at` that says what it stands for, so that a program can find it.
+    pub(super) fn group(
+        &mut self,
+        name: &str,
+        value: &str,
+        at: Point,
+        draw: impl FnOnce(&mut Sheet),
+    ) {
+        let mut tag = self.xml.tag("g").set(name, value);
+        if at != [0.0; 2] {
+            let by = format!("translate({} {})", number(at[0]), number(at[1]));
+            tag = tag.set("transform", &by);
+        }
+        tag.open();
+        let outer = self.origin;
+        self.origin = add(outer, at);
+        draw(self);
+        self.origin = outer;
+        self.xml.end();
+    }
+
+    /// What the open group says when one points at it.
+    pub(super) fn tip(&mut self, text: &str) {
+        self.xml.tag("title").text(text);
+    }
+
+    /// Rules beside those of every drawing.
+    pub(super) fn style(&mut self, rules: &str) {
+        self.xml.tag("style").text(rules);
+    }
+
+    /// Finished pieces with ids, shown where they are used.
+    pub(super) fn defs<'p>(&mut self, pieces: impl Iterator<Item = (String, &'p str)>) {
+        self.xml.tag("defs").open();
+        for (id, piece) in pieces {
+            // what is used elsewhere has no ancestors there but this group
+            let group = self.xml.tag("g").set("id", &id);
+            group.set("class", "ozd").open();
+            self.xml.piece(piece);
+            self.xml.end();
+        }
+        self.xml.end();
+    }
+
+    /// Shows a piece by its id, as what stands for a joint.
+    pub(super) fn joint_use(&mut self, joint: &str, id: &str, at: Point) {
+        self.xml
+            .tag("use")
+            .set("href", &format!("#{id}"))
+            .num("x", at[0])
+            .num("y", at[1])
+            .set("data-joint", joint)
+            .close();
+    }
+
+    /// One picture of several that stand in one place; one of them is seen.
+    pub(super) fn frame(&mut self, number: usize, seen: bool, draw: impl FnOnce(&mut Sheet)) {
+        let n = number.to_string();
+        let mut tag = self
+            .xml
+            .tag("g")
+            .set("class", &format!("f{n}"))
+            .set("data-frame", &n);
+        if !seen {
+            tag = tag.set("visibility", "hidden");
+        }
+        tag.open();
+        draw(self);
+        self.xml.end();
+    }
+
+    /// Text whose middle line is at `at`.
+    pub(super) fn text(&mut self, class: &str, size: f64, at: Point, anchor: Anchor, text: &str) {
+        let wide = width(text, size);
+        let left = match anchor {
+            Anchor::Start => at[0],
+            Anchor::Middle => at[0] - wide / 2.0,
+        };
+        if text.trim().is_empty() {
+            return;
+        }
+        self.labels.push(Label {
+            text: text.to_owned(),
+            rect: Rect {
+                left,
+                top: at[1] - size / 2.0,
+                right: left + wide,
+                bottom: at[1] + size / 2.0,
+            }
+            .moved(self.origin),
+        });
+        let mut tag = self
+            .xml
+            .tag("text")
+            .set("class", class)
+            .num("x", at[0])
+            .num("y", at[1] + 0.36 * size)
+            .num("font-size", size);
+        if anchor == Anchor::Middle {
+            tag = tag.set("text-anchor", "middle");
+        }
+        tag.text(text);
+    }
+
+    /// A path.
+    pub(super) fn path(&mut self, class: &str, d: &str) {
+        self.xml.tag("path").set("class", class).set("d", d).close();
+    }
+
+    /// A path that says something when one points at it.
+    pub(super) fn path_with_tip(&mut self, class: &str, d: &str, tip: &str) {
+        self.xml
+            .tag("path")
+            .set("class", class)
+            .set("d", d)
+            .tip(tip);
+    }
+
+    /// A segment.
+    pub(super) fn line(&mut self, class: &str, a: Point, b: Point) {
+        self.path(class, &polyline(&[a, b], false));
+    }
+
+    /// A circle.
+    pub(super) fn circle(&mut self, class: &str, at: Point, radius: f64) {
+        self.xml
+            .tag("circle")
+            .set("class", class)
+            .num("cx", at[0])
+            .num("cy", at[1])
+            .num("r", radius)
+            .close();
+    }
+
+    /// A rectangle with round corners.
+    pub(super) fn rect(&mut self, class: &str, rect: &Rect, round: f64) {
+        self.xml
+            .tag("rect")
+            .set("class", class)
+            .num("x", rect.left)
+            .num("y", rect.top)
+            .num("width", rect.right - rect.left)
+            .num("height", rect.bottom - rect.top)
+            .num("rx", round)
+            .close();
+    }
+
+    /// Finished pieces, moved.
+    pub(super) fn shapes(&mut self, shapes: &[Shape], by: Point) {
+        for shape in shapes {
+            match shape {
+                Shape::Path {
+                    class,
+                    points,
+                    closed,
+                } => {
+                    let moved: Vec<Point> = points.iter().map(|&p| add(p, by)).collect();
+                    self.path(class, &polyline(&moved, *closed));
+                }
+                Shape::Circle { at, radius, class } => self.circle(class, add(*at, by), *radius),
+            }
+        }
+    }
+
+    /// Notes that a symbol covers a rectangle.
+    pub(super) fn symbol(&mut self, rect: Rect) {
+        self.symbols.push(rect.moved(self.origin));
+    }
+
+    /// Draws the legend and ends the sheet.
+    pub(super) fn finish(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
+        let lines = caption.legend.len().div_ceil(plan.columns).max(1);
+        for (i, (swatch, text)) in caption.legend.iter().enumerate() {
+            let x = PAD + plan.column * (i / lines) as f64;
+            let y = plan.legend_top + ROW * ((i % lines) as f64 + 0.5);
+            let middle = [x + 15.0, y];
+            match swatch {
+                Swatch::Tint(redundant, label) => {
+                    let rect = Rect::around(middle, 30.0, 16.0);
+                    let class = format!("s s{}", redundant.min(&6));
+                    self.group("data-contour-key", label, [0.0; 2], |s| {
+                        s.rect(&class, &rect, 3.0);
+                        s.text("small", SMALL, middle, Anchor::Middle, label);
+                    });
+                }
+                Swatch::Symbol(draw) => draw(&mut self, middle),
+                Swatch::Joint(class, label) => {
+                    self.circle(class, middle, 9.5);
+                    self.text("class", 9.0, middle, Anchor::Middle, label);
+                }
+                Swatch::Shapes(shapes) => self.shapes(shapes, middle),
+            }
+            let room = plan.column - SWATCH - 20.0;
+            let shown = cut(text, TEXT, room.min(self.size[0] - x - SWATCH - PAD));
+            self.text("legend", TEXT, [x + SWATCH, y], Anchor::Start, &shown);
+        }
+        Drawing {
+            svg: self.xml.finish(),
+            width: self.size[0].ceil(),
+            height: self.size[1].ceil(),
+            labels: self.labels,
+            symbols: self.symbols,
+        }
+    }
+}
+
+/// Which part of a text is at its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    /// Its left end.
+    Start,
+    /// Its middle.
+    Middle,
+}

@@ -1,0 +1,13 @@
+//! What is found, shown: text, JSON and CSV, drawings, and pages.
+
+use ozols_catalogue::{catalog, chains, synthesis};
+use ozols_evaluation::{accuracy, score, sweep};
+use ozols_files::{file, robots};
+use ozols_forces::{drive, grip, statics};
+use ozols_kernel::{closure, format, geom, model, motion, rank, redundancy, search};
+use ozols_plot::{chart, svg};
+
+pub mod draw;
+pub mod page;
+pub mod terms;
+pub mod view;

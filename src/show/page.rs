@@ -1,0 +1,166 @@
+//! A report of one mechanism as one HTML page: the verdict, drawings, contours, and the redesigns to sort, filter and look at.
+//!
+//! The page needs nothing beside it: style, script and data stand in the file, and its content policy forbids the
+//! network. What a script shows of ten thousand variants is stored as columns of numbers and one symbol for each option
+//! of each joint, not as ten thousand drawings. Names come from files, so they enter as escaped text or JSON only.
+
+#[cfg(feature = "store")]
+pub mod catalogue;
+mod certainty;
+mod contents;
+mod data;
+mod explorer;
+mod figures;
+pub mod moving;
+mod number;
+mod policy;
+pub mod scenes;
+mod stage;
+mod states;
+mod style;
+mod symbols;
+mod variants;
+pub mod verdict;
+mod workload;
+
+use crate::format::plain::straight;
+use crate::redundancy::analysis::AnalysisError;
+use crate::view::analysis::Analysis;
+use data::Data;
+use maud::{Markup, PreEscaped, html};
+use policy::POLICY;
+use style::STYLE;
+use symbols::Drawn;
+
+pub use contents::{Commands, Page, Redesigns, SHOWN};
+pub use symbols::named_swaps;
+pub use symbols::swaps;
+
+/// A file beside this one: where it stands in the source tree, and its text.
+macro_rules! part {
+    ($path:literal) => {
+        (
+            concat!(env!("CARGO_MANIFEST_DIR"), "/", $path),
+            include_str!($path),
+        )
+    };
+}
+
+/// The scripts that the studio's page runs too, in their order.
+pub const SHARED: [(&str, &str); 10] = [
+    part!("page/script/element.js"),
+    part!("page/script/hull.js"),
+    part!("page/script/scene.js"),
+    part!("page/script/solids.js"),
+    part!("page/script/fittings.js"),
+    part!("page/script/bodies.js"),
+    part!("page/script/shaded.js"),
+    part!("page/script/closure.js"),
+    part!("page/script/player.js"),
+    part!("page/script/drag.js"),
+];
+/// The look that the studio's page has too.
+pub const LOOK: (&str, &str) = part!("page/look.css");
+/// The script of the report by idea, in the order it is run, after what is shared.
+const SCRIPT: [&str; 10] = [
+    include_str!("page/script/data.js"),
+    include_str!("page/script/filter.js"),
+    include_str!("page/script/table.js"),
+    include_str!("page/script/drawing.js"),
+    include_str!("page/script/chosen.js"),
+    include_str!("page/script/chart.js"),
+    include_str!("page/script/turns.js"),
+    include_str!("page/script/stage.js"),
+    include_str!("page/script/keep.js"),
+    include_str!("page/script/main.js"),
+];
+/// What a page that is written anew does besides.
+const LIVE: &str = include_str!("page/script/live.js");
+/// The sections that the table of contents names: their marks and heads.
+const SECTIONS: [(&str, &str); 5] = [
+    ("verdict", "Verdict"),
+    ("redesigns", "Redesigns"),
+    ("mechanism", "The mechanism as it is"),
+    ("certainty", "How sure"),
+    ("commands", "How to get this"),
+];
+
+/// Writes the page.
+///
+/// # Errors
+/// Where a coordinate of a variant has no value in the field of the search.
+///
+/// # Complexity
+/// Two drawings a state; for each variant a rank in each further state, and a scoring where the file states loads.
+pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
+    let m = page.mechanism;
+    let analysis = Analysis::new(m, page.states, &[]);
+    let drawn: Vec<Drawn<'_>> = m.state_ids().map(|s| Drawn::new(page, s)).collect();
+    let (store, swaps) = symbols::store(&drawn);
+    let search = match &page.redesigns {
+        Ok(r) if !r.variants.is_empty() => Some(variants::FoundColumns::new(page, r)?),
+        _ => None,
+    };
+    let ideas = page.ideas.as_ref().filter(|r| !r.variants.is_empty());
+    let ideas = ideas
+        .map(|r| variants::FoundColumns::new(page, r))
+        .transpose()?;
+    let data = Data::new(page, &analysis, [search, ideas], swaps).script();
+    let section = |n: usize, inside: Markup| {
+        let (mark, head) = SECTIONS[n];
+        html! {
+            section id=(mark) tabindex=[(mark == "redesigns").then_some("-1")] {
+                h2 { (head) }
+                (inside)
+            }
+        }
+    };
+    let markup = html! {
+        (PreEscaped("<!doctype html>\n"))
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                title { (m.name) ": redundant constraints and redesigns" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                a.skip href="#redesigns" { "Skip to the redesigns" }
+                header {
+                    h1 { (m.name) }
+                    p.lead { (m.description) }
+                    p.meta { (states::facts(m, &analysis)) }
+                }
+                nav aria-label="Contents" {
+                    ul {
+                        @for (mark, head) in SECTIONS {
+                            li { a href={ "#" (mark) } { (head) } }
+                        }
+                    }
+                }
+                main {
+                    div.front {
+                        section id="verdict" aria-label="Verdict" { (verdict::html(page, &analysis)) }
+                        (stage::html(page, &analysis))
+                        (section(1, explorer::html(page)))
+                    }
+                    (section(2, states::html(&analysis, &drawn)))
+                    (section(3, certainty::html(page, &analysis)))
+                    (section(4, page.commands.html()))
+                    section id="sources" {
+                        h2 { "Sources" }
+                        ul { @for s in &m.sources { li { (s) } } }
+                    }
+                }
+                svg.store aria-hidden="true" width="0" height="0" { defs { (store) } }
+                script type="application/json" id="data" { (PreEscaped(data)) }
+                script { @for (_, part) in SHARED { (PreEscaped(part)) } @for part in SCRIPT { (PreEscaped(part)) } }
+                @if page.live { script { (PreEscaped(LIVE)) } }
+            }
+        }
+        "\n"
+    };
+    Ok(policy::named(&straight(&markup.into_string()), POLICY))
+}

@@ -1,0 +1,266 @@
+//! A catalogue as one page: a card for each structure, with its drawing, to filter, sort and choose from.
+
+use super::data::escaped;
+use super::policy::{self, POLICY};
+use super::style::STYLE;
+use crate::catalog::store::{Store, StoreError};
+use crate::file::text::mechanism_from_str;
+use crate::geom::vector::{real, sides};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Joint, Role, StateId};
+use maud::{DOCTYPE, PreEscaped, html};
+use serde::Serialize;
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+
+const CARDS: &str = include_str!("catalogue.css");
+/// The script by idea, in the order it is run.
+const SCRIPT: [&str; 4] = [
+    include_str!("script/gripper.js"),
+    include_str!("script/hull.js"),
+    include_str!("script/cards.js"),
+    include_str!("script/structure.js"),
+];
+
+/// What a card is made of, but for its drawing and its ideas.
+const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, \
+     coalesce(k.transmission, l.transmission) AS transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
+     opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
+     ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
+     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front FROM structures JOIN layouts l ON l.structure = id \
+     LEFT JOIN strokes k ON k.structure = id ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
+/// What a card of a drawn mechanism is made of.
+const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
+     CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
+     FROM drawn ORDER BY links, best_cost, id";
+const IDEAS: &str = "SELECT structure, place, adds, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
+     peak_moment FROM ideas ORDER BY structure, place";
+const WITHOUT: &str = "SELECT no_layout AS why, count(*) AS n FROM structures WHERE no_layout IS NOT NULL GROUP BY 1 ORDER BY 2 DESC, 1";
+
+fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError> {
+    let (names, rows) = store.query(sql, None)?;
+    let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
+    Ok(rows.into_iter().map(map).collect())
+}
+
+/// The drawing of a mechanism as numbers.
+#[derive(Serialize)]
+struct DrawingData {
+    /// The places of the joints, and their names.
+    pins: Vec<[f64; 2]>,
+    names: Vec<String>,
+    /// The pins of each link.
+    links: Vec<Vec<usize>>,
+    /// The links that are the frame, the driver and the jaws.
+    frame: usize,
+    driver: Option<usize>,
+    jaws: Vec<usize>,
+    /// The joint that drives, and whether it slides.
+    drive: Option<usize>,
+    slides: bool,
+    /// Where the jaws grip.
+    tips: Option<Vec<[f64; 2]>>,
+}
+
+/// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y.
+fn drawing(text: &str) -> Option<DrawingData> {
+    let m = mechanism_from_str("mechanism.toml", text).ok()?;
+    let place = |j: &Joint| {
+        let [x, y, _] = real(&j.frame.point);
+        [x, y]
+    };
+    let joints: Vec<&Joint> = m.joints_in(StateId::FREE).map(|j| &m.joints[j]).collect();
+    let square = |j: &&Joint| {
+        let [x, y, z] = real(&j.frame.axis);
+        let across = x == 0.0 && y == 0.0;
+        match j.joint_type {
+            JointType::Prismatic | JointType::Cylindrical => across || z == 0.0,
+            _ => across,
+        }
+    };
+    if !joints.iter().all(square) {
+        return None;
+    }
+    let pins: Vec<[f64; 2]> = joints.iter().map(|j| place(j)).collect();
+    let links: Vec<Vec<usize>> = m
+        .link_ids()
+        .map(|l| {
+            let of = |(_, j): &(usize, &&Joint)| j.links.contains(&l);
+            joints
+                .iter()
+                .enumerate()
+                .filter(of)
+                .map(|(i, _)| i)
+                .collect()
+        })
+        .collect();
+    let drive = joints.iter().position(|j| j.drive);
+    let driver = drive.map(|d| joints[d].links[1].index());
+    let jaws: Vec<usize> = m
+        .links_with_ids()
+        .filter(|(_, l)| l.role == Role::Output)
+        .map(|(l, _)| l.index())
+        .collect();
+    // What a person drew may say by its forces where the part is.
+    let tip = |jaw: &usize| {
+        let points = m.points.iter().map(|p| (p.link, &p.point));
+        let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
+        let (_, at) = points.chain(forces).find(|(l, _)| l.index() == *jaw)?;
+        let [x, y, _] = real(at);
+        Some([x, y])
+    };
+    let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
+    let tips = tips.filter(|t| (2..=3).contains(&t.len()));
+    let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
+    let place = |p: &[f64; 2]| p.map(|x| x * scaled);
+    let slides = |d: usize| joints[d].joint_type.freedoms().iter().any(|f| f.slides());
+    Some(DrawingData {
+        pins: pins.iter().map(place).collect(),
+        names: joints.iter().map(|j| j.id.clone()).collect(),
+        links,
+        frame: m.frame().index(),
+        driver,
+        jaws,
+        slides: drive.is_some_and(slides),
+        drive,
+        tips: tips.map(|t| t.iter().map(place).collect()),
+    })
+}
+
+/// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a
+/// drawn mechanism is in.
+fn scale(points: &[[f64; 2]]) -> f64 {
+    let [width, height] = sides(points);
+    match width.max(height) {
+        s if s > 0.0 && !(60.0..=400.0).contains(&s) => 160.0 / s,
+        _ => 1.0,
+    }
+}
+
+/// The page of a catalogue, `file` being its name for the commands that go on with it.
+///
+/// # Errors
+/// Where the database cannot be read.
+///
+/// # Complexity
+/// A mechanism read for each structure.
+pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
+    let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
+    for mut idea in maps(store, IDEAS)? {
+        if let Some(Value::String(of)) = idea.remove("structure") {
+            ideas.entry(of).or_default().push(idea);
+        }
+    }
+    let mut cards = Vec::new();
+    for mut card in maps(store, CARD)?.into_iter().chain(maps(store, DRAWN)?) {
+        let mechanism = card.remove("mechanism");
+        let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
+        let of = ideas.remove(id).unwrap_or_default();
+        let drawn = mechanism.as_ref().and_then(Value::as_str).and_then(drawing);
+        card.insert(
+            "ideas".to_owned(),
+            of.into_iter().map(Value::Object).collect(),
+        );
+        let drawn = drawn.and_then(|d| serde_json::to_value(d).ok());
+        card.insert("drawing".to_owned(), drawn.unwrap_or_default());
+        cards.push(card);
+    }
+    let without = maps(store, WITHOUT)?;
+    let left_out: u64 = without
+        .iter()
+        .filter_map(|w| w.get("n").and_then(Value::as_u64))
+        .sum();
+    let count = cards.len();
+    let cards = cards.into_iter().map(Value::Object).collect();
+    let data = Map::from_iter([
+        ("file".to_owned(), file.into()),
+        ("cards".to_owned(), cards),
+    ]);
+    let data = escaped(&Value::Object(data).to_string());
+    let title = "Grippers by structure";
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) (PreEscaped(CARDS)) }
+            }
+            body {
+                a.skip href="#cards" { "To the grippers" }
+                header {
+                    h1 { (title) }
+                    p.lead {
+                        "Kinematic chains with a frame, a driver and jaws, each laid out in a plane and searched for the redesigns "
+                        "without redundant constraints. Counts are of all joint assignments; costs are per joint changed."
+                    }
+                    p.meta { (count) " grippers from " code { (file) } @if left_out > 0 { "; " (left_out) " structures have no layout" } }
+                }
+                main {
+                    noscript { p { "The cards need scripts; " code { "ozols catalog query " (file) } " lists the same." } }
+                    (filters())
+                    p.help {
+                        "Green: the driver, with the way it goes to close. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
+                        "Triangles on a line: hinges in the frame; two lines: a guide in it."
+                    }
+                    p.note id="count" role="status" {}
+                    ul id="cards" tabindex="-1" {}
+                    p id="more" hidden { button type="button" { "Show more" } }
+                    dialog id="chosen" aria-labelledby="chosen-name" {}
+                    @if !without.is_empty() {
+                        details {
+                            summary { "Structures without a layout" }
+                            div.wide { table {
+                                thead { tr { th { "why" } th.n { "structures" } } }
+                                tbody { @for w in &without { tr {
+                                    td { (w.get("why").and_then(Value::as_str).unwrap_or_default()) }
+                                    td.n { (w.get("n").and_then(Value::as_u64).unwrap_or_default()) }
+                                } } }
+                            } }
+                        }
+                    }
+                }
+                script id="data" type="application/json" { (PreEscaped(data)) }
+                script { (PreEscaped(SCRIPT.concat())) }
+            }
+        }
+    };
+    Ok(policy::named(&page.into_string(), POLICY))
+}
+
+fn filters() -> maud::Markup {
+    let select = |id: &str, label: &str, options: &[(&str, &str)]| {
+        html! {
+            label {
+                (label) " "
+                select id=(id) {
+                    @for (value, word) in options { option value=(value) { (word) } }
+                }
+            }
+        }
+    };
+    html! {
+        form id="filters" aria-label="Filter the grippers" {
+            label { "Links " select id="links" { option value="" { "all" } } }
+            (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
+            (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic"), ("drawn", "drawn")]))
+            (select("jaws", "Jaws", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
+            label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
+            label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }
+            label { "Least force from " input type="number" id="force" min="0" step="any" inputmode="decimal"; }
+            label { "Forces 1 to at most " input type="number" id="ratio" min="1" step="0.5" inputmode="decimal"; }
+            label { "Turn of the jaws at most " input type="number" id="turn" min="0" step="5" inputmode="numeric"; }
+            label { input type="checkbox" id="does"; " Only those that do the task" }
+            label { input type="checkbox" id="front"; " Only those that no other beats" }
+            label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id or chain"; }
+            (select("sort", "First", &[
+                ("", "fewest links, symmetric"), ("best_cost", "least cost"), ("force_min", "greatest least force"),
+                ("transmission", "best transmission angle"), ("pin_force", "least joint force"), ("jaw_turn", "least turn"),
+                ("determinate_w1", "most redesigns"), ("link_ratio", "most even links"),
+            ]))
+            button type="reset" { "Show all" }
+        }
+    }
+}

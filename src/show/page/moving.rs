@@ -1,0 +1,209 @@
+//! The motion that a moving drawing shows.
+
+use crate::draw::Moved;
+use crate::file::read::workload::motion::stroke;
+use crate::format::number::decimals;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::motion::drive_range::{SLIDE, Way, way as way_of};
+use crate::motion::follow::slides;
+use crate::motion::jaws::meet;
+use crate::motion::pose::Pose;
+use crate::motion::working::working_way;
+use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::idle_animation::{FAR, wiggle};
+use crate::view::analysis::idle;
+use anyhow::{Context, bail, ensure};
+use std::f64::consts::PI;
+
+/// Pictures of a motion where nobody says how many: at 30 a second, 2.4 seconds.
+const STEPS: usize = 72;
+/// Most pictures: each stands in the file.
+const MOST: usize = 600;
+
+/// A motion.
+#[derive(Debug)]
+pub struct Moving {
+    pose: Pose,
+    way: Way,
+    words: String,
+    /// What positions of the way are in: the file's length unit where the drive slides, radians otherwise.
+    unit: f64,
+}
+
+impl Moving {
+    /// The way of a mechanism's drive, or of the joint named: within a range such as "0:90deg:30", or as far as it goes.
+    pub fn new(
+        m: &Mechanism,
+        state: StateId,
+        range: Option<&str>,
+        named: Option<&str>,
+    ) -> anyhow::Result<Moving> {
+        let pose = Pose::of_file(m, state)?;
+        let (drive, held) = match drive_or_any(m, &pose, state, named) {
+            // Balls have no axes of their own to be driven about.
+            Err(AskedError::Still { .. }) if range.is_none() => {
+                return Self::working(m, state, pose);
+            }
+            found => found?,
+        };
+        let slide = slides(&pose, drive);
+        let unit = if slide { pose.length } else { 1.0 };
+        let asked = match range {
+            Some(text) => {
+                lengths_where_it_slides(m, slide, text)?;
+                Some(stroke(text)?)
+            }
+            // the file's own is that of its first drive
+            None => m.loads.stroke.filter(|_| named.is_none()),
+        };
+        let steps = asked.map_or(STEPS, |s| s.steps.clamp(2, MOST));
+        if range.is_some() {
+            let asked = asked.map_or(0, |s| s.steps);
+            ensure!(
+                (2..=MOST).contains(&asked),
+                "--stroke takes 2 to {MOST} steps for a drawing"
+            );
+        }
+        let range = asked.map(|s| [s.from / unit, s.to / unit]);
+        let mut way = way_of(&pose, drive, &held, range, steps);
+        // Nobody wants to see jaws go through each other.
+        let met = match asked {
+            None => meet(m, state, &pose, &way),
+            Some(_) => [None, None],
+        };
+        if met.iter().any(Option::is_some) {
+            let far = if slide { SLIDE } else { PI };
+            let [low, high] = met;
+            let range = [low.unwrap_or(-far), high.unwrap_or(far)];
+            way = way_of(&pose, drive, &held, Some(range), steps);
+        }
+        let name = name_of(m, &pose, drive);
+        let (Some(first), Some(last)) = (way.at.first(), way.at.last()) else {
+            bail!("{name} cannot move from the pose of the file");
+        };
+        ensure!(
+            way.at.len() > 1 && (last - first).abs() > 1e-6,
+            "{name} cannot move from the pose of the file"
+        );
+        let in_units = |x: f64| {
+            if slide {
+                format!("{} {}", decimals(x * unit, 2), m.length_unit.symbol)
+            } else {
+                format!("{}°", decimals(x.to_degrees(), 1))
+            }
+        };
+        let words = if way.closed {
+            format!("drive {name} goes once round")
+        } else {
+            let why = |n: usize| match met[n] {
+                Some(_) => Some("jaws meet".to_owned()),
+                None => way.ends[n].map(|s| s.why.word().replace('-', " ")),
+            };
+            let ends = [why(0), why(1)];
+            let ends = match ends {
+                [Some(a), Some(b)] if a == b => format!(", {a} at both ends"),
+                [a, b] => [(a, "beginning"), (b, "end")]
+                    .into_iter()
+                    .filter_map(|(e, at)| e.map(|e| format!(", {e} at the {at}")))
+                    .collect(),
+            };
+            format!(
+                "drive {name} goes from {} to {}{ends}",
+                in_units(*first),
+                in_units(*last)
+            )
+        };
+        Ok(Moving {
+            pose,
+            way,
+            words,
+            unit,
+        })
+    }
+
+    /// From where to where the drive goes, in radians or the file's length unit.
+    pub fn reach(&self) -> Option<[f64; 2]> {
+        let ends = [self.way.at.first()?, self.way.at.last()?];
+        Some(ends.map(|x| x * self.unit))
+    }
+
+    /// The working motion of a mechanism in which no joint can be a drive.
+    fn working(m: &Mechanism, state: StateId, pose: Pose) -> anyhow::Result<Moving> {
+        let way = working_way(m, state, &pose, STEPS)
+            .with_context(|| format!("{}: no output moves from the pose of the file", m.name))?;
+        let words = "the outputs' motion that is the largest for its size, no joint being a drive";
+        Ok(Moving {
+            pose,
+            way,
+            words: words.to_owned(),
+            unit: 1.0,
+        })
+    }
+
+    /// To and fro along an idle freedom that the analysis of a state lists, counted from 0.
+    pub fn idle(
+        m: &Mechanism,
+        found: &StateAnalysis,
+        state: StateId,
+        which: usize,
+    ) -> anyhow::Result<Moving> {
+        let one = found
+            .idle
+            .get(which)
+            .with_context(|| match found.idle.len() {
+                0 => format!("state {} has no idle freedom", found.state),
+                n => format!(
+                    "state {} has idle freedoms 1 to {n}, in the order of `ozols analyze`",
+                    found.state
+                ),
+            })?;
+        let words = idle::words(m, one);
+        let wiggle = wiggle(m, state, &found.idle, which)?
+            .with_context(|| format!("no numbers show that {words}"))?;
+        let far = decimals(FAR.to_degrees(), 0);
+        let far = if one.turns {
+            format!(" by {far}° to either side")
+        } else {
+            " a little".to_owned()
+        };
+        let open = if wiggle.closed {
+            ""
+        } else {
+            "; to first order only: parts come apart by the second"
+        };
+        Ok(Moving {
+            pose: Pose::of_file(m, state)?,
+            way: wiggle.way,
+            words: format!("idle freedom {}: {words}{far}{open}", which + 1),
+            unit: 1.0,
+        })
+    }
+
+    /// The pose of the file.
+    pub(crate) fn still(m: &Mechanism, state: StateId) -> anyhow::Result<Moving> {
+        let pose = Pose::of_file(m, state)?;
+        let way = Way {
+            at: vec![0.0],
+            links: vec![pose.links.clone()],
+            start: 0,
+            closed: false,
+            ends: [None, None],
+        };
+        Ok(Moving {
+            pose,
+            way,
+            words: "the pose of the file".to_owned(),
+            unit: 1.0,
+        })
+    }
+
+    /// To be drawn.
+    pub fn moved(&self) -> Moved<'_> {
+        Moved {
+            pose: &self.pose,
+            way: &self.way,
+            words: &self.words,
+        }
+    }
+}

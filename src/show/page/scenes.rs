@@ -1,0 +1,112 @@
+//! A mechanism in space, to be turned and moved: as far as its drive goes, its idle freedoms, its self-stresses.
+
+use super::moving::Moving;
+use super::{SHOWN, swaps};
+use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, Swap, kinematic_scene};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::stress::SelfStress;
+use crate::score::outcome::Outcome;
+use crate::view::analysis::Analysis;
+
+/// The mechanism in space in each state. None of a plane mechanism where there is nothing of these.
+pub fn scenes(
+    mechanism: &Mechanism,
+    states: &[StateAnalysis],
+    search: Option<&Outcome>,
+) -> Vec<Option<(Drawing, Scene)>> {
+    let one = |(found, state): (&StateAnalysis, StateId)| {
+        let m = found.meant.as_deref().unwrap_or(mechanism);
+        let still = !matches!(m.mode, Mode::Planar { .. });
+        let swaps = search.map(|found| swaps(mechanism, found, state));
+        moving_scene(m, (found, state), &swaps.unwrap_or_default(), still)
+    };
+    states.iter().zip(mechanism.state_ids()).map(one).collect()
+}
+
+/// It in one state, with what redesigns put at its joints; none where nothing moves and nothing is strained, unless it is to be
+/// shown `still`.
+pub fn moving_scene(
+    m: &Mechanism,
+    (found, state): (&StateAnalysis, StateId),
+    swaps: &[Swap<'_>],
+    still: bool,
+) -> Option<(Drawing, Scene)> {
+    let told = Analysis::new(m, std::slice::from_ref(found), &[]);
+    let told = told.states.first()?;
+    let drive = Moving::new(m, state, None, None).ok();
+    let idle =
+        (0..found.idle.len().min(SHOWN)).filter_map(|k| Moving::idle(m, found, state, k).ok());
+    let mut moving: Vec<Moving> = drive.into_iter().chain(idle).collect();
+    let stresses = told
+        .self_stresses
+        .iter()
+        .zip(&found.self_stresses)
+        .enumerate();
+    let known = |s: &SelfStress| s.joints.iter().any(|w| w.borne.is_some());
+    let stresses = stresses.filter(|(_, (_, s))| known(s)).take(SHOWN);
+    let stresses: Vec<_> = stresses.map(|(k, (words, s))| (words.name(k), s)).collect();
+    if moving.is_empty() {
+        if stresses.is_empty() && !still {
+            return None;
+        }
+        moving.push(Moving::still(m, state).ok()?);
+    }
+    let moves: Vec<(String, Moved<'_>)> = moving
+        .iter()
+        .map(|m| (m.moved().words.to_owned(), m.moved()))
+        .collect();
+    let subject = Subject {
+        mechanism: m,
+        state,
+        analysis: Some(found),
+        marks: None,
+    };
+    let shown = Shown {
+        moves: &moves,
+        stresses: &stresses,
+        swaps,
+    };
+    Some(kinematic_scene(&subject, &Sight::default(), shown))
+}
+
+/// The picture of it at rest, without title and legend.
+pub fn still_picture(m: &Mechanism) -> Option<String> {
+    let (Drawing { svg, .. }, scene) = still(m, (None, StateId::FREE), &[])?;
+    let [left, top, right, bottom] = scene.room();
+    let room = format!("viewBox=\"{left} {top} {} {}\"", right - left, bottom - top);
+    let (before, rest) = svg.split_once("width=\"")?;
+    let (_, after) = rest.split_once("viewBox=\"")?;
+    let (_, after) = after.split_once('"')?;
+    Some(format!("{before}{room}{after}"))
+}
+
+/// It as its file has it, at rest, with what redesigns put at its joints.
+pub fn still_scene(
+    m: &Mechanism,
+    of: (Option<&StateAnalysis>, StateId),
+    swaps: &[Swap<'_>],
+) -> Option<Scene> {
+    still(m, of, swaps).map(|(_, scene)| scene)
+}
+
+fn still(
+    m: &Mechanism,
+    (found, state): (Option<&StateAnalysis>, StateId),
+    swaps: &[Swap<'_>],
+) -> Option<(Drawing, Scene)> {
+    let rest = Moving::still(m, state).ok()?;
+    let moves = [(rest.moved().words.to_owned(), rest.moved())];
+    let subject = Subject {
+        mechanism: m,
+        state,
+        analysis: found,
+        marks: None,
+    };
+    let shown = Shown {
+        moves: &moves,
+        stresses: &[],
+        swaps,
+    };
+    Some(kinematic_scene(&subject, &Sight::default(), shown))
+}

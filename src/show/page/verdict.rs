@@ -1,0 +1,237 @@
+//! The verdict in words.
+
+use super::contents::{Page, Redesigns};
+use crate::format::number::{cost, grouped};
+use crate::format::phrase::{list, plural};
+use crate::model::mechanism::{Mechanism, Role};
+use crate::score::outcome::variant::Variant;
+use crate::search::answer::k_best::Assignment;
+use crate::view::analysis::{Analysis, State};
+use crate::view::search::conditions::in_state;
+use crate::view::search::numeric;
+use crate::view::search::second_opinion;
+use crate::view::search::stopped_early::number;
+use itertools::Itertools;
+use maud::{Markup, html};
+use num_traits::{One, Zero};
+
+/// Idle motions told at most.
+const TOLD: usize = 4;
+
+pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
+    let several = analysis.states.len() > 1;
+    html! {
+        @for (i, s) in analysis.states.iter().enumerate() {
+            div class={ "verdict " (if s.redundant == 0 && s.redundant_at_most.is_none() { "good" } else { "bad" }) } {
+                @if several { p.label { "State " (s.state) } }
+                p.head { (head(s)) }
+                p {
+                    (state(s).join(" "))
+                    @if i == 0 { " " (redesigns(page, s)) }
+                }
+            }
+        }
+    }
+}
+
+/// The answer in a few words.
+pub fn head(s: &State<'_>) -> String {
+    capitalised(&s.verdict())
+}
+
+fn capitalised(text: &str) -> String {
+    let mut rest = text.chars();
+    let first = rest.next().map(|c| c.to_ascii_uppercase());
+    first.into_iter().chain(rest).collect()
+}
+
+/// What that means, in sentences.
+pub fn state(s: &State<'_>) -> Vec<String> {
+    let mut out = Vec::new();
+    if s.redundant_at_most.is_some() {
+        return vec![format!("{}.", s.choice.unwrap_or_default())];
+    }
+    out.push(
+        if s.redundant == 0 {
+            "Parts that are slightly inaccurate still assemble without strain, and the loads alone say what each joint bears."
+        } else {
+            "Parts that are slightly inaccurate bind: they must be bent or pressed together, and joints bear loads even when \
+             nothing acts from outside."
+        }
+        .to_owned(),
+    );
+    if let Some(e) = s.external.as_ref().filter(|e| e.redundant > 0) {
+        let of = |v: &str| {
+            let external = s.self_stresses.iter().filter(|t| t.external);
+            external.filter(|t| t.verdict == v).count()
+        };
+        let (harmless, harmful) = (of("harmless"), of("harmful"));
+        let split = if harmless + harmful == 0 {
+            String::new()
+        } else {
+            format!(": {harmless} harmless (friction shared by the contacts), {harmful} harmful")
+        };
+        out.push(format!(
+            "{} of them {} from the joints of this state alone{split}.",
+            e.redundant,
+            if e.redundant == 1 { "comes" } else { "come" }
+        ));
+    }
+    out.push(moves(s));
+    let idle = s.idle_motions();
+    let more = idle.len().saturating_sub(TOLD);
+    if !idle.is_empty() {
+        let list = idle.iter().take(TOLD).join("; ");
+        let more = if more > 0 {
+            format!("; and {more} more")
+        } else {
+            String::new()
+        };
+        out.push(format!("Idle: {list}{more}."));
+    }
+    out
+}
+
+fn moves(s: &State<'_>) -> String {
+    let ways = |n: usize| plural(n, "way");
+    let Some(finite) = s.finite_mobility else {
+        return format!(
+            "W = {} in this pose; how much of that is really there is undecided: between {} and {}.",
+            s.mobility, s.finite_mobility_at_least, s.finite_mobility_at_most
+        );
+    };
+    match (s.mobility, finite) {
+        (0, _) => "Nothing moves in this state.".to_owned(),
+        (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),
+        (w, f) if w == f => format!(
+            "It moves in {} (W = {w}), {} of which the outputs do not feel.",
+            ways(w),
+            s.local_mobility
+        ),
+        (w, 0) => format!(
+            "W = {w} in this pose, but no motion is really there: the pose is shaky, and small errors are felt as play."
+        ),
+        (w, f) => format!(
+            "W = {w} in this pose, of which {f} {} really there: the pose is singular or shaky.",
+            if f == 1 { "is" } else { "are" }
+        ),
+    }
+}
+
+/// What the search says, in one or two sentences.
+fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
+    let r = match &page.redesigns {
+        Ok(r) => r,
+        Err(why) => return format!("Redesigns were not searched: {why}"),
+    };
+    let found = r.found;
+    let size = found.search.size();
+    if size == num_bigint::BigUint::from(1u8) {
+        return "No joint has a choice, so there is nothing to search: list options under [search] in the file."
+            .to_owned();
+    }
+    let least = if found.is_counted() { "" } else { "at least " };
+    let by_values: String = numeric::lines(found)
+        .iter()
+        .chain(&second_opinion::against(found))
+        .map(|l| format!(". {l}"))
+        .collect();
+    let (all, good) = (grouped(&size), &found.admissible.total);
+    let request = &found.search.conditions;
+    let one = good.is_one();
+    let goal = match (request.max_redundant, one) {
+        (0, _) if s.redundant == 0 => (if one { "is" } else { "are" }).to_owned() + " determinate",
+        (0, false) => "remove them all".to_owned(),
+        (0, true) => "removes them all".to_owned(),
+        (n, false) => format!("leave at most {n}"),
+        (n, true) => format!("leaves at most {n}"),
+    };
+    let conditions = conditions(page.mechanism, r, one);
+    if good.is_zero() && found.admissible_may_be_more() {
+        let may = numeric::admissible(found);
+        return capitalised(&format!(
+            "{may} of {all} variants {goal}{conditions}{by_values}."
+        ));
+    }
+    if good.is_zero() {
+        let rest = &found.determinate.total;
+        return if rest.is_zero() {
+            format!("None of the {all} variants {goal}: give the joints more options{by_values}.")
+        } else {
+            format!(
+                "Of the {all} variants none {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",
+                grouped(rest)
+            )
+        };
+    }
+    let estimate = found.estimates()[1].filter(|_| found.is_confirmed());
+    let words = match found.numeric {
+        Some(_) => numeric::admissible(found),
+        None => number(good, found.is_counted(), estimate),
+    };
+    let out = format!("{words} of {all} variants {goal}{conditions}");
+    let out = capitalised(&out) + &by_values;
+    if s.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
+        return format!("Nothing needs changing. {out}.");
+    }
+    out + &best(r) + "."
+}
+
+/// The conditions beside the redundant constraints.
+fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
+    let s = if one { "s" } else { "" };
+    let have = if one { "has" } else { "have" };
+    let request = &r.found.search.conditions;
+    let outputs = m.links.iter().filter(|l| l.role == Role::Output);
+    let outputs = outputs.map(|l| l.id.as_str()).collect_vec();
+    let motion = match outputs.len() {
+        0 => format!("keep{s} the motion"),
+        1 => format!("keep{s} the motion of link {}", outputs[0]),
+        _ => format!("keep{s} the motion of links {}", list(&outputs)),
+    };
+    let all = [
+        request.keep_output.then_some(motion),
+        request
+            .max_mobility
+            .map(|w| format!("{have} W at most {w}")),
+        request
+            .max_changes
+            .map(|c| format!("change{s} at most {}", plural(c as usize, "joint"))),
+    ];
+    let all = all.into_iter().flatten();
+    let all = all.chain(in_state(&r.found.search, one)).join(", ");
+    if all.is_empty() {
+        all
+    } else {
+        format!(" and {all}")
+    }
+}
+
+/// What the best is like.
+fn best(r: &Redesigns<'_>) -> String {
+    let search = &r.found.search;
+    let like = |v: &Assignment| match v.key.changes() {
+        0 => "changes nothing".to_owned(),
+        n => format!(
+            "changes {} at cost {}",
+            plural(n as usize, "joint"),
+            cost(search.steps.milli(v.key.cost()))
+        ),
+    };
+    let cheapest = r.variants.iter().map(Variant::assignment);
+    match (&r.found.ranking, r.variants.first()) {
+        (Some(p), Some(first)) => {
+            let cheapest = p.cheapest.as_ref().map_or(String::new(), |c| {
+                format!("; the cheapest that bears them {}", like(&c.variant))
+            });
+            format!(
+                "; the best under the loads {}{cheapest}",
+                like(first.assignment())
+            )
+        }
+        (Some(_), None) => "; none of those scored is in equilibrium within the limits".to_owned(),
+        (None, _) => cheapest
+            .min_by_key(|v| v.key.cost())
+            .map_or(String::new(), |v| format!("; the cheapest {}", like(v))),
+    }
+}

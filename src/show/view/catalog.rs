@@ -1,0 +1,8 @@
+//! Catalogues and chains for people, and as data.
+
+pub mod chains;
+#[cfg(feature = "store")]
+pub mod find;
+pub mod pairs;
+#[cfg(feature = "store")]
+pub mod structures;
