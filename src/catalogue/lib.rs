@@ -2,7 +2,9 @@
 
 use ozols_evaluation::score;
 use ozols_files::{file, robots};
-use ozols_kernel::{closure, format, geom, linalg, model, rank, redundancy, search, shard};
+#[cfg(feature = "store")]
+use ozols_kernel::format;
+use ozols_kernel::{closure, geom, linalg, model, rank, redundancy, search, shard};
 
 pub mod catalog;
 pub mod chains;

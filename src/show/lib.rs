@@ -1,6 +1,8 @@
 //! What is found, shown: text, JSON and CSV, drawings, and pages.
 
-use ozols_catalogue::{catalog, chains, synthesis};
+use ozols_catalogue::chains;
+#[cfg(feature = "store")]
+use ozols_catalogue::{catalog, synthesis};
 use ozols_evaluation::{accuracy, score, sweep};
 use ozols_files::{file, robots};
 use ozols_forces::{drive, grip, statics};
