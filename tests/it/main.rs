@@ -31,6 +31,7 @@ mod reactions;
 mod report_page;
 mod robots;
 mod search;
+mod shared_builds;
 mod sources;
 mod statics;
 mod structure;
