@@ -1,6 +1,7 @@
 //! Mechanism files: one schema for TOML and JSON, read into a validated mechanism with every problem pointed at, written
 //! back, looked over, changed with their comments kept, and made into templates.
 
+#[doc(hidden)]
 pub mod bounded;
 mod control_characters;
 pub mod costs;
@@ -9,6 +10,7 @@ mod doubted;
 pub mod edit;
 pub mod findings;
 mod guessed_directions;
+#[doc(hidden)]
 pub mod leftover;
 pub mod lint;
 pub mod locate;

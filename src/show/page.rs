@@ -11,15 +11,18 @@ mod contents;
 mod data;
 mod explorer;
 mod figures;
+#[doc(hidden)]
 pub mod moving;
 mod number;
 mod policy;
+#[doc(hidden)]
 pub mod scenes;
 mod stage;
 mod states;
 mod style;
 mod symbols;
 mod variants;
+#[doc(hidden)]
 pub mod verdict;
 mod workload;
 

@@ -9,6 +9,7 @@ mod joints;
 mod links;
 mod mode;
 mod points;
+#[doc(hidden)]
 pub mod resolve;
 pub(crate) mod search;
 mod size;
