@@ -25,7 +25,9 @@
 //!
 //! Variants come in order of cost and no more than a block of them is held, so a pool may be as large as the space. It
 //! ends early once cost and the [`lower_bound`](evaluation::lower_bound) of the other terms put all later ones behind.
-//! Conditioning has no bound but 0, nor has the peak moment where every joint may be exchanged for one that bears none.
+//! Conditioning has no bound but 0, nor has the peak moment where every joint may be exchanged for one that bears none. Where
+//! that does not put them behind, the variants outside of the pool are gone through by branch and bound over the diagram: equations
+//! are those of what is chosen so far, and once they determine the reactions, peaks and error are bounds for all that begins so.
 
 pub mod evaluation;
 pub mod joint_types;

@@ -123,7 +123,7 @@ impl Asked {
             nodes: self.nodes.unwrap_or(default.nodes),
             memory: self.memory.unwrap_or(default.memory),
             rank: self.rank.iter().map(term).collect::<PyResult<_>>()?,
-            pool: self.pool.unwrap_or(default.pool),
+            pool: self.pool,
             list: List::Top(self.top),
             distinct: self.distinct,
             check: word(
@@ -168,7 +168,7 @@ pub(crate) fn search(
             (Event::Building(p), Some(progress)) => {
                 progress.call1((p.done, p.of, p.nodes)).map(drop)
             }
-            (Event::Building(_) | Event::Built, _) => Ok(()),
+            (Event::Building(_) | Event::Built | Event::Proving { .. }, _) => Ok(()),
         },
     )?;
     Ok(Outcome(Arc::new(found.map_err(failed)?)))

@@ -8,7 +8,7 @@ use crate::page::scenes::{moving_scene, still_scene};
 use crate::page::verdict;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::score::outcome::Outcome;
-use crate::score::request::{List, Request};
+use crate::score::request::{List, POOL, Request};
 use crate::score::run::{Event, run};
 use crate::view::analysis::Analysis;
 use crate::view::contract::FORMAT;
@@ -115,6 +115,8 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
         list: List::Top(IDEAS),
         // A ranking orders variants, not ideas.
         distinct: m.ranking.is_none(),
+        // What changes while it is looked at is not gone through whole.
+        pool: room.request.pool.or(Some(POOL)),
         ..room.request.clone()
     };
     let mut notes = Vec::new();
@@ -125,7 +127,7 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
                 json!({ "revision": revision, "done": p.done, "of": p.of, "nodes": p.nodes });
             room.tell(revision, "progress", &told);
         }
-        Event::Built => {}
+        Event::Built | Event::Proving { .. } => {}
     };
     room.searches[0].fetch_add(1, Ordering::SeqCst);
     let found = run(m.clone(), &request, &|| room.is_old(revision), &mut tell);

@@ -24,7 +24,7 @@ const uncut = async (tab, selector) => {
 
 const gripper = report("gripper-10", "gripper-10");
 const many = report("gripper-10-many", "gripper-10", "--top", "10000");
-const loaded = report("gripper-10-loaded", "gripper-10-loaded");
+const loaded = report("gripper-10-loaded", "gripper-10-loaded", "--pool", "20000");
 
 catalogueTests(test);
 stageTests(test, { gripper, loaded });

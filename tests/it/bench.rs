@@ -19,7 +19,7 @@ use std::time::Duration;
 
 const EFFORT: TrialEffort = TrialEffort {
     looked: 400,
-    pool: 2_000,
+    pool: Some(2_000),
 };
 
 /// A trial by a clock that stands still: verdicts do not depend on it.

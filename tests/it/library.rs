@@ -77,7 +77,7 @@ fn an_outcome_is_what_the_command_writes() {
             "--rank peak-force,cost=0.5 --pool 60",
             Request {
                 rank: vec![(Term::PeakForce, 1.0), (Term::Cost, 0.5)],
-                pool: 60,
+                pool: Some(60),
                 ..request()
             },
         ),
@@ -158,7 +158,7 @@ fn giving_ends_when_it_is_cancelled() {
 #[test]
 fn scores_stay_with_their_variants() {
     let request = Request {
-        pool: 300,
+        pool: Some(300),
         list: List::Top(300),
         check: Check::None,
         ..Request::default()

@@ -41,9 +41,11 @@ fn symbols(svg: &str) -> BTreeMap<String, Vec<String>> {
 #[test]
 fn the_data_are_those_of_the_search() {
     for name in ["gripper-10", "gripper-10-loaded"] {
-        let page = data(&out(&["report", name, "--top", "40"]));
+        let page = data(&out(&["report", name, "--top", "40", "--pool", "2000"]));
         let found = &page["search"];
-        let list = json(&["search", name, "--top", "40", "--format", "json"]);
+        let list = json(&[
+            "search", name, "--top", "40", "--pool", "2000", "--format", "json",
+        ]);
         for key in ["space", "determinate", "admissible"] {
             assert_eq!(found[key], list[key], "{name} {key}");
         }
@@ -150,7 +152,7 @@ fn symbols_are_those_of_the_drawn_variant() {
         ("bennett", "kinematic"),
         ("bennett", "scheme"),
     ] {
-        let text = out(&["report", name, "--top", "12"]);
+        let text = out(&["report", name, "--top", "12", "--pool", "2000"]);
         let page = data(&text);
         let figure = format!("data-state=\"0\" data-kind=\"{kind}\"");
         let present =
@@ -193,8 +195,11 @@ fn symbols_are_those_of_the_drawn_variant() {
 #[test]
 fn the_same_bytes_for_any_number_of_threads() {
     for name in ["gripper-10-loaded", "bennett"] {
-        let one = out(&["report", name, "--threads", "1"]);
-        assert_eq!(one, out(&["report", name, "--threads", "2"]));
+        let one = out(&["report", name, "--pool", "2000", "--threads", "1"]);
+        assert_eq!(
+            one,
+            out(&["report", name, "--pool", "2000", "--threads", "2"])
+        );
     }
 }
 

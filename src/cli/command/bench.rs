@@ -81,7 +81,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     let (mechanisms, mut well) = load::each(files);
     let effort = TrialEffort {
         looked,
-        pool: request.pool.max(if a.quick { 2_000 } else { 100_000 }),
+        pool: request.pool.or(a.quick.then_some(2_000)),
     };
     let clock = machine::processor_time;
     let watch = Stopwatch { clock, repeat };

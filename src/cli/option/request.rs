@@ -4,7 +4,7 @@ use crate::api;
 use crate::cli::terminal::memory;
 use crate::file::text::{MAX_BYTES, text_of};
 use crate::model::ranking::Term;
-use crate::score::request::{self, CostFile, Inserts, JointOptions, POOL, Request};
+use crate::score::request::{self, CostFile, Inserts, JointOptions, Request};
 use crate::search::question::conditions::Symmetry;
 use anyhow::{Context, bail};
 use clap::{Args as ClapArgs, ValueEnum};
@@ -46,9 +46,10 @@ pub(in crate::cli) struct Which {
     max_changes: Option<u32>,
     #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', help = rank_help())]
     rank: Vec<String>,
-    /// How many of the cheapest variants a ranking scores at most; it ends before where the best are proven.
-    #[arg(long, value_name = "K", default_value_t = POOL)]
-    pool: usize,
+    /// Score only so many of the cheapest variants in a ranking, fewer where the best are proven before; without it 20,000, and
+    /// then all others that could be among the best.
+    #[arg(long, value_name = "K")]
+    pool: Option<usize>,
     /// Also give variants whose outputs move in other ways than now.
     #[arg(long)]
     allow_output_change: bool,

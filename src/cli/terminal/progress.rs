@@ -77,6 +77,10 @@ impl SearchWatch {
                     interrupt::answered();
                 }
             }
+            Event::Proving { done, of } if done < of => {
+                bar.step("branches that could win", done, of)
+            }
+            Event::Proving { .. } => bar.clear(),
         })
     }
 }
@@ -134,8 +138,8 @@ impl Bar {
         bar.set_message(what.to_owned());
     }
 
-    pub(in crate::cli) fn clear(&self) {
-        if let Some(bar) = &self.bar {
+    pub(in crate::cli) fn clear(&mut self) {
+        if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }
     }

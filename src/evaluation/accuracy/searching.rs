@@ -16,7 +16,7 @@ pub use ground_truth::TrialEffort;
 
 use super::timing::{Stopwatch, Timing};
 use crate::model::mechanism::Mechanism;
-use crate::score::request::{Check, List, Method, Request};
+use crate::score::request::{Check, List, Method, POOL, Request};
 use crate::score::run::RunError;
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::Approximate;
@@ -67,6 +67,7 @@ pub fn trial(
         method: Method::Diagram,
         poses: 0,
         generic_only: false,
+        pool: request.pool.or(Some(POOL)),
         ..request.clone()
     };
     let (present, _) = listed(mechanism, &base)?;
@@ -76,7 +77,7 @@ pub fn trial(
         .diagrams
         .as_ref()
         .map_or(0, |d| d.determinate.nodes.max(d.admissible.nodes));
-    let ways = search_method::all(nodes, ranked.then_some(effort.pool));
+    let ways = search_method::all(nodes, ranked.then_some(effort.pool.unwrap_or(usize::MAX)));
     let mut records = Vec::with_capacity(ways.len());
     for (n, &way) in ways.iter().enumerate() {
         progress(way, n, ways.len());

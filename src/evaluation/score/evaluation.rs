@@ -1,5 +1,6 @@
 //! Scores of variants under the workload, fast and in plain ways, and bounds on them.
 
+pub(in crate::score) mod beginnings;
 mod coupled;
 pub mod elimination;
 pub mod evaluate;

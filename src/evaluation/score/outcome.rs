@@ -2,6 +2,7 @@
 
 pub mod listing;
 pub mod pareto;
+mod proof;
 pub(in crate::score) mod ranked;
 pub mod ranking;
 pub mod variant;

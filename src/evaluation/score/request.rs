@@ -18,8 +18,8 @@ use crate::score::request::prepare::{
 };
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
 
-/// How many of the cheapest variants a ranking scores at most, unless told otherwise: it ends before where the best are
-/// proven. At about ten microseconds each these take a fifth of a second.
+/// How many of the cheapest variants a ranking scores, unless told otherwise, before it goes through the others. At about ten
+/// microseconds each these take a fifth of a second.
 pub const POOL: usize = 20_000;
 /// Largest pool.
 const LARGEST_POOL: usize = 100_000_000;
@@ -148,8 +148,9 @@ pub struct Request {
     pub memory: usize,
     /// Terms to rank by with their weights, in place of the file's.
     pub rank: Vec<(Term, f64)>,
-    /// How many of the cheapest variants a ranking scores.
-    pub pool: usize,
+    /// How many of the cheapest variants a ranking scores, and no others. `None`: [`POOL`], and then whatever else could come
+    /// before the last of the list.
+    pub pool: Option<usize>,
     /// Which variants are given.
     pub list: List,
     /// Whether of the variants that give the same freedoms to the same joints in series only the first is given.
@@ -190,7 +191,7 @@ impl Default for Request {
             nodes: Conditions::default().nodes,
             memory: Conditions::default().memory,
             rank: Vec::new(),
-            pool: POOL,
+            pool: None,
             list: List::Top(10),
             distinct: false,
             check: Check::Full,
@@ -375,7 +376,8 @@ impl Request {
                 state: some.cloned().unwrap_or_else(|| "clamped".to_owned()),
             });
         }
-        if ranking.is_some() && !(1..=LARGEST_POOL).contains(&self.pool) {
+        let pool = self.pool.unwrap_or(POOL);
+        if ranking.is_some() && !(1..=LARGEST_POOL).contains(&pool) {
             return Err(RequestError::Pool { most: LARGEST_POOL });
         }
         Ok(ranking)

@@ -43,6 +43,13 @@ pub enum Event {
     Building(Progress),
     /// The diagrams are there. Cancelling up to here cuts them short; from here on it is about what follows.
     Built,
+    /// Of the variants that a ranking did not score, so many of so many branches are gone through.
+    Proving {
+        /// Branches gone through.
+        done: usize,
+        /// Branches in all.
+        of: usize,
+    },
 }
 
 /// Hears what happens on the way.
@@ -258,7 +265,8 @@ fn pool(
     let Some(by) = request.ranking(&search.mechanism)? else {
         return Ok(None);
     };
-    let pool = ranked(search, diagrams, request, &by, should_cancel).map_err(|why| {
+    let progress = &mut |done, of| tell(Event::Proving { done, of });
+    let pool = ranked(search, diagrams, request, &by, should_cancel, progress).map_err(|why| {
         let mechanism = search.mechanism.name.clone();
         RunError::Score { mechanism, why }
     })?;

@@ -6,9 +6,9 @@ use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::ranking::{Ranked, RankedPool, weighted};
+use crate::score::outcome::ranking::{Ranked, RankedPool};
 use crate::score::outcome::variant::{changes, in_words};
-use crate::score::request::{Check, List, Request};
+use crate::score::request::{Check, List, POOL, Request};
 use crate::score::run::{RunError, run};
 use crate::search::answer::k_best::Assignment;
 use crate::sweep::forces::{is_loaded, rounded};
@@ -60,6 +60,7 @@ pub(super) fn as_searched(request: &Request, listed: usize) -> Request {
         distinct: false,
         poses: 0,
         generic_only: false,
+        pool: request.pool.or(Some(POOL)),
         seed: 1,
         ..request.clone()
     }
@@ -118,7 +119,7 @@ type Listed<'o> = Vec<(Assignment, Option<&'o Ranked>)>;
 fn ranked(pool: &RankedPool) -> (bool, usize, Listed<'_>) {
     let ranking = &pool.ranking;
     let alike = |a: &Ranked, b: &Ranked| match ranking.order {
-        Order::Weighted => weighted(ranking, &a.scores) == weighted(ranking, &b.scores),
+        Order::Weighted => a.scores.weighted(ranking) == b.scores.weighted(ranking),
         Order::Lexicographic => {
             let mut terms = ranking.terms.iter();
             terms.all(|(t, _)| a.scores.loss(*t) == b.scores.loss(*t))

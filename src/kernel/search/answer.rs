@@ -10,6 +10,7 @@ pub mod ideas;
 pub mod k_best;
 pub mod least_freedoms;
 pub mod orbit_counts;
+pub mod place;
 pub mod proven_cheapest;
 pub(in crate::search) mod random_cuts;
 pub(in crate::search) mod samples;

@@ -100,9 +100,16 @@ fn variants_in_every_format_and_drawn() {
         assert!(v.contains("gripper-10-variant-2"), "{to}: {v}");
     }
     // The ranked list, not that of cost.
-    let (_, first) = listed("gripper-10-loaded", &[], 1);
+    let (_, first) = listed("gripper-10-loaded", &["--pool", "2000"], 1);
     let changed = first["changes"][0]["to"].as_str().unwrap();
-    let drawn = out(&["draw", "gripper-10-loaded", "--variant", "1"]);
+    let drawn = out(&[
+        "draw",
+        "gripper-10-loaded",
+        "--variant",
+        "1",
+        "--pool",
+        "2000",
+    ]);
     assert!(drawn.contains(changed), "{changed}");
     for (args, part) in [
         (

@@ -20,8 +20,8 @@ use std::collections::BTreeMap;
 pub struct TrialEffort {
     /// Variants that brute force looks at; a larger space is sampled.
     pub looked: usize,
-    /// The pool that a ranking of all is judged by.
-    pub pool: usize,
+    /// The pool that a ranking is judged by; `None` where all that could be among the best are gone through.
+    pub pool: Option<usize>,
 }
 
 /// The prime of the truth, counted from 0: searches use the first two.

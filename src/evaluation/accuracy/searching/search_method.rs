@@ -22,7 +22,8 @@ pub enum Way {
     Float(Elimination),
 }
 
-/// The ways there are with a diagram of so many nodes; `pool` is the largest of a ranking, where there is one.
+/// The ways there are with a diagram of so many nodes; `pool` is what a ranking is judged by, where there is one: a smaller pool is
+/// a way.
 pub(super) fn all(nodes: usize, pool: Option<usize>) -> Vec<Way> {
     let mut ways = [Check::None, Check::Prime, Check::Full]
         .map(Way::Diagram)
@@ -46,7 +47,7 @@ impl Way {
         match self {
             Way::Diagram(check) => request.check = check,
             Way::Nodes(nodes) => request.nodes = nodes,
-            Way::Pool(pool) => request.pool = pool,
+            Way::Pool(pool) => request.pool = Some(pool),
             Way::Pruned | Way::Brute | Way::Float(_) => {}
         }
         request

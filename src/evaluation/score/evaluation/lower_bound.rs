@@ -34,13 +34,17 @@ impl Floor {
     /// Σ weight · bound over the terms but cost; those without a bound are at least 0.
     #[must_use]
     pub fn weighted(&self, ranking: &Ranking) -> f64 {
-        let bound = |t: Term| match t {
+        ranking.terms.iter().map(|&(t, w)| w * self.of(t)).sum()
+    }
+
+    /// The bound on what a term adds to a sum.
+    pub(in crate::score) fn of(&self, term: Term) -> f64 {
+        match term {
             Term::PeakForce => self.force,
             Term::PeakMoment => self.moment,
             Term::OutputError => 1e3 * self.output_error,
             Term::Conditioning | Term::Changes | Term::Cost | Term::Idle | Term::Harmful => 0.0,
-        };
-        ranking.terms.iter().map(|&(t, w)| w * bound(t)).sum()
+        }
     }
 }
 
@@ -187,7 +191,7 @@ fn common(table: &PoseTable) -> Option<Common> {
 
 /// Whether a unit twist with its entries in couplings, so many numbers, is in the span of others; the right sides follow, being
 /// linear in the twist.
-fn within(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
+pub(in crate::score) fn within(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
     let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let clear = |mut v: Vec<f64>, basis: &[Vec<f64>]| {
         // Twice is enough [Parlett 1998, 6.9].

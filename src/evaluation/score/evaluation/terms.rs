@@ -2,7 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
-use crate::model::ranking::{ClearanceSum, Term};
+use crate::model::ranking::{ClearanceSum, Ranking, Term};
 use crate::score::evaluation::load_cases::Cases;
 
 /// A joint that bears the greatest part of its capacity.
@@ -110,6 +110,22 @@ impl Scores {
             _ if about.is_count => self.value(term),
             _ => coarse(about.scale * self.value(term)),
         }
+    }
+
+    /// Σ weight · loss.
+    #[must_use]
+    pub fn weighted(&self, ranking: &Ranking) -> f64 {
+        let terms = ranking.terms.iter();
+        terms.map(|&(term, weight)| weight * self.loss(term)).sum()
+    }
+
+    /// Whether the figures are within all limits of a ranking.
+    #[must_use]
+    pub fn within_limits(&self, ranking: &Ranking) -> bool {
+        ranking.limits.iter().all(|l| {
+            let x = self.value(l.term);
+            l.min.is_none_or(|min| x >= min) && l.max.is_none_or(|max| x <= max)
+        })
     }
 
     /// The worse of two poses' scores.

@@ -2,12 +2,14 @@
 
 use crate::model::ranking::Ranking;
 use crate::score::evaluation::evaluate::{Evaluator, ScoreError};
+use crate::score::outcome::proof::prove;
 use crate::score::outcome::ranking::{Ranked, RankedPool, Ranker};
-use crate::score::request::{List, Request};
+use crate::score::request::{List, POOL, Request};
 use crate::search::Search;
 use crate::search::answer::counts;
 use crate::search::build::Diagrams;
 use crate::search::diagram::Stop;
+use crate::search::question::conditions::Symmetry;
 
 /// Scores the cheapest variants and puts the best in order, where that was asked for.
 ///
@@ -19,21 +21,20 @@ pub(in crate::score) fn ranked(
     request: &Request,
     ranking: &Ranking,
     should_cancel: &(dyn Fn() -> bool + Sync),
+    progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Option<RankedPool>, ScoreError> {
     let List::Top(top) = request.list else {
         return Ok(None);
     };
     // Further poses may drop some of the best, so that others must stand by.
-    let standing = if request.generic_only {
-        request.pool
-    } else {
-        top
-    };
+    let wanted = request.pool.unwrap_or(POOL);
+    let standing = if request.generic_only { wanted } else { top };
     let evaluator = Evaluator::in_states(search, ranking.clearance, &ranking.states)?;
     // What may be kept of a variant: its scores, and its choices beside an allocation's own.
     let each = size_of::<Ranked>() + 32 + size_of::<usize>() * search.space.variables.len();
-    let pool = request.pool.min(search.conditions.memory / 4 / each).max(1);
-    let mut ranker = Ranker::new(&evaluator, ranking, pool, standing.min(pool));
+    let pool = wanted.min(search.conditions.memory / 4 / each).max(1);
+    let top = standing.min(pool);
+    let mut ranker = Ranker::new(&evaluator, ranking, pool, top);
     let known = diagrams.known_up_to();
     let (mut given, mut doubtful) = (0, known.is_none());
     for v in search.cheapest(diagrams, pool + 1) {
@@ -54,6 +55,16 @@ pub(in crate::score) fn ranked(
     if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
         let by_cost = counts::counts_by_cost(search, &diagrams.admissible);
         missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
+    }
+    let all = request.pool.is_none() && !request.generic_only && !out.proven && exhausted;
+    if all && request.symmetry != Symmetry::OnePerOrbit {
+        prove(
+            &evaluator,
+            &diagrams.admissible,
+            (&mut out, top),
+            should_cancel,
+            progress,
+        );
     }
     Ok(Some(out))
 }

@@ -42,8 +42,10 @@ pub struct RankedPool {
     pub ranking: Ranking,
     /// Most variants allowed in the pool.
     pub pool: usize,
-    /// Variants scored.
+    /// Variants of the pool scored.
     pub scored: usize,
+    /// Variants outside of the pool scored, where the others were gone through by bounds, as far as that was done.
+    pub elsewhere: Option<usize>,
     /// Those whose loads have no equilibrium.
     pub unheld: usize,
     /// Those beyond a limit.
@@ -90,24 +92,14 @@ impl Missing {
     }
 }
 
-fn within(ranking: &Ranking, s: &Scores) -> bool {
-    ranking.limits.iter().all(|l| {
-        let x = s.value(l.term);
-        l.min.is_none_or(|min| x >= min) && l.max.is_none_or(|max| x <= max)
-    })
-}
-
-/// Σ weight · loss.
-#[must_use]
-pub fn weighted(ranking: &Ranking, s: &Scores) -> f64 {
-    ranking.terms.iter().map(|(t, w)| w * s.loss(*t)).sum()
-}
-
 /// Which of two comes first, the cheaper one where the order does not say.
 #[must_use]
 pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     let by_order = match ranking.order {
-        Order::Weighted => weighted(ranking, &a.scores).total_cmp(&weighted(ranking, &b.scores)),
+        Order::Weighted => a
+            .scores
+            .weighted(ranking)
+            .total_cmp(&b.scores.weighted(ranking)),
         Order::Lexicographic => ranking
             .terms
             .iter()
@@ -136,7 +128,7 @@ fn settled(
     match ranking.order {
         Order::Weighted => {
             let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
-            let behind = weight * least + floor >= weighted(ranking, &last.scores);
+            let behind = weight * least + floor >= last.scores.weighted(ranking);
             (weight > 0.0 && behind).then_some(
                 "cost puts every later variant behind, with the least the other terms can be",
             )
@@ -192,6 +184,7 @@ impl<'e, 's> Ranker<'e, 's> {
                 ranking: ranking.clone(),
                 pool: limit,
                 scored: 0,
+                elsewhere: None,
                 unheld: 0,
                 limited: 0,
                 open: 0,
@@ -237,13 +230,13 @@ impl<'e, 's> Ranker<'e, 's> {
                 variant: variant.clone(),
                 by_cost: self.out.scored,
                 scores,
-                total: (ranking.order == Order::Weighted).then(|| weighted(ranking, &scores)),
+                total: (ranking.order == Order::Weighted).then(|| scores.weighted(ranking)),
                 front: None,
             };
             if self.out.cheapest.is_none() {
                 self.out.cheapest = Some(ranked.clone());
             }
-            if within(ranking, &scores) {
+            if scores.within_limits(ranking) {
                 self.kept.push(ranked);
             } else {
                 self.out.limited += 1;
@@ -274,7 +267,7 @@ impl<'e, 's> Ranker<'e, 's> {
         if ranking.order != Order::Weighted || weight <= 0.0 {
             return None;
         }
-        let last = weighted(ranking, &last.scores);
+        let last = last.scores.weighted(ranking);
         #[allow(
             clippy::cast_precision_loss,
             clippy::cast_possible_truncation,

@@ -73,8 +73,11 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
         many => format!(", each in {many} poses"),
     };
     let proven = if p.proven { "proven" } else { "not proven" };
+    let others = p
+        .elsewhere
+        .map_or(String::new(), |others| format!(" and {} others", n(others)));
     let mut out = vec![format!(
-        "The best of the {} cheapest variants{poses}; {proven} the best of all: {}",
+        "The best of the {} cheapest variants{others}{poses}; {proven} the best of all: {}",
         n(p.scored),
         p.proof
     )];
@@ -164,6 +167,7 @@ pub struct RankingData<'a> {
     clearance: &'static str,
     pool: usize,
     scored: usize,
+    scored_elsewhere: Option<usize>,
     poses: usize,
     grip: Vec<GripData<'a>>,
     no_equilibrium: usize,
@@ -231,6 +235,7 @@ impl<'a> RankingData<'a> {
             },
             pool: p.pool,
             scored: p.scored,
+            scored_elsewhere: p.elsewhere,
             poses: p.poses,
             grip: grip.collect(),
             no_equilibrium: p.unheld,

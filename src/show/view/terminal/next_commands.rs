@@ -1,7 +1,7 @@
 //! What to do next: commands, with what each is for.
 
 use crate::model::mechanism::Mechanism;
-use crate::score::request::{JointOptions, List, POOL, Request};
+use crate::score::request::{JointOptions, List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::view::terminal::layout::fit;
 use itertools::Itertools;
@@ -78,7 +78,7 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
     // All variants are listed by cost, whatever ranking the file has.
     let by_cost = r.list == List::All && r.rank.is_empty() && mechanism.ranking.is_some();
     let rank = rank.chain(by_cost.then(|| "cost".to_owned()));
-    let pool = (r.pool != POOL).then(|| r.pool.to_string());
+    let pool = r.pool.map(|n| n.to_string());
     let valued = [
         ("max-redundant", some(r.max_redundant)),
         ("max-external", r.max_external.map(|n| n.to_string())),

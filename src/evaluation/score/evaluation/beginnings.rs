@@ -1,0 +1,407 @@
+//! What variants that begin alike can score at best.
+//!
+//! Every option of a joint keeps its present motion, so the equations of the present freedoms hold for all variants, and each
+//! choice adds those of its further freedoms. Once the equations have full rank the reactions are known, whatever is chosen for
+//! the joints that are left: these only say how much of a capacity they take. So a whole branch of variants has a bound long
+//! before its choices are made.
+
+use crate::geom::vector::length;
+use crate::model::ranking::ClearanceSum;
+use crate::score::evaluation::lower_bound::{Floor, within};
+use crate::score::evaluation::pose_tables::{Cell, PoseTable};
+use crate::score::evaluation::terms::ErrorSum;
+use crate::statics::reactions::geometry::Six;
+
+/// Pivots below this are none: rows are unit twists.
+const PIVOT: f64 = 1e-9;
+/// Where a pivot was below this, reactions are not told: rounding is not to end a branch.
+const SURE: f64 = 1e-5;
+/// Work of the loads on undriven motions above this fraction of them has no equilibrium: far above what is none where whole
+/// variants are scored, which decides what is between.
+const WORK: f64 = 1e-6;
+
+/// How much of what a place bears counts.
+#[derive(Debug, Clone, Copy)]
+struct Limits {
+    /// One over the least capacity of the joints in series. `[1/N]`
+    force: f64,
+    /// The same for moments `[1/(N·m)]`; 0 where none is borne.
+    moment: f64,
+    /// `[m]`
+    clearance: f64,
+}
+
+impl Limits {
+    /// Of the joints that a choice puts at a place.
+    fn of(cell: &Cell) -> Limits {
+        let forces = cell.bears.iter().map(|b| 1.0 / b.0);
+        let moments = cell.bears.iter().filter_map(|b| b.1);
+        Limits {
+            force: forces.fold(0.0, f64::max),
+            moment: moments.map(|m| 1.0 / m).fold(0.0, f64::max),
+            clearance: cell.clearance,
+        }
+    }
+
+    /// The least of each.
+    fn least(self, other: Limits) -> Limits {
+        Limits {
+            force: self.force.min(other.force),
+            moment: self.moment.min(other.moment),
+            clearance: self.clearance.min(other.clearance),
+        }
+    }
+}
+
+/// A joint's place, and what it bears by the unknowns.
+#[derive(Debug)]
+struct LoadedPlace {
+    variable: usize,
+    slot: usize,
+    /// First unknown of each contour through it, with its direction.
+    contours: Vec<(usize, f64)>,
+    /// Force and moment in each load case where the unknowns are 0.
+    fixed: Vec<[f64; 6]>,
+    /// What each unknown of a contour adds.
+    across: Vec<[f64; 6]>,
+}
+
+/// A pose as branches of variants need it: nothing in it depends on a choice that is made.
+#[derive(Debug)]
+pub(in crate::score) struct Beginnings {
+    unknowns: usize,
+    sides: usize,
+    width: usize,
+    /// Greatest work of the loads that is rounding.
+    work: f64,
+    clearance: ClearanceSum,
+    /// Equations of all variants.
+    common: Vec<Vec<f64>>,
+    /// By variable and choice, the equations of further freedoms.
+    further: Vec<Vec<Vec<Vec<f64>>>>,
+    places: Vec<LoadedPlace>,
+    /// The places of each variable.
+    of_variable: Vec<Vec<usize>>,
+    /// By variable, choice and slot.
+    limits: Vec<Vec<Vec<Limits>>>,
+    /// The least of all choices, by variable and slot.
+    least: Vec<Vec<Limits>>,
+}
+
+impl Beginnings {
+    /// Of a pose; `None` where couplings pass something, since what passes beside a joint depends on what is chosen there.
+    ///
+    /// # Complexity
+    /// O(places · options · freedoms³).
+    pub(in crate::score) fn new(table: &PoseTable, clearance: ClearanceSum) -> Option<Beginnings> {
+        if table.couplings > 0 {
+            return None;
+        }
+        let (dim, unknowns) = (table.basis.len(), table.unknowns());
+        let width = unknowns + table.cases;
+        let choices = table.cells.iter().map(|c| vec![Vec::new(); c.len()]);
+        let mut out = Beginnings {
+            unknowns,
+            sides: table.cases,
+            width,
+            work: WORK * table.scale,
+            clearance,
+            common: Vec::new(),
+            further: choices.collect(),
+            places: Vec::new(),
+            of_variable: vec![Vec::new(); table.cells.len()],
+            limits: Vec::new(),
+            least: Vec::new(),
+        };
+        for place in &table.places {
+            let whole = |row: &[f64]| {
+                let mut out = vec![0.0; width];
+                for &(k, sign) in &place.contours {
+                    for (o, x) in out[k * dim..].iter_mut().zip(&row[..dim]) {
+                        *o = sign * x;
+                    }
+                }
+                out[unknowns..].copy_from_slice(&row[dim..]);
+                out
+            };
+            let cells = &table.cells[place.variable];
+            let kept = |row: &&Vec<f64>| {
+                let mut all = cells.iter();
+                all.all(|c| within(row, &c[place.slot].rows, dim))
+            };
+            let first = cells.first().map(|c| c[place.slot].rows.iter());
+            let common: Vec<Vec<f64>> = first.into_iter().flatten().filter(kept).cloned().collect();
+            out.common.extend(common.iter().map(|row| whole(row)));
+            for (cell, further) in cells.iter().zip(&mut out.further[place.variable]) {
+                let mut known = common.clone();
+                for row in &cell[place.slot].rows {
+                    if !within(row, &known, dim) {
+                        further.push(whole(row));
+                        known.push(row.clone());
+                    }
+                }
+            }
+            let pair = |w: &Six| {
+                let (f, m) = table.borne(place, w);
+                [f[0], f[1], f[2], m[0], m[1], m[2]]
+            };
+            out.of_variable[place.variable].push(out.places.len());
+            out.places.push(LoadedPlace {
+                variable: place.variable,
+                slot: place.slot,
+                contours: place.contours.iter().map(|&(k, s)| (k * dim, s)).collect(),
+                fixed: place.along_tree.iter().map(pair).collect(),
+                across: table.basis.iter().map(pair).collect(),
+            });
+        }
+        for cells in &table.cells {
+            let of_choice = cells.iter().map(|c| c.iter().map(Limits::of).collect());
+            let of_choice: Vec<Vec<Limits>> = of_choice.collect();
+            let least = of_choice.iter().cloned().reduce(|a, b| {
+                let both = a.iter().zip(&b);
+                both.map(|(a, b)| a.least(*b)).collect()
+            });
+            out.least.push(least.unwrap_or_default());
+            out.limits.push(of_choice);
+        }
+        Some(out)
+    }
+
+    /// The beginning of all: nothing is chosen.
+    pub(in crate::score) fn begin(&self) -> Begun<'_> {
+        let mut out = Begun {
+            of: self,
+            rows: Vec::new(),
+            pivots: Vec::new(),
+            weakest: Vec::new(),
+            chosen: self.least.clone(),
+            known: false,
+            errors: false,
+            solution: vec![0.0; self.unknowns * self.sides],
+            forces: vec![0.0; self.places.len()],
+            moments: vec![0.0; self.places.len()],
+            passed: vec![0.0; self.places.len() * (self.sides - 1)],
+            row: Vec::new(),
+        };
+        for row in &self.common {
+            out.insert(row);
+        }
+        out
+    }
+}
+
+/// The equations of a beginning, reduced, and the reactions where they determine them. Choices are taken and given back, the last
+/// first.
+#[derive(Debug, Clone)]
+pub(in crate::score) struct Begun<'b> {
+    of: &'b Beginnings,
+    /// Reduced equations: each is 0 where those before it have their pivots.
+    rows: Vec<f64>,
+    pivots: Vec<usize>,
+    /// The least pivot up to each equation.
+    weakest: Vec<f64>,
+    /// By variable and slot: the choice's own, or the least of all.
+    chosen: Vec<Vec<Limits>>,
+    /// Whether the reactions are known.
+    known: bool,
+    /// Whether what unit forces on the outputs pass is known, too.
+    errors: bool,
+    /// Unknowns × load cases.
+    solution: Vec<f64>,
+    /// Under the loads, by place.
+    forces: Vec<f64>,
+    moments: Vec<f64>,
+    /// Forces under a unit force on an output along an axis, by output and axis, and then by place.
+    passed: Vec<f64>,
+    row: Vec<f64>,
+}
+
+/// A choice that was taken and is to be given back.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::score) struct Taken {
+    variable: usize,
+    /// Equations before it.
+    rows: usize,
+    /// Whether the reactions are known by it.
+    tells: bool,
+}
+
+impl Begun<'_> {
+    /// Takes a choice; false where the loads have no equilibrium then, whatever else is chosen. Give it back all the same.
+    ///
+    /// # Complexity
+    /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on.
+    pub(in crate::score) fn take(&mut self, variable: usize, choice: usize) -> (Taken, bool) {
+        let of = self.of;
+        let mut taken = Taken {
+            variable,
+            rows: self.pivots.len(),
+            tells: false,
+        };
+        self.chosen[variable].copy_from_slice(&of.limits[variable][choice]);
+        let further = &of.further[variable][choice];
+        if self.known {
+            return (taken, further.iter().all(|row| self.holds(row)));
+        }
+        let held = further.iter().all(|row| self.insert(row));
+        if held && self.is_determined() {
+            (self.known, taken.tells) = (true, true);
+            self.errors = false;
+            self.solve(0..1);
+            self.load();
+        }
+        (taken, held)
+    }
+
+    /// Gives back the last choice.
+    pub(in crate::score) fn give_back(&mut self, taken: Taken) {
+        self.pivots.truncate(taken.rows);
+        self.weakest.truncate(taken.rows);
+        self.rows.truncate(taken.rows * self.of.width);
+        self.chosen[taken.variable].copy_from_slice(&self.of.least[taken.variable]);
+        if taken.tells {
+            self.known = false;
+        }
+    }
+
+    /// Whether the reactions, which are known, do no work with the loads on a motion.
+    fn holds(&self, row: &[f64]) -> bool {
+        let unknowns = self.of.unknowns;
+        let known = self.solution.iter().step_by(self.of.sides);
+        let work: f64 = row.iter().zip(known).map(|(r, x)| r * x).sum();
+        (row[unknowns] - work).abs() <= self.of.work
+    }
+
+    fn is_determined(&self) -> bool {
+        self.pivots.len() == self.of.unknowns && self.weakest.last().is_none_or(|w| *w > SURE)
+    }
+
+    /// Adds an equation, reduced by those before it; false where it says that loads do work on a motion nothing drives.
+    fn insert(&mut self, row: &[f64]) -> bool {
+        let (width, unknowns) = (self.of.width, self.of.unknowns);
+        self.row.clear();
+        self.row.extend_from_slice(row);
+        for (own, &p) in self.rows.chunks_exact(width).zip(&self.pivots) {
+            let factor = self.row[p];
+            if factor != 0.0 {
+                for (x, o) in self.row.iter_mut().zip(own) {
+                    *x -= factor * o;
+                }
+                self.row[p] = 0.0;
+            }
+        }
+        let mut best = (0, 0.0);
+        for (c, x) in self.row[..unknowns].iter().enumerate() {
+            if x.abs() > best.1 {
+                best = (c, x.abs());
+            }
+        }
+        if best.1 < PIVOT {
+            return self.row[unknowns..]
+                .first()
+                .is_none_or(|x| x.abs() <= self.of.work);
+        }
+        let inverse = 1.0 / self.row[best.0];
+        self.rows.extend(self.row.iter().map(|x| x * inverse));
+        let weakest = self.weakest.last().copied().unwrap_or(1.0);
+        self.weakest.push(best.1.min(weakest));
+        self.pivots.push(best.0);
+        true
+    }
+
+    /// The unknowns in some load cases.
+    fn solve(&mut self, cases: std::ops::Range<usize>) {
+        let (width, unknowns, sides) = (self.of.width, self.of.unknowns, self.of.sides);
+        for at in (0..unknowns).rev() {
+            let row = &self.rows[at * width..(at + 1) * width];
+            for case in cases.clone() {
+                let mut x = row[unknowns + case];
+                for &later in &self.pivots[at + 1..] {
+                    x -= row[later] * self.solution[later * sides + case];
+                }
+                self.solution[self.pivots[at] * sides + case] = x;
+            }
+        }
+    }
+
+    /// Force and moment at a place in a load case.
+    fn borne(&self, place: &LoadedPlace, case: usize) -> [f64; 6] {
+        let mut out = place.fixed[case];
+        for (i, across) in place.across.iter().enumerate() {
+            let at =
+                |&(k, sign): &(usize, f64)| sign * self.solution[(k + i) * self.of.sides + case];
+            let x: f64 = place.contours.iter().map(at).sum();
+            for (o, a) in out.iter_mut().zip(across) {
+                *o += x * a;
+            }
+        }
+        out
+    }
+
+    fn load(&mut self) {
+        for (p, place) in self.of.places.iter().enumerate() {
+            let [fx, fy, fz, mx, my, mz] = self.borne(place, 0);
+            self.forces[p] = length([fx, fy, fz]);
+            self.moments[p] = length([mx, my, mz]);
+        }
+    }
+
+    fn pass(&mut self) {
+        let places = self.of.places.len();
+        for case in 1..self.of.sides {
+            for (p, place) in self.of.places.iter().enumerate() {
+                let [fx, fy, fz, ..] = self.borne(place, case);
+                self.passed[(case - 1) * places + p] = length([fx, fy, fz]);
+            }
+        }
+    }
+
+    fn limits(&self, place: &LoadedPlace) -> Limits {
+        self.chosen[place.variable][place.slot]
+    }
+
+    /// Bounds on the greatest force and moment over capacity, from what a choice that was just taken makes known; `None` where
+    /// reactions are not known yet.
+    pub(in crate::score) fn peaks(&self, taken: &Taken) -> Option<Floor> {
+        if !self.known {
+            return None;
+        }
+        let mut out = Floor::default();
+        let mut raise = |p: usize| {
+            let limits = self.limits(&self.of.places[p]);
+            out.force = out.force.max(self.forces[p] * limits.force);
+            out.moment = out.moment.max(self.moments[p] * limits.moment);
+        };
+        if taken.tells {
+            (0..self.of.places.len()).for_each(raise);
+        } else {
+            self.of.of_variable[taken.variable]
+                .iter()
+                .copied()
+                .for_each(&mut raise);
+        }
+        Some(out)
+    }
+
+    /// A bound on the error of the outputs `[m]`, where the reactions are known.
+    pub(in crate::score) fn output_error(&mut self) -> f64 {
+        if !self.errors {
+            self.solve(1..self.of.sides);
+            self.pass();
+            self.errors = true;
+        }
+        let places = self.of.places.len();
+        let mut worst: f64 = 0.0;
+        for output in self.passed.chunks(3 * places) {
+            let mut sum = ErrorSum::new(self.of.clearance);
+            for axis in output.chunks(places) {
+                for (force, place) in axis.iter().zip(&self.of.places) {
+                    sum.joint(self.limits(place).clearance, force * force);
+                }
+                sum.end_axis();
+            }
+            worst = worst.max(sum.error());
+        }
+        worst
+    }
+}

@@ -1,0 +1,395 @@
+//! Whether a variant outside of a scored pool comes before the best of it: branch and bound over the diagram.
+//!
+//! Variants are gone through in the order of the diagram's variables. A branch ends where its bound, of cost, counts, and the
+//! reactions as far as they are determined, is behind the last of the list; what is left is scored whole. Branches are
+//! gone through some at a time, each of them against the list before them, so that the result depends on no order of threads.
+
+use crate::model::ranking::{Order, Ranking, Term};
+use crate::score::evaluation::beginnings::{Beginnings, Begun, Taken};
+use crate::score::evaluation::elimination::Scratch;
+use crate::score::evaluation::evaluate::Evaluator;
+use crate::score::evaluation::lower_bound::Floor;
+use crate::score::outcome::ranking::{Ranked, RankedPool, compare};
+use crate::search::Search;
+use crate::search::answer::count_tables::Key;
+use crate::search::answer::k_best::Assignment;
+use crate::search::answer::place::Places;
+use crate::search::diagram::{DEAD, Diagram};
+use rayon::prelude::*;
+
+/// Branches gone through at a time.
+const BRANCHES: usize = 64;
+/// Branches that the diagram is divided into, at least.
+const DIVIDED: usize = 4096;
+/// Bounds are sums in another order than scores.
+const MARGIN: f64 = 1e-6;
+
+/// Nodes gone through at most: some half a minute on two cores.
+const WORK: usize = 20_000_000;
+/// A variant scored whole takes as long as so many nodes.
+const SCORING: usize = 8;
+
+/// Why not all was gone through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ended {
+    Stopped,
+    TooLong,
+}
+
+/// A beginning of variants: its choices by layer, and where they lead.
+struct Branch {
+    choices: Vec<usize>,
+    node: usize,
+}
+
+/// What does not change on the way.
+struct Walk<'w> {
+    evaluator: &'w Evaluator<'w>,
+    search: &'w Search,
+    diagram: &'w Diagram,
+    ranking: &'w Ranking,
+    begins: &'w Beginnings,
+    places: &'w Places<'w>,
+    /// Least bounds of all variants.
+    floor: Floor,
+    /// Least cost from each node, in steps.
+    left: Vec<Vec<u64>>,
+    /// Variants of the pool, the cheapest, which are scored.
+    pooled: usize,
+    top: usize,
+    stop: &'w (dyn Fn() -> bool + Sync),
+}
+
+/// A thread's own.
+struct Walker<'w> {
+    walk: &'w Walk<'w>,
+    begun: Begun<'w>,
+    scratch: Scratch,
+    choices: Vec<usize>,
+    list: Vec<Ranked>,
+    /// The sum that a variant may have at most to be among the list, and what bounds may be wrong by.
+    allowed: f64,
+    scored: usize,
+    /// Nodes gone through, and what scoring takes as nodes.
+    work: usize,
+    ended: Option<Ended>,
+}
+
+/// A node on the way: its layer and place there, and what the choices so far cost and bear at least.
+#[derive(Clone, Copy)]
+struct Here {
+    layer: usize,
+    node: usize,
+    key: Key,
+    floor: Floor,
+}
+
+/// Goes through all variants of a search that could come among the best so many, of which a pool has the list, and puts those that
+/// do into it; only for sums of terms, and where that does not take too long. `progress` is told how many of how many branches are
+/// done.
+///
+/// # Complexity
+/// O(unknowns · width) a branch, and a scoring for each variant that no bound puts behind.
+pub(in crate::score) fn prove(
+    evaluator: &Evaluator<'_>,
+    diagram: &Diagram,
+    (pool, top): (&mut RankedPool, usize),
+    stop: &(dyn Fn() -> bool + Sync),
+    progress: &mut dyn FnMut(usize, usize),
+) {
+    let (search, ranking) = (evaluator.search, pool.ranking.clone());
+    let weighted = ranking.order == Order::Weighted;
+    let best = pool.list.first().filter(|_| weighted);
+    let begins = best.and_then(|b| evaluator.beginnings(&b.variant, &ranking));
+    let places = Places::new(search, diagram, search.conditions.memory / 4);
+    let (Some(begins), Some(places)) = (begins, places) else {
+        return;
+    };
+    let walk = Walk {
+        evaluator,
+        search,
+        diagram,
+        ranking: &ranking,
+        begins: &begins,
+        places: &places,
+        floor: evaluator.floor(),
+        left: least_left(search, diagram),
+        pooled: pool.scored,
+        top,
+        stop,
+    };
+    let (scored, ended) = walk.all(&mut pool.list, progress);
+    pool.elsewhere = Some(scored);
+    pool.proof = match ended {
+        None => "bounds on cost and reactions put every variant that was not scored behind",
+        Some(Ended::Stopped) => "going through the others was interrupted",
+        Some(Ended::TooLong) => "going through all others would take too long",
+    };
+    pool.interrupted |= ended == Some(Ended::Stopped);
+    pool.proven = ended.is_none();
+    pool.missing = pool.missing.take().filter(|_| !pool.proven);
+    if let (Some(missing), Some(last)) = (&mut pool.missing, pool.list.last()) {
+        missing.last = last.scores.weighted(&ranking);
+    }
+}
+
+/// Whether branches will take too long in all, so many of them having taken so much work.
+fn too_long(work: usize, done: usize, all: usize) -> bool {
+    work > WORK / 8 && work * all > WORK * done
+}
+
+/// The least cost from each node on, in steps.
+fn least_left(search: &Search, diagram: &Diagram) -> Vec<Vec<u64>> {
+    let ends = diagram.terminals.iter();
+    let ends = ends.map(|&r| search.steps.redundancy(r).cost()).collect();
+    let mut out: Vec<Vec<u64>> = vec![ends];
+    for layer in diagram.layers.iter().rev() {
+        let keys = &search.steps.keys[layer.variable];
+        let below = &out[out.len() - 1];
+        let least = layer.edges.chunks(layer.choices).map(|edges| {
+            let each = edges.iter().zip(keys).filter(|(to, _)| **to != DEAD);
+            let each = each.map(|(&to, k)| below[to as usize].saturating_add(k.cost()));
+            each.min().unwrap_or(u64::MAX)
+        });
+        out.push(least.collect());
+    }
+    out.reverse();
+    out
+}
+
+impl<'w> Walk<'w> {
+    /// Goes through all branches: how many variants were scored, and why that ended early.
+    fn all(
+        &self,
+        list: &mut Vec<Ranked>,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> (usize, Option<Ended>) {
+        let all = self.branches();
+        let (mut scored, mut work) = (0, 0);
+        let mut ended = None;
+        for (n, branches) in all.chunks(BRANCHES).enumerate() {
+            progress(n * BRANCHES, all.len());
+            let found: Vec<Walker<'_>> =
+                branches.par_iter().map(|b| self.through(b, list)).collect();
+            let mut others = Vec::new();
+            for walker in found {
+                scored += walker.scored;
+                work += walker.work;
+                ended = ended.or(walker.ended);
+                let new = |r: &Ranked| {
+                    list.binary_search_by(|l| compare(self.ranking, l, r))
+                        .is_err()
+                };
+                others.extend(walker.list.into_iter().filter(new));
+            }
+            list.extend(others);
+            list.sort_by(|a, b| compare(self.ranking, a, b));
+            list.truncate(self.top);
+            let done = ((n + 1) * BRANCHES).min(all.len());
+            ended = ended.or_else(|| too_long(work, done, all.len()).then_some(Ended::TooLong));
+            if ended.is_some() {
+                break;
+            }
+        }
+        progress(all.len(), all.len());
+        (scored, ended)
+    }
+
+    /// Beginnings of all variants, each of so many choices that there are enough of them.
+    fn branches(&self) -> Vec<Branch> {
+        let mut out = vec![Branch {
+            choices: Vec::new(),
+            node: 0,
+        }];
+        for layer in &self.diagram.layers {
+            if out.len() >= DIVIDED {
+                break;
+            }
+            let next = out.iter().flat_map(|b| {
+                let edges = &layer.edges[b.node * layer.choices..][..layer.choices];
+                let alive = edges.iter().enumerate().filter(|(_, to)| **to != DEAD);
+                alive.map(move |(choice, &to)| Branch {
+                    choices: b.choices.iter().copied().chain([choice]).collect(),
+                    node: to as usize,
+                })
+            });
+            out = next.collect();
+        }
+        // Those that begin alike take alike long: each part of the work is of all kinds, and tells how long the rest takes.
+        let parts = out.len().div_ceil(BRANCHES);
+        let mut order: Vec<usize> = (0..out.len()).collect();
+        order.sort_by_key(|at| (at % parts, *at));
+        let mut given: Vec<Option<Branch>> = out.into_iter().map(Some).collect();
+        order
+            .into_iter()
+            .filter_map(|at| given[at].take())
+            .collect()
+    }
+
+    /// Goes through a branch against a list.
+    fn through(&self, branch: &Branch, list: &[Ranked]) -> Walker<'_> {
+        let mut walker = Walker {
+            walk: self,
+            begun: self.begins.begin(),
+            scratch: Scratch::default(),
+            choices: vec![0; self.search.space.variables.len()],
+            list: list.to_vec(),
+            allowed: 0.0,
+            scored: 0,
+            work: 0,
+            ended: None,
+        };
+        walker.listed();
+        let mut here = Here {
+            layer: 0,
+            node: 0,
+            key: Key::default(),
+            floor: self.floor,
+        };
+        for &choice in &branch.choices {
+            match walker.step(here, choice) {
+                (_, Some(next)) => here = next,
+                (_, None) => return walker,
+            }
+        }
+        walker.walk(here);
+        walker
+    }
+}
+
+impl Walker<'_> {
+    /// Goes through the variants behind a node.
+    fn walk(&mut self, here: Here) {
+        let Some(layer) = self.walk.diagram.layers.get(here.layer) else {
+            return self.score(here.node, here.key);
+        };
+        self.work += 1;
+        if self.work.is_multiple_of(4096) && (self.walk.stop)() {
+            self.ended = Some(Ended::Stopped);
+        } else if self.work > WORK / 4 {
+            self.ended = Some(Ended::TooLong);
+        }
+        for choice in 0..layer.choices {
+            if self.ended.is_some() {
+                return;
+            }
+            let (taken, next) = self.step(here, choice);
+            if let Some(next) = next {
+                self.walk(next);
+            }
+            if let Some(taken) = taken {
+                self.begun.give_back(taken);
+            }
+        }
+    }
+
+    /// Takes a choice at a node: what is to be given back, and the node that it leads to, if a variant behind that could come
+    /// before the last of the list.
+    fn step(&mut self, here: Here, choice: usize) -> (Option<Taken>, Option<Here>) {
+        let walk = self.walk;
+        let layer = &walk.diagram.layers[here.layer];
+        let variable = layer.variable;
+        let to = layer.edges[here.node * layer.choices + choice];
+        if to == DEAD {
+            return (None, None);
+        }
+        let mut next = Here {
+            layer: here.layer + 1,
+            node: to as usize,
+            key: Key(here.key.0 + walk.search.steps.keys[variable][choice].0),
+            floor: here.floor,
+        };
+        if !self.may_win(&next) {
+            return (None, None);
+        }
+        self.choices[variable] = choice;
+        let (taken, held) = self.begun.take(variable, choice);
+        if !held {
+            return (Some(taken), None);
+        }
+        if let Some(peaks) = self.begun.peaks(&taken) {
+            next.floor.force = next.floor.force.max(peaks.force);
+            next.floor.moment = next.floor.moment.max(peaks.moment);
+            if !self.may_win(&next) {
+                return (Some(taken), None);
+            }
+            let error = self.begun.output_error();
+            next.floor.output_error = next.floor.output_error.max(error);
+        }
+        let wins = self.may_win(&next);
+        (Some(taken), wins.then_some(next))
+    }
+
+    /// Whether a variant behind a node could come before the last of the list.
+    fn may_win(&self, next: &Here) -> bool {
+        let left = self.walk.left[next.layer][next.node];
+        let cost = next.key.cost().saturating_add(left);
+        self.sum(next.key, cost, next.floor) <= self.allowed
+    }
+
+    /// What a variant has to keep to, the list being what it is.
+    fn listed(&mut self) {
+        let last = self.list.get(self.walk.top - 1);
+        let sum = last.map_or(f64::INFINITY, |r| r.scores.weighted(self.walk.ranking));
+        self.allowed = sum + MARGIN * (1.0 + sum.abs());
+    }
+
+    /// The least sum of terms.
+    #[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
+    fn sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
+        let walk = self.walk;
+        let terms = walk.ranking.terms.iter().map(|&(term, weight)| {
+            let least = match term {
+                Term::Cost => walk.search.steps.milli(cost) as f64 / 1000.0,
+                Term::Changes => f64::from(key.changes()),
+                // No variant moves less than not at all.
+                Term::Idle => -(walk.evaluator.working() as f64),
+                _ => floor.of(term),
+            };
+            weight * least
+        });
+        terms.sum()
+    }
+
+    /// Scores a variant whole.
+    fn score(&mut self, terminal: usize, key: Key) {
+        let walk = self.walk;
+        let end = walk
+            .search
+            .steps
+            .redundancy(walk.diagram.terminals[terminal]);
+        let variant = Assignment {
+            choices: self.choices.clone(),
+            key: Key(key.0 + end.0),
+        };
+        if !walk.search.wanted(variant.key) {
+            return;
+        }
+        let by_cost = usize::try_from(walk.places.of(&variant)).unwrap_or(usize::MAX);
+        if by_cost <= walk.pooled {
+            return;
+        }
+        self.scored += 1;
+        self.work += SCORING;
+        let Ok(scores) = walk.evaluator.scores(&variant, &mut self.scratch) else {
+            return;
+        };
+        let total = scores.weighted(walk.ranking);
+        if total > self.allowed || !scores.within_limits(walk.ranking) {
+            return;
+        }
+        let ranked = Ranked {
+            by_cost,
+            variant,
+            scores,
+            total: Some(total),
+            front: None,
+        };
+        let at = self
+            .list
+            .partition_point(|r| compare(walk.ranking, r, &ranked).is_lt());
+        self.list.insert(at, ranked);
+        self.list.truncate(walk.top);
+        self.listed();
+    }
+}
