@@ -1,4 +1,5 @@
-//! What structures cost by their number of links: to list them, and to lay one out, follow its stroke and search it.
+//! What structures cost by their number of links: to list them, to search a chain and input in general position, and to lay one
+//! structure out, follow its stroke and search it.
 //!
 //! `cargo bench --bench structures -- [-o DIR] [--links 4..12] [--sample N] [--symmetry mirror]` prints a table, and for each number
 //! of links as soon as it is known; to the folder it writes `structures.md`, `structures.svg` with what one structure costs, and
@@ -14,7 +15,8 @@
 
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::catalog::row::row;
+use ozols::catalog::general::{General, InputPair};
+use ozols::catalog::row::row_of_pair;
 use ozols::catalog::spec::{Spec, range};
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
@@ -24,6 +26,7 @@ use ozols::chart::{Axis, Chart, Scale, Series, Style};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::layout;
 use ozols::synthesis::structure::{Structure, structures};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -70,6 +73,10 @@ struct Measured {
     chains: usize,
     structures: usize,
     listing: f64,
+    /// Chains and inputs of generic structures.
+    pairs: usize,
+    /// To search one, of those that the structures have that were looked at.
+    of_pair: Vec<f64>,
     /// Of each structure that was looked at: to lay it out, follow it, search it. Without a layout, what it took to find none.
     each: Vec<[f64; 3]>,
     /// How many of these have a layout.
@@ -100,7 +107,7 @@ fn places(ends: &[usize], sample: usize) -> Vec<usize> {
     }
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut draw = || usize::try_from(random.next_u64() % count as u64).expect("an index");
-    let mut out = std::collections::BTreeSet::new();
+    let mut out = BTreeSet::new();
     while out.len() < sample {
         out.insert(draw());
     }
@@ -114,17 +121,28 @@ fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
         .iter()
         .map(Chain::canonical)
         .collect();
-    let mut ends = Vec::with_capacity(all.len());
+    let (mut ends, mut pairs) = (Vec::with_capacity(all.len()), 0);
     for c in &all {
-        ends.push(ends.last().unwrap_or(&0) + kind.of_chain(c).len());
+        let of_chain = kind.of_chain(c);
+        ends.push(ends.last().unwrap_or(&0) + of_chain.len());
+        pairs += of_chain
+            .iter()
+            .filter_map(InputPair::of)
+            .collect::<BTreeSet<_>>()
+            .len();
     }
     let listing = since(begun);
-    let (mut each, mut laid, mut exact) = (Vec::new(), 0, 0);
+    let (mut each, mut of_pair, mut laid, mut exact) = (Vec::new(), Vec::new(), 0, 0);
     for place in places(&ends, sample) {
         let of = ends.partition_point(|end| *end <= place);
         let before = if of == 0 { 0 } else { ends[of - 1] };
         let structure = kind.of_chain(&all[of]).swap_remove(place - before);
-        let (times, counts) = one(&all[of], &structure, &kind.spec);
+        let begun = now();
+        let general = General::of(&structure, &kind.spec).expect("a search");
+        if general.is_some() {
+            of_pair.push(since(begun));
+        }
+        let (times, counts) = one(&all[of], &structure, &kind.spec, general.as_ref());
         each.push(times);
         laid += usize::from(counts.is_some());
         exact += usize::from(counts == Some(true));
@@ -135,6 +153,8 @@ fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
         chains: all.len(),
         structures: ends.last().copied().unwrap_or(0),
         listing,
+        pairs,
+        of_pair,
         each,
         laid,
         exact,
@@ -146,6 +166,7 @@ fn one(
     (chain, automorphisms): &Named,
     structure: &Structure,
     spec: &Spec,
+    general: Option<&General>,
 ) -> ([f64; 3], Option<bool>) {
     let subject = Subject::new(chain, automorphisms);
     let begun = now();
@@ -157,7 +178,7 @@ fn one(
     figures(structure, &laid).expect("a regular pose");
     let to_follow = since(begun);
     let begun = now();
-    let row = row(&subject, structure, spec).expect("a row");
+    let row = row_of_pair(&subject, structure, spec, general).expect("a row");
     let rest = since(begun) - to_lay - to_follow;
     let exact = row.laid.ok().map(|l| l.exact);
     ([to_lay, to_follow, rest.max(0.0)], exact)
@@ -166,6 +187,11 @@ fn one(
 impl Measured {
     fn mean(&self, stage: usize) -> f64 {
         self.each.iter().map(|e| e[stage]).sum::<f64>() / self.each.len().max(1) as f64
+    }
+
+    /// What the search of a chain and input takes.
+    fn pair(&self) -> f64 {
+        self.of_pair.iter().sum::<f64>() / self.of_pair.len().max(1) as f64
     }
 
     fn is_sample(&self) -> bool {
@@ -180,19 +206,23 @@ impl Measured {
         let squares: f64 = times.iter().map(|t| (t - mean).powi(2)).sum();
         let of_mean = (squares / (n - 1.0).max(1.0) / n).sqrt();
         let of_all = self.structures as f64;
+        let pairs = self.pairs as f64 * self.pair();
         let error = if self.is_sample() {
             of_mean * of_all
         } else {
             0.0
         };
-        ((self.listing + mean * of_all) / 3600.0, error / 3600.0)
+        (
+            (self.listing + pairs + mean * of_all) / 3600.0,
+            error / 3600.0,
+        )
     }
 
     fn row(&self) -> String {
         let ms = |stage| 1e3 * self.mean(stage);
         let (hours, error) = self.whole();
         format!(
-            "| {} | {} | {} | {} | {:.2} s | {} | {} | {} | {:.1} ms | {:.1} ms | {:.1} ms | {} |\n",
+            "| {} | {} | {} | {} | {:.2} s | {} | {} | {} | {:.1} ms | {:.1} ms | {:.1} ms | {} of {:.1} ms | {} |\n",
             self.kind,
             self.links,
             self.chains,
@@ -208,6 +238,8 @@ impl Measured {
             ms(0),
             ms(1),
             ms(2),
+            self.pairs,
+            1e3 * self.pair(),
             if self.is_sample() {
                 format!("{hours:.2} ± {error:.2} h")
             } else {
@@ -217,8 +249,8 @@ impl Measured {
     }
 }
 
-const HEAD: &str = "| kind | links | chains | structures | listed in | looked at | laid out | counts exact | layout | stroke | search and ideas | all of them |\n\
-                    |---|---|---|---|---|---|---|---|---|---|---|---|\n";
+const HEAD: &str = "| kind | links | chains | structures | listed in | looked at | laid out | counts exact | layout | stroke | search and ideas | chains and inputs | all of them |\n\
+                    |---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 /// What stands for all where it was a sample.
 fn sampled<'a>(all: impl Iterator<Item = &'a Measured>) -> String {

@@ -4,9 +4,11 @@ pub mod build;
 pub mod drawn;
 #[cfg(feature = "store")]
 pub mod find;
+pub mod general;
 #[cfg(feature = "store")]
 mod insert;
 pub mod row;
+mod searched;
 pub mod spec;
 #[cfg(feature = "store")]
 pub mod store;

@@ -2,8 +2,10 @@
 //!
 //! A structure is a chain with its roles, the way its driver moves, and the symmetry it is to have. A layout gives its
 //! pins places in the plane: symmetric exactly, regular, moving as a gripper does, and as well proportioned as a search
-//! finds. Places are whole millimetres, or what a third of a turn makes of them.
+//! finds. Places are whole millimetres, thousandths beside them where those are special by chance, or what a third of a turn makes
+//! of whole ones.
 
+pub mod beside;
 mod coordinate;
 mod elimination;
 pub mod figures;

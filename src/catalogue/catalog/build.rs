@@ -1,12 +1,14 @@
 //! Every structure of a specification, in parallel, each given when it is done.
 
-use crate::catalog::row::{RowError, StructureRow, row};
+use crate::catalog::general::{General, InputPair};
+use crate::catalog::row::{RowError, StructureRow, row_of_pair};
 use crate::catalog::spec::Spec;
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
 use crate::synthesis::structure::{Structure, structures};
+use itertools::Itertools;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -31,6 +33,21 @@ pub struct Work {
     automorphisms: Vec<Vec<usize>>,
     /// The structures.
     pub structures: Vec<Structure>,
+}
+
+impl Work {
+    /// The structures, those together that have a search in common.
+    fn by_pair(&self) -> Vec<Vec<&Structure>> {
+        let pairs = self
+            .structures
+            .iter()
+            .into_group_map_by(|s| InputPair::of(s));
+        pairs
+            .into_iter()
+            .sorted_by_key(|(pair, _)| *pair)
+            .map(|(_, of)| of)
+            .collect()
+    }
 }
 
 /// The structures of a part of a specification, by chains, in the order of their codes.
@@ -69,16 +86,13 @@ pub fn build<B: Send>(
     done: impl FnMut(StructureRow) -> ControlFlow<B> + Send,
 ) -> Result<Option<B>, BuildError> {
     let done = Mutex::new(done);
-    let all = work.par_iter().flat_map(|w| {
-        let each = w.structures.par_iter();
-        each.map(move |s| (w, s))
-    });
-    let ended = all.try_for_each(|(w, structure)| {
+    let one = |w: &Work, structure: &Structure, general: Option<&General>| {
         if skip(structure) {
             return Ok(());
         }
         let subject = Subject::new(&w.chain, &w.automorphisms);
-        let row = row(&subject, structure, spec).map_err(|e| Some(Err(BuildError::Row(e))))?;
+        let row = row_of_pair(&subject, structure, spec, general);
+        let row = row.map_err(|e| Some(Err(BuildError::Row(e))))?;
         let Ok(mut done) = done.lock() else {
             return Err(None);
         };
@@ -86,6 +100,18 @@ pub fn build<B: Send>(
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(b) => Err(Some(Ok(b))),
         }
+    };
+    let all = work.par_iter().flat_map(|w| {
+        let together = w.by_pair().into_par_iter();
+        together.map(move |together| (w, together))
+    });
+    let ended = all.try_for_each(|(w, together)| {
+        let Some(first) = together.iter().find(|s| !skip(s)) else {
+            return Ok(());
+        };
+        let general = General::of(first, spec).map_err(|e| Some(Err(BuildError::Row(e))))?;
+        let each = together.par_iter();
+        each.try_for_each(|s| one(w, s, general.as_ref()))
     });
     match ended {
         Ok(()) | Err(None) => Ok(None),

@@ -118,6 +118,7 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMech
     let size = [links.count(), joints, contours];
     let symmetric = Symmetric::of(&mechanism, &request).unwrap_or_else(|_| Symmetric::none());
     let outcome = run(mechanism, &request, &|| false, &mut |_| {})?;
+    let diagrams = outcome.diagrams.as_ref();
     Ok(DrawnMechanism {
         id,
         name,
@@ -133,6 +134,6 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMech
         exact: outcome.is_exact() && symmetric.exact,
         symmetric,
         ideas_asked: top,
-        ideas: ideas(&outcome, top),
+        ideas: diagrams.map_or_else(Vec::new, |d| ideas(&outcome.search, d, top)),
     })
 }

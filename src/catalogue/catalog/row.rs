@@ -1,35 +1,36 @@
 //! One structure of a catalogue: where its links are, what it does, and how it is made determinate.
 
-use crate::catalog::spec::{Spec, SpecError};
+use crate::catalog::general::General;
+use crate::catalog::searched::mechanism;
+pub use crate::catalog::searched::{RowError, request};
+use crate::catalog::spec::Spec;
 use crate::chains::graph6;
 use crate::chains::roles::Subject;
-use crate::file::read::build;
 use crate::file::schema::MechanismFile;
 use crate::file::write;
-use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::rank::finite::Finite;
-use crate::redundancy::analysis::{AnalysisError, Method, analyse};
+use crate::redundancy::analysis::{Method, analyse};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Scores;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{changes, in_words};
-use crate::score::request::{Check, List, Request};
+use crate::score::request::{List, Request};
 use crate::score::run::{RunError, run};
+use crate::search::Search;
 use crate::search::answer::counts::orbits;
 use crate::search::answer::freedom_patterns;
 use crate::search::answer::ideas::Idea;
+use crate::search::build::Diagrams;
 use crate::search::question::conditions::Symmetry;
+use crate::synthesis::beside::beside;
 use crate::synthesis::figures::{LayoutFigures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
 use crate::synthesis::structure::Structure;
-use itertools::Itertools;
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
-use thiserror::Error;
 
 /// A structure of a catalogue.
 #[derive(Debug, Clone)]
@@ -144,60 +145,37 @@ pub struct IdeaRow {
     pub scores: Option<Scores>,
 }
 
-/// Why there is no row, through no fault of the structure.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RowError {
-    /// The specification is wrong.
-    #[error(transparent)]
-    Spec(#[from] SpecError),
-    /// A coordinate has no value.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
-    /// The mechanism cannot be analysed.
-    #[error(transparent)]
-    Analysis(#[from] AnalysisError),
-    /// The mechanism cannot be searched.
-    #[error(transparent)]
-    Search(#[from] RunError),
-    /// The file of the layout is refused: a fault of the program.
-    #[error("{structure}: its own file is refused: {why}")]
-    File {
-        /// The structure.
-        structure: String,
-        /// Why.
-        why: String,
-    },
-}
-
-/// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
-/// be asked of their outputs.
-#[must_use]
-pub fn request(spec: &Spec) -> Request {
-    Request {
-        max_mobility: Some(1),
-        allow_output_change: true,
-        list: List::Top(spec.ideas.max(1)),
-        check: Check::Prime,
-        nodes: spec.nodes,
-        ..Request::default()
-    }
-}
-
-/// The row of a structure.
+/// The row of a structure, all by itself; [`build`](crate::catalog::build::build) searches only once what rows have in common.
 ///
 /// # Errors
 /// Where the program fails; that a structure has no layout is a row, too.
 ///
 /// # Complexity
-/// A search for places, and one of the variants.
+/// A search for places, one of the variants, and what [`General::of`] takes.
 pub fn row(
     subject: &Subject<'_>,
     structure: &Structure,
     spec: &Spec,
 ) -> Result<StructureRow, RowError> {
+    let general = General::of(structure, spec)?;
+    row_of_pair(subject, structure, spec, general.as_ref())
+}
+
+/// The row of a structure whose chain and input are searched already, as far as they are.
+///
+/// # Errors
+/// As [`row`].
+///
+/// # Complexity
+/// A search for places, and a diagram of the variants for each of the places that are looked at.
+pub fn row_of_pair(
+    subject: &Subject<'_>,
+    structure: &Structure,
+    spec: &Spec,
+    general: Option<&General>,
+) -> Result<StructureRow, RowError> {
     let laid = match layout(subject, structure, &spec.limits(), spec.seed) {
-        Ok(layout) => lay(structure, layout, spec)?,
+        Ok(layout) => lay(structure, layout, spec, general)?,
         Err(why) => Err(why),
     };
     Ok(StructureRow {
@@ -209,11 +187,68 @@ pub fn row(
     })
 }
 
-/// The mechanism of a file that the program made.
-fn mechanism(structure: &Structure, file: &MechanismFile) -> Result<Mechanism, RowError> {
-    build(file).map_err(|found| RowError::File {
-        structure: structure.name(),
-        why: found.iter().map(|(_, kind)| kind.to_string()).join("; "),
+/// A layout as a file, and the mechanism that it describes.
+struct AsFile {
+    layout: Layout,
+    file: MechanismFile,
+    built: Mechanism,
+}
+
+impl AsFile {
+    fn new(structure: &Structure, layout: Layout, spec: &Spec) -> Result<AsFile, RowError> {
+        let file = mechanism_file(structure, &layout, &spec.menu()?, &spec.workload);
+        Ok(AsFile {
+            built: mechanism(structure, &file)?,
+            layout,
+            file,
+        })
+    }
+}
+
+/// The variants of a layout.
+struct Variants {
+    counts: BTreeMap<(i64, u32), BigUint>,
+    symmetric: Symmetric,
+    exact: bool,
+    ideas: Vec<IdeaRow>,
+}
+
+/// Places beside those found that are looked at until they are in general position.
+const BESIDE: u32 = 20;
+
+/// A layout in general position, with its variants: the one that is given, or one beside it. `None` where none of these is.
+fn in_general_position(
+    structure: &Structure,
+    found: &AsFile,
+    spec: &Spec,
+    general: &General,
+) -> Result<Option<(AsFile, Variants)>, RowError> {
+    let moved = (0..BESIDE).filter_map(|n| beside(structure, &found.layout, spec.seed, n));
+    for layout in std::iter::once(found.layout.clone()).chain(moved) {
+        let as_file = AsFile::new(structure, layout, spec)?;
+        if let Some((search, diagrams)) = general.certify(as_file.built.clone(), spec)? {
+            let variants = Variants {
+                counts: general.counts.clone(),
+                symmetric: Symmetric::none(),
+                exact: true,
+                ideas: ideas(&search, &diagrams, spec.ideas),
+            };
+            return Ok(Some((as_file, variants)));
+        }
+    }
+    Ok(None)
+}
+
+/// The variants of a layout in special places, by a search of its own.
+fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
+    let symmetric = Symmetric::of(built, &request(spec))?;
+    let outcome = run(built.clone(), &request(spec), &|| false, &mut |_| {})?;
+    let diagrams = outcome.diagrams.as_ref();
+    Ok(Variants {
+        counts: outcome.determinate.by_mobility_and_changes.clone(),
+        exact: outcome.is_exact() && symmetric.exact,
+        ideas: diagrams.map_or_else(Vec::new, |d| ideas(&outcome.search, d, spec.ideas)),
+        symmetric,
     })
 }
 
@@ -221,9 +256,20 @@ fn lay(
     structure: &Structure,
     layout: Layout,
     spec: &Spec,
+    general: Option<&General>,
 ) -> Result<Result<Laid, NoLayout>, RowError> {
-    let file = mechanism_file(structure, &layout, &spec.menu()?, &spec.workload);
-    let built = mechanism(structure, &file)?;
+    let mut as_file = AsFile::new(structure, layout, spec)?;
+    let mut variants = None;
+    if let Some(general) = general
+        && let Some(found) = in_general_position(structure, &as_file, spec, general)?
+    {
+        (as_file, variants) = (found.0, Some(found.1));
+    }
+    let AsFile {
+        layout,
+        file,
+        built,
+    } = as_file;
     let Some(figures) = figures(structure, &layout) else {
         return Ok(Err(NoLayout::NotRegular));
     };
@@ -232,9 +278,10 @@ fn lay(
     if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {
         return Ok(Err(NoLayout::NotRegular));
     }
-    let symmetric = Symmetric::of(&built, &request(spec))?;
-    let outcome = run(built, &request(spec), &|| false, &mut |_| {})?;
-    let ideas = ideas(&outcome, spec.ideas);
+    let variants = match variants {
+        Some(variants) => variants,
+        None => of_its_own(&built, spec)?,
+    };
     let text = write::toml(&file, &[]).map_err(|e| RowError::File {
         structure: structure.name(),
         why: e.to_string(),
@@ -245,19 +292,18 @@ fn lay(
         file: text,
         as_built: (as_built.mobility, as_built.redundant),
         finite: as_built.finite,
-        counts: outcome.determinate.by_mobility_and_changes.clone(),
-        exact: outcome.is_exact() && symmetric.exact,
-        symmetric,
-        ideas,
+        counts: variants.counts,
+        exact: variants.exact,
+        symmetric: variants.symmetric,
+        ideas: variants.ideas,
     }))
 }
 
-/// The first ideas of an outcome, each with the scores of its first variant.
-pub(super) fn ideas(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
-    let Some(diagrams) = outcome.diagrams.as_ref().filter(|_| top > 0) else {
+/// The first ideas of a search, each with the scores of its first variant.
+pub(super) fn ideas(search: &Search, diagrams: &Diagrams, top: usize) -> Vec<IdeaRow> {
+    if top == 0 {
         return Vec::new();
-    };
-    let search = &outcome.search;
+    }
     let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
     let mut scratch = Scratch::default();
     let row = |idea: Idea| IdeaRow {

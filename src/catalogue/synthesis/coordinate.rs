@@ -32,6 +32,6 @@ pub(super) fn turned([x, y]: [f64; 2], thirds: u8) -> [Coordinate; 2] {
 }
 
 pub(super) fn point(place: Place) -> [Coordinate; 3] {
-    let [x, y] = turned(place.whole.map(f64::from), place.thirds);
+    let [x, y] = turned(place.unturned(), place.thirds);
     [x, y, Coordinate::Integer(0)]
 }

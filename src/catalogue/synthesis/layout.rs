@@ -180,7 +180,7 @@ fn best_of_starts(skeleton: &Skeleton<'_>, seed: u64) -> Option<Found> {
 }
 
 /// Whether a drawn pose keeps the limits.
-fn keeps(limits: &Limits, looks: &Looks) -> bool {
+pub(super) fn keeps(limits: &Limits, looks: &Looks) -> bool {
     looks.ratio <= limits.ratio
         && looks.transmission >= limits.transmission
         && looks.crossings <= limits.crossings

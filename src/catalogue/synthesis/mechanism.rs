@@ -3,10 +3,11 @@
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::file::schema::{
     Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry, PointEntry,
-    SearchEntry, Unloading, WorkloadEntry,
+    SearchEntry, ToleranceEntry, Unloading, WorkloadEntry,
 };
 use crate::synthesis::coordinate::{number, point, turned};
 use crate::synthesis::layout::Layout;
+use crate::synthesis::place::Place;
 use crate::synthesis::structure::Structure;
 use crate::synthesis::workload::Workload;
 use itertools::Itertools;
@@ -64,52 +65,36 @@ fn rounds(layout: &Layout) -> impl Iterator<Item = Vec<usize>> {
     })
 }
 
-/// The entries of the file.
-#[must_use]
-pub fn mechanism_file(
+/// What a pin's joint is called.
+fn joint_name(names: &[String], pin: (usize, usize)) -> String {
+    format!("{}.{}", names[pin.0], names[pin.1])
+}
+
+/// The joints of a structure whose pins are at some places.
+fn joints(
     structure: &Structure,
-    layout: &Layout,
+    pins: &[(usize, usize)],
+    at: &[Place],
     menu: &Menu,
-    workload: &Workload,
-) -> MechanismFile {
-    let names = link_names(structure);
-    let r = &structure.roles;
-    let links = names.iter().enumerate().map(|(l, name)| {
-        let mass = (workload.weighs_links() && l != r.frame)
-            .then(|| workload.mass(&layout.points(structure, l)));
-        LinkEntry {
-            id: name.clone(),
-            role: match l {
-                l if l == r.frame => Some("frame".to_owned()),
-                l if r.jaws.contains(&l) => Some("output".to_owned()),
-                _ => None,
-            },
-            mass: mass.map(|(kg, _)| kg),
-            centre: mass.map(|(_, [x, y])| [number(x), number(y), Coordinate::Integer(0)]),
-            inertia: None,
-        }
-    });
-    let joint_name = |i: usize| {
-        let (u, v) = layout.pins[i];
-        format!("{}.{}", names[u], names[v])
-    };
-    let joints = (0..layout.pins.len()).map(|i| {
-        let (u, v) = layout.pins[i];
+) -> Vec<JointEntry> {
+    let (names, r) = (link_names(structure), &structure.roles);
+    let joint = |(&(u, v), &place): (&(usize, usize), &Place)| {
         let input = [(u, v), (v, u)].contains(&(r.frame, r.driver));
         let slides = input && structure.form.input == Input::Slide;
+        let id = joint_name(&names, (u, v));
         // The frame first, so that the drive's coordinate is the driver's motion.
         let (u, v) = if input { (r.frame, r.driver) } else { (u, v) };
         let axis = if slides { [1, 0, 0] } else { [0, 0, 1] };
         // What a third of a turn carries to each other has options that it carries to each other.
-        let thirds = layout.at[i].thirds;
+        let thirds = place.thirds;
         let own = |options: &[OptionEntry]| options_turned(options, thirds);
         let in_series = !input && !menu.unloading.is_empty();
         JointEntry {
-            id: joint_name(i),
+            id,
             links: [names[u].clone(), names[v].clone()],
             kind: if slides { "prismatic" } else { "revolute" }.to_owned(),
             freedoms: None,
-            point: point(layout.at[i]),
+            point: point(place),
             axis: Some(axis.map(Coordinate::Integer)),
             reference: (thirds > 0).then(|| {
                 let [x, y] = turned([1.0, 0.0], thirds);
@@ -126,6 +111,69 @@ pub fn mechanism_file(
                 0 => Unloading::Allowed(true),
                 _ => Unloading::List(own(&menu.unloading)),
             }),
+        }
+    };
+    pins.iter().zip(at).map(joint).collect()
+}
+
+/// A structure with its pins at some places, for questions about its joints alone: nothing acts on it.
+#[must_use]
+pub(crate) fn bare_file(structure: &Structure, at: &[Place], menu: &Menu) -> MechanismFile {
+    let link = |(l, id): (usize, String)| LinkEntry {
+        id,
+        role: (l == structure.roles.frame).then(|| "frame".to_owned()),
+        mass: None,
+        centre: None,
+        inertia: None,
+    };
+    let names = link_names(structure).into_iter().enumerate();
+    MechanismFile {
+        name: structure.id(),
+        length_unit: Some("mm".to_owned()),
+        link: names.map(link).collect(),
+        joint: joints(structure, &structure.chain.joints(), at, menu),
+        search: SearchEntry {
+            options: menu.options.clone(),
+            unloading: menu.unloading.clone(),
+            ..SearchEntry::default()
+        },
+        ..MechanismFile::default()
+    }
+}
+
+/// Says that places are exact where they have decimals, which would be taken for rounded.
+fn exact(at: &[Place]) -> Option<ToleranceEntry> {
+    let fine = at.iter().any(|p| p.fine != [0; 2]);
+    fine.then_some(ToleranceEntry {
+        length: Some(Coordinate::Integer(0)),
+        direction: None,
+    })
+}
+
+/// The entries of the file.
+#[must_use]
+pub fn mechanism_file(
+    structure: &Structure,
+    layout: &Layout,
+    menu: &Menu,
+    workload: &Workload,
+) -> MechanismFile {
+    let names = link_names(structure);
+    let r = &structure.roles;
+    let named = |i: usize| joint_name(&names, layout.pins[i]);
+    let links = names.iter().enumerate().map(|(l, name)| {
+        let mass = (workload.weighs_links() && l != r.frame)
+            .then(|| workload.mass(&layout.points(structure, l)));
+        LinkEntry {
+            id: name.clone(),
+            role: match l {
+                l if l == r.frame => Some("frame".to_owned()),
+                l if r.jaws.contains(&l) => Some("output".to_owned()),
+                _ => None,
+            },
+            mass: mass.map(|(kg, _)| kg),
+            centre: mass.map(|(_, [x, y])| [number(x), number(y), Coordinate::Integer(0)]),
+            inertia: None,
         }
     });
     // The tips, so that drawings have whole jaws.
@@ -145,7 +193,8 @@ pub fn mechanism_file(
         ),
         length_unit: Some("mm".to_owned()),
         link: links.collect(),
-        joint: joints.collect(),
+        tolerance: exact(&layout.at),
+        joint: joints(structure, &layout.pins, &layout.at, menu),
         point: tips.collect(),
         search: SearchEntry {
             options: menu.options.clone(),
@@ -154,14 +203,14 @@ pub fn mechanism_file(
                 Symmetry::Mirror => layout
                     .images
                     .iter()
-                    .map(|&(a, b)| [joint_name(a), joint_name(b)])
+                    .map(|&(a, b)| [named(a), named(b)])
                     .collect(),
                 Symmetry::Generic | Symmetry::HalfTurn | Symmetry::Threefold => Vec::new(),
             },
             turn: match structure.form.symmetry {
                 Symmetry::Generic | Symmetry::Mirror => Vec::new(),
                 Symmetry::HalfTurn | Symmetry::Threefold => rounds(layout)
-                    .map(|round| round.into_iter().map(joint_name).collect())
+                    .map(|round| round.into_iter().map(named).collect())
                     .collect(),
             },
             ..SearchEntry::default()

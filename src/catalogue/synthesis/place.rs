@@ -1,25 +1,41 @@
-//! Places that are exact: whole millimetres, or those after a third of a turn, whose coordinates have a √3 in them.
+//! Places that are exact: whole millimetres, thousandths beside them, or whole ones after a third of a turn, whose coordinates
+//! have a √3 in them.
+
+/// Thousandths of a millimetre in one.
+pub(super) const FINE: i32 = 1000;
 
 /// A place in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Place {
     /// Whole millimetres.
     pub whole: [i32; 2],
+    /// Thousandths of a millimetre beside them; none where it is turned.
+    pub fine: [i32; 2],
     /// How often these are turned by 120° about the origin: 0, 1 or 2.
     pub thirds: u8,
 }
 
 impl From<[i32; 2]> for Place {
     fn from(whole: [i32; 2]) -> Place {
-        Place { whole, thirds: 0 }
+        Place {
+            whole,
+            ..Place::default()
+        }
     }
 }
 
 impl Place {
+    /// Where it is before it is turned: of doubles the one nearest to the decimal.
+    pub(super) fn unturned(self) -> [f64; 2] {
+        let thousandths =
+            |k: usize| f64::from(self.whole[k]) * f64::from(FINE) + f64::from(self.fine[k]);
+        [0, 1].map(|k| thousandths(k) / f64::from(FINE))
+    }
+
     /// In double precision.
     #[must_use]
     pub fn real(self) -> [f64; 2] {
-        (0..self.thirds).fold(self.whole.map(f64::from), |p, _| third(p))
+        (0..self.thirds).fold(self.unturned(), |p, _| third(p))
     }
 }
 

@@ -147,6 +147,7 @@ impl Rules {
             (&Rule::Image { of, times }, Symmetry::Threefold) => Place {
                 whole: whole(of),
                 thirds: times,
+                ..Place::default()
             },
             _ => Place::from(whole(i)),
         };

@@ -166,6 +166,7 @@ impl Structure {
                 .map(|thirds| Place {
                     whole: [0, length],
                     thirds,
+                    ..Place::default()
                 })
                 .collect(),
         }

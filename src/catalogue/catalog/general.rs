@@ -1,0 +1,164 @@
+//! What the layouts of a chain and its input have in common where their pins are in general position.
+//!
+//! A variant is determinate where the columns that it adds have the full rank. At special places a rank is less than at nearly
+//! all places, never more: what is determinate at some place is so in general position. One search, at places drawn at random,
+//! serves all layouts then that have the same determinate variants, and whether a layout has them is seen by its own diagram over
+//! one prime: modulo a prime, too, a rank is never more than it is. A minimal diagram is the only one of its variants in an order of
+//! variables, so that diagrams are compared edge by edge.
+
+use crate::catalog::searched::{RowError, mechanism, search};
+use crate::catalog::spec::Spec;
+use crate::chains::chain::Chain;
+use crate::chains::graph6;
+use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::roles::Roles;
+use crate::model::mechanism::Mechanism;
+use crate::search::Search;
+use crate::search::build::Diagrams;
+use crate::search::build::orders::Orders;
+use crate::search::diagram::{Diagram, Stop};
+use crate::synthesis::mechanism::bare_file;
+use crate::synthesis::place::Place;
+use crate::synthesis::structure::{Form, Structure};
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use num_bigint::BigUint;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+
+/// Pairs of random places that are looked at until both have the same variants: nearly always the first do.
+const PAIRS_OF_PLACES: usize = 4;
+
+/// A chain and an input, of which all layouts in general position have the same determinate variants.
+#[derive(Debug)]
+pub struct General {
+    /// The order in which diagrams take the joints.
+    orders: Orders,
+    /// The determinate variants.
+    diagram: Diagram,
+    /// These by W and number of changes.
+    pub counts: BTreeMap<(i64, u32), BigUint>,
+}
+
+/// What tells the structures of a chain apart whose layouts in general position have their determinate variants in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct InputPair {
+    /// The links of the input joint, the lesser number first.
+    links: [usize; 2],
+    /// How the driver moves, without symmetry and parallelograms.
+    form: Form,
+}
+
+impl InputPair {
+    /// The pair of a structure; `None` where its layouts are special on purpose.
+    #[must_use]
+    pub fn of(structure: &Structure) -> Option<InputPair> {
+        let (form, r) = (structure.form, &structure.roles);
+        let general = form.symmetry == Symmetry::Generic && !form.parallel;
+        general.then(|| InputPair {
+            links: [r.frame.min(r.driver), r.frame.max(r.driver)],
+            form,
+        })
+    }
+
+    /// A structure of the pair that does not depend on which are asked for: it stands for all.
+    fn structure(self, chain: &Chain) -> Structure {
+        let [frame, driver] = self.links;
+        let jaws = (0..chain.links()).filter(|l| !self.links.contains(l));
+        Structure {
+            chain: chain.clone(),
+            roles: Roles {
+                frame,
+                driver,
+                jaws: jaws.take(2).collect(),
+            },
+            form: self.form,
+        }
+    }
+}
+
+/// A structure with its pins at random places, the same for the same number.
+fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechanism, RowError> {
+    let r = &structure.roles;
+    let code = graph6::write(&structure.chain);
+    let digest = Sha256::digest(format!("{code} {}-{} {number}", r.frame, r.driver));
+    let mut key = [0; 32];
+    key.copy_from_slice(&digest);
+    let mut random = ChaCha8Rng::from_seed(key);
+    // Halved, so that differences of places are as small.
+    let mut coordinate = || random.next_u32().cast_signed() / 2;
+    let place = |_| Place::from([coordinate(), coordinate()]);
+    let at: Vec<Place> = structure.chain.joints().into_iter().map(place).collect();
+    mechanism(structure, &bare_file(structure, &at, &spec.menu()?))
+}
+
+/// Whether two diagrams in the same order have the same variants.
+fn same(a: &Diagram, b: &Diagram) -> bool {
+    let layers = a.layers.iter().zip(&b.layers);
+    [a, b].iter().all(|d| d.stop == Stop::Exhausted)
+        && a.terminals == b.terminals
+        && a.layers.len() == b.layers.len()
+        && layers
+            .into_iter()
+            .all(|(a, b)| (a.variable, &a.edges) == (b.variable, &b.edges))
+}
+
+impl General {
+    /// Searches the pair of a structure, at two random places and over a prime each, which must agree; `None` where the structure is
+    /// laid out in special places, or where the budget of nodes ends the search.
+    ///
+    /// # Errors
+    /// Where the specification is wrong, or the program fails.
+    ///
+    /// # Guarantee
+    /// A variant that both miss is determinate in general position only where a minor vanishes at two places drawn one without the
+    /// other, each modulo a prime near 2^61.
+    ///
+    /// # Complexity
+    /// Two searches.
+    pub fn of(structure: &Structure, spec: &Spec) -> Result<Option<General>, RowError> {
+        let Some(pair) = InputPair::of(structure) else {
+            return Ok(None);
+        };
+        let first = pair.structure(&structure.chain);
+        for number in 0..PAIRS_OF_PLACES {
+            let over = |prime: usize| {
+                let places = at_random(&first, spec, 2 * number + prime)?;
+                search(places, spec, prime)
+            };
+            let (one, two) = (over(0)?, over(1)?);
+            let orders = one.orders();
+            let built = |s: &Search| s.build_in(&orders, &|| false, &mut |_| {}).determinate;
+            let (diagram, twin) = rayon::join(|| built(&one), || built(&two));
+            if diagram.stop != Stop::Exhausted {
+                return Ok(None);
+            }
+            if same(&diagram, &twin) {
+                return Ok(Some(General {
+                    counts: one.counts(&diagram, false).by_mobility_and_changes,
+                    orders,
+                    diagram,
+                }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The search of a layout of the pair with its diagrams over one prime, where they have all variants that are determinate in general
+    /// position; then no others are, and all counts are those of the pair.
+    ///
+    /// # Errors
+    /// Where the mechanism cannot be searched.
+    ///
+    /// # Complexity
+    /// One diagram.
+    pub(super) fn certify(
+        &self,
+        layout: Mechanism,
+        spec: &Spec,
+    ) -> Result<Option<(Search, Diagrams)>, RowError> {
+        let search = search(layout, spec, 0)?;
+        let built = search.build_in(&self.orders, &|| false, &mut |_| {});
+        Ok(same(&self.diagram, &built.determinate).then_some((search, built)))
+    }
+}
