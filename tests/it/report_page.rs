@@ -186,7 +186,16 @@ fn symbols_are_those_of_the_drawn_variant() {
                 }
             }
             let k = k.to_string();
-            let drawn = out(&["draw", name, "--kind", kind, "--variant", &k]);
+            let drawn = out(&[
+                "draw",
+                name,
+                "--kind",
+                kind,
+                "--variant",
+                &k,
+                "--pool",
+                "2000",
+            ]);
             assert_eq!(swapped, symbols(&drawn), "{name} {kind} variant {k}");
         }
     }

@@ -6,10 +6,13 @@
 //! before its choices are made.
 
 use crate::geom::vector::length;
-use crate::model::ranking::ClearanceSum;
+use crate::model::ranking::{ClearanceSum, Ranking};
+use crate::score::evaluation::elimination::Scratch;
+use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::lower_bound::{Floor, within};
-use crate::score::evaluation::pose_tables::{Cell, PoseTable};
+use crate::score::evaluation::pose_tables::{Cell, PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::ErrorSum;
+use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::geometry::Six;
 
 /// Pivots below this are none: rows are unit twists.
@@ -22,7 +25,7 @@ const WORK: f64 = 1e-6;
 
 /// How much of what a place bears counts.
 #[derive(Debug, Clone, Copy)]
-struct Limits {
+struct LoadLimits {
     /// One over the least capacity of the joints in series. `[1/N]`
     force: f64,
     /// The same for moments `[1/(N·m)]`; 0 where none is borne.
@@ -31,12 +34,12 @@ struct Limits {
     clearance: f64,
 }
 
-impl Limits {
+impl LoadLimits {
     /// Of the joints that a choice puts at a place.
-    fn of(cell: &Cell) -> Limits {
+    fn of(cell: &Cell) -> LoadLimits {
         let forces = cell.bears.iter().map(|b| 1.0 / b.0);
         let moments = cell.bears.iter().filter_map(|b| b.1);
-        Limits {
+        LoadLimits {
             force: forces.fold(0.0, f64::max),
             moment: moments.map(|m| 1.0 / m).fold(0.0, f64::max),
             clearance: cell.clearance,
@@ -44,8 +47,8 @@ impl Limits {
     }
 
     /// The least of each.
-    fn least(self, other: Limits) -> Limits {
-        Limits {
+    fn least(self, other: LoadLimits) -> LoadLimits {
+        LoadLimits {
             force: self.force.min(other.force),
             moment: self.moment.min(other.moment),
             clearance: self.clearance.min(other.clearance),
@@ -83,9 +86,29 @@ pub(in crate::score) struct Beginnings {
     /// The places of each variable.
     of_variable: Vec<Vec<usize>>,
     /// By variable, choice and slot.
-    limits: Vec<Vec<Vec<Limits>>>,
+    limits: Vec<Vec<Vec<LoadLimits>>>,
     /// The least of all choices, by variable and slot.
-    least: Vec<Vec<Limits>>,
+    least: Vec<Vec<LoadLimits>>,
+}
+
+impl Evaluator<'_> {
+    /// The pose that tells most about variants, that in which a good one scores worst, as branches of variants need it.
+    pub(in crate::score) fn beginnings(
+        &self,
+        of: &Assignment,
+        ranking: &Ranking,
+    ) -> Option<Beginnings> {
+        let mut scratch = Scratch::default();
+        let mut worst: Option<(f64, &PoseTable)> = None;
+        for table in self.tables() {
+            let scores = self.at(table, of, &mut scratch, &mut |_| {}).ok()??;
+            let sum = scores.weighted(ranking);
+            if worst.is_none_or(|(least, _)| sum > least) {
+                worst = Some((sum, table));
+            }
+        }
+        Beginnings::new(worst?.1, self.clearance)
+    }
 }
 
 impl Beginnings {
@@ -97,7 +120,7 @@ impl Beginnings {
         if table.couplings > 0 {
             return None;
         }
-        let (dim, unknowns) = (table.basis.len(), table.unknowns());
+        let unknowns = table.unknowns();
         let width = unknowns + table.cases;
         let choices = table.cells.iter().map(|c| vec![Vec::new(); c.len()]);
         let mut out = Beginnings {
@@ -114,49 +137,11 @@ impl Beginnings {
             least: Vec::new(),
         };
         for place in &table.places {
-            let whole = |row: &[f64]| {
-                let mut out = vec![0.0; width];
-                for &(k, sign) in &place.contours {
-                    for (o, x) in out[k * dim..].iter_mut().zip(&row[..dim]) {
-                        *o = sign * x;
-                    }
-                }
-                out[unknowns..].copy_from_slice(&row[dim..]);
-                out
-            };
-            let cells = &table.cells[place.variable];
-            let kept = |row: &&Vec<f64>| {
-                let mut all = cells.iter();
-                all.all(|c| within(row, &c[place.slot].rows, dim))
-            };
-            let first = cells.first().map(|c| c[place.slot].rows.iter());
-            let common: Vec<Vec<f64>> = first.into_iter().flatten().filter(kept).cloned().collect();
-            out.common.extend(common.iter().map(|row| whole(row)));
-            for (cell, further) in cells.iter().zip(&mut out.further[place.variable]) {
-                let mut known = common.clone();
-                for row in &cell[place.slot].rows {
-                    if !within(row, &known, dim) {
-                        further.push(whole(row));
-                        known.push(row.clone());
-                    }
-                }
-            }
-            let pair = |w: &Six| {
-                let (f, m) = table.borne(place, w);
-                [f[0], f[1], f[2], m[0], m[1], m[2]]
-            };
-            out.of_variable[place.variable].push(out.places.len());
-            out.places.push(LoadedPlace {
-                variable: place.variable,
-                slot: place.slot,
-                contours: place.contours.iter().map(|&(k, s)| (k * dim, s)).collect(),
-                fixed: place.along_tree.iter().map(pair).collect(),
-                across: table.basis.iter().map(pair).collect(),
-            });
+            out.add(table, place);
         }
         for cells in &table.cells {
-            let of_choice = cells.iter().map(|c| c.iter().map(Limits::of).collect());
-            let of_choice: Vec<Vec<Limits>> = of_choice.collect();
+            let of_choice = cells.iter().map(|c| c.iter().map(LoadLimits::of).collect());
+            let of_choice: Vec<Vec<LoadLimits>> = of_choice.collect();
             let least = of_choice.iter().cloned().reduce(|a, b| {
                 let both = a.iter().zip(&b);
                 both.map(|(a, b)| a.least(*b)).collect()
@@ -165,6 +150,50 @@ impl Beginnings {
             out.limits.push(of_choice);
         }
         Some(out)
+    }
+
+    /// Adds a joint's place: the equations that all choices have there, and those of each choice's further freedoms.
+    fn add(&mut self, table: &PoseTable, place: &PlacedJoint) {
+        let (dim, unknowns, width) = (table.basis.len(), self.unknowns, self.width);
+        let whole = |row: &[f64]| {
+            let mut out = vec![0.0; width];
+            for &(k, sign) in &place.contours {
+                for (o, x) in out[k * dim..].iter_mut().zip(&row[..dim]) {
+                    *o = sign * x;
+                }
+            }
+            out[unknowns..].copy_from_slice(&row[dim..]);
+            out
+        };
+        let cells = &table.cells[place.variable];
+        let kept = |row: &&Vec<f64>| {
+            let mut all = cells.iter();
+            all.all(|c| within(row, &c[place.slot].rows, dim))
+        };
+        let first = cells.first().map(|c| c[place.slot].rows.iter());
+        let common: Vec<Vec<f64>> = first.into_iter().flatten().filter(kept).cloned().collect();
+        self.common.extend(common.iter().map(|row| whole(row)));
+        for (cell, further) in cells.iter().zip(&mut self.further[place.variable]) {
+            let mut known = common.clone();
+            for row in &cell[place.slot].rows {
+                if !within(row, &known, dim) {
+                    further.push(whole(row));
+                    known.push(row.clone());
+                }
+            }
+        }
+        let pair = |w: &Six| {
+            let (f, m) = table.borne(place, w);
+            [f[0], f[1], f[2], m[0], m[1], m[2]]
+        };
+        self.of_variable[place.variable].push(self.places.len());
+        self.places.push(LoadedPlace {
+            variable: place.variable,
+            slot: place.slot,
+            contours: place.contours.iter().map(|&(k, s)| (k * dim, s)).collect(),
+            fixed: place.along_tree.iter().map(pair).collect(),
+            across: table.basis.iter().map(pair).collect(),
+        });
     }
 
     /// The beginning of all: nothing is chosen.
@@ -201,7 +230,7 @@ pub(in crate::score) struct Begun<'b> {
     /// The least pivot up to each equation.
     weakest: Vec<f64>,
     /// By variable and slot: the choice's own, or the least of all.
-    chosen: Vec<Vec<Limits>>,
+    chosen: Vec<Vec<LoadLimits>>,
     /// Whether the reactions are known.
     known: bool,
     /// Whether what unit forces on the outputs pass is known, too.
@@ -218,7 +247,7 @@ pub(in crate::score) struct Begun<'b> {
 
 /// A choice that was taken and is to be given back.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::score) struct Taken {
+pub(in crate::score) struct TakenChoice {
     variable: usize,
     /// Equations before it.
     rows: usize,
@@ -231,9 +260,9 @@ impl Begun<'_> {
     ///
     /// # Complexity
     /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on.
-    pub(in crate::score) fn take(&mut self, variable: usize, choice: usize) -> (Taken, bool) {
+    pub(in crate::score) fn take(&mut self, variable: usize, choice: usize) -> (TakenChoice, bool) {
         let of = self.of;
-        let mut taken = Taken {
+        let mut taken = TakenChoice {
             variable,
             rows: self.pivots.len(),
             tells: false,
@@ -254,7 +283,7 @@ impl Begun<'_> {
     }
 
     /// Gives back the last choice.
-    pub(in crate::score) fn give_back(&mut self, taken: Taken) {
+    pub(in crate::score) fn give_back(&mut self, taken: TakenChoice) {
         self.pivots.truncate(taken.rows);
         self.weakest.truncate(taken.rows);
         self.rows.truncate(taken.rows * self.of.width);
@@ -356,13 +385,13 @@ impl Begun<'_> {
         }
     }
 
-    fn limits(&self, place: &LoadedPlace) -> Limits {
+    fn limits(&self, place: &LoadedPlace) -> LoadLimits {
         self.chosen[place.variable][place.slot]
     }
 
     /// Bounds on the greatest force and moment over capacity, from what a choice that was just taken makes known; `None` where
     /// reactions are not known yet.
-    pub(in crate::score) fn peaks(&self, taken: &Taken) -> Option<Floor> {
+    pub(in crate::score) fn peaks(&self, taken: &TakenChoice) -> Option<Floor> {
         if !self.known {
             return None;
         }

@@ -2,9 +2,8 @@
 
 use crate::geom::vector::dot;
 use crate::model::mechanism::{JointId, LinkId, StateId};
-use crate::model::ranking::{ClearanceSum, Ranking};
+use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
-use crate::score::evaluation::beginnings::Beginnings;
 use crate::score::evaluation::elimination::{Ended, Scratch};
 use crate::score::evaluation::load_cases::{CaseError, Cases, cases};
 use crate::score::evaluation::pose_tables::PoseTable;
@@ -153,24 +152,6 @@ impl<'s> Evaluator<'s> {
         worst.map_or_else(|| self.slowly_with(variant, each), Ok)
     }
 
-    /// The pose that tells most about variants, that in which a good one scores worst, as branches of variants need it.
-    pub(in crate::score) fn beginnings(
-        &self,
-        of: &Assignment,
-        ranking: &Ranking,
-    ) -> Option<Beginnings> {
-        let mut scratch = Scratch::default();
-        let mut worst: Option<(f64, &PoseTable)> = None;
-        for table in &self.tables {
-            let scores = self.at(table, of, &mut scratch, &mut |_| {}).ok()??;
-            let sum = scores.weighted(ranking);
-            if worst.is_none_or(|(least, _)| sum > least) {
-                worst = Some((sum, table));
-            }
-        }
-        Beginnings::new(worst?.1, self.clearance)
-    }
-
     /// The mobility that is at work.
     pub(in crate::score) fn working(&self) -> i64 {
         self.working
@@ -195,7 +176,8 @@ impl<'s> Evaluator<'s> {
         }
     }
 
-    fn at(
+    /// The scores in one pose; `None` where the fast way does not serve.
+    pub(in crate::score) fn at(
         &self,
         table: &PoseTable,
         variant: &Assignment,

@@ -5,7 +5,7 @@
 //! gone through some at a time, each of them against the list before them, so that the result depends on no order of threads.
 
 use crate::model::ranking::{Order, Ranking, Term};
-use crate::score::evaluation::beginnings::{Beginnings, Begun, Taken};
+use crate::score::evaluation::beginnings::{Beginnings, Begun, TakenChoice};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::lower_bound::Floor;
@@ -37,13 +37,13 @@ enum Ended {
 }
 
 /// A beginning of variants: its choices by layer, and where they lead.
-struct Branch {
+struct BranchStart {
     choices: Vec<usize>,
     node: usize,
 }
 
 /// What does not change on the way.
-struct Walk<'w> {
+struct BranchAndBound<'w> {
     evaluator: &'w Evaluator<'w>,
     search: &'w Search,
     diagram: &'w Diagram,
@@ -62,7 +62,7 @@ struct Walk<'w> {
 
 /// A thread's own.
 struct Walker<'w> {
-    walk: &'w Walk<'w>,
+    walk: &'w BranchAndBound<'w>,
     begun: Begun<'w>,
     scratch: Scratch,
     choices: Vec<usize>,
@@ -93,7 +93,8 @@ struct Here {
 pub(in crate::score) fn prove(
     evaluator: &Evaluator<'_>,
     diagram: &Diagram,
-    (pool, top): (&mut RankedPool, usize),
+    pool: &mut RankedPool,
+    top: usize,
     stop: &(dyn Fn() -> bool + Sync),
     progress: &mut dyn FnMut(usize, usize),
 ) {
@@ -105,7 +106,7 @@ pub(in crate::score) fn prove(
     let (Some(begins), Some(places)) = (begins, places) else {
         return;
     };
-    let walk = Walk {
+    let walk = BranchAndBound {
         evaluator,
         search,
         diagram,
@@ -157,7 +158,7 @@ fn least_left(search: &Search, diagram: &Diagram) -> Vec<Vec<u64>> {
     out
 }
 
-impl<'w> Walk<'w> {
+impl<'w> BranchAndBound<'w> {
     /// Goes through all branches: how many variants were scored, and why that ended early.
     fn all(
         &self,
@@ -196,8 +197,8 @@ impl<'w> Walk<'w> {
     }
 
     /// Beginnings of all variants, each of so many choices that there are enough of them.
-    fn branches(&self) -> Vec<Branch> {
-        let mut out = vec![Branch {
+    fn branches(&self) -> Vec<BranchStart> {
+        let mut out = vec![BranchStart {
             choices: Vec::new(),
             node: 0,
         }];
@@ -208,7 +209,7 @@ impl<'w> Walk<'w> {
             let next = out.iter().flat_map(|b| {
                 let edges = &layer.edges[b.node * layer.choices..][..layer.choices];
                 let alive = edges.iter().enumerate().filter(|(_, to)| **to != DEAD);
-                alive.map(move |(choice, &to)| Branch {
+                alive.map(move |(choice, &to)| BranchStart {
                     choices: b.choices.iter().copied().chain([choice]).collect(),
                     node: to as usize,
                 })
@@ -219,7 +220,7 @@ impl<'w> Walk<'w> {
         let parts = out.len().div_ceil(BRANCHES);
         let mut order: Vec<usize> = (0..out.len()).collect();
         order.sort_by_key(|at| (at % parts, *at));
-        let mut given: Vec<Option<Branch>> = out.into_iter().map(Some).collect();
+        let mut given: Vec<Option<BranchStart>> = out.into_iter().map(Some).collect();
         order
             .into_iter()
             .filter_map(|at| given[at].take())
@@ -227,7 +228,7 @@ impl<'w> Walk<'w> {
     }
 
     /// Goes through a branch against a list.
-    fn through(&self, branch: &Branch, list: &[Ranked]) -> Walker<'_> {
+    fn through(&self, branch: &BranchStart, list: &[Ranked]) -> Walker<'_> {
         let mut walker = Walker {
             walk: self,
             begun: self.begins.begin(),
@@ -285,7 +286,7 @@ impl Walker<'_> {
 
     /// Takes a choice at a node: what is to be given back, and the node that it leads to, if a variant behind that could come
     /// before the last of the list.
-    fn step(&mut self, here: Here, choice: usize) -> (Option<Taken>, Option<Here>) {
+    fn step(&mut self, here: Here, choice: usize) -> (Option<TakenChoice>, Option<Here>) {
         let walk = self.walk;
         let layer = &walk.diagram.layers[here.layer];
         let variable = layer.variable;

@@ -61,7 +61,8 @@ pub(in crate::score) fn ranked(
         prove(
             &evaluator,
             &diagrams.admissible,
-            (&mut out, top),
+            &mut out,
+            top,
             should_cancel,
             progress,
         );
