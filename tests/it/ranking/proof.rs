@@ -17,7 +17,7 @@ const TOP: usize = 12;
 /// A weight from 0 to 30, often 0.
 fn weight(rng: &mut ChaCha20Rng) -> f64 {
     let drawn = rng.next_u32();
-    if drawn % 3 == 0 {
+    if drawn.is_multiple_of(3) {
         0.0
     } else {
         f64::from(drawn % 10_000) / 333.0
