@@ -8,7 +8,7 @@ use crate::page::scenes::{moving_scene, still_scene};
 use crate::page::verdict;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::score::outcome::Outcome;
-use crate::score::request::{List, POOL, Request};
+use crate::score::request::{List, Request};
 use crate::score::run::{Event, run};
 use crate::view::analysis::Analysis;
 use crate::view::contract::FORMAT;
@@ -116,7 +116,7 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
         // A ranking orders variants, not ideas.
         distinct: m.ranking.is_none(),
         // What changes while it is looked at is not gone through whole.
-        pool: room.request.pool.or(Some(POOL)),
+        pool: Some(room.request.cheapest_scored()),
         ..room.request.clone()
     };
     let mut notes = Vec::new();

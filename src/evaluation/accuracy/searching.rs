@@ -16,7 +16,7 @@ pub use ground_truth::TrialEffort;
 
 use super::timing::{Stopwatch, Timing};
 use crate::model::mechanism::Mechanism;
-use crate::score::request::{Check, List, Method, POOL, Request};
+use crate::score::request::{Check, List, Method, Request};
 use crate::score::run::RunError;
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::Approximate;
@@ -67,7 +67,7 @@ pub fn trial(
         method: Method::Diagram,
         poses: 0,
         generic_only: false,
-        pool: request.pool.or(Some(POOL)),
+        pool: Some(request.cheapest_scored()),
         ..request.clone()
     };
     let (present, _) = listed(mechanism, &base)?;

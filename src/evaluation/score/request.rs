@@ -376,10 +376,16 @@ impl Request {
                 state: some.cloned().unwrap_or_else(|| "clamped".to_owned()),
             });
         }
-        let pool = self.pool.unwrap_or(POOL);
-        if ranking.is_some() && !(1..=LARGEST_POOL).contains(&pool) {
+        if ranking.is_some() && !(1..=LARGEST_POOL).contains(&self.cheapest_scored()) {
             return Err(RequestError::Pool { most: LARGEST_POOL });
         }
         Ok(ranking)
+    }
+
+    /// How many of the cheapest variants a ranking scores before it goes through the others; as [`Request::pool`] of another
+    /// request, it is these and no others.
+    #[must_use]
+    pub fn cheapest_scored(&self) -> usize {
+        self.pool.unwrap_or(POOL)
     }
 }

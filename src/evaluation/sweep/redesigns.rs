@@ -8,7 +8,7 @@ use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
 use crate::score::outcome::variant::{changes, in_words};
-use crate::score::request::{Check, List, POOL, Request};
+use crate::score::request::{Check, List, Request};
 use crate::score::run::{RunError, run};
 use crate::search::answer::k_best::Assignment;
 use crate::sweep::forces::{is_loaded, rounded};
@@ -60,7 +60,7 @@ pub(super) fn as_searched(request: &Request, listed: usize) -> Request {
         distinct: false,
         poses: 0,
         generic_only: false,
-        pool: request.pool.or(Some(POOL)),
+        pool: Some(request.cheapest_scored()),
         seed: 1,
         ..request.clone()
     }

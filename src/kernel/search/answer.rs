@@ -8,6 +8,7 @@ pub mod estimate;
 pub mod freedom_patterns;
 pub mod ideas;
 pub mod k_best;
+pub mod keys;
 pub mod least_freedoms;
 pub mod orbit_counts;
 pub mod place;

@@ -15,7 +15,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::redundancy::motion::joint_motion;
-use crate::search::answer::count_tables::{Key, Steps};
+use crate::search::answer::keys::{Key, Steps};
 use crate::search::question::conditions::{Conditions, OPEN, SearchError, Symmetry};
 use crate::search::question::cost::CostTable;
 use crate::search::question::grasp::{Grasp, grasps, is_free, loose};
@@ -187,6 +187,12 @@ impl Question {
     #[must_use]
     pub fn mobility(&self, key: Key) -> i64 {
         i64::from(key.freedoms()) - self.rows + i64::from(key.internal())
+    }
+
+    /// What variants are put in order by before their choices: cost, then W, then changes, then whatever else tells keys apart.
+    #[must_use]
+    pub fn rank(&self, key: Key) -> (u64, i64, u32, Key) {
+        (key.cost(), self.mobility(key), key.changes(), key)
     }
 
     /// Whether a variant's key meets the conditions on mobility and changes.

@@ -3,8 +3,8 @@
 use crate::geom::exact::ExactError;
 use crate::score::outcome::Outcome;
 use crate::search::Search;
-use crate::search::answer::count_tables::Key;
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::keys::Key;
 use crate::search::check::brute;
 use crate::search::check::brute::Seen;
 use chacha20::ChaCha8Rng;

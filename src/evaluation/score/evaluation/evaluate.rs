@@ -6,6 +6,7 @@ use crate::model::ranking::ClearanceSum;
 use crate::redundancy::analysis::{AnalysisError, Method, analyse};
 use crate::score::evaluation::elimination::{Ended, Scratch};
 use crate::score::evaluation::load_cases::{CaseError, Cases, cases};
+use crate::score::evaluation::lower_bound::Floor;
 use crate::score::evaluation::pose_tables::PoseTable;
 use crate::score::evaluation::terms::{ErrorSum, Peak, Scores, output_points};
 use crate::score::joint_types::JointTypes;
@@ -15,6 +16,7 @@ use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
 use crate::statics::reactions::geometry::Geometry;
+use std::sync::OnceLock;
 use thiserror::Error;
 
 /// Work of the loads on undriven motions below this fraction of them is none.
@@ -63,6 +65,7 @@ pub struct Evaluator<'s> {
     pub(in crate::score) outputs: Vec<(LinkId, [f64; 3])>,
     tables: Vec<PoseTable>,
     working: i64,
+    pub(in crate::score::evaluation) floor: OnceLock<Floor>,
 }
 
 impl<'s> Evaluator<'s> {
@@ -116,6 +119,7 @@ impl<'s> Evaluator<'s> {
             outputs,
             tables,
             working,
+            floor: OnceLock::new(),
         })
     }
 

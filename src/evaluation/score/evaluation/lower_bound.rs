@@ -70,9 +70,13 @@ impl Evaluator<'_> {
     /// Lower bounds for every variant of the search; 0 where none is known.
     ///
     /// # Complexity
-    /// Some hundred least squares problems of 3 joints × freedoms for each pose and output.
+    /// Some hundred least squares problems of 3 joints × freedoms for each pose and output, the first time.
     #[must_use]
     pub fn floor(&self) -> Floor {
+        *self.floor.get_or_init(|| self.least())
+    }
+
+    fn least(&self) -> Floor {
         let mut out = Floor::default();
         for table in self.tables() {
             let Some(common) = common(table) else {

@@ -3,7 +3,7 @@
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::Variant;
-use crate::score::request::{Check, List, POOL, Request, RequestError};
+use crate::score::request::{Check, List, Request, RequestError};
 use crate::score::run::ShouldCancel;
 use crate::search::answer::ideas;
 use crate::search::answer::ideas::Idea;
@@ -24,7 +24,7 @@ impl Request {
             return Ok(0);
         };
         let looked = match self.ranking(mechanism)? {
-            Some(_) => self.pool.unwrap_or(POOL).saturating_add(1),
+            Some(_) => self.cheapest_scored().saturating_add(1),
             None => self.listed(top),
         };
         // Of a variant and its images one is kept.

@@ -11,8 +11,8 @@ use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::lower_bound::Floor;
 use crate::score::outcome::ranking::{Ranked, RankedPool, compare};
 use crate::search::Search;
-use crate::search::answer::count_tables::Key;
-use crate::search::answer::k_best::Assignment;
+use crate::search::answer::k_best::{Assignment, least_from};
+use crate::search::answer::keys::Key;
 use crate::search::answer::place::Places;
 use crate::search::diagram::{DEAD, Diagram};
 use rayon::prelude::*;
@@ -53,7 +53,7 @@ struct BranchAndBound<'w> {
     /// Least bounds of all variants.
     floor: Floor,
     /// Least cost from each node, in steps.
-    left: Vec<Vec<u64>>,
+    left: Vec<Vec<Option<u64>>>,
     /// Variants of the pool, the cheapest, which are scored.
     pooled: usize,
     top: usize,
@@ -114,7 +114,7 @@ pub(in crate::score) fn prove(
         begins: &begins,
         places: &places,
         floor: evaluator.floor(),
-        left: least_left(search, diagram),
+        left: least_from(diagram, &search.steps),
         pooled: pool.scored,
         top,
         stop,
@@ -137,25 +137,6 @@ pub(in crate::score) fn prove(
 /// Whether branches will take too long in all, so many of them having taken so much work.
 fn too_long(work: usize, done: usize, all: usize) -> bool {
     work > WORK / 8 && work * all > WORK * done
-}
-
-/// The least cost from each node on, in steps.
-fn least_left(search: &Search, diagram: &Diagram) -> Vec<Vec<u64>> {
-    let ends = diagram.terminals.iter();
-    let ends = ends.map(|&r| search.steps.redundancy(r).cost()).collect();
-    let mut out: Vec<Vec<u64>> = vec![ends];
-    for layer in diagram.layers.iter().rev() {
-        let keys = &search.steps.keys[layer.variable];
-        let below = &out[out.len() - 1];
-        let least = layer.edges.chunks(layer.choices).map(|edges| {
-            let each = edges.iter().zip(keys).filter(|(to, _)| **to != DEAD);
-            let each = each.map(|(&to, k)| below[to as usize].saturating_add(k.cost()));
-            each.min().unwrap_or(u64::MAX)
-        });
-        out.push(least.collect());
-    }
-    out.reverse();
-    out
 }
 
 impl<'w> BranchAndBound<'w> {
@@ -324,8 +305,10 @@ impl Walker<'_> {
     /// Whether a variant behind a node could come before the last of the list.
     fn may_win(&self, next: &Here) -> bool {
         let left = self.walk.left[next.layer][next.node];
-        let cost = next.key.cost().saturating_add(left);
-        self.sum(next.key, cost, next.floor) <= self.allowed
+        left.is_some_and(|left| {
+            let cost = next.key.cost().saturating_add(left);
+            self.sum(next.key, cost, next.floor) <= self.allowed
+        })
     }
 
     /// What a variant has to keep to, the list being what it is.

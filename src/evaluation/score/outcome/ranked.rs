@@ -4,7 +4,7 @@ use crate::model::ranking::Ranking;
 use crate::score::evaluation::evaluate::{Evaluator, ScoreError};
 use crate::score::outcome::proof::prove;
 use crate::score::outcome::ranking::{Ranked, RankedPool, Ranker};
-use crate::score::request::{List, POOL, Request};
+use crate::score::request::{List, Request};
 use crate::search::Search;
 use crate::search::answer::counts;
 use crate::search::build::Diagrams;
@@ -27,7 +27,7 @@ pub(in crate::score) fn ranked(
         return Ok(None);
     };
     // Further poses may drop some of the best, so that others must stand by.
-    let wanted = request.pool.unwrap_or(POOL);
+    let wanted = request.cheapest_scored();
     let standing = if request.generic_only { wanted } else { top };
     let evaluator = Evaluator::in_states(search, ranking.clearance, &ranking.states)?;
     // What may be kept of a variant: its scores, and its choices beside an allocation's own.
@@ -52,10 +52,6 @@ pub(in crate::score) fn ranked(
     } else if doubtful {
         (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
     }
-    if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
-        let by_cost = counts::counts_by_cost(search, &diagrams.admissible);
-        missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
-    }
     let all = request.pool.is_none() && !request.generic_only && !out.proven && exhausted;
     if all && request.symmetry != Symmetry::OnePerOrbit {
         prove(
@@ -66,6 +62,10 @@ pub(in crate::score) fn ranked(
             should_cancel,
             progress,
         );
+    }
+    if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
+        let by_cost = counts::counts_by_cost(search, &diagrams.admissible);
+        missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
     }
     Ok(Some(out))
 }

@@ -1,9 +1,7 @@
 //! Exact counts on a diagram: for every node, how many completions there are of each kind.
 
-use crate::search::diagram::redundancy_so_far::Redundancy;
+use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
-use crate::search::question::cost::CostTable;
-use crate::search::question::space::Space;
 use num_bigint::BigUint;
 use std::ops::AddAssign;
 
@@ -38,186 +36,6 @@ impl Count for BigUint {
     fn beside(&self) -> usize {
         // Digits, and what an allocation takes.
         usize::try_from(self.bits() / 8).unwrap_or(usize::MAX / 4) + 32
-    }
-}
-
-/// Which properties of variants a tally tells apart.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Kinds {
-    /// Freedoms f.
-    pub freedoms: bool,
-    /// Number of changes.
-    pub changes: bool,
-    /// Cost.
-    pub cost: bool,
-}
-
-/// Properties of a variant, or of the rest of one: cost (above the cheapest possible, in steps of
-/// [`Steps::unit_milli`]), then freedoms, changes, and redundancy, packed so that keys add as properties do and sort by
-/// cost first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-pub struct Key(pub u128);
-
-impl Key {
-    /// Packs what is chosen. A mechanism has at most 4000 joints, so that each count fits sixteen bits.
-    #[must_use]
-    pub fn new(cost: u64, freedoms: u32, changes: u32) -> Key {
-        Key(u128::from(cost) << 80 | u128::from(freedoms) << 64 | u128::from(changes) << 48)
-    }
-
-    /// Packs the redundancy of a whole variant.
-    #[must_use]
-    pub(crate) fn of_redundancy(r: Redundancy) -> Key {
-        // Fewer than none are written as a complement: only one of the keys that are added up has any.
-        let external = u128::from(r.external.cast_unsigned() & 0xffff);
-        Key(u128::from(r.internal) << 32 | external << 16 | u128::from(r.harmful))
-    }
-
-    /// Cost steps.
-    #[must_use]
-    pub fn cost(self) -> u64 {
-        (self.0 >> 80) as u64
-    }
-    fn part(self, at: u32) -> u16 {
-        (self.0 >> at) as u16
-    }
-    /// Freedoms.
-    #[must_use]
-    pub fn freedoms(self) -> u32 {
-        u32::from(self.part(64))
-    }
-    /// Changes.
-    #[must_use]
-    pub fn changes(self) -> u32 {
-        u32::from(self.part(48))
-    }
-    /// Redundant constraints within the mechanism.
-    #[must_use]
-    pub fn internal(self) -> u32 {
-        u32::from(self.part(32))
-    }
-    /// Redundant constraints that the state adds; fewer than none where it leaves joints out.
-    #[must_use]
-    pub fn external(self) -> i32 {
-        i32::from(self.part(16).cast_signed())
-    }
-    /// Harmful ones among them.
-    #[must_use]
-    pub fn harmful(self) -> u32 {
-        u32::from(self.part(0))
-    }
-}
-
-/// Costs as whole steps above the cheapest choice of each variable.
-#[derive(Debug, Clone)]
-pub struct Steps {
-    /// Thousandths of a cost unit in one step.
-    pub unit_milli: i64,
-    /// Cost of the cheapest conceivable variant, in thousandths.
-    pub base_milli: i64,
-    /// `key[variable][choice]`.
-    pub keys: Vec<Vec<Key>>,
-    /// Steps for each harmful redundant constraint that the state adds.
-    harmful: u64,
-}
-
-impl Steps {
-    /// The steps of a space: the unit is the greatest common divisor of all cost differences.
-    #[must_use]
-    pub fn new(space: &Space, costs: &CostTable) -> Steps {
-        let least: Vec<i64> = space
-            .variables
-            .iter()
-            .map(|v| v.choices.iter().map(|c| c.cost_milli).min().unwrap_or(0))
-            .collect();
-        let above = space
-            .variables
-            .iter()
-            .zip(&least)
-            .flat_map(|(v, l)| v.choices.iter().map(move |c| c.cost_milli - l));
-        let harmful = space.state.map_or(0, |_| costs.harmful);
-        let unit = above.fold(harmful, num_integer::gcd).max(1);
-        let keys = space.variables.iter().zip(&least).map(|(v, l)| {
-            let key = |c: &crate::search::question::space::Choice| {
-                let cost = u64::try_from((c.cost_milli - l) / unit).unwrap_or(0);
-                Key::new(cost, c.freedoms, c.changes)
-            };
-            v.choices.iter().map(key).collect()
-        });
-        Steps {
-            unit_milli: unit,
-            base_milli: least.iter().sum(),
-            keys: keys.collect(),
-            harmful: u64::try_from(harmful / unit).unwrap_or(0),
-        }
-    }
-
-    /// Steps of one thousandth, of keys alone.
-    #[cfg(test)]
-    pub(in crate::search) fn of_keys(keys: Vec<Vec<Key>>) -> Steps {
-        Steps {
-            unit_milli: 1,
-            base_milli: 0,
-            keys,
-            harmful: 0,
-        }
-    }
-
-    /// The key of a variant's redundancy, with what it costs.
-    #[must_use]
-    pub fn redundancy(&self, r: Redundancy) -> Key {
-        let cost = self.harmful * u64::from(r.harmful);
-        Key(Key::of_redundancy(r).0 | Key::new(cost, 0, 0).0)
-    }
-
-    /// The same with only the wanted kinds left.
-    #[must_use]
-    pub fn only(&self, kinds: Kinds) -> Steps {
-        let keep = |k: &Key| {
-            Key::new(
-                if kinds.cost { k.cost() } else { 0 },
-                if kinds.freedoms { k.freedoms() } else { 0 },
-                if kinds.changes { k.changes() } else { 0 },
-            )
-        };
-        let keys = self.keys.iter();
-        Steps {
-            keys: keys.map(|v| v.iter().map(keep).collect()).collect(),
-            harmful: if kinds.cost { self.harmful } else { 0 },
-            ..*self
-        }
-    }
-
-    /// The same with weights of changed variables after the cost: of equal cost those with less weight are cheaper. Costs are
-    /// then in a unit of their own.
-    #[must_use]
-    pub(in crate::search) fn then(&self, weights: &[u64]) -> Steps {
-        let many = weights.iter().sum::<u64>() + 1;
-        let key = |k: &Key, weight: u64| {
-            let weight = if k.changes() > 0 { weight } else { 0 };
-            Key::new(k.cost() * many + weight, k.freedoms(), k.changes())
-        };
-        let keys = self.keys.iter().zip(weights);
-        Steps {
-            keys: keys
-                .map(|(v, &w)| v.iter().map(|k| key(k, w)).collect())
-                .collect(),
-            harmful: self.harmful * many,
-            ..*self
-        }
-    }
-
-    /// The largest cost part of a key that is no more than a cost in thousandths.
-    #[must_use]
-    pub fn above(&self, milli: i64) -> u64 {
-        let steps = milli.saturating_sub(self.base_milli) / self.unit_milli;
-        u64::try_from(steps).unwrap_or(0)
-    }
-
-    /// A cost in thousandths from the cost part of a key.
-    #[must_use]
-    pub fn milli(&self, cost: u64) -> i64 {
-        self.base_milli + i64::try_from(cost).unwrap_or(i64::MAX / 2) * self.unit_milli
     }
 }
 
@@ -293,6 +111,30 @@ struct Numbers {
     keys: Vec<Key>,
     /// Of each entry of each table, the number of its key.
     places: Vec<Vec<u32>>,
+}
+
+impl Numbers {
+    /// Of places among some keys, of which those that no table has are left out: a bound leaves few, and what is carried on
+    /// would grow with each layer.
+    fn of(mut keys: Vec<Key>, mut places: Vec<Vec<u32>>) -> Numbers {
+        let mut is_met = vec![false; keys.len()];
+        for &place in places.iter().flatten() {
+            is_met[place as usize] = true;
+        }
+        if is_met.contains(&false) {
+            let mut before = 0;
+            let anew = is_met.iter().map(|&met| {
+                before += u32::from(met);
+                before.saturating_sub(1)
+            });
+            let anew: Vec<u32> = anew.collect();
+            let mut met = is_met.iter();
+            keys.retain(|_| *met.next().expect("as many"));
+            let all = places.iter_mut().flatten();
+            all.for_each(|place| *place = anew[*place as usize]);
+        }
+        Numbers { keys, places }
+    }
 }
 
 fn terminals<C: Count>(diagram: &Diagram, steps: &Steps) -> (Vec<Table<C>>, Numbers) {
@@ -418,6 +260,41 @@ fn layer<C: Count>(
         here.push(table);
         places.push(std::mem::take(&mut met));
     }
-    let keys = shifts.keys;
-    Some((here, Numbers { keys, places }, used))
+    Some((here, Numbers::of(shifts.keys, places), used))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{layer, terminals};
+    use crate::search::answer::keys::{Key, Steps};
+    use crate::search::diagram::redundancy_so_far::Redundancy;
+    use crate::search::diagram::{DEAD, Diagram, Layer};
+
+    /// Two nodes in each layer: one takes any choice, within a cost of 1; the other takes the dearest alone, whatever that costs.
+    /// Between them they have three keys, and no others are carried on.
+    #[test]
+    fn under_bounds_only_the_keys_of_tables_are_carried_on() {
+        let keys: Vec<Key> = (0..4).map(|k| Key::new(k.into(), k * k, k)).collect();
+        let variables = 40;
+        let two = |variable| Layer {
+            variable,
+            nodes: 2,
+            choices: keys.len(),
+            edges: vec![0, 0, 0, 0, DEAD, DEAD, DEAD, 1],
+        };
+        let layers = (0..variables).map(two).collect();
+        let diagram = Diagram::whole(layers, vec![Redundancy::default(); 2]);
+        let steps = Steps::of_keys(vec![keys.clone(); variables]);
+        let (mut tables, mut numbers) = terminals::<u128>(&diagram, &steps);
+        for l in (0..variables).rev() {
+            let below = (&tables[..], &numbers);
+            let bound = Some(&[1, u64::MAX][..]);
+            (tables, numbers, _) = layer(&diagram, &steps, (l, bound), below, 1 << 20).unwrap();
+            let dearest = Key(keys[3].0 * (variables - l) as u128);
+            assert_eq!(numbers.keys, [Key::default(), keys[1], dearest]);
+            assert_eq!(numbers.places, [vec![0, 1], vec![2]]);
+        }
+        let counts: Vec<u128> = tables[0].iter().map(|(_, n)| *n).collect();
+        assert_eq!(counts, [1, variables as u128]);
+    }
 }

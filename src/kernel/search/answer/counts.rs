@@ -1,6 +1,7 @@
 //! How many variants there are of each kind.
 
-use crate::search::answer::count_tables::{Count, Key, Kinds, totals};
+use crate::search::answer::count_tables::{Count, totals};
+use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 use num_bigint::BigUint;

@@ -1,8 +1,9 @@
 //! Variants of a diagram drawn at random.
 
-use crate::search::answer::count_tables::{Count, Key, Kinds, Tally};
+use crate::search::answer::count_tables::{Count, Tally};
 use crate::search::answer::counts::{fits, limited};
 use crate::search::answer::k_best::{Assignment, Sample};
+use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 use num_bigint::BigUint;

@@ -6,10 +6,10 @@
 
 mod preferred;
 
-use crate::search::answer::count_tables::{Key, Steps};
 use crate::search::answer::counts::limited;
 use crate::search::answer::freedom_patterns::{Added, Pattern, Patterns, patterns};
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::keys::{Key, Steps};
 use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order::{distinct, key};
 use crate::search::build::Diagrams;

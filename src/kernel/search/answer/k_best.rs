@@ -4,7 +4,8 @@
 //! node it leads to has a completion with the key that is left.
 
 use crate::search::answer::completions::{Span, Ways};
-use crate::search::answer::count_tables::{Count, Key, Steps, Tally};
+use crate::search::answer::count_tables::{Count, Tally};
+use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -78,8 +79,8 @@ impl<C: Count> fmt::Debug for Cheapest<'_, C> {
 }
 
 impl<'d, C: Count> Cheapest<'d, C> {
-    /// The first variants whose key passes `wanted`, as it does for no cost above `ceiling`; those of equal cost in the order of
-    /// `rank`. Of those that begin alike none is given where `enter` refuses the beginning.
+    /// The first variants whose key passes `wanted`, as it does for no cost above `ceiling`, in the order of `rank`, which is by
+    /// cost first. Of those that begin alike none is given where `enter` refuses the beginning.
     pub fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
@@ -90,7 +91,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
         enter: Enter<'d>,
     ) -> Self {
         let (tally, mut keys, is_all) = enough(diagram, steps, reach, ceiling, wanted, bytes);
-        keys.sort_by_key(|&k| (k.cost(), rank(k), k));
+        keys.sort_by_key(|&k| rank(k));
         Cheapest {
             diagram,
             steps,
@@ -212,11 +213,11 @@ fn enough<C: Count>(
     wanted: impl Fn(Key) -> bool,
     bytes: usize,
 ) -> (Tally<C>, Vec<Key>, bool) {
-    let least = least_costs(diagram, steps);
     let mut found = (Tally { tables: Vec::new() }, Vec::new(), true);
-    let Some(floor) = least.completion[0][0] else {
+    let Some(floor) = least_from(diagram, steps)[0][0] else {
         return found;
     };
+    let least = least_to(diagram, steps);
     let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
     let ends = diagram.terminals.iter();
     let end = ends.map(|&r| steps.redundancy(r).cost()).max();
@@ -228,7 +229,7 @@ fn enough<C: Count>(
     loop {
         let limit = floor.saturating_add(slack).min(ceiling);
         let within = |p: &Option<u64>| p.map_or(0, |p| limit.saturating_sub(p));
-        let bound = least.prefix.iter().map(|l| l.iter().map(within).collect());
+        let bound = least.iter().map(|l| l.iter().map(within).collect());
         let bound: Vec<Vec<u64>> = bound.collect();
         let Some(tally) = Tally::<C>::new(diagram, steps, Some(&bound), bytes) else {
             found.2 = true;
@@ -245,60 +246,47 @@ fn enough<C: Count>(
     }
 }
 
-/// Least costs of ways to and from each node; `None` where there is none.
-struct Least {
-    prefix: Vec<Vec<Option<u64>>>,
-    completion: Vec<Vec<Option<u64>>>,
+/// Least cost by layer and node; `None` where there is no way.
+type LeastCosts = Vec<Vec<Option<u64>>>;
+
+/// Least costs of the ways to each node.
+fn least_to(diagram: &Diagram, steps: &Steps) -> LeastCosts {
+    let mut out = vec![vec![Some(0)]];
+    for (l, layer) in diagram.layers.iter().enumerate() {
+        let (keys, here) = (&steps.keys[layer.variable], &out[l]);
+        let next = diagram.layers.get(l + 1).map(|l| l.nodes);
+        let mut next = vec![None; next.unwrap_or(diagram.terminals.len())];
+        for (edges, least) in layer.edges.chunks(layer.choices).zip(here) {
+            let Some(least) = least else { continue };
+            for (&to, key) in edges.iter().zip(keys).filter(|(to, _)| **to != DEAD) {
+                let (slot, cost): (&mut Option<u64>, u64) =
+                    (&mut next[to as usize], least + key.cost());
+                *slot = Some(slot.map_or(cost, |s| s.min(cost)));
+            }
+        }
+        out.push(next);
+    }
+    out
 }
 
-fn least_costs(diagram: &Diagram, steps: &Steps) -> Least {
-    let keys = &steps.keys;
-    let sizes = || {
-        diagram
-            .layers
-            .iter()
-            .map(|l| l.nodes)
-            .chain([diagram.terminals.len()])
-    };
-    let mut prefix: Vec<Vec<Option<u64>>> = sizes().map(|n| vec![None; n]).collect();
-    let mut completion = prefix.clone();
-    prefix[0][0] = Some(0);
-    if let Some(last) = completion.last_mut() {
-        let ends = diagram.terminals.iter();
-        *last = ends.map(|&r| Some(steps.redundancy(r).cost())).collect();
+/// Least costs of the ways from each node on, with those of where they end.
+pub fn least_from(diagram: &Diagram, steps: &Steps) -> LeastCosts {
+    let ends = diagram.terminals.iter();
+    let mut below: Vec<Option<u64>> = ends.map(|&r| Some(steps.redundancy(r).cost())).collect();
+    let mut out = Vec::with_capacity(diagram.layers.len() + 1);
+    for layer in diagram.layers.iter().rev() {
+        let keys = &steps.keys[layer.variable];
+        let of_node = |edges: &[u32]| {
+            let alive = edges.iter().zip(keys).filter(|(to, _)| **to != DEAD);
+            let costs = alive.filter_map(|(&to, key)| Some(below[to as usize]? + key.cost()));
+            costs.min()
+        };
+        let here = layer.edges.chunks(layer.choices).map(of_node).collect();
+        out.push(std::mem::replace(&mut below, here));
     }
-    let lower = |slot: &mut Option<u64>, x: u64| *slot = Some(slot.map_or(x, |s| s.min(x)));
-    for (l, layer) in diagram.layers.iter().enumerate() {
-        for (e, &to) in layer
-            .edges
-            .iter()
-            .enumerate()
-            .filter(|(_, to)| **to != DEAD)
-        {
-            if let Some(p) = prefix[l][e / layer.choices] {
-                lower(
-                    &mut prefix[l + 1][to as usize],
-                    p + keys[layer.variable][e % layer.choices].cost(),
-                );
-            }
-        }
-    }
-    for (l, layer) in diagram.layers.iter().enumerate().rev() {
-        for (e, &to) in layer
-            .edges
-            .iter()
-            .enumerate()
-            .filter(|(_, to)| **to != DEAD)
-        {
-            if let Some(c) = completion[l + 1][to as usize] {
-                lower(
-                    &mut completion[l][e / layer.choices],
-                    c + keys[layer.variable][e % layer.choices].cost(),
-                );
-            }
-        }
-    }
-    Least { prefix, completion }
+    out.push(below);
+    out.reverse();
+    out
 }
 
 /// Variants whose key passes a test, drawn without end, independently, each with the same chance.

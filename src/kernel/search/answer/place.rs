@@ -1,8 +1,9 @@
 //! The place of a variant in the order of cost, without the variants before it being made.
 
-use crate::search::answer::count_tables::{Key, Tally};
+use crate::search::answer::count_tables::Tally;
 use crate::search::answer::counts::fits;
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::keys::Key;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 
@@ -29,20 +30,16 @@ impl<'d> Places<'d> {
         })
     }
 
-    /// What variants are put in order by before their choices: cost, then W, then changes.
-    fn rank(&self, k: Key) -> (u64, i64, u32, Key) {
-        (k.cost(), self.question.mobility(k), k.changes(), k)
-    }
-
     /// The place of a variant of the diagram, from 1.
     ///
     /// # Complexity
     /// O(kinds of variants + variables · choices).
     #[must_use]
     pub fn of(&self, v: &Assignment) -> u128 {
-        let own = self.rank(v.key);
+        let own = self.question.rank(v.key);
         let earlier = self.tally.totals().iter();
-        let earlier = earlier.filter(|(k, _)| self.question.wanted(*k) && self.rank(*k) < own);
+        let earlier =
+            earlier.filter(|(k, _)| self.question.wanted(*k) && self.question.rank(*k) < own);
         let mut place = 1 + earlier.map(|(_, n)| n).sum::<u128>();
         let (mut node, mut rest) = (0, v.key);
         for (l, layer) in self.diagram.layers.iter().enumerate() {

@@ -9,9 +9,9 @@
 //! Comput. 21 (1992). Draws of a fixed number with given chances: Madow, "On the theory of systematic sampling, II", Annals
 //! of Mathematical Statistics 20 (1949).
 
-use crate::search::answer::count_tables::Key;
 use crate::search::answer::counts::limited;
 use crate::search::answer::estimate::{Drawn, Estimate};
+use crate::search::answer::keys::Key;
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;

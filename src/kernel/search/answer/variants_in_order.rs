@@ -1,9 +1,9 @@
 //! The admissible variants of a finished diagram: the cheapest in order, or some at random.
 
-use crate::search::answer::count_tables::{Key, Steps};
 use crate::search::answer::counts::fits;
 use crate::search::answer::drawn::sample_of;
 use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Reach};
+use crate::search::answer::keys::{Key, Steps};
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
@@ -111,7 +111,7 @@ fn in_steps<'a>(
     wanted: impl Fn(Key) -> bool,
     enter: Enter<'a>,
 ) -> (Box<dyn Iterator<Item = Assignment> + 'a>, bool) {
-    let rank = |k: Key| (question.mobility(k), k.changes());
+    let rank = |k: Key| question.rank(k);
     let room = question.conditions.memory / 4;
     if fits(question) {
         let all = Cheapest::<u128>::new(diagram, steps, range, wanted, rank, room, enter);

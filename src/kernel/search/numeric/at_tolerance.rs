@@ -14,7 +14,7 @@ pub use found::{AtTolerance, Bracket, Sampled, Share};
 pub(in crate::search) use found::{below, choices};
 
 use crate::geom::exact::ExactError;
-use crate::search::answer::count_tables::Key;
+use crate::search::answer::keys::Key;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::Digits;

@@ -1,6 +1,6 @@
 //! Every choice of options in order of cost, without a diagram: for spaces too large to be looked at whole.
 
-use crate::search::answer::count_tables::{Key, Steps};
+use crate::search::answer::keys::{Key, Steps};
 
 /// Sums of costs told apart at most, over all variables.
 const MOST_SUMS: u64 = 1 << 26;
@@ -100,7 +100,7 @@ impl Iterator for InOrder {
 #[cfg(test)]
 mod tests {
     use super::InOrder;
-    use crate::search::answer::count_tables::{Key, Steps};
+    use crate::search::answer::keys::{Key, Steps};
 
     #[test]
     fn every_choice_comes_once_and_none_before_a_cheaper_one() {

@@ -3,8 +3,8 @@
 use crate::format::number::grouped;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{changes, in_words};
-use crate::search::answer::count_tables::Key;
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Asked, Contradiction, SecondOpinion};
 use serde::Serialize;
 

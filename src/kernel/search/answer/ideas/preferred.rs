@@ -1,9 +1,9 @@
 //! Of the variants that an idea stands for the one that is shown: of those as cheap as the cheapest the one with the same change
 //! at most of the joints that are each other's images, then the one with least weight of places.
 
-use crate::search::answer::count_tables::Key;
 use crate::search::answer::freedom_patterns::{Pattern, Patterns};
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::keys::Key;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;

@@ -1,9 +1,9 @@
 //! What a search by singular values found: brackets of counts, and the sure variants in few bytes.
 
 use super::judge::{Judged, Standing};
-use crate::search::answer::count_tables::Key;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
+use crate::search::answer::keys::Key;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::rounded_rank::{Digits, RankRange};

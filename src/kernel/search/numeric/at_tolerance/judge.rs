@@ -4,7 +4,7 @@ use super::answer::Answer;
 use super::in_state::InStateSeen;
 use crate::geom::exact::ExactError;
 use crate::rank::numeric::Elimination;
-use crate::search::answer::count_tables::Key;
+use crate::search::answer::keys::Key;
 use crate::search::check::brute;
 use crate::search::check::brute_float::{Approximate, RankedRows};
 use crate::search::check::variant_mechanism;
