@@ -7,6 +7,7 @@ mod dense_twin;
 mod determinate;
 mod find;
 mod general;
+mod given_up;
 mod killed;
 mod motions;
 mod orbits;

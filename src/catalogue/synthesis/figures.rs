@@ -87,7 +87,7 @@ pub fn figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> 
     let places = layout.at.iter().chain(&layout.tips);
     let at: Vec<Point> = places.map(|p| p.real()).collect();
     let mut judge = Judge::new(&skeleton);
-    let stroke = judge.follow(&at, FINE)?;
+    let stroke = judge.follow(&at, FINE, f64::INFINITY)?;
     let way = judge.drive_rate();
     let margin = judge.margin(&at, BEYOND * limits.task.span());
     #[allow(clippy::cast_precision_loss, reason = "two or three")]

@@ -157,7 +157,8 @@ fn best_of_starts(skeleton: &Skeleton<'_>, seed: u64) -> Option<Found> {
             &mut judge,
             random(skeleton.structure, seed, start),
         );
-        let (Some(looks), Some(stroke)) = (skeleton.looks(&at), judge.coarse(&at)) else {
+        let (Some(looks), Some(stroke)) = (skeleton.looks(&at), judge.coarse(&at, f64::INFINITY))
+        else {
             continue;
         };
         let found = Found {
@@ -319,13 +320,14 @@ impl<'a, 'j> Annealing<'a, 'j> {
         if look != Look::Stroke {
             return Some(drawn);
         }
-        let all = drawn + self.skeleton.stroke_cost(&self.judge.coarse(&self.at)?);
+        let stroke = self.judge.coarse(&self.at, most - drawn)?;
+        let all = drawn + self.skeleton.stroke_cost(&stroke);
         (all <= most).then_some(all)
     }
 
     /// Whether the places do what the task asks.
     fn does(&mut self) -> bool {
-        let stroke = self.judge.coarse(&self.at);
+        let stroke = self.judge.coarse(&self.at, f64::INFINITY);
         stroke.is_some_and(|f| self.skeleton.shortfall(&f).is_none())
     }
 

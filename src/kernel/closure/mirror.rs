@@ -1,6 +1,6 @@
 //! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
 
-use crate::closure::symmetry_image::{Carrier, Map, Miss};
+use crate::closure::symmetry_image::{Carrier, Map, Miss, Spot};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;
@@ -13,28 +13,35 @@ use crate::model::mechanism::{Frame, JointId, Mechanism};
 pub struct Plane {
     one: ExactVector,
     other: ExactVector,
+    /// Across it, in numbers, and a point of it.
+    normal: Vector,
+    middle: Vector,
 }
 
 impl Plane {
+    fn new(one: ExactVector, other: ExactVector) -> Plane {
+        let (a, b) = (real(&one), real(&other));
+        Plane {
+            normal: [0, 1, 2].map(|i| b[i] - a[i]),
+            middle: [0, 1, 2].map(|i| f64::midpoint(a[i], b[i])),
+            one,
+            other,
+        }
+    }
+
     /// The planes that a pair of joints may be images in: midway between their points, or where these are one, across a
     /// direction of the first joint, between the two axes, or through a third point that is its own image.
     fn candidates(one: &Frame, other: &Frame, own: &[&ExactVector]) -> Vec<Plane> {
         let [p, q] = [&one.point, &other.point];
         if real(p) != real(q) {
-            return vec![Plane {
-                one: p.clone(),
-                other: q.clone(),
-            }];
+            return vec![Plane::new(p.clone(), q.clone())];
         }
         let [z, x, w] = [&one.axis, &one.reference, &other.axis];
         let sum = |u: &ExactVector, v: &ExactVector| [0, 1, 2].map(|i| &u[i] + &v[i]);
         let mut normals = vec![z.clone(), x.clone(), cross(z, x), sub(z, w), sum(z, w)];
         normals.extend(own.iter().map(|o| cross(z, &sub(o, p))));
         normals.retain(|n| length(real(n)) > 0.0);
-        let plane = |n: &ExactVector| Plane {
-            one: sub(p, n),
-            other: sum(p, n),
-        };
+        let plane = |n: &ExactVector| Plane::new(sub(p, n), sum(p, n));
         normals.iter().map(plane).collect()
     }
 
@@ -55,9 +62,11 @@ impl Plane {
             .flat_map(|&(a, b)| Plane::candidates(frame(a), frame(b), &own));
         let paired = |j: JointId| pairs.iter().any(|&(a, b)| j == a || j == b);
         let alone: Vec<JointId> = mechanism.joint_ids().filter(|&j| !paired(j)).collect();
+        let spots: Vec<Spot> = mechanism.joint_ids().map(|j| Spot::of(frame(j))).collect();
+        let spot = |j: JointId| spots[j.index()];
         let judged = planes.map(|plane| {
             let miss =
-                |a: JointId, b| plane.miss((frame(a), &mechanism.joints[a].joint_type), frame(b));
+                |a: JointId, b| plane.miss((spot(a), &mechanism.joints[a].joint_type), spot(b));
             let misses: Vec<Miss> = pairs.iter().map(|&(a, b)| miss(a, b)).collect();
             let mut off: Vec<f64> = misses.iter().map(Miss::size).collect();
             off.sort_by(f64::total_cmp);
@@ -74,19 +83,18 @@ impl Plane {
 }
 
 impl Carrier for Plane {
-    fn place(&self, frame: &Frame) -> (Vector, Vector) {
-        let (a, b) = (real(&self.one), real(&self.other));
-        let n = [0, 1, 2].map(|i| b[i] - a[i]);
+    fn image(&self, spot: Spot) -> Spot {
+        let (n, middle) = (self.normal, self.middle);
         let nn = dot(n, n);
         let reflect = |v: Vector| {
             let by = 2.0 * dot(v, n) / nn;
             [0, 1, 2].map(|i| v[i] - by * n[i])
         };
-        let middle = [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0);
-        let p = real(&frame.point);
-        let image = reflect([0, 1, 2].map(|i| p[i] - middle[i]));
-        let point = [0, 1, 2].map(|i| image[i] + middle[i]);
-        (point, reflect(real(&frame.axis)))
+        let image = reflect([0, 1, 2].map(|i| spot.point[i] - middle[i]));
+        Spot {
+            point: [0, 1, 2].map(|i| image[i] + middle[i]),
+            axis: reflect(spot.axis),
+        }
     }
 
     fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError> {

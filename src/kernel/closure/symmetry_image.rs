@@ -10,6 +10,26 @@ use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Mode};
 
+/// Where a joint is, in numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spot {
+    /// Its point.
+    pub point: Vector,
+    /// Its axis.
+    pub axis: Vector,
+}
+
+impl Spot {
+    /// Of a joint's frame.
+    #[must_use]
+    pub fn of(frame: &Frame) -> Spot {
+        Spot {
+            point: real(&frame.point),
+            axis: real(&frame.axis),
+        }
+    }
+}
+
 /// How far the image of a joint is from the joint it is paired with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Miss {
@@ -21,13 +41,13 @@ pub struct Miss {
 
 impl Miss {
     /// Of a joint whose point and axis have become these.
-    pub(super) fn new((point, axis): ([f64; 3], [f64; 3]), of: &JointType, to: &Frame) -> Miss {
-        let (q, own) = (real(&to.point), real(&to.axis));
-        let off = [0, 1, 2].map(|i| point[i] - q[i]);
-        let sine = length(cross(axis, own));
+    fn new(image: Spot, of: &JointType, to: Spot) -> Miss {
+        let own = to.axis;
+        let off = [0, 1, 2].map(|i| image.point[i] - to.point[i]);
+        let sine = length(cross(image.axis, own));
         let angle = match of {
             JointType::Spherical | JointType::Fixed => 0.0,
-            _ => sine.atan2(dot(axis, own).abs()),
+            _ => sine.atan2(dot(image.axis, own).abs()),
         };
         let distance = match of {
             JointType::Prismatic => 0.0,
@@ -64,8 +84,8 @@ impl Miss {
 
 /// What carries space over to itself, and a mechanism with it.
 pub trait Carrier {
-    /// Where it carries the point and the axis of a joint, in numbers.
-    fn place(&self, frame: &Frame) -> (Vector, Vector);
+    /// Where it carries a joint, in numbers.
+    fn image(&self, spot: Spot) -> Spot;
 
     /// What becomes of space in exact numbers; none where lengths do not stay.
     ///
@@ -75,8 +95,8 @@ pub trait Carrier {
 
     /// How far the image of a joint is from a place.
     #[must_use]
-    fn miss(&self, (from, of): (&Frame, &JointType), to: &Frame) -> Miss {
-        Miss::new(self.place(from), of, to)
+    fn miss(&self, (from, of): (Spot, &JointType), to: Spot) -> Miss {
+        Miss::new(self.image(from), of, to)
     }
 
     /// Whether the image of a joint allows exactly the motions of another.

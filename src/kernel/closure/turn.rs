@@ -1,12 +1,12 @@
 //! Half and third turns: whether joints that a file groups become each other when space is turned about one axis.
 
-use crate::closure::symmetry_image::{Carrier, Map};
+use crate::closure::symmetry_image::{Carrier, Map, Spot};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
 use crate::geom::scalars::Scalars;
 use crate::geom::vector::{self, Vector, dot, length, real};
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{Frame, JointId, Mechanism};
+use crate::model::mechanism::{JointId, Mechanism};
 
 /// Part of a turn about an axis.
 #[derive(Debug, Clone)]
@@ -14,9 +14,24 @@ pub struct Turn {
     /// Points that it carries to each other, two or three: their middle is on the axis.
     round: Vec<ExactVector>,
     axis: ExactVector,
+    /// The middle and the direction of the axis, in numbers.
+    centre: Vector,
+    along: Vector,
 }
 
 impl Turn {
+    fn new(round: &[ExactVector], axis: ExactVector, along: Vector) -> Turn {
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let count = round.len() as f64;
+        let points: Vec<Vector> = round.iter().map(real).collect();
+        Turn {
+            centre: [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count),
+            round: round.to_vec(),
+            axis,
+            along,
+        }
+    }
+
     /// The turns that groups of joints may suggest: three points tell all; two the middle, and the axis is along a direction of
     /// their joints, between or across these, or along a direction of a joint that is its own image.
     #[must_use]
@@ -43,32 +58,36 @@ impl Turn {
                         .collect()
                 }
             };
-            let real_axes = axes.into_iter().filter(|n| length(real(n)) > 0.0);
-            out.extend(real_axes.map(|axis| Turn {
-                round: round.clone(),
-                axis,
-            }));
+            // Joints of a plane have their directions in common.
+            let mut known: Vec<Vector> = Vec::new();
+            for axis in axes {
+                let along = real(&axis);
+                if length(along) == 0.0 || known.contains(&along) {
+                    continue;
+                }
+                known.push(along);
+                out.push(Turn::new(&round, axis, vector::unit(along)));
+            }
         }
         out
     }
 }
 
 impl Carrier for Turn {
-    fn place(&self, frame: &Frame) -> (Vector, Vector) {
-        let points: Vec<Vector> = self.round.iter().map(real).collect();
+    fn image(&self, spot: Spot) -> Spot {
+        let (centre, n) = (self.centre, self.along);
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
-        let count = points.len() as f64;
-        let centre = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
-        let n = vector::unit(real(&self.axis));
+        let count = self.round.len() as f64;
         let (sine, cosine) = (std::f64::consts::TAU / count).sin_cos();
         let turn = |v: Vector| {
             let (across, along) = (vector::cross(n, v), dot(n, v));
             [0, 1, 2].map(|i| cosine * v[i] + sine * across[i] + (1.0 - cosine) * along * n[i])
         };
-        let p = real(&frame.point);
-        let arm = turn([0, 1, 2].map(|i| p[i] - centre[i]));
-        let point = [0, 1, 2].map(|i| centre[i] + arm[i]);
-        (point, turn(real(&frame.axis)))
+        let arm = turn([0, 1, 2].map(|i| spot.point[i] - centre[i]));
+        Spot {
+            point: [0, 1, 2].map(|i| centre[i] + arm[i]),
+            axis: turn(spot.axis),
+        }
     }
 
     fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError> {

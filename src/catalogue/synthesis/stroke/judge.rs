@@ -97,6 +97,13 @@ struct Gathered {
     forces: ForceFigures,
 }
 
+/// How far a stroke has come, narrower and wider: how far apart the tips are, the drive there, and why it ends.
+struct Way {
+    reached: [f64; 2],
+    drive: [f64; 2],
+    ends: [Option<StrokeEnd>; 2],
+}
+
 /// Strokes of a skeleton, one after another.
 #[derive(Debug)]
 pub struct Judge<'a> {
@@ -128,29 +135,37 @@ impl<'a> Judge<'a> {
     }
 
     /// The figures of places at a dozen poses, as they are looked at while places are tried; `None` where the drawn pose is
-    /// singular.
+    /// singular, or where they cost more than `most`, which the first poses may tell.
     ///
     /// # Complexity
     /// Some corrections of O(n³) for n links, for each of some dozen poses.
-    pub fn coarse(&mut self, at: &[Point]) -> Option<StrokeFigures> {
-        self.follow(at, COARSE)
+    pub fn coarse(&mut self, at: &[Point], most: f64) -> Option<StrokeFigures> {
+        self.follow(at, COARSE, most)
     }
 
-    /// The figures of places, with a look of the caller's own at every pose; `None` where the drawn pose is singular.
+    /// The figures of places, with a look of the caller's own at every pose; `None` where the drawn pose is singular, or where
+    /// they cost more than `most`.
     ///
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
-    pub fn follow(&mut self, at: &[Point], grid: Grid) -> Option<StrokeFigures> {
+    pub fn follow(&mut self, at: &[Point], grid: Grid, most: f64) -> Option<StrokeFigures> {
         if !self.walk.stand(at) {
             return None;
         }
         let task = self.skeleton.limits.task;
         let drawn = 2.0 * f64::from(task.half_opening());
         let finest = grid.finest * task.span();
-        let (mut reached, mut drive) = ([drawn; 2], [0.0; 2]);
-        let mut ends = [None; 2];
+        // Until an end is reached, or is not, nothing is said against it.
+        let mut way = Way {
+            reached: [task.narrowest, task.widest],
+            drive: [0.0; 2],
+            ends: [None; 2],
+        };
         self.gathered.begin();
         self.look(at);
+        if self.is_dearer(&way, most) {
+            return None;
+        }
         self.weigh(at);
         for (n, to) in [task.narrowest, task.widest].into_iter().enumerate() {
             if n > 0 && !self.walk.back() {
@@ -159,29 +174,41 @@ impl<'a> Judge<'a> {
             let all = to - drawn;
             let count = (all.abs() / task.span() * grid.steps).ceil().max(1.0);
             let mut i = 0.0;
-            while i < count && ends[n].is_none() {
+            while i < count && way.ends[n].is_none() {
+                if self.is_dearer(&way, most) {
+                    return None;
+                }
                 i += 1.0;
-                ends[n] = self.walk.advance(all * i / count, finest).err();
+                way.ends[n] = self.walk.advance(all * i / count, finest).err();
                 self.look(at);
-                if grid.forces_everywhere || i == count || ends[n].is_some() {
+                if grid.forces_everywhere || i == count || way.ends[n].is_some() {
                     self.weigh(at);
                 }
             }
-            reached[n] = drawn + self.walk.wider;
-            drive[n] = self.walk.x.last().copied().unwrap_or(0.0);
+            way.reached[n] = drawn + self.walk.wider;
+            way.drive[n] = self.walk.x.last().copied().unwrap_or(0.0);
         }
+        (!self.is_dearer(&way, most)).then(|| self.figures(&way))
+    }
+
+    /// Whether what is known so far costs more than `most`: more poses make no figure better.
+    fn is_dearer(&self, way: &Way, most: f64) -> bool {
+        most < f64::INFINITY && self.skeleton.stroke_cost(&self.figures(way)) > most
+    }
+
+    fn figures(&self, way: &Way) -> StrokeFigures {
         let g = &self.gathered;
-        Some(StrokeFigures {
-            reached,
-            ends,
-            drive,
+        StrokeFigures {
+            reached: way.reached,
+            ends: way.ends,
+            drive: way.drive,
             rates: g.rates.0,
             transmission: g.transmission,
             straightness: g.straightness,
             turns: g.turns.iter().map(|t| t.span()).collect(),
             size: g.sides.map(Between::span),
             forces: g.forces,
-        })
+        }
     }
 
     /// How fast the drive goes by the width at the last pose, mm or rad a millimetre: negative where it goes back as jaws open.

@@ -2,10 +2,10 @@
 //! its geometry has it where the file says nothing.
 
 use crate::closure::mirror::Plane;
-use crate::closure::symmetry_image::Carrier;
+use crate::closure::symmetry_image::{Carrier, Spot};
 use crate::closure::turn::Turn;
 use crate::geom::exact::ExactField;
-use crate::geom::vector::{length, real};
+use crate::geom::vector::length;
 use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
 use crate::search::question::symmetry::check;
 use itertools::Itertools;
@@ -50,11 +50,11 @@ pub(crate) fn own_images(
             .is_ok()
             .then(|| of(&symmetric))
     };
+    let seen = Seen::new(mechanism);
     let mut tried: Vec<(Vec<(JointId, JointId)>, bool)> = Vec::new();
     let all = mechanism.joint_ids().tuple_combinations();
     for (a, b) in all.take_while(|(a, _): &(JointId, _)| a.index() < FIRST) {
-        let joints = [a, b].map(|j| &mechanism.joints[j]);
-        if !alike(joints[0], joints[1]) || apart(mechanism, a, b) < NEAR * size(mechanism) {
+        if !seen.are_alike(a, b) || seen.apart(a, b) < seen.near {
             continue;
         }
         let planes = Plane::of_pairs(mechanism, &[(a, b)]);
@@ -68,7 +68,7 @@ pub(crate) fn own_images(
         let turns = turns.into_iter();
         let turns = turns.map(|t| (Box::new(t) as Box<dyn Carrier>, false));
         for (carrier, mirrored) in planes.chain(turns) {
-            let Some(pairs) = pairs(mechanism, &*carrier) else {
+            let Some(pairs) = seen.pairs(mechanism, &*carrier) else {
                 continue;
             };
             let one = (pairs, mirrored);
@@ -87,42 +87,72 @@ pub(crate) fn own_images(
     None
 }
 
-/// Joints that become each other, where all joints become joints like them, and back.
-fn pairs(mechanism: &Mechanism, carrier: &dyn Carrier) -> Option<Vec<(JointId, JointId)>> {
-    let near = NEAR * size(mechanism);
-    let mut to: Vec<Option<JointId>> = vec![None; mechanism.joints.len()];
-    for (j, joint) in mechanism.joints_with_ids() {
-        if to[j.index()].is_some() {
-            continue;
-        }
-        let is_image = |&k: &JointId| {
-            let other = &mechanism.joints[k];
-            let miss = || carrier.miss((&joint.frame, &joint.joint_type), &other.frame);
-            let close = || miss().distance < near && miss().angle < NEAR;
-            to[k.index()].is_none() && alike(joint, other) && close()
+/// A mechanism's joints as they are looked at for each candidate.
+struct Seen {
+    spots: Vec<Spot>,
+    /// Those that offer the same, by name, are of one kind.
+    kinds: Vec<usize>,
+    /// How far off an image may be, in the file's unit.
+    near: f64,
+}
+
+impl Seen {
+    fn new(mechanism: &Mechanism) -> Seen {
+        let names = |j: &Joint| j.offered().map(|o| o.name.clone()).collect_vec();
+        let of = |j: JointId| {
+            let joint = &mechanism.joints[j];
+            (&joint.joint_type, joint.drive, names(joint))
         };
-        let k = mechanism.joint_ids().find(is_image)?;
-        (to[j.index()], to[k.index()]) = (Some(k), Some(j));
+        let all = mechanism.joint_ids().map(of).collect_vec();
+        let kind = |one| all.iter().position(|other| other == one);
+        let mut seen = Seen {
+            spots: mechanism
+                .joint_ids()
+                .map(|j| Spot::of(&mechanism.joints[j].frame))
+                .collect(),
+            kinds: all.iter().filter_map(kind).collect(),
+            near: 0.0,
+        };
+        let mut ids = mechanism.joint_ids();
+        let first = ids.next();
+        let far = ids.filter_map(|j| Some(seen.apart(first?, j)));
+        seen.near = NEAR * far.fold(0.0, f64::max);
+        seen
     }
-    let images = mechanism.joint_ids().zip(to);
-    let pairs = images.filter_map(|(j, k)| k.filter(|k| j < *k).map(|k| (j, k)));
-    Some(pairs.collect_vec()).filter(|p| !p.is_empty())
-}
 
-/// Whether joints offer the same, by name.
-fn alike(a: &Joint, b: &Joint) -> bool {
-    let names = |j: &Joint| j.offered().map(|o| o.name.clone()).collect_vec();
-    a.joint_type == b.joint_type && a.drive == b.drive && names(a) == names(b)
-}
+    fn are_alike(&self, a: JointId, b: JointId) -> bool {
+        self.kinds[a.index()] == self.kinds[b.index()]
+    }
 
-fn apart(mechanism: &Mechanism, a: JointId, b: JointId) -> f64 {
-    let [p, q] = [a, b].map(|j| real(&mechanism.joints[j].frame.point));
-    length([0, 1, 2].map(|i| p[i] - q[i]))
-}
+    fn apart(&self, a: JointId, b: JointId) -> f64 {
+        let [p, q] = [a, b].map(|j| self.spots[j.index()].point);
+        length([0, 1, 2].map(|i| p[i] - q[i]))
+    }
 
-/// The largest distance from the first joint.
-fn size(mechanism: &Mechanism) -> f64 {
-    let mut ids = mechanism.joint_ids();
-    let Some(first) = ids.next() else { return 0.0 };
-    ids.map(|j| apart(mechanism, first, j)).fold(0.0, f64::max)
+    /// Joints that become each other, where all joints become joints like them, and back.
+    fn pairs(
+        &self,
+        mechanism: &Mechanism,
+        carrier: &dyn Carrier,
+    ) -> Option<Vec<(JointId, JointId)>> {
+        let mut to: Vec<Option<JointId>> = vec![None; mechanism.joints.len()];
+        for (j, joint) in mechanism.joints_with_ids() {
+            if to[j.index()].is_some() {
+                continue;
+            }
+            let from = (self.spots[j.index()], &joint.joint_type);
+            let is_image = |&k: &JointId| {
+                let close = || {
+                    let miss = carrier.miss(from, self.spots[k.index()]);
+                    miss.distance < self.near && miss.angle < NEAR
+                };
+                to[k.index()].is_none() && self.are_alike(j, k) && close()
+            };
+            let k = mechanism.joint_ids().find(is_image)?;
+            (to[j.index()], to[k.index()]) = (Some(k), Some(j));
+        }
+        let images = mechanism.joint_ids().zip(to);
+        let pairs = images.filter_map(|(j, k)| k.filter(|k| j < *k).map(|k| (j, k)));
+        Some(pairs.collect_vec()).filter(|p| !p.is_empty())
+    }
 }

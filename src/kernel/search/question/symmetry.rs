@@ -2,7 +2,7 @@
 //! figures: links and joints, each with its options, exactly.
 
 use crate::closure::mirror::Plane;
-use crate::closure::symmetry_image::Carrier;
+use crate::closure::symmetry_image::{Carrier, Spot};
 use crate::closure::turn::Turn;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::coupling::{CoupledFreedom, Coupling};
@@ -172,7 +172,10 @@ fn by_carrier(
                 (&one.frame, &from),
                 (&other.frame, &to),
             )? {
-                let miss = carrier.miss((&one.frame, &one.joint_type), &other.frame);
+                let miss = carrier.miss(
+                    (Spot::of(&one.frame), &one.joint_type),
+                    Spot::of(&other.frame),
+                );
                 return Err(MirrorError::Off {
                     first: a.id.clone(),
                     second: b.id.clone(),
