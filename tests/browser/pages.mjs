@@ -8,9 +8,10 @@ import path from "node:path";
 import { pathToFileURL } from "node:url";
 
 export const root = path.resolve(import.meta.dirname, "../..");
-export const work = path.join(root, "target/browser");
+const target = path.resolve(root, process.env.CARGO_TARGET_DIR ?? "target");
+export const work = path.join(target, "browser");
 const { chromium } = createRequire(path.join(work, "package.json"))("playwright-core");
-export const ozols = process.env.OZOLS ?? path.join(root, "target/debug/ozols");
+export const ozols = process.env.OZOLS ?? path.join(target, "debug/ozols");
 
 /** Writes a page of the arguments' report, and gives its path. */
 export function report(name, ...args) {

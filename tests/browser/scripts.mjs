@@ -45,7 +45,7 @@ for (const file of new Set(Object.values(PAGES).flat())) {
 for (const [page, files] of Object.entries(PAGES)) {
   if (!files.length) wrong.push(`${page} has no scripts`);
   const whole = files.map(read).join("");
-  const at = path.join(root, `target/browser/${page}.js`);
+  const at = path.resolve(root, process.env.CARGO_TARGET_DIR ?? "target", "browser", `${page}.js`);
   writeFileSync(at, whole);
   try {
     execFileSync(process.execPath, ["--check", at], { stdio: ["ignore", "ignore", "pipe"] });

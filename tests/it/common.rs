@@ -4,6 +4,7 @@ use assert_cmd::Command;
 use ozols::Mechanism;
 use serde_json::Value;
 use std::fs;
+use std::hash::{BuildHasher, Hasher, RandomState};
 use std::path::{Path, PathBuf};
 use std::process::Output;
 use std::sync::OnceLock;
@@ -97,4 +98,9 @@ pub(crate) fn run_on(
     let args = [&[command, path.to_str().unwrap()], more].concat();
     let o = run(&args);
     (o.status.code(), text(&o.stdout), text(&o.stderr))
+}
+
+/// A seed that no run before had; a failure tells it.
+pub(crate) fn fresh() -> u64 {
+    RandomState::new().build_hasher().finish() % 1_000_000
 }

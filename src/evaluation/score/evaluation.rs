@@ -4,6 +4,7 @@ pub(in crate::score) mod beginnings;
 mod coupled;
 pub mod elimination;
 pub mod evaluate;
+pub mod floor;
 pub mod joint_loads;
 pub mod load_cases;
 pub mod lower_bound;

@@ -63,6 +63,7 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
     let early = stopped_early::stopped(found);
     lines.push(early.unwrap_or_else(|| "Every variant was counted; none was left out".to_owned()));
     lines.extend(stopped_early::estimated(found));
+    lines.extend(stopped_early::more(found));
     if let Some((why, verdicts)) = &found.measured {
         let written = verdicts.iter().all(|v| v.is_as_written());
         let searched = if written {

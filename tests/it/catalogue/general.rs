@@ -1,6 +1,7 @@
 //! Layouts that are called generic are in general position: none has fewer determinate variants than its chain and input have.
 
 use super::{each, form, out_of_plane, plain};
+use crate::common::fresh;
 use num_bigint::BigUint;
 use ozols::Request;
 use ozols::catalog::row::row;
@@ -9,12 +10,6 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::score::request::List;
 use ozols::synthesis::layout::layout;
 use std::collections::BTreeMap;
-use std::hash::{BuildHasher, Hasher, RandomState};
-
-/// A seed that no run before had; a failure tells it.
-fn fresh() -> u64 {
-    RandomState::new().build_hasher().finish() % 1_000_000
-}
 
 /// Every so many generic structures of eight links, laid out from a seed: the row counts what the twin counts at places of its own, and
 /// what a search of the row's own file counts, which knows nothing of other layouts. Gives how many are off the whole millimetres.

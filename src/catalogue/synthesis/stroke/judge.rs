@@ -98,7 +98,7 @@ struct Gathered {
 }
 
 /// How far a stroke has come, narrower and wider: how far apart the tips are, the drive there, and why it ends.
-struct Way {
+struct ReachedStroke {
     reached: [f64; 2],
     drive: [f64; 2],
     ends: [Option<StrokeEnd>; 2],
@@ -156,7 +156,7 @@ impl<'a> Judge<'a> {
         let drawn = 2.0 * f64::from(task.half_opening());
         let finest = grid.finest * task.span();
         // Until an end is reached, or is not, nothing is said against it.
-        let mut way = Way {
+        let mut way = ReachedStroke {
             reached: [task.narrowest, task.widest],
             drive: [0.0; 2],
             ends: [None; 2],
@@ -192,11 +192,11 @@ impl<'a> Judge<'a> {
     }
 
     /// Whether what is known so far costs more than `most`: more poses make no figure better.
-    fn is_dearer(&self, way: &Way, most: f64) -> bool {
+    fn is_dearer(&self, way: &ReachedStroke, most: f64) -> bool {
         most < f64::INFINITY && self.skeleton.stroke_cost(&self.figures(way)) > most
     }
 
-    fn figures(&self, way: &Way) -> StrokeFigures {
+    fn figures(&self, way: &ReachedStroke) -> StrokeFigures {
         let g = &self.gathered;
         StrokeFigures {
             reached: way.reached,

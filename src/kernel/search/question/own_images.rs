@@ -50,7 +50,7 @@ pub(crate) fn own_images(
             .is_ok()
             .then(|| of(&symmetric))
     };
-    let seen = Seen::new(mechanism);
+    let seen = ComparedJoints::new(mechanism);
     let mut tried: Vec<(Vec<(JointId, JointId)>, bool)> = Vec::new();
     let all = mechanism.joint_ids().tuple_combinations();
     for (a, b) in all.take_while(|(a, _): &(JointId, _)| a.index() < FIRST) {
@@ -88,7 +88,7 @@ pub(crate) fn own_images(
 }
 
 /// A mechanism's joints as they are looked at for each candidate.
-struct Seen {
+struct ComparedJoints {
     spots: Vec<Spot>,
     /// Those that offer the same, by name, are of one kind.
     kinds: Vec<usize>,
@@ -96,8 +96,8 @@ struct Seen {
     near: f64,
 }
 
-impl Seen {
-    fn new(mechanism: &Mechanism) -> Seen {
+impl ComparedJoints {
+    fn new(mechanism: &Mechanism) -> ComparedJoints {
         let names = |j: &Joint| j.offered().map(|o| o.name.clone()).collect_vec();
         let of = |j: JointId| {
             let joint = &mechanism.joints[j];
@@ -105,7 +105,7 @@ impl Seen {
         };
         let all = mechanism.joint_ids().map(of).collect_vec();
         let kind = |one| all.iter().position(|other| other == one);
-        let mut seen = Seen {
+        let mut seen = ComparedJoints {
             spots: mechanism
                 .joint_ids()
                 .map(|j| Spot::of(&mechanism.joints[j].frame))

@@ -40,6 +40,7 @@ pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     for line in cut_short
         .into_iter()
         .chain(stopped_early::estimated(outcome))
+        .chain(exact.then(|| stopped_early::more(outcome)).flatten())
     {
         let _ = writeln!(out, "  {line}");
     }

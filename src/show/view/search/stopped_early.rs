@@ -68,6 +68,23 @@ pub fn estimated(outcome: &Outcome) -> Option<String> {
     ))
 }
 
+/// What a larger bound would cost, where one ended the search: nodes take time and memory in proportion.
+#[must_use]
+pub fn more(outcome: &Outcome) -> Option<String> {
+    match outcome.stop {
+        Stop::NodeBudget => {
+            let nodes = outcome.request.nodes.saturating_mul(10);
+            Some(format!(
+                "With --nodes {nodes} more is counted, in about ten times the time and memory"
+            ))
+        }
+        Stop::Memory => Some(
+            "More is counted where there is more memory (--memory), not with more nodes".to_owned(),
+        ),
+        Stop::Exhausted | Stop::Interrupted | Stop::NotCounted => None,
+    }
+}
+
 /// How much of a list by cost is proven, though the search ended early.
 #[must_use]
 pub fn proven(summary: &Summary) -> Option<String> {
