@@ -26,7 +26,6 @@ use crate::search::answer::least_freedoms;
 use crate::search::answer::variants_in_order;
 use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
-use crate::search::build::variant_test::VariantTest;
 use crate::search::diagram::{Diagram, Progress};
 use crate::search::numeric::at_tolerance::{self, AtTolerance};
 use crate::search::question::Question;
@@ -88,20 +87,6 @@ impl Search {
         progress: &mut (dyn FnMut(Progress) + Send),
     ) -> Diagrams {
         build::build_in(self, orders, cancelled, progress)
-    }
-
-    /// Whether one of some variants is known not to be determinate by its rank alone, modulo the prime; those that are not refuted
-    /// may share redundant constraints with all others. No variant is refuted where redundant constraints are allowed.
-    ///
-    /// # Complexity
-    /// O(n · s²) field operations a variant, for n added freedoms and s present self-stresses.
-    #[must_use]
-    pub fn refutes(&self, orders: &Orders, variants: &[Assignment]) -> bool {
-        let order = &orders.determinate;
-        let test = (self.conditions.max_redundant == 0)
-            .then(|| VariantTest::new(self, &self.least.whole, order, false));
-        test.flatten()
-            .is_some_and(|test| !variants.iter().all(|v| test.passes(&v.choices)))
     }
 
     /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.

@@ -10,7 +10,6 @@ pub(crate) mod ideas;
 mod inside;
 mod least_model;
 mod order;
-mod refuted;
 mod self_stresses;
 mod suggest;
 pub(crate) mod twin;

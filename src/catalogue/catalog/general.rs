@@ -14,7 +14,6 @@ use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::roles::Roles;
 use crate::model::mechanism::Mechanism;
 use crate::search::Search;
-use crate::search::answer::k_best::Assignment;
 use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Stop};
@@ -30,9 +29,6 @@ use std::collections::BTreeMap;
 /// Pairs of random places that are looked at until both have the same variants: nearly always the first do.
 const PAIRS_OF_PLACES: usize = 4;
 
-/// Variants by which layouts are refused before their diagrams are built.
-const DRAWN: usize = 300;
-
 /// A chain and an input, of which all layouts in general position have the same determinate variants.
 #[derive(Debug)]
 pub struct General {
@@ -42,8 +38,6 @@ pub struct General {
     diagram: Diagram,
     /// These by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
-    /// Some of them with W = 1, drawn at random: the first to be missing where places are special.
-    drawn: Vec<Assignment>,
 }
 
 /// What tells the structures of a chain apart whose layouts in general position have their determinate variants in common.
@@ -134,17 +128,16 @@ impl General {
             };
             let (one, two) = (over(0)?, over(1)?);
             let orders = one.orders();
-            let built = |s: &Search| s.build_in(&orders, &|| false, &mut |_| {});
-            let (built, twin) = rayon::join(|| built(&one), || built(&two));
-            if built.determinate.stop != Stop::Exhausted {
+            let built = |s: &Search| s.build_in(&orders, &|| false, &mut |_| {}).determinate;
+            let (diagram, twin) = rayon::join(|| built(&one), || built(&two));
+            if diagram.stop != Stop::Exhausted {
                 return Ok(None);
             }
-            if same(&built.determinate, &twin.determinate) {
+            if same(&diagram, &twin) {
                 return Ok(Some(General {
-                    counts: (one.counts(&built.determinate, false)).by_mobility_and_changes,
-                    drawn: one.sample(&built, 1).take(DRAWN).collect(),
-                    diagram: built.determinate,
+                    counts: one.counts(&diagram, false).by_mobility_and_changes,
                     orders,
+                    diagram,
                 }));
             }
         }
@@ -158,17 +151,13 @@ impl General {
     /// Where the mechanism cannot be searched.
     ///
     /// # Complexity
-    /// Some hundred ranks, and one diagram.
+    /// One diagram.
     pub(super) fn certify(
         &self,
         layout: Mechanism,
         spec: &Spec,
     ) -> Result<Option<(Search, Diagrams)>, RowError> {
         let search = search(layout, spec, 0)?;
-        // Most that are special are known to be by a few variants, at a fraction of what a diagram takes.
-        if search.refutes(&self.orders, &self.drawn) {
-            return Ok(None);
-        }
         let built = search.build_in(&self.orders, &|| false, &mut |_| {});
         Ok(same(&self.diagram, &built.determinate).then_some((search, built)))
     }

@@ -216,6 +216,10 @@ struct Variants {
 /// Places beside those found that are looked at until they are in general position.
 const BESIDE: u32 = 20;
 
+/// Links of a chain whose layouts are looked at on whole millimetres first: of more links nearly all of them are special there, and
+/// each would cost a diagram to tell.
+const ON_MILLIMETRES: usize = 8;
+
 /// A layout in general position, with its variants: the one that is given, or one beside it. `None` where none of these is.
 fn in_general_position(
     structure: &Structure,
@@ -224,7 +228,9 @@ fn in_general_position(
     general: &General,
 ) -> Result<Option<(AsFile, Variants)>, RowError> {
     let moved = (0..BESIDE).filter_map(|n| beside(structure, &found.layout, spec.seed, n));
-    for layout in std::iter::once(found.layout.clone()).chain(moved) {
+    let own = |n: bool| std::iter::repeat_n(found.layout.clone(), usize::from(n));
+    let own_first = structure.chain.links() <= ON_MILLIMETRES;
+    for layout in own(own_first).chain(moved).chain(own(!own_first)) {
         let as_file = AsFile::new(structure, layout, spec)?;
         if let Some((search, diagrams)) = general.certify(as_file.built.clone(), spec)? {
             let variants = Variants {

@@ -7,7 +7,6 @@ pub mod orders;
 pub(in crate::search) mod self_stress;
 pub(in crate::search) mod staging;
 pub(in crate::search) mod two_sided;
-pub(in crate::search) mod variant_test;
 
 use crate::search::answer::counts::total;
 use crate::search::answer::estimate::Estimate;

@@ -44,10 +44,7 @@ pub(in crate::search) fn estimate(
             return None;
         }
         drawn += batch.len();
-        found += batch
-            .par_iter()
-            .filter(|v| of.test.passes(&v.choices))
-            .count();
+        found += batch.par_iter().filter(|v| of.has(&v.choices)).count();
     }
     #[allow(clippy::cast_precision_loss, reason = "samples are few")]
     let share = found as f64 / drawn.max(1) as f64;

@@ -3,8 +3,9 @@
 //! Layers with too many nodes keep those that most ways lead to; the others are put together, those that reach as many dimensions
 //! in the contours to come first ([`Between`]).
 
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
-use crate::search::build::variant_test::VariantTest;
+use crate::search::build::self_stress::space;
 use crate::search::diagram::adding::{Adding, adding};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
@@ -20,7 +21,9 @@ use std::collections::{BTreeMap, HashMap};
 /// A diagram with every variant, and how to tell which of its variants are none.
 pub(in crate::search) struct AtMost {
     pub(in crate::search) diagram: Diagram,
-    pub(in crate::search) test: VariantTest,
+    field: Field,
+    order: Vec<usize>,
+    space: SelfStressSpace,
 }
 
 /// Nodes of a layer: their number, bounded by memory, too.
@@ -45,15 +48,18 @@ pub(in crate::search) fn at_most(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();
-    let test = VariantTest::new(question, model, order, keep_output)?;
-    let space = &test.space;
+    let space = space(question, model, order, keep_output)?;
     let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
     if spent.internal() != limits.internal {
         return None;
     }
     let choices = |s: &Adding| model.space.variables[s.variable].choices.len();
-    let stages = adding(field, order, space);
-    let width = width(limits, space, stages.iter().map(choices).max().unwrap_or(1));
+    let stages = adding(field, order, &space);
+    let width = width(
+        limits,
+        &space,
+        stages.iter().map(choices).max().unwrap_or(1),
+    );
     let bounds = bounds(&stages);
     let mut nodes = vec![(Between::default(), 1.0)];
     let mut layers = Vec::with_capacity(order.len());
@@ -84,8 +90,28 @@ pub(in crate::search) fn at_most(
     let ends: Vec<Redundancy> = nodes.iter().map(|_| spent.redundancy()).collect();
     Some(AtMost {
         diagram: Diagram::whole(layers, ends),
-        test,
+        field,
+        order: order.to_vec(),
+        space,
     })
+}
+
+impl AtMost {
+    /// Whether a variant of the diagram is one indeed.
+    pub(in crate::search) fn has(&self, choices: &[usize]) -> bool {
+        let space = &self.space;
+        let (contours, width) = (space.contours[0], space.contours[0] + space.kept);
+        let mut whole = Echelon::new(self.field);
+        for (t, &variable) in self.order.iter().enumerate() {
+            for vector in &space.added[t][choices[variable]] {
+                let mut row = vec![0; width - vector.len()];
+                row.extend_from_slice(vector);
+                whole.insert(&row);
+            }
+        }
+        let pivots = whole.pivots();
+        pivots.len() == contours && pivots.iter().all(|&p| p < contours)
+    }
 }
 
 /// For each stage the coordinates before each place where contours end, from this stage on.
