@@ -6,6 +6,8 @@ use itertools::Itertools;
 use ozols::closure::contour::{closed_walk, contour_basis};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::redundancy::figures::figures;
 use petgraph::algo::dijkstra;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
@@ -192,4 +194,32 @@ proptest! {
         prop_assert_eq!(basis.len(), edges.len() + 1 - links);
         prop_assert_eq!(basis.iter().map(|c| c.joints.len()).sum::<usize>(), least_total(links, &edges));
     }
+}
+
+/// What `ozols list` tells of a state is what an analysis finds.
+#[test]
+fn figures_told_at_once_are_those_of_the_analysis() {
+    for name in ozols::builtin::names() {
+        let m = crate::common::built_in(name);
+        if m.joints.len() > 30 {
+            continue;
+        }
+        let found = figures(&m, StateId::FREE).unwrap();
+        let whole = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+        let whole = &whole[0];
+        assert_eq!(
+            [found.links, found.joints, found.contours, found.freedoms],
+            [whole.links, whole.joints, whole.contours, whole.freedoms],
+            "{name}"
+        );
+        assert_eq!(
+            (found.mobility, found.redundant),
+            (whole.mobility, whole.redundant),
+            "{name}"
+        );
+    }
+    // A four-bar of hinges: one contour, four freedoms of rank three.
+    let bar = figures(&crate::common::built_in("four-bar"), StateId::FREE).unwrap();
+    assert_eq!((bar.contours, bar.freedoms), (1, 4));
+    assert_eq!((bar.mobility, bar.redundant), (1, 3));
 }

@@ -1,6 +1,7 @@
 //! How far mechanisms move, and how that is known.
 
 mod certificates;
+mod exact_numbers;
 mod finite_traps;
 mod least_rows;
 mod mobility;

@@ -1,0 +1,52 @@
+//! Linkages that are no Assur groups are told by how much.
+
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
+use ozols::statics::assur::{AssurError, decompose};
+use ozols::statics::planar::PlanarMechanism;
+
+/// Joints of a type between links in the plane of x and y, the first of them driven.
+fn refused(joints: &[(&str, &str, &str, [i32; 2])]) -> AssurError {
+    let mut text = "name = \"it\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"a\" }, { id = \"b\", role = \"output\" }, { id = \"c\" }]\n".to_owned();
+    if !joints.iter().any(|j| j.1 == "c" || j.2 == "c") {
+        text = text.replace(", { id = \"c\" }", "");
+    }
+    for (i, (kind, from, to, [x, y])) in joints.iter().enumerate() {
+        let drive = if i == 0 { "drive = true\n" } else { "" };
+        text += &format!(
+            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{from}\", \"{to}\"]\ntype = \"{kind}\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n{drive}"
+        );
+    }
+    let m = mechanism_from_str("it.toml", &text).unwrap();
+    let planar = PlanarMechanism::new(&m, StateId::FREE).unwrap();
+    let drives = planar.drives();
+    decompose(&planar, &drives).unwrap_err()
+}
+
+/// Two links are one body, and a hinge between them holds its two rows again.
+#[test]
+fn a_hinge_within_a_body_is_two_constraints_too_many() {
+    let said = refused(&[
+        ("revolute", "0", "a", [0, 0]),
+        ("fixed", "a", "b", [1, 0]),
+        ("revolute", "a", "b", [2, 0]),
+    ]);
+    let AssurError::Overconstrained { bodies, excess } = said else {
+        panic!("{said}");
+    };
+    assert_eq!((bodies.as_str(), excess), ("a, b", 2));
+}
+
+/// With the drive locked, a chain of two more hinges keeps a turn at each.
+#[test]
+fn every_loose_link_of_a_chain_counts() {
+    let said = refused(&[
+        ("revolute", "0", "a", [0, 0]),
+        ("revolute", "a", "b", [1, 0]),
+        ("revolute", "b", "c", [2, 0]),
+    ]);
+    let AssurError::Underconstrained { freedoms, .. } = said else {
+        panic!("{said}");
+    };
+    assert_eq!(freedoms, 2);
+}
