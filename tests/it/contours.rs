@@ -223,3 +223,25 @@ fn figures_told_at_once_are_those_of_the_analysis() {
     assert_eq!((bar.contours, bar.freedoms), (1, 4));
     assert_eq!((bar.mobility, bar.redundant), (1, 3));
 }
+
+/// Two double edges that meet in one link are two contours, and no walk of one.
+#[test]
+fn a_walk_comes_through_a_link_once() {
+    let m = mechanism_from_str("eight.toml", &text(3, &[(0, 1), (1, 0), (0, 2), (2, 0)])).unwrap();
+    let joints: Vec<JointId> = m.joint_ids().collect();
+    assert!(closed_walk(&m, &joints).is_none());
+    assert!(closed_walk(&m, &joints[..2]).is_some() && closed_walk(&m, &joints[2..]).is_some());
+}
+
+/// A contour that the file names is in the basis, though shorter ones would do.
+#[test]
+fn contours_that_are_named_are_taken_first() {
+    let edges = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)];
+    let named = text(4, &edges) + "[[contour]]\njoints = [\"j0\", \"j1\", \"j2\", \"j3\"]\n";
+    for (text, longest) in [(text(4, &edges), 3), (named, 4)] {
+        let m = mechanism_from_str("named.toml", &text).unwrap();
+        let basis = contour_basis(&m, StateId::FREE);
+        assert_eq!(basis.len(), 2);
+        assert_eq!(basis.iter().map(|c| c.joints.len()).max(), Some(longest));
+    }
+}

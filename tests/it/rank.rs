@@ -5,6 +5,7 @@ mod exact_numbers;
 mod finite_traps;
 mod least_rows;
 mod mobility;
+mod poses;
 pub(crate) mod rounded;
 mod screws;
 mod stroke;

@@ -56,7 +56,11 @@ fn drives_move_at_the_ratio_of_their_speeds() {
         // 0.4 rad of the tower at 0.5 rad/s take 0.8 s, in which the boom tilts by 0.2 rad and the hook runs 80 mm.
         for (id, ratio) in [("turn", 1.0), ("tilt", -0.5), ("run", 200.0)] {
             let wanted = ratio * at;
-            assert!((moved(id) - wanted).abs() < 1e-9 * (1.0 + wanted.abs()), "{id} at {at}: {}", moved(id));
+            assert!(
+                (moved(id) - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
+                "{id} at {at}: {}",
+                moved(id)
+            );
         }
     }
 }

@@ -69,15 +69,22 @@ fn oblique_axes_are_two_hinges() {
             <axis><xyz>1 0 0</xyz></axis><axis2><xyz>{second}</xyz></axis2></joint></model></sdf>"
         );
         let m = taken("m.sdf", &text).mechanism;
-        let own = m.joints.iter().filter(|j| j.joint_type.freedoms().len() < 6);
-        own.map(|j| j.joint_type.freedoms().len()).collect::<Vec<_>>()
+        let own = m
+            .joints
+            .iter()
+            .filter(|j| j.joint_type.freedoms().len() < 6);
+        own.map(|j| j.joint_type.freedoms().len())
+            .collect::<Vec<_>>()
     };
     assert_eq!(with("0 1 0"), [2]);
     assert_eq!(with("1 1 0"), [1, 1]);
 }
 
 fn places(m: &Mechanism) -> Vec<(String, Vector)> {
-    let all = m.joints.iter().filter(|j| j.joint_type.freedoms().len() == 1);
+    let all = m
+        .joints
+        .iter()
+        .filter(|j| j.joint_type.freedoms().len() == 1);
     let metres = m.length_unit.metres;
     all.map(|j| (j.id.clone(), real(&j.frame.point).map(|x| x * metres)))
         .collect()
@@ -90,13 +97,19 @@ fn hinges_come_back_to_their_places() {
         let m = built_in(name);
         for format in ["mjcf", "urdf", "sdf"] {
             let text = formats::write(&m, format).unwrap();
-            let back = taken(&format!("m.{}", if format == "mjcf" { "xml" } else { format }), &text);
+            let back = taken(
+                &format!("m.{}", if format == "mjcf" { "xml" } else { format }),
+                &text,
+            );
             let known = places(&back.mechanism);
             let mut found = 0;
             for (id, at) in places(&m) {
                 for (_, there) in known.iter().filter(|k| k.0 == id) {
                     found += 1;
-                    assert!(length(sub(at, *there)) < 1e-9, "{name} in {format}: {id} is at {there:?} for {at:?}");
+                    assert!(
+                        length(sub(at, *there)) < 1e-9,
+                        "{name} in {format}: {id} is at {there:?} for {at:?}"
+                    );
                 }
             }
             assert!(found > 1, "{name} in {format}\n{text}");
@@ -124,5 +137,8 @@ fn joints_to_the_world_are_turned_round() {
     assert_eq!(axes("type = \"revolute\""), ["0 0 -1"]);
     assert_eq!(axes("type = \"universal\""), ["-1 0 0", "0 0 -1"]);
     // A slide along z, and then a turn about x, which is next to the world.
-    assert_eq!(axes("type = \"custom\"\nfreedoms = [\"tz\", \"rx\"]"), ["-1 0 0", "0 0 -1"]);
+    assert_eq!(
+        axes("type = \"custom\"\nfreedoms = [\"tz\", \"rx\"]"),
+        ["-1 0 0", "0 0 -1"]
+    );
 }

@@ -93,8 +93,7 @@ fn shapes_apart_weigh_together() {
 /// A box of 2 by 1 by 1 m turned by 30° about z: (Ix - Iy) sin cos is its product of inertia.
 #[test]
 fn what_is_turned_has_products_of_inertia() {
-    let (_, _, tensor) =
-        inertial("<geom type='box' size='1 0.5 0.5' mass='12' euler='0 0 30'/>");
+    let (_, _, tensor) = inertial("<geom type='box' size='1 0.5 0.5' mass='12' euler='0 0 30'/>");
     let (x, y) = (1.0 + 1.0, 4.0 + 1.0);
     let (s, c) = (0.5, 3f64.sqrt() / 2.0);
     let wanted = [
@@ -111,8 +110,7 @@ fn what_is_turned_has_products_of_inertia() {
 /// What is stated is carried in each format's own order and by its own defaults.
 #[test]
 fn stated_inertias_are_in_their_formats_order() {
-    let (_, _, tensor) =
-        inertial("<inertial pos='0 0 0' mass='2' diaginertia='0.3 0.4 0.5'/>");
+    let (_, _, tensor) = inertial("<inertial pos='0 0 0' mass='2' diaginertia='0.3 0.4 0.5'/>");
     alike(&tensor, &[0.3, 0.4, 0.5, 0.0, 0.0, 0.0], "diaginertia");
     let urdf = "<robot name='r'><link name='a'/><link name='b'><inertial><mass value='2'/>\
         <inertia ixx='0.3' iyy='0.4' izz='0.5' ixy='0.01' ixz='0.02' iyz='0.03'/></inertial></link>\
