@@ -6,6 +6,7 @@ use ozols::geom::exact::ExactField;
 use ozols::geom::extent::Extent;
 use ozols::geom::rigid::RigidMotion;
 use ozols::geom::scalars::Reals;
+use ozols::geom::vector::real;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::motion::drive_range::Way;
 use ozols::motion::jaws::meet;
@@ -149,4 +150,74 @@ fn an_extent_is_half_a_diagonal_about_the_middle() {
     let e = Extent::of(&[[1.0, 2.0, 3.0], [3.0, 6.0, 5.0], [2.0, 3.0, 4.0]]);
     assert_eq!(e.middle, [2.0, 4.0, 4.0]);
     near(e.length, 6f64.sqrt());
+}
+
+/// A crane of metres turned by a quarter: what stood on its boom along x stands along y, and what slides there slides along y.
+#[test]
+fn a_mechanism_is_written_anew_where_it_has_gone() {
+    let m = read(
+        "name = \"crane\"\nlength_unit = \"mm\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\" }]\n\
+        [[joint]]\nid = \"turn\"\nlinks = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\ndrive = true\n\
+        [[joint]]\nid = \"run\"\nlinks = [\"1\", \"2\"]\ntype = \"prismatic\"\npoint = [3000, 0, 2000]\naxis = [1, 0, 0]\n",
+    );
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let there = pose.moved(&[TAU / 4.0, 0.1]);
+    let anew = ozols::redundancy::moved::moved(&m, &there).unwrap();
+    let frame = &anew.joints[anew.joint("run").unwrap()].frame;
+    let slid = 0.1 * pose.length;
+    for (found, wanted) in real(&frame.point)
+        .into_iter()
+        .zip([0.0, 3000.0 + slid, 2000.0])
+    {
+        near(found, wanted);
+    }
+    for (found, wanted) in real(&frame.axis).into_iter().zip([0.0, 1.0, 0.0]) {
+        near(found, wanted);
+    }
+    let still = &anew.joints[anew.joint("turn").unwrap()].frame;
+    for (found, wanted) in real(&still.point).into_iter().zip([0.0; 3]) {
+        near(found, wanted);
+    }
+}
+
+/// A pin stands on the first of its links and its slot in the second: where it slides, it stays on the first.
+#[test]
+fn a_pin_stays_on_its_link() {
+    let m = read(
+        "name = \"pin\"\nlength_unit = \"mm\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\" }]\n\
+        [[joint]]\nid = \"turn\"\nlinks = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\ndrive = true\n\
+        [[joint]]\nid = \"pin\"\nlinks = [\"1\", \"2\"]\ntype = \"slotted\"\npoint = [3000, 0, 500]\naxis = [0, 0, 1]\nreference = [1, 0, 0]\n",
+    );
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let columns = pose.columns.iter();
+    let q: Vec<f64> = columns
+        .map(|c| match (c.joint.index(), c.freedom.slides()) {
+            (0, _) => TAU / 4.0,
+            (_, true) => 0.1,
+            (_, false) => 0.0,
+        })
+        .collect();
+    let anew = ozols::redundancy::moved::moved(&m, &pose.moved(&q)).unwrap();
+    let frame = &anew.joints[anew.joint("pin").unwrap()].frame;
+    for (found, wanted) in real(&frame.point).into_iter().zip([0.0, 3000.0, 500.0]) {
+        near(found, wanted);
+    }
+}
+
+/// A link between two guides in a line slides between them alone, one between two hinges in a line turns.
+#[test]
+fn idle_motions_slide_or_turn() {
+    use ozols::redundancy::analysis::{Method, analyse};
+    for (kind, turns) in [("prismatic", false), ("revolute", true)] {
+        let m = read(&format!(
+            "name = \"idle\"\nlink = [{{ id = \"0\", role = \"frame\" }}, {{ id = \"1\" }}, {{ id = \"2\", role = \"output\" }}]\n\
+            [[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\ntype = \"{kind}\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\n\
+            [[joint]]\nid = \"b\"\nlinks = [\"1\", \"2\"]\ntype = \"{kind}\"\npoint = [2, 0, 0]\naxis = [1, 0, 0]\n\
+            [[joint]]\nid = \"c\"\nlinks = [\"2\", \"0\"]\ntype = \"fixed\"\npoint = [3, 0, 0]\n"
+        ));
+        let found = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+        let idle = &found[0].idle;
+        assert_eq!((idle.len(), idle[0].links.len()), (1, 1), "{kind}");
+        assert_eq!(idle[0].turns, turns, "{kind}");
+    }
 }
