@@ -222,6 +222,10 @@ fn figures_told_at_once_are_those_of_the_analysis() {
     let bar = figures(&crate::common::built_in("four-bar"), StateId::FREE).unwrap();
     assert_eq!((bar.contours, bar.freedoms), (1, 4));
     assert_eq!((bar.mobility, bar.redundant), (1, 3));
+    // Malyshev's formula: six for each of three moving links, less five at each of four hinges.
+    let bar = crate::common::built_in("four-bar");
+    let found = analyse(&bar, &[StateId::FREE], Method::Modular).unwrap();
+    assert_eq!(found[0].formula_mobility, 6 * 3 - 5 * 4);
 }
 
 /// Two double edges that meet in one link are two contours, and no walk of one.

@@ -8,7 +8,7 @@ use ozols::geom::scalars::Scalars;
 /// Expressions that are nothing: regular polygons, half angles, Gauss sums and roots of roots, as textbooks have them.
 const NOTHING: [&str; 24] = [
     "cos(36deg)-(1+sqrt(5))/4",
-    "cos(144deg)+(1+sqrt(5))/4",
+    "cos(144deg)-(0-1-sqrt(5))/4",
     "cos(108deg)+(sqrt(5)-1)/4",
     "sin(18deg)-(sqrt(5)-1)/4",
     "sin(72deg)-sqrt(10+2*sqrt(5))/4",

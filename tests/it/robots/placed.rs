@@ -93,7 +93,7 @@ fn places(m: &Mechanism) -> Vec<(String, Vector)> {
 /// Bodies hang on bodies in MJCF, each placed in the one before: hinges come back to where they were.
 #[test]
 fn hinges_come_back_to_their_places() {
-    for name in ["four-bar", "bennett", "slider-crank"] {
+    for name in ["four-bar", "bennett", "parallel-shears"] {
         let m = built_in(name);
         for format in ["mjcf", "urdf", "sdf"] {
             let text = formats::write(&m, format).unwrap();

@@ -70,6 +70,7 @@ fn only_what_is_nearly_in_a_plane_is_put_there() {
     assert!((-0.15 * x - 0.92 * y + 0.71 * z).abs() < 1e-12);
     assert_eq!(relations(&s, 3), []);
     assert_eq!(axis(&s, 3), fourth);
+    assert!(s.refused.is_empty(), "{s:?}");
 }
 
 /// Two axes pass each other by a hair above (1, 0, 0): both are put through one point, which is where they nearly meet.
