@@ -37,16 +37,32 @@ fn a_hinge_within_a_body_is_two_constraints_too_many() {
     assert_eq!((bodies.as_str(), excess), ("0, a, b", 2));
 }
 
-/// With the drive locked, a chain of two more hinges keeps a turn at each.
+/// With the drive locked, two links on hinges of the crank keep a turn each.
 #[test]
 fn every_loose_link_of_a_chain_counts() {
     let said = refused(&[
         ("revolute", "0", "a", [0, 0]),
         ("revolute", "a", "b", [1, 0]),
-        ("revolute", "b", "c", [2, 0]),
+        ("revolute", "a", "c", [2, 0]),
     ]);
     let AssurError::Underconstrained { freedoms, .. } = said else {
         panic!("{said}");
     };
     assert_eq!(freedoms, 2);
+}
+
+/// Four links in a closed contour have that one, dyads none.
+#[test]
+fn contours_of_a_group_are_counted() {
+    use ozols::statics::assur_class::Kind;
+    let m = super::mechanism(super::shears());
+    let planar = PlanarMechanism::new(&m, StateId::FREE).unwrap();
+    let groups = decompose(&planar, &planar.drives()).unwrap().groups;
+    let mut closed = 0;
+    for group in &groups {
+        let is_closed = group.class.kind == Kind::FourLinkContour;
+        closed += usize::from(is_closed);
+        assert_eq!(group.class.contours, usize::from(is_closed));
+    }
+    assert_eq!(closed, 1);
 }
