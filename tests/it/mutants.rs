@@ -34,7 +34,7 @@ fn every(root: &Path) -> Vec<Mutant> {
     rooms.flat_map(|room| list(room.unwrap())).collect()
 }
 
-/// The text of the file, or the files, that a test's module is in.
+/// The text of the file that a test's module is in, and of those that it takes from elsewhere.
 fn module(root: &Path, name: &str) -> Option<String> {
     let (mut at, mut text) = (root.join("tests/it"), None);
     for part in name.split("::") {
@@ -46,7 +46,12 @@ fn module(root: &Path, name: &str) -> Option<String> {
             Err(_) => break,
         }
     }
-    text
+    let own = text?;
+    let elsewhere = own.split("#[path = \"").skip(1);
+    let elsewhere = elsewhere.filter_map(|rest| rest.split('"').next());
+    let beside = elsewhere.filter_map(|path| fs::read_to_string(at.with_file_name(path)).ok());
+    let all: Vec<String> = beside.collect();
+    Some(own + &all.concat())
 }
 
 /// The name of the switch, as `tests/mutants/run` gives it.
