@@ -6,6 +6,8 @@ use itertools::Itertools;
 use ozols::closure::contour::{closed_walk, contour_basis};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::redundancy::figures::figures;
 use petgraph::algo::dijkstra;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
@@ -191,5 +193,59 @@ proptest! {
         let basis = contour_basis(&m, StateId::FREE);
         prop_assert_eq!(basis.len(), edges.len() + 1 - links);
         prop_assert_eq!(basis.iter().map(|c| c.joints.len()).sum::<usize>(), least_total(links, &edges));
+    }
+}
+
+/// What `ozols list` tells of a state is what an analysis finds.
+#[test]
+fn figures_told_at_once_are_those_of_the_analysis() {
+    for name in ozols::builtin::names() {
+        let m = crate::common::built_in(name);
+        if m.joints.len() > 30 {
+            continue;
+        }
+        let found = figures(&m, StateId::FREE).unwrap();
+        let whole = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
+        let whole = &whole[0];
+        assert_eq!(
+            [found.links, found.joints, found.contours, found.freedoms],
+            [whole.links, whole.joints, whole.contours, whole.freedoms],
+            "{name}"
+        );
+        assert_eq!(
+            (found.mobility, found.redundant),
+            (whole.mobility, whole.redundant),
+            "{name}"
+        );
+    }
+    // A four-bar of hinges: one contour, four freedoms of rank three.
+    let bar = figures(&crate::common::built_in("four-bar"), StateId::FREE).unwrap();
+    assert_eq!((bar.contours, bar.freedoms), (1, 4));
+    assert_eq!((bar.mobility, bar.redundant), (1, 3));
+    // Malyshev's formula: six for each of three moving links, less five at each of four hinges.
+    let bar = crate::common::built_in("four-bar");
+    let found = analyse(&bar, &[StateId::FREE], Method::Modular).unwrap();
+    assert_eq!(found[0].formula_mobility, 6 * 3 - 5 * 4);
+}
+
+/// Two double edges that meet in one link are two contours, and no walk of one.
+#[test]
+fn a_walk_comes_through_a_link_once() {
+    let m = mechanism_from_str("eight.toml", &text(3, &[(0, 1), (1, 0), (0, 2), (2, 0)])).unwrap();
+    let joints: Vec<JointId> = m.joint_ids().collect();
+    assert!(closed_walk(&m, &joints).is_none());
+    assert!(closed_walk(&m, &joints[..2]).is_some() && closed_walk(&m, &joints[2..]).is_some());
+}
+
+/// A contour that the file names is in the basis, though shorter ones would do.
+#[test]
+fn contours_that_are_named_are_taken_first() {
+    let edges = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)];
+    let named = text(4, &edges) + "[[contour]]\njoints = [\"j0\", \"j1\", \"j2\", \"j3\"]\n";
+    for (text, longest) in [(text(4, &edges), 3), (named, 4)] {
+        let m = mechanism_from_str("named.toml", &text).unwrap();
+        let basis = contour_basis(&m, StateId::FREE);
+        assert_eq!(basis.len(), 2);
+        assert_eq!(basis.iter().map(|c| c.joints.len()).max(), Some(longest));
     }
 }

@@ -4,6 +4,7 @@ mod cam;
 mod command;
 mod programmes;
 mod swings;
+mod unequal;
 
 use crate::common::near;
 use ozols::drive::torsion::{

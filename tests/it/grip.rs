@@ -2,6 +2,7 @@
 
 mod cases;
 mod clamped;
+mod effort;
 mod force_closure;
 mod holding;
 mod motion;

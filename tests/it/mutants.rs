@@ -1,4 +1,4 @@
-//! The list that `tests/mutants/run` works through does not rot: each place stands in its file once, and the tests named are there.
+//! The lists that `tests/mutants/run` works through do not rot: each place stands in its file once, and the tests named are there.
 
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -14,6 +14,8 @@ struct Mutant {
     before: String,
     after: String,
     tests: Vec<String>,
+    /// Why no test notices it.
+    survives: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -22,7 +24,17 @@ struct List {
     mutant: Vec<Mutant>,
 }
 
-/// The text of the file, or the files, that a test's module is in.
+/// The mutants of all rooms.
+fn every(root: &Path) -> Vec<Mutant> {
+    let rooms = fs::read_dir(root.join("tests/mutants/list")).unwrap();
+    let list = |room: fs::DirEntry| {
+        let text = fs::read_to_string(room.path()).unwrap();
+        toml::from_str::<List>(&text).unwrap().mutant
+    };
+    rooms.flat_map(|room| list(room.unwrap())).collect()
+}
+
+/// The text of the file that a test's module is in, and of those that it takes from elsewhere.
 fn module(root: &Path, name: &str) -> Option<String> {
     let (mut at, mut text) = (root.join("tests/it"), None);
     for part in name.split("::") {
@@ -34,16 +46,26 @@ fn module(root: &Path, name: &str) -> Option<String> {
             Err(_) => break,
         }
     }
-    text
+    let own = text?;
+    let elsewhere = own.split("#[path = \"").skip(1);
+    let elsewhere = elsewhere.filter_map(|rest| rest.split('"').next());
+    let beside = elsewhere.filter_map(|path| fs::read_to_string(at.with_file_name(path)).ok());
+    let all: Vec<String> = beside.collect();
+    Some(own + &all.concat())
+}
+
+/// The name of the switch, as `tests/mutants/run` gives it.
+fn name(m: &Mutant) -> String {
+    let path = Path::new(&m.file).with_extension("");
+    let last: Vec<_> = path.iter().rev().take(2).map(|p| p.display()).collect();
+    format!("{}/{}: {}", last[1], last[0], m.what)
 }
 
 #[test]
 fn every_place_stands_in_its_file_once_and_its_tests_are_there() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let text = fs::read_to_string(root.join("tests/mutants/list.toml")).unwrap();
-    let list: List = toml::from_str(&text).unwrap();
     let (mut names, mut wrong) = (BTreeSet::new(), Vec::new());
-    for m in &list.mutant {
+    for m in &every(root) {
         let source = fs::read_to_string(root.join(&m.file)).unwrap_or_default();
         let within = m.within.as_ref().unwrap_or(&m.before);
         if source.matches(within.as_str()).count() != 1 || within.matches(&m.before).count() != 1 {
@@ -52,7 +74,7 @@ fn every_place_stands_in_its_file_once_and_its_tests_are_there() {
                 m.file, m.before
             ));
         }
-        if m.after == m.before || !names.insert((&m.file, &m.what)) {
+        if m.after == m.before || !names.insert(name(m)) {
             wrong.push(format!("{}: {:?} is no mutant of its own", m.file, m.what));
         }
         for test in &m.tests {
@@ -65,6 +87,10 @@ fn every_place_stands_in_its_file_once_and_its_tests_are_there() {
         if m.tests.is_empty() {
             wrong.push(format!("{}: no test is to notice {:?}", m.file, m.what));
         }
+        if m.survives.as_ref().is_some_and(|why| why.len() < 20) {
+            wrong.push(format!("{}: why {:?} survives is not said", m.file, m.what));
+        }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(names.len() >= 500, "only {} mutants are left", names.len());
 }

@@ -7,6 +7,7 @@ mod cycle;
 mod family;
 mod named_drives;
 mod point_masses;
+mod two_drives;
 mod unilateral;
 
 use ozols::file::text::mechanism_from_str;

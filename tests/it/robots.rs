@@ -10,6 +10,7 @@ mod lint;
 mod masses;
 pub(crate) mod mjcf;
 mod models;
+mod placed;
 mod readers;
 mod sdf;
 mod taken;

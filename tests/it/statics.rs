@@ -4,6 +4,8 @@ mod command;
 mod cycle;
 mod enumeration;
 mod force_plans;
+mod ill_posed;
+mod loads;
 mod published;
 mod reactions;
 mod stability;

@@ -2,6 +2,7 @@
 //! was made; what is wrong is said.
 
 mod command;
+mod samples;
 mod table;
 mod wrong;
 

@@ -4,6 +4,7 @@ use super::{SMALL, lever};
 use crate::common::changed;
 use ozols::file::read::workload::grip_from_bytes;
 use ozols::geom::vector::unit;
+use ozols::grip::arm_curves::{Varied, arm_curve};
 use ozols::grip::clamping::{DiameterRow, HoldVerdict, study};
 use ozols::grip::contact::{Gripper, Unholdable};
 use ozols::grip::holding::{HoldingOutcome, PartWrench, hold};
@@ -104,6 +105,38 @@ fn parts_weigh_what_their_cylinder_does() {
     // π r² l ρ for r = 20 mm and l = 120 mm.
     let mass = std::f64::consts::PI * 0.02 * 0.02 * 0.12 * 7850.0;
     assert!((only(&spec).mass - mass).abs() < 1e-12);
+    let of_two = GripSpec {
+        diameters: vec![0.02, 0.04],
+        ..spec
+    };
+    let rows = study(&of_two).unwrap().rows;
+    assert!((rows[0].mass - mass / 4.0).abs() < 1e-12 && (rows[1].mass - mass).abs() < 1e-12);
+}
+
+/// Curves over an angle go as far as the file's own value, where that lies beyond the usual ones.
+#[test]
+fn curves_reach_the_files_own_angle() {
+    let own = |degrees: [f64; 2]| GripSpec {
+        prism_angle: degrees[0].to_radians(),
+        mounting_angle: degrees[1].to_radians(),
+        ..spec("")
+    };
+    for (degrees, prism, mounting) in [
+        ([150.0, 10.0], [60.0, 150.0], [0.0, 40.0]),
+        ([50.0, 55.0], [50.0, 140.0], [0.0, 55.0]),
+    ] {
+        for (varied, wanted) in [
+            (Varied::PrismAngle, prism),
+            (Varied::MountingAngle, mounting),
+        ] {
+            let curve = arm_curve(&own(degrees), varied, 0.04);
+            let ends = [curve[0].0, curve[curve.len() - 1].0].map(f64::to_degrees);
+            assert!(
+                (ends[0] - wanted[0]).abs() < 1e-9 && (ends[1] - wanted[1]).abs() < 1e-9,
+                "{ends:?}"
+            );
+        }
+    }
 }
 
 /// The least of y over many points of a segment.

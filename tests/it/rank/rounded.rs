@@ -10,5 +10,6 @@ mod program;
 mod search_numeric;
 mod second_opinion;
 mod shown;
+mod snapped;
 mod symmetry;
 mod table;

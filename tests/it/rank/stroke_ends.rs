@@ -50,3 +50,63 @@ fn singular_poses_near_an_end_are_found() {
         assert_eq!(changes.len(), times, "{stroke}: {changes:?}");
     }
 }
+
+/// A slider-crank whose slider drives, in millimetres: crank 30 upright, rod 96. The slider goes from √(96² - 30²) out to 126.
+fn driven_slider() -> ozols::model::mechanism::Mechanism {
+    let x = (96f64 * 96.0 - 900.0).sqrt();
+    let text = format!(
+        "name = \"pump\"\nlength_unit = \"mm\"\nmode = \"planar\"\nlink = [{{ id = \"0\", role = \"frame\" }}, {{ id = \"1\" }}, {{ id = \"2\" }}, {{ id = \"3\", role = \"output\" }}]\n\
+        [[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n\
+        [[joint]]\nid = \"b\"\nlinks = [\"1\", \"2\"]\ntype = \"revolute\"\npoint = [0, 30, 0]\naxis = [0, 0, 1]\n\
+        [[joint]]\nid = \"c\"\nlinks = [\"2\", \"3\"]\ntype = \"revolute\"\npoint = [\"sqrt(8316)\", 0, 0]\naxis = [0, 0, 1]\n\
+        [[joint]]\nid = \"d\"\nlinks = [\"0\", \"3\"]\ntype = \"prismatic\"\npoint = [\"sqrt(8316)\", 0, 0]\naxis = [1, 0, 0]\ndrive = true\n"
+    );
+    assert!((x * x - 8316.0).abs() < 1e-9);
+    ozols::file::text::mechanism_from_str("pump.toml", &text).unwrap()
+}
+
+#[test]
+fn slides_are_followed_in_the_files_unit_and_end_where_they_must() {
+    use ozols::model::mechanism::StateId;
+    use ozols::motion::pose::Pose;
+    use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
+    let m = driven_slider();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let joint = m.joint("d").unwrap();
+    let drive = pose.columns.iter().position(|c| c.joint == joint).unwrap();
+    let request = |to: f64| StrokeRequest {
+        mechanism: &m,
+        state: StateId::FREE,
+        drive,
+        held: &[],
+        range: [0.0, to],
+        steps: 5,
+        tolerance: None,
+    };
+    let short = stroke(&request(20.0), &pose);
+    assert_eq!(short.stop, None);
+    let at: Vec<f64> = short.poses.iter().map(|p| p.at).collect();
+    for (found, wanted) in at.iter().zip([0.0, 4.0, 8.0, 12.0, 16.0, 20.0]) {
+        assert!((found - wanted).abs() < 1e-9, "{at:?}");
+    }
+    let moved = short.poses[5].outputs[0].point[0] - short.poses[0].outputs[0].point[0];
+    assert!((moved - 20.0).abs() < 1e-6, "{moved}");
+    let long = stroke(&request(60.0), &pose);
+    let end = 126.0 - 8316f64.sqrt();
+    let stop = long.stop.unwrap();
+    assert!((stop.at - end).abs() < 0.01, "{} for {end}", stop.at);
+}
+
+#[test]
+fn angles_over_a_slide_are_refused() {
+    use ozols::rank::stroke::request::lengths_where_it_slides;
+    let m = driven_slider();
+    for (text, well) in [("0:1:5", true), ("0:10deg:5", false), ("0:1rad:5", false)] {
+        assert_eq!(
+            lengths_where_it_slides(&m, true, text).is_ok(),
+            well,
+            "{text}"
+        );
+        assert!(lengths_where_it_slides(&m, false, text).is_ok());
+    }
+}

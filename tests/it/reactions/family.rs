@@ -173,3 +173,28 @@ fn stiffness_decides_among_the_family_and_equilibrium_stays() {
         assert!((x.force_size() - y.force_size()).abs() < 1e-6);
     }
 }
+
+/// A joint's own stiffness goes before that of all others.
+#[test]
+fn a_types_own_stiffness_goes_before_the_default() {
+    let mut m = built_in("four-bar");
+    m.loads.misalignments = vec![Misalignment {
+        joint: m.joint_ids().next().unwrap(),
+        turn: [0.01, 0.0, 0.0],
+        shift: [0.0; 3],
+    }];
+    let stiff = |linear, angular| Stiffness { linear, angular };
+    let own = ("revolute".to_owned(), stiff(1e6, 2e3));
+    let strained = |all: Vec<(String, Stiffness)>| {
+        let mut m = m.clone();
+        m.loads.stiffness = all;
+        solve(&m).elastic.unwrap()
+    };
+    let alone = strained(vec![own.clone()]);
+    let both = strained(vec![("default".to_owned(), stiff(3e4, 5e4)), own]);
+    assert!(alone.iter().any(|r| r.moment_size() > 1e-3));
+    for (a, b) in alone.iter().zip(&both) {
+        assert!((a.moment_size() - b.moment_size()).abs() < 1e-9 * (1.0 + a.moment_size()));
+        assert!((a.force_size() - b.force_size()).abs() < 1e-9 * (1.0 + a.force_size()));
+    }
+}

@@ -3,6 +3,7 @@
 mod carried;
 mod closures;
 mod command;
+mod solids;
 
 use crate::robots::{folder, none};
 use ozols::robots::convert::{Converted, Target, Wanted, convert, figures};

@@ -1,0 +1,66 @@
+//! Over a stroke further drives move at the ratio of their speeds to the first drive's, slides in the file's unit.
+
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
+use ozols::motion::pose::Pose;
+use ozols::statics::reactions::drives::driven;
+use ozols::statics::reactions::follow::follow_to;
+use ozols::statics::reactions::geometry::Geometry;
+
+/// A crane: it turns, its boom tilts, and a hook runs along the boom, in millimetres.
+const CRANE: &str = r#"
+name = "crane"
+length_unit = "mm"
+link = [{ id = "ground", role = "frame" }, { id = "tower" }, { id = "boom" }, { id = "hook", role = "output" }]
+[[joint]]
+id = "turn"
+links = ["ground", "tower"]
+type = "revolute"
+point = [0, 0, 0]
+axis = [0, 0, 1]
+drive = true
+[[joint]]
+id = "tilt"
+links = ["tower", "boom"]
+type = "revolute"
+point = [0, 0, 2000]
+axis = [0, 1, 0]
+drive = true
+[[joint]]
+id = "run"
+links = ["boom", "hook"]
+type = "prismatic"
+point = [3000, 0, 2000]
+axis = [1, 0, 0]
+drive = true
+"#;
+
+#[test]
+fn drives_move_at_the_ratio_of_their_speeds() {
+    let mut m = mechanism_from_str("crane.toml", CRANE).unwrap();
+    m.loads.drive_speeds = vec![0.5, -0.25, 100.0];
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();
+    let drives = driven(&m, &geometry).unwrap();
+    assert_eq!(drives.len(), 3);
+    let found = follow_to(&m, StateId::FREE, &drives, &[-0.3, 0.2, 0.4]).unwrap();
+    assert_eq!(found.stopped, None);
+    assert_eq!(found.poses.len(), 3);
+    for (at, pose) in &found.poses {
+        let moved = |id: &str| {
+            let joint = m.joint(id).unwrap();
+            let column = pose.columns.iter().find(|c| c.joint == joint).unwrap();
+            let unit = if id == "run" { pose.length } else { 1.0 };
+            column.moved * unit
+        };
+        // 0.4 rad of the tower at 0.5 rad/s take 0.8 s, in which the boom tilts by 0.2 rad and the hook runs 80 mm.
+        for (id, ratio) in [("turn", 1.0), ("tilt", -0.5), ("run", 200.0)] {
+            let wanted = ratio * at;
+            assert!(
+                (moved(id) - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
+                "{id} at {at}: {}",
+                moved(id)
+            );
+        }
+    }
+}

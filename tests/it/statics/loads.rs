@@ -1,0 +1,158 @@
+//! What loads a linkage in its plane: components by hand, power, and when the plane does not do.
+
+use super::mechanism;
+use ozols::geom::expr::Expr;
+use ozols::model::loads::{ExternalForce, Inertia, MassProperties};
+use ozols::model::mechanism::{LinkId, Mechanism, StateId};
+use ozols::statics::cycle::statics;
+use ozols::statics::inertia::link_inertias;
+use ozols::statics::planar::PlanarMechanism;
+use ozols::statics::solve::{Model, SolvedReactions, solve};
+
+/// A four-bar 0-1-2-3 drawn by x and y, stood in the plane of `along` and `up`.
+fn four_bar(along: [f64; 3], up: [f64; 3]) -> Mechanism {
+    let normal = [
+        along[1] * up[2] - along[2] * up[1],
+        along[2] * up[0] - along[0] * up[2],
+        along[0] * up[1] - along[1] * up[0],
+    ];
+    let mut text = "name = \"leans\"\nlength_unit = \"m\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\" }, { id = \"3\" }]\n".to_owned();
+    let joints = [
+        ("0", "1", 0.0, 0.0),
+        ("1", "2", 0.0, 1.0),
+        ("2", "3", 3.0, 3.0),
+        ("3", "0", 4.0, 0.0),
+    ];
+    for (n, (a, b, x, y)) in joints.into_iter().enumerate() {
+        let p = [0, 1, 2].map(|i| x * along[i] + y * up[i]);
+        text += &format!(
+            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {p:?}\naxis = {normal:?}\ndrive = {}\n",
+            n == 0
+        );
+    }
+    mechanism(&text)
+}
+
+fn exact(v: [f64; 3]) -> [Expr; 3] {
+    v.map(|x| Expr::from_f64(x).unwrap())
+}
+
+fn link(m: &Mechanism, id: &str) -> LinkId {
+    m.links_with_ids().find(|(_, l)| l.id == id).unwrap().0
+}
+
+fn near(found: f64, wanted: f64) {
+    assert!(
+        (found - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
+        "{found} for {wanted}"
+    );
+}
+
+/// In the plane of (0.8, 0, -0.6) and y, whose normal is (0.6, 0, 0.8): gravity (1, 2, -10) has 0.8 + 6 along the first and 2
+/// along the second, and principal inertias of 0.1, 0.2 and 0.5 are 0.36 · 0.1 + 0.64 · 0.5 about the normal.
+#[test]
+fn loads_have_their_components_in_a_plane_that_leans() {
+    let mut m = four_bar([0.8, 0.0, -0.6], [0.0, 1.0, 0.0]);
+    let coupler = link(&m, "2");
+    m.links[coupler].mass = Some(MassProperties {
+        mass: 2.0,
+        centre: exact([1.2, 1.5, -0.9]),
+        inertia: Some(Inertia::Principal([0.1, 0.2, 0.5])),
+    });
+    m.loads.gravity = Some(exact([1.0, 2.0, -10.0]));
+    let found = statics(&m, StateId::FREE, None).unwrap();
+    let g = found.loads.gravity;
+    near(g[0].hypot(g[1]), 6.8f64.hypot(2.0));
+    let body = found.loads.masses.iter().flatten().next().unwrap();
+    near(body.inertia, 0.36 * 0.1 + 0.64 * 0.5);
+    // The centre lies in the plane, 1.5 along and 1.5 up.
+    near(body.centre[0].hypot(body.centre[1]), 1.5f64.hypot(1.5));
+}
+
+/// What acts on the frame loads nothing that moves, and is not among the loads; an inertia force acts at its moment over it.
+#[test]
+fn the_frame_bears_its_own_and_inertia_acts_aside() {
+    let mut m = four_bar([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    for (id, force) in [("0", 5.0), ("2", 7.0)] {
+        m.loads.forces.push(ExternalForce {
+            link: link(&m, id),
+            point: exact([1.0, 1.0, 0.0]),
+            force: exact([force, 0.0, 0.0]),
+            range: None,
+            states: None,
+        });
+    }
+    let coupler = link(&m, "2");
+    m.links[coupler].mass = Some(MassProperties {
+        mass: 2.0,
+        centre: exact([1.5, 2.0, 0.0]),
+        inertia: Some(Inertia::Plane(0.3)),
+    });
+    m.loads.drive_speeds = vec![2.0];
+    let found = statics(&m, StateId::FREE, None).unwrap();
+    let moment = &found.moments[0];
+    let frame = found.linkage.mechanism.frame;
+    assert!(moment.loads.iter().all(|l| l.body != frame));
+    assert!(moment.loads.iter().any(|l| l.force[0].abs() == 7.0));
+    let inertia = link_inertias(&found.loads.masses, &found.linkage, &moment.instant);
+    assert!(inertia[0].moment.abs() > 1e-3);
+    let [x, y] = inertia[0].force;
+    near(inertia[0].offset() * x.hypot(y), inertia[0].moment);
+}
+
+/// Two drives together do the work that the loads and the inertia of the links ask.
+#[test]
+fn the_power_of_all_drives_balances_the_loads() {
+    let text = "name = \"five\"\nmode = \"planar\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\", mass = 2, centre = [1, 2, 0], inertia = 0.2 }, { id = \"3\" }, { id = \"4\" }]\n";
+    let mut text = text.to_owned();
+    let joints = [
+        ("0", "1", 0, 0, true),
+        ("1", "2", 0, 1, false),
+        ("2", "3", 2, 3, false),
+        ("3", "4", 4, 2, false),
+        ("4", "0", 5, 0, true),
+    ];
+    for (a, b, x, y, drive) in joints {
+        text += &format!(
+            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\ndrive = {drive}\n"
+        );
+    }
+    let mut m = mechanism(&text);
+    m.loads.gravity = Some(exact([0.0, -10.0, 0.0]));
+    m.loads.drive_speeds = vec![1.0, -0.7];
+    let found = statics(&m, StateId::FREE, None).unwrap();
+    let now = &found.moments[0];
+    assert!(now.load_power.abs() > 0.1);
+    near(now.drive_power, -now.load_power);
+    let whole = now.whole.as_ref().unwrap();
+    let efforts = whole.reactions.iter().filter_map(|r| r.effort);
+    assert!(efforts.clone().count() == 2 && efforts.clone().all(|e| e.abs() > 1e-3));
+}
+
+/// A weight beside the plane of a flat linkage tips it, which only its six components tell.
+#[test]
+fn a_weight_beside_the_plane_asks_for_space() {
+    for (height, planar) in [(0.0, true), (0.5, false)] {
+        let mut m = four_bar([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+        let coupler = link(&m, "2");
+        m.links[coupler].mass = Some(MassProperties {
+            mass: 2.0,
+            centre: exact([1.5, 2.0, height]),
+            inertia: None,
+        });
+        m.loads.gravity = Some(exact([0.0, -10.0, 0.0]));
+        let found = solve(&m, StateId::FREE, None, Model::Either).unwrap();
+        let is_planar = matches!(found, SolvedReactions::Planar(_));
+        assert_eq!(is_planar, planar, "{height}");
+    }
+}
+
+/// Where nothing turns, two slides across each other say which plane it is: theirs.
+#[test]
+fn two_slides_span_their_plane() {
+    let text = "name = \"table\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\" }]\n\
+        [[joint]]\nid = \"x\"\nlinks = [\"0\", \"1\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\ndrive = true\n\
+        [[joint]]\nid = \"z\"\nlinks = [\"1\", \"2\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\ndrive = true\n";
+    let planar = PlanarMechanism::new(&mechanism(text), StateId::FREE).unwrap();
+    assert_eq!(planar.axes[2].map(f64::abs), [0.0, 1.0, 0.0]);
+}
