@@ -64,7 +64,7 @@ fn ranking_terms_are_listed_in_their_three_files() {
     }
     exhaustive.sort();
     let of_the_page = [
-        "src/evaluation/score/evaluation/lower_bound.rs",
+        "src/evaluation/score/evaluation/floor.rs",
         "src/evaluation/score/evaluation/terms.rs",
         "src/kernel/model/ranking.rs",
     ];
