@@ -79,6 +79,22 @@ pub(crate) fn near(found: f64, stated: f64, tolerance: f64) {
     );
 }
 
+/// Closeness to nine digits, and of what is below one to so many places.
+pub(crate) fn to_nine_digits(found: f64, wanted: f64) {
+    assert!(
+        (found - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
+        "{found} for {wanted}"
+    );
+}
+
+/// The same of every component.
+pub(crate) fn all_to_nine_digits(found: [f64; 3], wanted: [f64; 3]) {
+    found
+        .into_iter()
+        .zip(wanted)
+        .for_each(|(f, w)| to_nine_digits(f, w));
+}
+
 /// A text with the first of one thing replaced; it must be there.
 pub(crate) fn changed(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");

@@ -228,9 +228,9 @@ fn in_general_position(
     general: &General,
 ) -> Result<Option<(AsFile, Variants)>, RowError> {
     let moved = (0..BESIDE).filter_map(|n| beside(structure, &found.layout, spec.seed, n));
-    let own = |n: bool| std::iter::repeat_n(found.layout.clone(), usize::from(n));
-    let own_first = structure.chain.links() <= ON_MILLIMETRES;
-    for layout in own(own_first).chain(moved).chain(own(!own_first)) {
+    let first = structure.chain.links() <= ON_MILLIMETRES;
+    let own = |now: bool| now.then(|| found.layout.clone());
+    for layout in own(first).into_iter().chain(moved).chain(own(!first)) {
         let as_file = AsFile::new(structure, layout, spec)?;
         if let Some((search, diagrams)) = general.certify(as_file.built.clone(), spec)? {
             let variants = Variants {

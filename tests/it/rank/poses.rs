@@ -1,5 +1,6 @@
 //! Poses of small mechanisms, by hand: screws, couplings, paths, ways and what a plane leaves out.
 
+use crate::common::{all_to_nine_digits, to_nine_digits};
 use ozols::closure::matrix::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::exact::ExactField;
@@ -18,13 +19,6 @@ fn read(text: &str) -> Mechanism {
     mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn near(found: f64, wanted: f64) {
-    assert!(
-        (found - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
-        "{found} for {wanted}"
-    );
-}
-
 /// A nut of 10 mm lead goes 10 mm a turn, whatever the size of what it belongs to.
 #[test]
 fn a_screw_goes_its_lead_in_a_turn() {
@@ -38,9 +32,7 @@ fn a_screw_goes_its_lead_in_a_turn() {
     let there = pose.moved(&[TAU, 0.0]);
     let nut = m.joints[m.joint("s").unwrap()].links[1];
     let at = pose.carried(&there.links, nut, [20.0, 0.0, 5.0]);
-    for (found, wanted) in at.into_iter().zip([20.0, 0.0, 15.0]) {
-        near(found, wanted);
-    }
+    all_to_nine_digits(at, [20.0, 0.0, 15.0]);
 }
 
 /// Two hinges geared to each other: once out of step they stay so, however often they are moved.
@@ -57,8 +49,8 @@ fn couplings_remember_what_has_moved() {
     assert_eq!(open.len(), 1);
     assert!(open[0].abs() > 0.01);
     let there = pose.moved(&[0.1, 0.0]);
-    near(there.gaps(&[0.0, 0.0])[0], open[0]);
-    near(there.moved(&[-0.1, 0.0]).gaps(&[0.0, 0.0])[0], 0.0);
+    to_nine_digits(there.gaps(&[0.0, 0.0])[0], open[0]);
+    to_nine_digits(there.moved(&[-0.1, 0.0]).gaps(&[0.0, 0.0])[0], 0.0);
 }
 
 /// A link behind a joint that is named from it to the frame moves by the other sign.
@@ -75,7 +67,7 @@ fn paths_pass_joints_either_way() {
     let (there, back) = (rows(true), rows(false));
     assert!(there.iter().any(|x| x.abs() > 0.1));
     for (a, b) in there.iter().zip(&back) {
-        near(*a, -b);
+        to_nine_digits(*a, -b);
     }
 }
 
@@ -86,7 +78,7 @@ fn ways_count_from_the_files_pose() {
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let way = working_way(&m, StateId::FREE, &pose, 20).unwrap();
     assert!(way.start > 0);
-    near(way.at[way.start], 0.0);
+    to_nine_digits(way.at[way.start], 0.0);
     assert!(way.at.windows(2).all(|w| w[0] < w[1]));
     assert!(way.at[0] < 0.0);
 }
@@ -119,7 +111,7 @@ fn jaws_meet_between_poses() {
     };
     let [back, on] = meet(&m, StateId::FREE, &pose, &way);
     assert_eq!(back, None);
-    near(on.unwrap(), 2.5);
+    to_nine_digits(on.unwrap(), 2.5);
     // Where the last pose is the first again, the same are behind it, a whole turn back.
     let way = Way {
         closed: true,
@@ -149,7 +141,7 @@ fn what_a_plane_leaves_out_is_told() {
 fn an_extent_is_half_a_diagonal_about_the_middle() {
     let e = Extent::of(&[[1.0, 2.0, 3.0], [3.0, 6.0, 5.0], [2.0, 3.0, 4.0]]);
     assert_eq!(e.middle, [2.0, 4.0, 4.0]);
-    near(e.length, 6f64.sqrt());
+    to_nine_digits(e.length, 6f64.sqrt());
 }
 
 /// A crane of metres turned by a quarter: what stood on its boom along x stands along y, and what slides there slides along y.
@@ -165,19 +157,10 @@ fn a_mechanism_is_written_anew_where_it_has_gone() {
     let anew = ozols::redundancy::moved::moved(&m, &there).unwrap();
     let frame = &anew.joints[anew.joint("run").unwrap()].frame;
     let slid = 0.1 * pose.length;
-    for (found, wanted) in real(&frame.point)
-        .into_iter()
-        .zip([0.0, 3000.0 + slid, 2000.0])
-    {
-        near(found, wanted);
-    }
-    for (found, wanted) in real(&frame.axis).into_iter().zip([0.0, 1.0, 0.0]) {
-        near(found, wanted);
-    }
+    all_to_nine_digits(real(&frame.point), [0.0, 3000.0 + slid, 2000.0]);
+    all_to_nine_digits(real(&frame.axis), [0.0, 1.0, 0.0]);
     let still = &anew.joints[anew.joint("turn").unwrap()].frame;
-    for (found, wanted) in real(&still.point).into_iter().zip([0.0; 3]) {
-        near(found, wanted);
-    }
+    all_to_nine_digits(real(&still.point), [0.0; 3]);
 }
 
 /// A pin stands on the first of its links and its slot in the second: where it slides, it stays on the first.
@@ -199,9 +182,7 @@ fn a_pin_stays_on_its_link() {
         .collect();
     let anew = ozols::redundancy::moved::moved(&m, &pose.moved(&q)).unwrap();
     let frame = &anew.joints[anew.joint("pin").unwrap()].frame;
-    for (found, wanted) in real(&frame.point).into_iter().zip([0.0, 3000.0, 500.0]) {
-        near(found, wanted);
-    }
+    all_to_nine_digits(real(&frame.point), [0.0, 3000.0, 500.0]);
 }
 
 /// A link between two guides in a line slides between them alone, one between two hinges in a line turns.

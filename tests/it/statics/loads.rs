@@ -1,6 +1,7 @@
 //! What loads a linkage in its plane: components by hand, power, and when the plane does not do.
 
 use super::mechanism;
+use crate::common::to_nine_digits;
 use ozols::geom::expr::Expr;
 use ozols::model::loads::{ExternalForce, Inertia, MassProperties};
 use ozols::model::mechanism::{LinkId, Mechanism, StateId};
@@ -41,13 +42,6 @@ fn link(m: &Mechanism, id: &str) -> LinkId {
     m.links_with_ids().find(|(_, l)| l.id == id).unwrap().0
 }
 
-fn near(found: f64, wanted: f64) {
-    assert!(
-        (found - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
-        "{found} for {wanted}"
-    );
-}
-
 /// In the plane of (0.8, 0, -0.6) and y, whose normal is (0.6, 0, 0.8): gravity (1, 2, -10) has 0.8 + 6 along the first and 2
 /// along the second, and principal inertias of 0.1, 0.2 and 0.5 are 0.36 · 0.1 + 0.64 · 0.5 about the normal.
 #[test]
@@ -62,11 +56,11 @@ fn loads_have_their_components_in_a_plane_that_leans() {
     m.loads.gravity = Some(exact([1.0, 2.0, -10.0]));
     let found = statics(&m, StateId::FREE, None).unwrap();
     let g = found.loads.gravity;
-    near(g[0].hypot(g[1]), 6.8f64.hypot(2.0));
+    to_nine_digits(g[0].hypot(g[1]), 6.8f64.hypot(2.0));
     let body = found.loads.masses.iter().flatten().next().unwrap();
-    near(body.inertia, 0.36 * 0.1 + 0.64 * 0.5);
+    to_nine_digits(body.inertia, 0.36 * 0.1 + 0.64 * 0.5);
     // The centre lies in the plane, 1.5 along and 1.5 up.
-    near(body.centre[0].hypot(body.centre[1]), 1.5f64.hypot(1.5));
+    to_nine_digits(body.centre[0].hypot(body.centre[1]), 1.5f64.hypot(1.5));
 }
 
 /// What acts on the frame loads nothing that moves, and is not among the loads; an inertia force acts at its moment over it.
@@ -97,7 +91,7 @@ fn the_frame_bears_its_own_and_inertia_acts_aside() {
     let inertia = link_inertias(&found.loads.masses, &found.linkage, &moment.instant);
     assert!(inertia[0].moment.abs() > 1e-3);
     let [x, y] = inertia[0].force;
-    near(inertia[0].offset() * x.hypot(y), inertia[0].moment);
+    to_nine_digits(inertia[0].offset() * x.hypot(y), inertia[0].moment);
 }
 
 /// Two drives together do the work that the loads and the inertia of the links ask.
@@ -123,7 +117,7 @@ fn the_power_of_all_drives_balances_the_loads() {
     let found = statics(&m, StateId::FREE, None).unwrap();
     let now = &found.moments[0];
     assert!(now.load_power.abs() > 0.1);
-    near(now.drive_power, -now.load_power);
+    to_nine_digits(now.drive_power, -now.load_power);
     let whole = now.whole.as_ref().unwrap();
     let efforts = whole.reactions.iter().filter_map(|r| r.effort);
     assert!(efforts.clone().count() == 2 && efforts.clone().all(|e| e.abs() > 1e-3));

@@ -143,8 +143,7 @@ impl<'a> Judge<'a> {
         self.follow(at, COARSE, most)
     }
 
-    /// The figures of places, with a look of the caller's own at every pose; `None` where the drawn pose is singular, or where
-    /// they cost more than `most`.
+    /// The figures of places, at the poses of a grid; `None` where the drawn pose is singular, or where they cost more than `most`.
     ///
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
