@@ -20,18 +20,6 @@ pub struct Turn {
 }
 
 impl Turn {
-    fn new(round: &[ExactVector], axis: ExactVector, along: Vector) -> Turn {
-        #[allow(clippy::cast_precision_loss, reason = "two or three")]
-        let count = round.len() as f64;
-        let points: Vec<Vector> = round.iter().map(real).collect();
-        Turn {
-            centre: [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count),
-            round: round.to_vec(),
-            axis,
-            along,
-        }
-    }
-
     /// The turns that groups of joints may suggest: three points tell all; two the middle, and the axis is along a direction of
     /// their joints, between or across these, or along a direction of a joint that is its own image.
     #[must_use]
@@ -58,6 +46,10 @@ impl Turn {
                         .collect()
                 }
             };
+            #[allow(clippy::cast_precision_loss, reason = "two or three")]
+            let count = round.len() as f64;
+            let points: Vec<Vector> = round.iter().map(real).collect();
+            let centre = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
             // Joints of a plane have their directions in common.
             let mut known: Vec<Vector> = Vec::new();
             for axis in axes {
@@ -66,7 +58,12 @@ impl Turn {
                     continue;
                 }
                 known.push(along);
-                out.push(Turn::new(&round, axis, vector::unit(along)));
+                out.push(Turn {
+                    round: round.clone(),
+                    axis,
+                    centre,
+                    along: vector::unit(along),
+                });
             }
         }
         out

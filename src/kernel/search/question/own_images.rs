@@ -50,11 +50,11 @@ pub(crate) fn own_images(
             .is_ok()
             .then(|| of(&symmetric))
     };
-    let seen = ComparedJoints::new(mechanism);
+    let compared = ComparedJoints::new(mechanism);
     let mut tried: Vec<(Vec<(JointId, JointId)>, bool)> = Vec::new();
     let all = mechanism.joint_ids().tuple_combinations();
     for (a, b) in all.take_while(|(a, _): &(JointId, _)| a.index() < FIRST) {
-        if !seen.are_alike(a, b) || seen.apart(a, b) < seen.near {
+        if !compared.are_alike(a, b) || compared.apart(a, b) < compared.near {
             continue;
         }
         let planes = Plane::of_pairs(mechanism, &[(a, b)]);
@@ -68,7 +68,7 @@ pub(crate) fn own_images(
         let turns = turns.into_iter();
         let turns = turns.map(|t| (Box::new(t) as Box<dyn Carrier>, false));
         for (carrier, mirrored) in planes.chain(turns) {
-            let Some(pairs) = seen.pairs(mechanism, &*carrier) else {
+            let Some(pairs) = compared.pairs(mechanism, &*carrier) else {
                 continue;
             };
             let one = (pairs, mirrored);
@@ -105,7 +105,7 @@ impl ComparedJoints {
         };
         let all = mechanism.joint_ids().map(of).collect_vec();
         let kind = |one| all.iter().position(|other| other == one);
-        let mut seen = ComparedJoints {
+        let mut compared = ComparedJoints {
             spots: mechanism
                 .joint_ids()
                 .map(|j| Spot::of(&mechanism.joints[j].frame))
@@ -115,9 +115,9 @@ impl ComparedJoints {
         };
         let mut ids = mechanism.joint_ids();
         let first = ids.next();
-        let far = ids.filter_map(|j| Some(seen.apart(first?, j)));
-        seen.near = NEAR * far.fold(0.0, f64::max);
-        seen
+        let far = ids.filter_map(|j| Some(compared.apart(first?, j)));
+        compared.near = NEAR * far.fold(0.0, f64::max);
+        compared
     }
 
     fn are_alike(&self, a: JointId, b: JointId) -> bool {
