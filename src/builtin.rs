@@ -1,4 +1,5 @@
-//! The catalogue of mechanisms built into the program: `catalogs/`, a folder for each family.
+//! The catalogue of mechanisms built into the program: `catalogs/`, a folder for each family. Beside them stand specifications of
+//! catalogues of grippers, which are not built in.
 
 use include_dir::{Dir, File, include_dir};
 
@@ -25,7 +26,8 @@ const FAMILIES: [(&str, &str); 7] = [
 ];
 
 fn files() -> impl Iterator<Item = &'static File<'static>> {
-    CATALOGS.dirs().flat_map(Dir::files)
+    let folders = FAMILIES.iter().filter_map(|(f, _)| CATALOGS.get_dir(f));
+    folders.flat_map(Dir::files)
 }
 
 /// The name of the mechanism that a file holds.

@@ -340,3 +340,18 @@ fn unloading_joints_are_on_the_menu() {
     );
     assert_eq!(free["links"], 5);
 }
+
+/// README's specification is what it says: mirror images of up to eight links, and seven that move as grippers.
+#[test]
+fn the_specification_of_the_readme_is_built() {
+    let folder = tempdir().unwrap();
+    let db = at(&folder, "mirror.db");
+    let spec = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/catalogs/specifications/mirror.toml"
+    );
+    ok(&["catalog", "build", "--spec", spec, "-o", &db, "--quiet"]);
+    let counts = "SELECT count(*), sum(no_layout IS NULL), max(links) FROM structures";
+    let counts = ok(&["catalog", "query", &db, counts, "--format", "csv"]);
+    assert_eq!(counts.lines().nth(1), Some("60,7,8"));
+}
