@@ -7,6 +7,8 @@ pub mod find;
 pub mod general;
 #[cfg(feature = "store")]
 mod insert;
+#[cfg(feature = "store")]
+pub mod neighbours;
 pub mod row;
 mod searched;
 pub mod spec;

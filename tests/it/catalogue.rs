@@ -10,6 +10,7 @@ mod general;
 mod given_up;
 mod killed;
 mod motions;
+mod neighbours;
 mod orbits;
 mod out_of_plane;
 mod pairs;

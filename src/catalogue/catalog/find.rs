@@ -32,16 +32,26 @@ pub fn entries(store: &Store, structure: &PairStructure) -> Result<Vec<Entry>, S
     let links = structure.chain.links().to_string();
     let (_, rows) = store.query(STRUCTURES, Some(&links))?;
     let same = |row: &&Vec<Value>| read(row).is_some_and(|s| s.key() == key);
-    let word = |v: &Value| v.as_str().unwrap_or_default().to_owned();
-    let entry = |row: &Vec<Value>| Entry {
-        id: word(&row[0]),
-        form: word(&row[1]),
-    };
-    Ok(rows.iter().filter(same).map(entry).collect())
+    Ok(rows.iter().filter(same).map(|r| Entry::new(r)).collect())
 }
 
-/// The structure of a row.
-fn read(row: &[Value]) -> Option<PairStructure> {
+impl Entry {
+    /// Of a row that begins with id and form.
+    pub(super) fn new(row: &[Value]) -> Entry {
+        let word = |v: &Value| v.as_str().unwrap_or_default().to_owned();
+        Entry {
+            id: word(&row[0]),
+            form: word(&row[1]),
+        }
+    }
+
+    pub(super) fn is_symmetric(&self) -> bool {
+        !self.form.contains("generic")
+    }
+}
+
+/// The structure of a row that begins as [`STRUCTURES`] does.
+pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     let chain = graph6::read(row.get(2)?.as_str()?).ok()?;
     let slides = row.get(3)?.as_str()? == "slide";
     let link = |i: usize| usize::try_from(row.get(i)?.as_u64()?).ok();

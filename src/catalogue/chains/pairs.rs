@@ -18,5 +18,6 @@ pub mod kind;
 pub mod motion;
 pub mod roles;
 pub mod sharing;
+mod smaller;
 pub mod structure;
 pub mod symmetric_census;

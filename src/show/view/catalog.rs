@@ -3,6 +3,8 @@
 pub mod chains;
 #[cfg(feature = "store")]
 pub mod find;
+#[cfg(feature = "store")]
+mod neighbours;
 pub mod pairs;
 #[cfg(feature = "store")]
 pub mod structures;

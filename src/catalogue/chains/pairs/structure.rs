@@ -30,6 +30,13 @@ impl PairStructure {
         canonical(&self.weighted()).graph
     }
 
+    /// Whether the input slides.
+    #[must_use]
+    pub fn slides(&self) -> bool {
+        let [u, v] = self.roles.input;
+        self.chain.between(u, v) == Some(PairKind::Slide)
+    }
+
     fn weighted(&self) -> Weighted {
         let mut out = Weighted::new(self.chain.links());
         for joint in self.chain.joints() {

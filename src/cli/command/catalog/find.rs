@@ -2,12 +2,13 @@
 
 use super::look::open;
 use crate::catalog::find::entries;
+use crate::catalog::neighbours::neighbours;
 use crate::cli::done::Done;
 use crate::cli::option::load;
 use crate::cli::option::named::File;
 use crate::cli::terminal::output;
 use crate::synthesis::recognize::recognize;
-use crate::view::catalog::find::{FoundData, found_text};
+use crate::view::catalog::find::{FoundData, InCatalogue, found_text};
 use anyhow::Context;
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
@@ -37,7 +38,13 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     })?;
     let store = a.within.as_deref().map(open).transpose()?;
     let part = found.structure.essential_links();
-    let known = store.map(|s| entries(&s, &found.structure.part(&part)));
+    let essential = found.structure.part(&part);
+    let known = store.map(|s| -> anyhow::Result<InCatalogue> {
+        Ok(InCatalogue {
+            entries: entries(&s, &essential)?,
+            neighbours: neighbours(&s, &essential)?,
+        })
+    });
     let data = FoundData::new(&found, &part, known.transpose()?);
     let path = a.output.as_deref();
     output::to(path, |out| {

@@ -1,6 +1,7 @@
 //! What structure a mechanism has, for people and as data.
 
 use crate::catalog::find::Entry;
+use crate::catalog::neighbours::Neighbours;
 use crate::chains::pairs::census::Kinds;
 use crate::chains::pairs::classics::classics_of;
 use crate::chains::pairs::kind::PairKind;
@@ -8,6 +9,7 @@ use crate::chains::pairs::motion::moves_throughout;
 use crate::chains::pairs::roles::PairSubject;
 use crate::chains::pairs::structure::PairStructure;
 use crate::synthesis::recognize::Recognized;
+use crate::view::catalog::neighbours::{NeighbourData, neighbours_text};
 use crate::view::terminal::layout::fit;
 use itertools::Itertools;
 use serde::Serialize;
@@ -57,13 +59,24 @@ pub struct FoundData {
     classics: Vec<ClassicData>,
     /// Entries of the catalogue that was asked; null where none was.
     catalogue: Option<Vec<EntryData>>,
+    /// What of that catalogue is next to it: the most gain first.
+    neighbours: Option<Vec<NeighbourData>>,
+}
+
+/// What a catalogue has of a structure.
+#[derive(Debug, Clone)]
+pub struct InCatalogue {
+    /// The structure itself, or its essential part.
+    pub entries: Vec<Entry>,
+    /// What is next to it.
+    pub neighbours: Neighbours,
 }
 
 impl FoundData {
-    /// Of a mechanism's structure and the smallest part of it that holds all roles, given by its links, with the entries of a
-    /// catalogue that are this part, where one was asked.
+    /// Of a mechanism's structure and the smallest part of it that holds all roles, given by its links, with what a catalogue has
+    /// of this part, where one was asked.
     #[must_use]
-    pub fn new(found: &Recognized, part: &[usize], entries: Option<Vec<Entry>>) -> FoundData {
+    pub fn new(found: &Recognized, part: &[usize], known: Option<InCatalogue>) -> FoundData {
         let PairStructure { chain, roles } = &found.structure;
         let in_count = chain.has_carriers() && moves_throughout(chain);
         let automorphisms = chain.automorphisms();
@@ -72,8 +85,7 @@ impl FoundData {
         let essential = part.len() == chain.links();
         let symmetries = in_count.then(|| subject.symmetries(roles));
         let kinds = Kinds::of(chain);
-        let [u, v] = roles.input;
-        let slides = chain.between(u, v) == Some(PairKind::Slide);
+        let slides = found.structure.slides();
         let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
         let classics = classics_of(&found.structure.part(part)).into_iter();
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
@@ -109,7 +121,8 @@ impl FoundData {
                     about: c.about,
                 })
                 .collect(),
-            catalogue: entries.map(|all| all.into_iter().map(entry).collect()),
+            neighbours: known.as_ref().map(|k| NeighbourData::all(&k.neighbours)),
+            catalogue: known.map(|k| k.entries.into_iter().map(entry).collect()),
         }
     }
 
@@ -164,6 +177,7 @@ pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
             );
         }
     }
+    out += &neighbours_text(d.neighbours.as_deref().unwrap_or_default());
     fit(&out, width)
 }
 

@@ -1,0 +1,229 @@
+//! The structures of a catalogue that are next to a given one, and what their layouts do better.
+
+use crate::catalog::find::{Entry, read};
+use crate::catalog::store::{Store, StoreError};
+use crate::chains::canonical::Weighted;
+use crate::chains::pairs::chain::PairChain;
+use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::structure::PairStructure;
+use itertools::Itertools;
+use std::collections::HashSet;
+
+/// How a structure of the catalogue stands to the one asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Nearness {
+    /// The same chain, held, driven or gripping by other links, or driven by a turn instead of a slide.
+    OtherRoles,
+    /// What is left without so many links.
+    Fewer(usize),
+    /// So many links more, without which it is left.
+    More(usize),
+}
+
+/// What a figure of a layout is, and which of two values is better.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Figure {
+    /// Its column in the view `grippers`.
+    pub column: &'static str,
+    /// Its name in words.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    is_more_better: bool,
+}
+
+/// What layouts are compared by.
+pub const FIGURES: [Figure; 6] = [
+    figure("least_force", "least force", "N", true),
+    figure("force_ratio", "greatest over least force", "", false),
+    figure("turn", "jaws turn", "°", false),
+    figure("pin_force", "pin force", "N", false),
+    figure("area", "box", "mm²", false),
+    figure("cost", "cost", "", false),
+];
+
+/// The place of the least force in them, the one figure that asks how the input moves.
+const LEAST_FORCE: usize = 0;
+
+const fn figure(
+    column: &'static str,
+    name: &'static str,
+    unit: &'static str,
+    is_more_better: bool,
+) -> Figure {
+    Figure {
+        column,
+        name,
+        unit,
+        is_more_better,
+    }
+}
+
+/// Figures of a layout, as [`FIGURES`]; nothing where one is not known.
+pub type Figures = [Option<f64>; FIGURES.len()];
+
+/// A structure next to the one asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Neighbour {
+    /// Its place in the catalogue.
+    pub entry: Entry,
+    /// How it stands to the structure.
+    pub relation: Nearness,
+    /// What its layout does.
+    pub figures: Figures,
+}
+
+/// A structure among what a catalogue has laid out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Neighbours {
+    /// What the structure's own layouts do, each figure by the best of them.
+    pub own: Option<Figures>,
+    /// Those next to it whose jaws reach both ends of the stroke, those that do the most better first, then the more alike.
+    pub near: Vec<Neighbour>,
+}
+
+/// Of each layout with its form: what `read` needs, then the figures.
+const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.parallel, 'parallel', NULL)), s.chain, s.input, s.frame, s.driver, \
+     s.jaw_a, s.jaw_b, g.least_force, g.force_ratio, g.turn, g.pin_force, g.width * g.height, g.cost \
+     FROM structures s JOIN grippers g ON g.id = s.id \
+     WHERE s.jaw_c IS NULL AND g.reached = 1 AND s.links BETWEEN ?1 - 4 AND ?1 + 4";
+/// Catalogues of earlier versions have no figures over a stroke.
+const HAS_FIGURES: &str = "SELECT 1 FROM sqlite_schema WHERE name = 'grippers'";
+/// Where the figures of a row begin.
+const FIRST_FIGURE: usize = 8;
+
+/// What of a catalogue is next to a structure: the same chain with other roles, and what two links less or more, or four, make of
+/// it, taken out two and two in a row (`without_two_links`); four only where a layout is symmetric, whose two halves
+/// lose two links each. Nothing of a catalogue that knows no strokes.
+///
+/// # Errors
+/// Those of the database.
+///
+/// # Complexity
+/// A few canonical numberings for each layout of up to four links less or more; some fifty for symmetric ones of four more.
+pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Neighbours, StoreError> {
+    let mut out = Neighbours::default();
+    if store.query(HAS_FIGURES, None)?.1.is_empty() {
+        return Ok(out);
+    }
+    let links = structure.chain.links();
+    let (_, rows) = store.query(LAYOUTS, Some(&links.to_string()))?;
+    let own = Own::new(structure);
+    for row in rows {
+        let Some(other) = read(&row) else { continue };
+        let mut figures: Figures = std::array::from_fn(|i| row[FIRST_FIGURE + i].as_f64());
+        if other.slides() != structure.slides() {
+            // A force for a force, and one for a moment.
+            figures[LEAST_FORCE] = None;
+        }
+        let entry = Entry::new(&row);
+        if other.key() == own.key {
+            let best = out.own.get_or_insert(figures);
+            *best = std::array::from_fn(|i| FIGURES[i].better(best[i], figures[i]));
+        } else if let Some(relation) = own.relation(&other, entry.is_symmetric()) {
+            out.near.push(Neighbour {
+                entry,
+                relation,
+                figures,
+            });
+        }
+    }
+    let own = out.own;
+    out.near.sort_by_cached_key(|n| {
+        let better = own.map_or(0, |own| n.better(&own).count());
+        (usize::MAX - better, n.relation, n.entry.id.clone())
+    });
+    Ok(out)
+}
+
+impl Neighbour {
+    /// The figures in which it does better, by their places in [`FIGURES`]: by more than a hundredth.
+    pub fn better<'a>(&'a self, own: &'a Figures) -> impl Iterator<Item = usize> + 'a {
+        let by = |&i: &usize| {
+            let pair = self.figures[i].zip(own[i]);
+            pair.is_some_and(|(here, own)| FIGURES[i].is_better(here, own))
+        };
+        (0..FIGURES.len()).filter(by)
+    }
+}
+
+impl Figure {
+    fn better(&self, a: Option<f64>, b: Option<f64>) -> Option<f64> {
+        let of_two = if self.is_more_better {
+            f64::max
+        } else {
+            f64::min
+        };
+        [a, b].into_iter().flatten().reduce(of_two)
+    }
+
+    fn is_better(&self, a: f64, than: f64) -> bool {
+        let gain = if self.is_more_better {
+            a - than
+        } else {
+            than - a
+        };
+        gain > 0.01 * than.abs().max(f64::MIN_POSITIVE)
+    }
+}
+
+/// A structure, and what is left of it without two links and without four.
+struct Own {
+    links: usize,
+    chain: PairChain,
+    key: Weighted,
+    less: [HashSet<Weighted>; 2],
+}
+
+impl Own {
+    fn new(structure: &PairStructure) -> Own {
+        let two = structure.without_two_links();
+        let four = two.iter().flat_map(PairStructure::without_two_links);
+        Own {
+            links: structure.chain.links(),
+            chain: hinged(structure),
+            key: structure.key(),
+            less: [keys(two.iter()), keys(four.collect_vec().iter())],
+        }
+    }
+
+    fn relation(&self, other: &PairStructure, is_symmetric: bool) -> Option<Nearness> {
+        let links = other.chain.links();
+        match links.abs_diff(self.links) {
+            0 => (hinged(other) == self.chain).then_some(Nearness::OtherRoles),
+            4 if !is_symmetric => None,
+            by @ (2 | 4) if links < self.links => {
+                let is_left = self.less[by / 2 - 1].contains(&other.key());
+                is_left.then_some(Nearness::Fewer(by))
+            }
+            by @ (2 | 4) => {
+                let mut left = other.without_two_links();
+                if by == 4 {
+                    left = left
+                        .iter()
+                        .flat_map(PairStructure::without_two_links)
+                        .collect();
+                }
+                keys(left.iter())
+                    .contains(&self.key)
+                    .then_some(Nearness::More(by))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The chain in canonical numbering, its input a hinge: forms differ in how the input moves.
+fn hinged(structure: &PairStructure) -> PairChain {
+    let joints = structure.chain.joints().into_iter().map(|mut joint| {
+        if joint.links == structure.roles.input {
+            joint.pair = PairKind::Hinge;
+        }
+        joint
+    });
+    PairChain::new(structure.chain.links(), joints).canonical()
+}
+
+fn keys<'a>(all: impl Iterator<Item = &'a PairStructure>) -> HashSet<Weighted> {
+    all.map(PairStructure::key).collect()
+}
