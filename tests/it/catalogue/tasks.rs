@@ -2,7 +2,7 @@
 
 use super::command::{at, fails, ok};
 use super::rows::all_of_six;
-use crate::common::{json, run};
+use crate::common::{json, run, text};
 use ozols::geom::vector::real;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -100,6 +100,49 @@ fn filters_leave_what_is_as_good() {
     assert!(cutting > 8, "{cutting}");
     let both = run(&["catalog", "query", file, "SELECT 1", "--front"]);
     assert_eq!(both.status.code(), Some(2));
+}
+
+/// Where nothing holds all bounds, each that is in the way is named with what there is without it, and how near that comes.
+#[test]
+fn an_empty_answer_says_what_is_in_the_way() {
+    let file = all_of_six();
+    let greatest = "SELECT count(*) AS n, max(least_force) AS most FROM grippers WHERE turn <= 30";
+    let greatest = &rows(file, &[greatest])[0];
+    let o = run(&[
+        "catalog",
+        "query",
+        file,
+        "--least-force",
+        "1000",
+        "--turn",
+        "30",
+    ]);
+    assert_eq!(o.status.code(), Some(1));
+    let told = text(&o.stderr);
+    let line = told
+        .lines()
+        .find(|l| l.contains("without --least-force 1000"));
+    let line = line.unwrap_or_else(|| panic!("{told}"));
+    let (count, most) = line.split_once("; the greatest least force is ").unwrap();
+    assert_eq!(
+        count.trim(),
+        format!("without --least-force 1000: {}", greatest["n"])
+    );
+    let most: f64 = most.parse().unwrap();
+    let exact = greatest["most"].as_f64().unwrap();
+    assert!((most / exact - 1.0).abs() < 1e-3, "{most} {exact}");
+    // The turn alone is not: without it there is none, either.
+    assert!(!told.contains("without --turn"), "{told}");
+    let o = run(&[
+        "catalog",
+        "query",
+        file,
+        "--least-force",
+        "1000",
+        "--width",
+        "1",
+    ]);
+    assert!(text(&o.stderr).contains("two of them or more"), "{o:?}");
 }
 
 /// A file and options ask for the same, and another task is another catalogue.

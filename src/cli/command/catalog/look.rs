@@ -68,6 +68,9 @@ pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
     let asked = a.sql.as_deref().or(wanted.as_deref());
     let (names, rows) = store.query(asked.unwrap_or(BEST), None)?;
     let answer = QueryAnswer { names, rows };
+    if answer.rows.is_empty() && wanted.is_some() {
+        output::note(&a.wanted.in_the_way(&store)?);
+    }
     let path = a.output.as_deref();
     output::to(path, |out| {
         match a.format {

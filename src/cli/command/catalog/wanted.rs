@@ -1,7 +1,10 @@
 //! What a designer wants of the grippers that are listed, as options of `ozols catalog query`.
 
+use crate::catalog::store::{Store, StoreError};
+use crate::format::number::significant;
 use clap::Args as ClapArgs;
 use itertools::Itertools;
+use serde_json::Value;
 
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "Filters")]
@@ -47,39 +50,123 @@ pub(super) struct WantedGrippers {
     cost: Option<f64>,
 }
 
+/// One of the bounds that are asked.
+struct Filter {
+    /// As it is typed.
+    option: String,
+    /// In SQL.
+    holds: String,
+    /// The best value that there is, in SQL and in words; nothing where it is no number.
+    best: Option<(String, String)>,
+}
+
+impl Filter {
+    fn word(option: &str, holds: &str) -> Filter {
+        Filter {
+            option: option.to_owned(),
+            holds: holds.to_owned(),
+            best: None,
+        }
+    }
+
+    fn at_least(option: &str, what: &str, x: f64) -> Filter {
+        let name = option.trim_start_matches('-').replace('-', " ");
+        Filter {
+            option: format!("{option} {x}"),
+            holds: format!("{what} >= {x}"),
+            best: Some((format!("max({what})"), format!("the greatest {name}"))),
+        }
+    }
+
+    fn at_most(option: &str, what: &str, x: f64) -> Filter {
+        let name = option.trim_start_matches('-').replace('-', " ");
+        Filter {
+            option: format!("{option} {x}"),
+            holds: format!("{what} <= {x}"),
+            best: Some((format!("min({what})"), format!("the smallest {name}"))),
+        }
+    }
+}
+
 impl WantedGrippers {
+    fn bounds(&self) -> Vec<Filter> {
+        let words = [
+            (
+                self.does_task,
+                "--does-task",
+                "reached = 1 AND shortfall IS NULL",
+            ),
+            (self.front, "--front", "id IN (SELECT id FROM front)"),
+        ];
+        let least = [
+            ("--least-force", "least_force", self.least_force),
+            ("--stroke", "widest - narrowest", self.stroke),
+            ("--transmission", "transmission", self.transmission),
+            ("--efficiency", "efficiency", self.efficiency),
+        ];
+        let most = [
+            ("--force-ratio", "force_ratio", self.force_ratio),
+            ("--turn", "turn", self.turn),
+            ("--pin-force", "pin_force", self.pin_force),
+            ("--travel", "travel", self.travel),
+            ("--width", "width", self.width),
+            ("--height", "height", self.height),
+            ("--cost", "cost", self.cost),
+        ];
+        let words = words.iter().filter(|(asked, ..)| *asked);
+        let least = least
+            .iter()
+            .filter_map(|(o, what, x)| Some(Filter::at_least(o, what, (*x)?)));
+        let most = most
+            .iter()
+            .filter_map(|(o, what, x)| Some(Filter::at_most(o, what, (*x)?)));
+        words
+            .map(|(_, o, sql)| Filter::word(o, sql))
+            .chain(least)
+            .chain(most)
+            .collect()
+    }
+
     /// The question that asks for it; nothing where nothing is wanted.
     pub(super) fn question(&self) -> Option<String> {
-        let bounds = [
-            ("least_force", ">=", self.least_force),
-            ("force_ratio", "<=", self.force_ratio),
-            ("widest - narrowest", ">=", self.stroke),
-            ("turn", "<=", self.turn),
-            ("transmission", ">=", self.transmission),
-            ("pin_force", "<=", self.pin_force),
-            ("efficiency", ">=", self.efficiency),
-            ("travel", "<=", self.travel),
-            ("width", "<=", self.width),
-            ("height", "<=", self.height),
-            ("cost", "<=", self.cost),
-        ];
-        let bounds = bounds
-            .into_iter()
-            .filter_map(|(what, sign, x)| Some(format!("{what} {sign} {}", x?)));
-        let words = [
-            (self.does_task, "reached = 1 AND shortfall IS NULL"),
-            (self.front, "id IN (SELECT id FROM front)"),
-        ];
-        let words = words
-            .into_iter()
-            .filter(|(asked, _)| *asked)
-            .map(|(_, sql)| sql.to_owned());
-        let all = words.chain(bounds).join(" AND ");
+        let all = self.bounds().iter().map(|b| b.holds.as_str()).join(" AND ");
         (!all.is_empty()).then(|| {
             format!(
                 "SELECT id, links, input, symmetry AS layout, jaws, least_force, force_ratio, turn, transmission, pin_force, efficiency, \
                  travel, width, height, cost FROM grippers WHERE {all} ORDER BY links, least_force DESC, id"
             )
         })
+    }
+
+    /// Which bounds are in the way where nothing holds them all: how many grippers there are without each, and how near they come
+    /// to it.
+    pub(super) fn in_the_way(&self, store: &Store) -> Result<String, StoreError> {
+        let bounds = self.bounds();
+        let mut out = String::from("No gripper holds all of this.\n");
+        let mut found = false;
+        for (i, bound) in bounds.iter().enumerate() {
+            let others = bounds.iter().enumerate().filter(|(k, _)| *k != i);
+            let others = others.map(|(_, b)| b.holds.as_str()).join(" AND ");
+            let others = if others.is_empty() { "1" } else { &others };
+            let best = bound.best.as_ref().map_or("NULL", |(sql, _)| sql);
+            let sql = format!("SELECT count(*), {best} FROM grippers WHERE {others}");
+            let (_, rows) = store.query(&sql, None)?;
+            let row = rows.first().map_or(&[][..], Vec::as_slice);
+            let count = row.first().and_then(Value::as_u64).unwrap_or(0);
+            if count == 0 {
+                continue;
+            }
+            found = true;
+            out += &format!("  without {}: {count}", bound.option);
+            let best = row.get(1).and_then(Value::as_f64);
+            if let (Some((_, name)), Some(best)) = (&bound.best, best) {
+                out += &format!("; {name} is {}", significant(best));
+            }
+            out += "\n";
+        }
+        if !found {
+            out += "  Nor does any where one of the bounds is left out: two of them or more are in the way.\n";
+        }
+        Ok(out)
     }
 }
