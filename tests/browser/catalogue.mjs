@@ -1,6 +1,7 @@
 // The page of a catalogue: cards, filters, the gripper that is chosen.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { catalogue, fits, multiplied, open, picture } from "./pages.mjs";
 
 export function catalogueTests(test) {
@@ -40,7 +41,9 @@ export function catalogueTests(test) {
       assert.match(await tab.locator("#count").innerText(), /^2 of \d+ grippers/);
       await tab.fill("#cost", "0.5");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length === 0);
-      assert.match(await tab.locator("#count").innerText(), /take a filter away/);
+      assert.match(await tab.locator("#count").innerText(), /^None of \d+ grippers is like that: without “Cost at most” 2\.$/);
+      await tab.fill("#turn", "0");
+      await tab.waitForFunction(() => /more than one filter is in the way/.test(document.getElementById("count").textContent));
       await tab.click("#filters button[type=reset]");
       await tab.check("#front");
       await tab.waitForFunction(() => /^\d+ of \d+ grippers/.test(document.getElementById("count").textContent));
@@ -140,5 +143,66 @@ export function catalogueTests(test) {
         assert.ok(await first.evaluate((e) => e === document.activeElement));
       });
     }
+  });
+
+  test("grippers move rigidly from open to closed, under the pointer and by the slider", async () => {
+    await open(file, {}, async (tab) => {
+      const wrong = await tab.evaluate(() => {
+        const out = [], far = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
+        for (const c of data.cards) {
+          const frames = framesOf(c), d = c.drawing;
+          if (frames.length < 10) { out.push([c.id, frames.length]); continue; }
+          const opening = frames.map(({ tips: [a, b] }) => Math.abs(a[1] - b[1]) / d.scale);
+          const step = 2 * Math.max(...opening.slice(1).map((w, i) => Math.abs(w - opening[i])));
+          if (Math.abs(opening[0] - c.opening_max) > step || Math.abs(opening.at(-1) - c.opening_min) > step) out.push([c.id, opening[0], opening.at(-1), c.opening_max, c.opening_min]);
+          for (const f of frames) {
+            d.links.forEach((of, l) => of.forEach((i) => of.forEach((j) => {
+              // The pin of a slide stands for its block, not for a place of the frame.
+              if (l === d.frame && d.slides && [i, j].includes(d.drive)) return;
+              if (Math.abs(far(f.pins[i], f.pins[j]) - far(d.pins[i], d.pins[j])) > 1e-5) out.push([c.id, l, i, j]);
+            })));
+            if (d.links[d.frame].some((i) => !(d.slides && i === d.drive) && far(f.pins[i], d.pins[i]) > 1e-5)) out.push([c.id, "frame"]);
+          }
+        }
+        return out;
+      });
+      assert.deepEqual(wrong, []);
+      const jaw = () => cards(tab).first().locator("svg .jaw").first().getAttribute("d");
+      const drawn = await jaw();
+      await cards(tab).first().hover();
+      await tab.waitForFunction((d) => document.querySelector("#cards .card svg .jaw").getAttribute("d") !== d, drawn);
+      await tab.mouse.move(1, 1);
+      await tab.waitForFunction((d) => document.querySelector("#cards .card svg .jaw").getAttribute("d") === d, drawn);
+      await cards(tab).first().click();
+      const inside = tab.locator("#chosen svg .jaw").first();
+      const before = await inside.getAttribute("d");
+      await tab.locator("#chosen input[type=range]").fill("0");
+      assert.notEqual(await inside.getAttribute("d"), before);
+    });
+    await open(file, { reducedMotion: "reduce" }, async (tab) => {
+      await cards(tab).first().hover();
+      await tab.waitForTimeout(200);
+      assert.equal(await tab.evaluate(() => moved), null);
+    });
+  });
+
+  test("a gripper is saved from the page, and kept beside another", async () => {
+    await open(file, {}, async (tab) => {
+      await cards(tab).first().click();
+      const id = await tab.locator("#chosen-name").innerText();
+      for (const [name, holds] of [[`${id}.toml`, /\[\[joint\]\]/], [`${id}.svg`, /^<svg(?![^]*var\()[^]*\.gripper/]]) {
+        const [file] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("link", { name }).click()]);
+        assert.equal(file.suggestedFilename(), name);
+        assert.match(readFileSync(await file.path(), "utf8"), holds);
+      }
+      await tab.getByRole("button", { name: "Keep to compare" }).click();
+      await tab.keyboard.press("Escape");
+      await cards(tab).nth(1).click();
+      const heads = await tab.locator("#chosen .beside thead th").allInnerTexts();
+      assert.deepEqual(heads.slice(1), [await tab.locator("#chosen-name").innerText(), id]);
+      assert.equal(await tab.locator("#chosen svg.gripper").count(), 2);
+      await fits(tab);
+      await picture(tab, "catalogue-beside", false);
+    });
   });
 }

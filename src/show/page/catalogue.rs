@@ -15,9 +15,12 @@ use std::collections::BTreeMap;
 
 const CARDS: &str = include_str!("catalogue.css");
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 4] = [
+const SCRIPT: [&str; 7] = [
     include_str!("script/gripper.js"),
     include_str!("script/hull.js"),
+    include_str!("script/motion.js"),
+    include_str!("script/moving.js"),
+    include_str!("script/saved.js"),
     include_str!("script/cards.js"),
     include_str!("script/structure.js"),
 ];
@@ -60,6 +63,8 @@ struct DrawingData {
     slides: bool,
     /// Where the jaws grip.
     tips: Option<Vec<[f64; 2]>>,
+    /// Units of the drawing for one of the mechanism.
+    scale: f64,
 }
 
 /// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y.
@@ -124,6 +129,7 @@ fn drawing(text: &str) -> Option<DrawingData> {
         slides: drive.is_some_and(slides),
         drive,
         tips: tips.map(|t| t.iter().map(place).collect()),
+        scale: scaled,
     })
 }
 
@@ -153,7 +159,7 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
     }
     let mut cards = Vec::new();
     for mut card in maps(store, CARD)?.into_iter().chain(maps(store, DRAWN)?) {
-        let mechanism = card.remove("mechanism");
+        let mechanism = card.get("mechanism").cloned();
         let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
         let of = ideas.remove(id).unwrap_or_default();
         let drawn = mechanism.as_ref().and_then(Value::as_str).and_then(drawing);

@@ -36,30 +36,50 @@ function cardOf(c) {
     text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
   );
   button.addEventListener('click', () => choose(c, button));
+  movesWhenMet(button, c);
   item.append(button);
   return item;
 }
 
 let shown = [], given = 0;
 
-// What the filters ask for, read once for all cards.
+// What each filter leaves, given what it is set to.
+const number = (keeps) => (c, v) => keeps(c, Number(v));
+const FILTERS = {
+  links: (c, v) => String(c.links) === v,
+  input: (c, v) => c.input === v,
+  symmetry: (c, v) => (c.drawn ? 'drawn' : c.symmetry) === v,
+  jaws: (c, v) => !c.drawn && motions(c).every((m) => m === v),
+  cost: number((c, v) => c.best_cost !== null && c.best_cost <= v),
+  transmission: number((c, v) => c.transmission >= v),
+  force: number((c, v) => c.force_min >= v),
+  ratio: number((c, v) => !c.drawn && c.force_max <= v * c.force_min),
+  turn: number((c, v) => !c.drawn && c.jaw_turn <= v),
+  does: (c) => c.reached === 1 && !c.shortfall,
+  front: (c) => c.front === 1,
+  find: (c, v) => c.name.toLowerCase().includes(v) || c.id.includes(v),
+};
+
+/** What is asked, read once for all cards: of each filter that is set, its id and whether it keeps a card. */
 function wanted() {
-  const [links, input, symmetry, jaws] = ['links', 'input', 'symmetry', 'jaws'].map((id) => by(id).value);
-  const [cost, transmission, force, ratio, turn] = ['cost', 'transmission', 'force', 'ratio', 'turn'].map((id) => (by(id).value === '' ? null : Number(by(id).value)));
-  const front = by('front').checked, does = by('does').checked, find = by('find').value.trim().toLowerCase();
-  return (c) =>
-    (!links || String(c.links) === links) &&
-    (!input || c.input === input) &&
-    (!symmetry || (c.drawn ? 'drawn' : c.symmetry) === symmetry) &&
-    (!jaws || (!c.drawn && motions(c).every((m) => m === jaws))) &&
-    (cost === null || (c.best_cost !== null && c.best_cost <= cost)) &&
-    (transmission === null || c.transmission >= transmission) &&
-    (force === null || c.force_min >= force) &&
-    (ratio === null || (!c.drawn && c.force_max <= ratio * c.force_min)) &&
-    (turn === null || (!c.drawn && c.jaw_turn <= turn)) &&
-    (!does || (c.reached === 1 && !c.shortfall)) &&
-    (!front || c.front === 1) &&
-    (!find || c.name.toLowerCase().includes(find) || c.id.includes(find));
+  return Object.entries(FILTERS).flatMap(([id, keeps]) => {
+    const input = by(id), value = input.type === 'checkbox' ? (input.checked ? 'on' : '') : input.value.trim().toLowerCase();
+    return value === '' ? [] : [[id, (c) => keeps(c, value)]];
+  });
+}
+
+/** Which filters are in the way where nothing is left: how many grippers there are without each. */
+function inTheWay(asked) {
+  const words = (id) => by(id).closest('label').firstChild.textContent.trim() || by(id).closest('label').textContent.trim();
+  const without = asked.flatMap(([id]) => {
+    const n = data.cards.filter((c) => asked.every(([other, keeps]) => other === id || keeps(c))).length;
+    return n ? [`without “${words(id)}” ${grouped(n)}`] : [];
+  });
+  const out = without.length ? [without.join(', ')] : ['more than one filter is in the way'];
+  if (by('jaws').value === 'parallel' && !data.cards.some((c) => FILTERS.jaws(c, 'parallel'))) {
+    out.push('with hinges alone, jaws that do not turn need ten links; with slides, six do (ozols catalog count --pairs slide)');
+  }
+  return out.join('; ');
 }
 
 function more() {
@@ -70,20 +90,22 @@ function more() {
 }
 
 function show() {
-  shown = data.cards.filter(wanted());
+  const asked = wanted();
+  shown = data.cards.filter((c) => asked.every(([, keeps]) => keeps(c)));
   const key = by('sort').value;
   if (key) {
     const sign = BIGGEST_FIRST.includes(key) ? -1 : 1;
     const value = (c) => (c[key] === null || c[key] === undefined ? Infinity : sign * Number(c[key]));
     shown.sort((a, b) => value(a) - value(b));
   }
+  rest();
   by('cards').replaceChildren();
   given = 0;
   more();
   const n = data.cards.length;
   by('count').textContent = shown.length === n ? `All ${grouped(n)} grippers.`
     : shown.length ? `${grouped(shown.length)} of ${grouped(n)} grippers.`
-    : `None of ${grouped(n)} grippers is like that: take a filter away.`;
+    : `None of ${grouped(n)} grippers is like that: ${inTheWay(asked)}.`;
 }
 
 for (const n of [...new Set(data.cards.map((c) => c.links))]) by('links').append(text('option', n, { value: n }));

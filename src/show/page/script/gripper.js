@@ -32,7 +32,18 @@ function round([x, y], r, s) {
   return `M${a}A${r} ${r} 0 0 ${s > 0 ? 0 : 1} ${b}` + head(to, [-s * Math.sin(t), -s * Math.cos(t)]);
 }
 
-function gripper(card, title, changed) {
+/** How the tips move as the drive closes, the fastest by the longest arrow. */
+function arrows(card, tips) {
+  const moves = ['a', 'b', 'c'].map((jaw) => [card[`tip_${jaw}_dx`], card[`tip_${jaw}_dy`]]).filter((v) => v[0] !== null).map(flip);
+  const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
+  return moves.flatMap((move, n) => {
+    const [x, y] = tips[n], v = move.map((c) => (c / fastest) * 13);
+    return Math.hypot(...v) < 1 ? [] : [element('path', { class: 'arrow', d: straight([x, y], [x + v[0], y + v[1]]) })];
+  });
+}
+
+/** A gripper as it is drawn, or with its pins and tips elsewhere. */
+function gripper(card, title, changed, elsewhere) {
   const d = card.drawing;
   if (!d) {
     const note = document.createElement('p');
@@ -40,8 +51,10 @@ function gripper(card, title, changed) {
     note.textContent = 'Not in one plane: ozols draw shows it.';
     return note;
   }
-  const pins = d.pins.map(flip), tips = (d.tips || []).map(flip);
-  const all = pins.concat(tips);
+  const at = elsewhere || d;
+  const pins = at.pins.map(flip), tips = (at.tips || []).map(flip);
+  // The same sight however it moves.
+  const all = [...d.pins, ...(d.tips || [])].map(flip);
   const low = [0, 1].map((k) => Math.min(...all.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...all.map((p) => p[k])));
   // Labels stand beside their pins, those on the right to the left of them.
   const margin = [changed ? 40 : 20, 20], size = [0, 1].map((k) => high[k] - low[k] + 2 * margin[k]);
@@ -65,7 +78,8 @@ function gripper(card, title, changed) {
   d.links[d.frame].forEach((i) => {
     const [x, y] = pins[i];
     if (i === slidePin) {
-      out.push(element('path', { class: 'guide', d: `M${x - 16} ${y - 6}h32M${x - 16} ${y + 6}h32` }));
+      const guide = flip(d.pins[i]);
+      out.push(element('path', { class: 'guide', d: `M${guide[0] - 16} ${y - 6}h32M${guide[0] - 16} ${y + 6}h32` }));
       out.push(element('rect', { class: 'block', x: x - 8, y: y - 5, width: 16, height: 10, rx: 1 }));
     } else {
       out.push(element('path', { class: 'ground', d: `M${x} ${y}l-5 8h10zM${x - 7} ${y + 8}h14` }));
@@ -74,17 +88,11 @@ function gripper(card, title, changed) {
   pins.forEach(([x, y], i) => {
     if (i !== slidePin) out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }));
   });
-  if (card.closes) {
+  if (card.closes && !elsewhere) {
     const [x, y] = pins[d.drive], s = card.closes;
     out.push(element('path', { class: 'drive', d: d.slides ? straight([x - 11 * s, y - 11], [x + 11 * s, y - 11]) : round([x, y], 10, s) }));
   }
-  const moves = card.drawn ? [] : ['a', 'b', 'c'].map((jaw) => [card[`tip_${jaw}_dx`], card[`tip_${jaw}_dy`]]).filter((v) => v[0] !== null).map(flip);
-  const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
-  moves.forEach((move, n) => {
-    const [x, y] = tips[n], v = move.map((c) => (c / fastest) * 13), length = Math.hypot(...v);
-    if (length < 1) return;
-    out.push(element('path', { class: 'arrow', d: straight([x, y], [x + v[0], y + v[1]]) }));
-  });
+  if (!card.drawn && !elsewhere) out.push(...arrows(card, tips));
   for (const [name, word] of changed || []) {
     const i = d.names.indexOf(name);
     if (i < 0) continue;

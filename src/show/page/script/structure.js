@@ -30,50 +30,122 @@ function figuresOf(c) {
   ]);
 }
 
-function choose(c, from) {
-  const dialog = by('chosen');
-  const head = document.createElement('header');
+let kept = null;
+
+/** Figures of a gripper, beside those of the one that is kept. */
+function figureTable(c) {
+  const own = figuresOf(c);
+  if (!kept || kept === c) {
+    const list = document.createElement('dl');
+    for (const [name, value] of own) list.append(text('dt', name), text('dd', value));
+    return list;
+  }
+  const other = new Map(figuresOf(kept)), mine = new Map(own), names = [...new Set([...mine.keys(), ...other.keys()])];
+  const table = document.createElement('table'), head = table.createTHead().insertRow(), body = table.createTBody();
+  head.append(text('th', ''), text('th', c.id, { scope: 'col' }), text('th', kept.id, { scope: 'col' }));
+  for (const name of names) {
+    const row = body.insertRow();
+    row.append(text('th', name, { scope: 'row' }), text('td', mine.get(name) || '–'), text('td', other.get(name) || '–'));
+  }
+  const room = document.createElement('div');
+  room.className = 'wide beside';
+  room.append(table);
+  return room;
+}
+
+/** Keeps a gripper beside those that are chosen next, or lets it go. */
+function keeping(c, anew) {
+  const button = text('button', kept === c ? 'Let it go' : 'Keep to compare', { type: 'button' });
+  button.addEventListener('click', () => {
+    kept = kept === c ? null : c;
+    anew();
+  });
+  return button;
+}
+
+/** The drawing of what is chosen, with how far it is open. */
+function sight(c) {
+  const figure = document.createElement('div'), frames = framesOf(c);
+  let idea = null, frame;
+  const draw = () => {
+    const title = `Gripper ${c.id}${idea ? ', idea ' + idea.place : ''}`;
+    const picture = gripper(c, title, idea ? changesOf(idea) : [], frame);
+    const old = figure.querySelector('svg');
+    if (old) old.replaceWith(picture); else figure.prepend(picture);
+  };
+  draw();
+  if (frames.length > 1) {
+    const drawn = frames.findIndex((f) => f.pins === c.drawing.pins);
+    const range = text('input', '', { type: 'range', min: 0, max: frames.length - 1, value: drawn, 'aria-label': 'From open to closed' });
+    range.addEventListener('input', () => {
+      frame = Number(range.value) === drawn ? undefined : frames[range.value];
+      draw();
+    });
+    const label = document.createElement('label');
+    label.className = 'stroke';
+    label.append('open', range, 'closed');
+    figure.append(label);
+  }
+  return { figure, show: (chosen) => { idea = chosen; draw(); } };
+}
+
+/** The cheapest ideas, of which one is drawn when it is picked. */
+function ideaTable(c, pick) {
+  const table = document.createElement('table'), body = document.createElement('tbody');
+  const top = table.createTHead().insertRow();
+  for (const name of ['', 'cost', 'variants', 'adds']) top.append(text('th', name, name && name !== 'adds' ? { class: 'n' } : {}));
+  for (const idea of c.ideas) {
+    const row = body.insertRow();
+    row.tabIndex = 0;
+    row.append(text('td', idea.place), text('td', short(idea.cost), { class: 'n' }), text('td', least(c) + grouped(idea.variants), { class: 'n' }), text('td', idea.adds));
+    const chosen = () => {
+      for (const other of body.rows) other.setAttribute('aria-selected', other === row);
+      pick(idea);
+    };
+    row.addEventListener('click', chosen);
+    row.addEventListener('keydown', (e) => { if (e.key === 'Enter' || e.key === ' ') { e.preventDefault(); chosen(); } });
+  }
+  table.append(body);
+  const room = document.createElement('div');
+  room.className = 'wide ideas';
+  room.append(table);
+  return room;
+}
+
+/** What the dialog says of a gripper. */
+function tell(c) {
+  const dialog = by('chosen'), head = document.createElement('header');
   const close = text('button', 'Close', { type: 'button' });
   close.addEventListener('click', () => dialog.close());
-  head.append(text('h2', c.id, { id: 'chosen-name' }), close);
-  const figure = document.createElement('div');
-  const draw = (idea) => figure.replaceChildren(gripper(c, `Gripper ${c.id}${idea ? ', idea ' + idea.place : ''}`, idea ? changesOf(idea) : []));
-  draw(null);
-  const list = document.createElement('dl');
-  for (const [name, value] of figuresOf(c)) list.append(text('dt', name), text('dd', value));
-  const two = document.createElement('div');
+  const buttons = document.createElement('div');
+  buttons.append(keeping(c, () => { tell(c); dialog.querySelector('button').focus(); }), ' ', close);
+  head.append(text('h2', c.id, { id: 'chosen-name' }), buttons);
+  const { figure, show } = sight(c), two = document.createElement('div');
   two.className = 'two';
-  two.append(figure, list);
+  two.append(figure, figureTable(c));
+  if (kept && kept !== c) figure.append(text('p', `Beside ${kept.id}:`, { class: 'help' }), gripper(kept, `Gripper ${kept.id}`));
   dialog.replaceChildren(head, two);
   const commands = text('pre', '');
-  const tell = (idea) => {
+  const command = (idea) => {
     const k = idea ? ` --idea ${idea.place}` : '';
     commands.textContent = `ozols catalog export ${data.file} ${c.id}${k} -o gripper.toml\nozols report gripper.toml -o gripper.html`;
   };
+  command(null);
   if (c.ideas.length) {
-    const table = document.createElement('table'), body = document.createElement('tbody');
-    const top = table.createTHead().insertRow();
-    for (const name of ['', 'cost', 'variants', 'adds']) top.append(text('th', name, name && name !== 'adds' ? { class: 'n' } : {}));
-    for (const idea of c.ideas) {
-      const row = body.insertRow();
-      row.tabIndex = 0;
-      row.append(text('td', idea.place), text('td', short(idea.cost), { class: 'n' }), text('td', least(c) + grouped(idea.variants), { class: 'n' }), text('td', idea.adds));
-      const pick = () => {
-        for (const other of body.rows) other.setAttribute('aria-selected', other === row);
-        draw(idea);
-        tell(idea);
-      };
-      row.addEventListener('click', pick);
-      row.addEventListener('keydown', (e) => { if (e.key === 'Enter' || e.key === ' ') { e.preventDefault(); pick(); } });
-    }
-    table.append(body);
-    const room = document.createElement('div');
-    room.className = 'wide';
-    room.append(table);
-    dialog.append(text('h3', 'The cheapest ideas'), text('p', 'Each stands for as many variants as share out the same freedoms among joints in series; choose one to see it carried out.', { class: 'help' }), room);
+    dialog.append(
+      text('h3', 'The cheapest ideas'),
+      text('p', 'Each stands for as many variants as share out the same freedoms among joints in series; choose one to see it carried out.', { class: 'help' }),
+      ideaTable(c, (idea) => { show(idea); command(idea); }),
+    );
   }
-  tell(null);
   dialog.append(text('h3', 'Go on'), commands);
+  if (c.drawing) dialog.append(savedFiles(c, figure));
+}
+
+function choose(c, from) {
+  const dialog = by('chosen');
+  rest();
+  tell(c);
   dialog.addEventListener('close', () => from.focus(), { once: true });
   dialog.showModal();
 }
