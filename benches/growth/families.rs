@@ -1,7 +1,5 @@
-//! Mechanisms of every size: hinges with four options each, at places in general position.
+//! Mechanism files of every size: hinges with four options each, at places in general position.
 
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
 use std::fmt::Write;
 
 const OPTIONS: &str = "[\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
@@ -47,6 +45,10 @@ impl Written {
     }
 
     fn hinge(&mut self, a: usize, b: usize) {
+        self.joint("revolute", a, b);
+    }
+
+    fn joint(&mut self, kind: &str, a: usize, b: usize) {
         let (x, y) = (self.below(997), self.below(997));
         let (z, axis) = if self.spatial {
             (
@@ -58,7 +60,7 @@ impl Written {
         };
         let _ = write!(
             self.text,
-            "[[joint]]\nid = \"j{}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, {z}]\naxis = {axis:?}\n",
+            "[[joint]]\nid = \"j{}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{kind}\"\npoint = [{x}, {y}, {z}]\naxis = {axis:?}\n",
             self.joints
         );
         self.joints += 1;
@@ -74,14 +76,10 @@ impl Written {
         }
         new
     }
-
-    fn read(&self) -> Mechanism {
-        mechanism_from_str("generated.toml", &self.text).expect("valid")
-    }
 }
 
 /// A slider 1 that drives `m` fingers, each a contour 0-1-rod-finger with all revolute joints: m coupled contours.
-pub(crate) fn fingers(m: usize) -> Mechanism {
+pub(crate) fn fingers(m: usize) -> String {
     let mut out = format!(
         "name = \"fingers\"\n[search]\noptions = {OPTIONS}\n\
          [[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n\
@@ -102,11 +100,11 @@ pub(crate) fn fingers(m: usize) -> Mechanism {
             );
         }
     }
-    mechanism_from_str("fingers.toml", &out).expect("valid")
+    out
 }
 
 /// A four-bar, and three joints more for each further contour, which shares two links with the one before.
-pub(crate) fn ladder(contours: usize, spatial: bool) -> Mechanism {
+pub(crate) fn ladder(contours: usize, spatial: bool) -> String {
     let mut m = Written::new(spatial);
     let frame = m.link(false);
     let mut side = m.link(true);
@@ -118,12 +116,12 @@ pub(crate) fn ladder(contours: usize, spatial: bool) -> Mechanism {
         let new = m.chain(side, other, 3);
         (side, other) = (new[0], new[1]);
     }
-    m.read()
+    m.text
 }
 
 /// Plates in rows and columns, each on hinges with its neighbours: (rows - 1)(columns - 1) contours in two directions.
-pub(crate) fn grid(rows: usize, columns: usize) -> Mechanism {
-    let mut m = Written::new(false);
+pub(crate) fn grid(rows: usize, columns: usize, spatial: bool) -> String {
+    let mut m = Written::new(spatial);
     let last = rows * columns - 1;
     for i in 0..=last {
         m.link(i == last);
@@ -136,22 +134,22 @@ pub(crate) fn grid(rows: usize, columns: usize) -> Mechanism {
             m.hinge(i, i + columns);
         }
     }
-    m.read()
+    m.text
 }
 
 /// A platform on `legs` legs, each of so many hinges.
-pub(crate) fn parallel_robot(legs: usize, hinges: usize, spatial: bool) -> Mechanism {
+pub(crate) fn parallel_robot(legs: usize, hinges: usize, spatial: bool) -> String {
     let mut m = Written::new(spatial);
     let frame = m.link(false);
     let platform = m.link(true);
     for _ in 0..legs {
         m.chain(frame, platform, hinges);
     }
-    m.read()
+    m.text
 }
 
 /// Four-bars one on another, each on the coupler of the one before.
-pub(crate) fn row(contours: usize) -> Mechanism {
+pub(crate) fn row(contours: usize) -> String {
     let mut m = Written::new(true);
     let mut on = m.link(false);
     for i in 0..contours {
@@ -161,5 +159,84 @@ pub(crate) fn row(contours: usize) -> Mechanism {
         }
         on = coupler;
     }
-    m.read()
+    m.text
+}
+
+/// A platform on legs of three hinges that stand on the ground by a ball each.
+pub(crate) fn walker(legs: usize) -> String {
+    let mut m = Written::new(true);
+    let ground = m.link(false);
+    let body = m.link(true);
+    for _ in 0..legs {
+        let foot = m.link(false);
+        m.joint("spherical", ground, foot);
+        m.chain(foot, body, 3);
+    }
+    m.text
+}
+
+/// Pairs of crossed bars in a closed ring in a plane, each on two hinges with the next.
+pub(crate) fn ring(pairs: usize) -> String {
+    let mut m = Written::new(false);
+    let bars: Vec<[usize; 2]> = (0..pairs)
+        .map(|i| [m.link(false), m.link(i + 1 == pairs)])
+        .collect();
+    for (i, [a, b]) in bars.iter().enumerate() {
+        let [next_a, next_b] = bars[(i + 1) % pairs];
+        m.hinge(*a, *b);
+        m.hinge(*a, next_b);
+        m.hinge(*b, next_a);
+    }
+    m.text
+}
+
+/// Crossed bars in stages on a slide, under a platform with another.
+pub(crate) fn scissor_lift(stages: usize) -> String {
+    let mut out = format!(
+        "name = \"scissor lift\"\n[search]\noptions = {OPTIONS}\n[[link]]\nid = \"0\"\nrole = \"frame\"\n\
+         [[link]]\nid = \"s\"\n[[link]]\nid = \"t\"\nrole = \"output\"\n[[link]]\nid = \"u\"\n"
+    );
+    let joint = |a: &str, b: &str, kind: &str, (x, y): (usize, usize)| {
+        let more = match (kind, a) {
+            ("prismatic", "0") => "axis = [1, 0, 0]\ndrive = true",
+            ("prismatic", _) => "axis = [1, 0, 0]",
+            _ => "axis = [0, 0, 1]",
+        };
+        format!(
+            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{kind}\"\npoint = [{x}, {y}, 0]\n{more}\n"
+        )
+    };
+    let (mut left, mut right) = ("0".to_owned(), "s".to_owned());
+    let mut joints = joint("0", "s", "prismatic", (60, 0));
+    for i in 1..=stages {
+        let (a, b) = (format!("a{i}"), format!("b{i}"));
+        let _ = write!(out, "[[link]]\nid = \"{a}\"\n[[link]]\nid = \"{b}\"\n");
+        let low = 40 * (i - 1);
+        joints += &joint(&left, &a, "revolute", (0, low));
+        joints += &joint(&right, &b, "revolute", (60, low));
+        joints += &joint(&a, &b, "revolute", (30, low + 20));
+        (left, right) = (b, a);
+    }
+    joints += &joint(&left, "t", "revolute", (0, 40 * stages));
+    joints += &joint(&right, "u", "revolute", (60, 40 * stages));
+    joints += &joint("t", "u", "prismatic", (60, 40 * stages));
+    out + &joints
+}
+
+/// A hand in a plane: one slider drives five fingers, each a slider-crank and a four-bar on it that bends the tip.
+pub(crate) fn hand() -> String {
+    let mut m = Written::new(false);
+    let palm = m.link(false);
+    let drive = m.link(false);
+    m.joint("cylindrical", palm, drive);
+    for _ in 0..5 {
+        let [rod, finger, tip, coupler] = [false, false, true, false].map(|output| m.link(output));
+        for (a, b) in [(drive, rod), (rod, finger), (finger, palm)] {
+            m.hinge(a, b);
+        }
+        for (a, b) in [(finger, tip), (tip, coupler), (coupler, palm)] {
+            m.hinge(a, b);
+        }
+    }
+    m.text
 }

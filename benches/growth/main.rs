@@ -2,8 +2,11 @@
 //! with the rows that choices differ in and with all rows. What takes more than 200,000 nodes from one end is built from both,
 //! and then the smallest there is.
 //!
-//! `cargo bench --bench growth [FOLDER]` writes growth.svg and growth.md there, by default into target/growth. A family ends
+//! `cargo bench --bench growth -- [FOLDER]` writes growth.svg and growth.md there, by default into target/growth. A family ends
 //! with the first member that does not fit the budget.
+//!
+//! `cargo bench --bench growth -- --files FOLDER` only writes mechanism files there: what engines are held to, of which
+//! `benches/growth/table` makes its table.
 
 #![allow(
     clippy::print_stdout,
@@ -13,9 +16,10 @@
 
 mod families;
 
-use families::{fingers, grid, ladder, parallel_robot, row};
+use families::{fingers, grid, hand, ladder, parallel_robot, ring, row, scissor_lift, walker};
 use ozols::chart::{Axis, Chart, Scale, Series, Style};
 use ozols::closure::contour::contour_basis;
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
@@ -28,8 +32,9 @@ use std::time::Instant;
 type Family = (&'static str, Vec<Mechanism>);
 
 fn all() -> Vec<Family> {
-    let of = |sizes: &[usize], make: &dyn Fn(usize) -> Mechanism| {
-        sizes.iter().map(|&n| make(n)).collect()
+    let of = |sizes: &[usize], make: &dyn Fn(usize) -> String| {
+        let member = |&n| mechanism_from_str("generated.toml", &make(n)).expect("valid");
+        sizes.iter().map(member).collect()
     };
     let several = [1, 2, 3, 4, 5, 6, 7, 8];
     vec![
@@ -42,7 +47,7 @@ fn all() -> Vec<Family> {
         ("spatial ladder", of(&several, &|n| ladder(n, true))),
         (
             "planar grid of two rows",
-            of(&[2, 3, 4, 5, 6, 7], &|n| grid(2, n)),
+            of(&[2, 3, 4, 5, 6, 7], &|n| grid(2, n, false)),
         ),
         (
             "planar legs of three hinges",
@@ -53,6 +58,33 @@ fn all() -> Vec<Family> {
             of(&[2, 3, 4, 5, 6], &|n| parallel_robot(n, 6, true)),
         ),
     ]
+}
+
+/// Mechanisms that repeat themselves, are generic, or are met with in machines: names, and their files.
+fn named() -> Vec<(String, String)> {
+    let mut out = Vec::new();
+    let mut of = |name: &str, sizes: &[usize], make: &dyn Fn(usize) -> String| {
+        out.extend(sizes.iter().map(|&n| (format!("{name} {n}"), make(n))));
+    };
+    of("planar ladder", &[6, 8, 10], &|n| ladder(n, false));
+    of("spatial ladder", &[3, 4, 5, 6], &|n| ladder(n, true));
+    for (space, spatial) in [("planar", false), ("spatial", true)] {
+        of(&format!("{space} mesh 2 x"), &[2, 3], &|n| {
+            grid(3, n + 1, spatial)
+        });
+        of(&format!("{space} mesh 3 x"), &[3], &|n| {
+            grid(4, n + 1, spatial)
+        });
+    }
+    of("ring of pairs", &[6, 8, 12], &ring);
+    of("scissor lift", &[3, 6, 10, 12, 40], &scissor_lift);
+    of("walker on legs", &[3, 4, 6], &walker);
+    of("hand of fingers", &[5], &|_| hand());
+    of("three generic legs of", &[5], &|n| {
+        parallel_robot(3, n, true)
+    });
+    of("fingers", &[10, 20, 40, 80], &fingers);
+    out
 }
 
 /// Of both diagrams: nodes, milliseconds (the best of three where it is short), and whether they are whole.
@@ -78,11 +110,18 @@ fn built(m: &Mechanism, whole_twists: bool) -> (usize, f64, bool) {
 }
 
 fn main() {
+    let files = std::env::args().any(|a| a == "--files");
     let mut args = std::env::args().skip(1).filter(|a| !a.starts_with("--"));
     let folder = args
         .next()
         .map_or(PathBuf::from("target/growth"), PathBuf::from);
     std::fs::create_dir_all(&folder).expect("a folder to write to");
+    if files {
+        for (name, text) in named() {
+            std::fs::write(folder.join(format!("{name}.toml")), text).expect("written");
+        }
+        return;
+    }
     let mut table = String::from(
         "| family | contours | variants | nodes | time | time with all rows |\n|---|---|---|---|---|---|\n",
     );
