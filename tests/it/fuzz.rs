@@ -13,6 +13,7 @@ mod certificates;
 mod corpus;
 mod expressions;
 mod mechanism_files;
+pub(crate) mod readers;
 mod robot_files;
 
 use proptest::prelude::*;
