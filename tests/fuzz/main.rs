@@ -12,7 +12,13 @@ use libfuzzer_sys::fuzz_target;
 use readers::{READERS, Reader};
 use std::sync::LazyLock;
 
-/// The reader that is named; its words and first inputs are written where a folder for them is named.
+/// A word as it stands in one of libFuzzer's dictionaries.
+fn entry(word: &str) -> String {
+    let bytes = word.bytes().map(|b| format!("\\x{b:02x}"));
+    format!("\"{}\"\n", bytes.collect::<String>())
+}
+
+/// The reader that is named; its first inputs, and beside them its words, are written where a folder for them is named.
 static READER: LazyLock<&Reader> = LazyLock::new(|| {
     let name = std::env::var("OZOLS_FUZZ_READER").expect("tests/fuzz/run names a reader");
     let reader = READERS.iter().find(|r| r.name == name);
@@ -21,6 +27,9 @@ static READER: LazyLock<&Reader> = LazyLock::new(|| {
         for (i, seed) in (reader.seeds)().iter().enumerate() {
             std::fs::write(format!("{folder}/{i:03}"), seed).expect("a folder to write to");
         }
+        let words = reader.words.iter().filter(|w| !w.is_empty());
+        let words: String = words.map(|w| entry(w)).collect();
+        std::fs::write(format!("{folder}.words"), words).expect("a folder to write beside");
         std::process::exit(0);
     }
     reader

@@ -191,7 +191,7 @@ pub(crate) fn sweep_seeds() -> Vec<Vec<u8>> {
     let rows = [row(0, ""), row(1, more), row(2, ""), row(3, "")];
     texts(&[
         &format!("{head}\n{}\n", rows.join("\n")),
-        &format!("{head}\n{{\"sample\":0,\"at\":{{}},\"problem\":\"none\"}}\n"),
+        &format!("{head}\n{{\"sample\":0,\"at\":{{\"a\":1,\"b\":1}},\"problem\":\"none\"}}\n"),
     ])
 }
 
