@@ -1,16 +1,13 @@
 //! Mechanism files in TOML and JSON, and the workloads in them.
 
 use ozols::builtin;
-use ozols::drive::driving::drive;
 use ozols::file::lint::check;
 use ozols::file::problem::ImportError;
 use ozols::file::read::workload::{drive_from_bytes, grip_from_bytes, tables_alone};
 use ozols::file::text::mechanism_from_bytes;
 use ozols::file::write::mechanism_file;
-use ozols::grip::gripping::grip;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
-use ozols::view;
 
 pub(crate) const WORDS: [&str; 20] = [
     "1e308",
@@ -67,29 +64,16 @@ pub(crate) fn told(e: &ImportError) -> String {
     said.collect::<Vec<_>>().join("\n")
 }
 
-/// The tables of a workload are found to hold or not, in words. Returns what was said.
+/// Reads the tables of a workload, with the mechanism around them and alone. Returns what was said.
 pub(crate) fn workload(bytes: &[u8]) -> String {
-    let alone = tables_alone("x.toml", bytes);
-    let gripping = match grip_from_bytes("x.toml", bytes) {
-        Ok(file) => match grip(&file.spec, file.mechanism.as_ref()) {
-            Ok(found) => {
-                view::grip::text::grip(&view::grip::GripReport::new(&file, &found), Some(80))
-            }
-            Err(e) => e.to_string(),
-        },
-        Err(e) => told(&e),
-    };
-    let driving = match drive_from_bytes("x.toml", bytes) {
-        Ok(file) => match drive(&file.spec) {
-            Ok(found) => {
-                view::drive::text::drive(&view::drive::Drive::new(&file, &found), Some(80))
-            }
-            Err(e) => e.to_string(),
-        },
-        Err(e) => told(&e),
-    };
-    let alone = alone.map_or_else(|e| told(&e), |tables| format!("{tables:?}"));
-    [alone, gripping, driving].join("\n")
+    let of = "x.toml";
+    let all = [
+        tables_alone(of, bytes).map(|tables| format!("{tables:?}")),
+        grip_from_bytes(of, bytes).map(|file| file.name),
+        drive_from_bytes(of, bytes).map(|file| file.name),
+    ];
+    let said = all.map(|read| read.unwrap_or_else(|e| told(&e)));
+    said.join("\n")
 }
 
 /// The built-in mechanisms with such tables.
