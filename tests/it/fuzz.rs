@@ -7,7 +7,8 @@
 //! ```
 //!
 //! What fails is made small, shown, and kept in `tests/proptest-regressions`, whence every later run tries it first. The
-//! search against brute force on small random mechanisms is in `twin`, and takes the same number.
+//! search against brute force on small random mechanisms is in `twin`, and takes the same number. `tests/fuzz/run` makes inputs
+//! by how far into the code earlier ones came; `corpus` reads what was kept of them.
 
 mod certificates;
 mod corpus;

