@@ -1,5 +1,5 @@
 //! Inputs that are kept: each reaches code that no other does, as `tests/fuzz/run` found. Every run of the tests reads all of
-//! them again, and spoils them for what is left of half a second a reader; a longer run, here of ten minutes:
+//! them again, and spoils them for what is left of a fifth of a second a reader; a longer run, here of ten minutes:
 //!
 //! ```text
 //! OZOLS_FUZZ_SECONDS=600 cargo test --test integration fuzz::corpus -- --nocapture
@@ -95,7 +95,7 @@ impl<'r> Given<'r> {
 
 #[test]
 fn what_is_kept_and_what_comes_of_it() {
-    let seconds = std::env::var("OZOLS_FUZZ_SECONDS").map_or(0.5, |s| s.parse().unwrap());
+    let seconds = std::env::var("OZOLS_FUZZ_SECONDS").map_or(0.2, |s| s.parse().unwrap());
     let look = |reader: &Reader| {
         let executions = run(reader, Duration::from_secs_f64(seconds));
         eprintln!("{}: {executions} executions", reader.name);
