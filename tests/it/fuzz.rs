@@ -7,13 +7,16 @@
 //! ```
 //!
 //! What fails is made small, shown, and kept in `tests/proptest-regressions`, whence every later run tries it first. The
-//! search against brute force on small random mechanisms is in `twin`, and takes the same number.
+//! search against brute force on small random mechanisms is in `twin`, and takes the same number. `tests/fuzz/run` makes inputs
+//! by how far into the code earlier ones came; `corpus` reads what was kept of them.
 
 mod certificates;
 mod corpus;
 mod expressions;
 mod mechanism_files;
+pub(crate) mod readers;
 mod robot_files;
+mod small_files;
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};

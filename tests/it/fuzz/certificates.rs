@@ -1,97 +1,19 @@
 //! Files of certificates: whatever is done to one, no wrong rank is accepted.
 
+use super::readers::certificates::{NAMES, WORDS, look_at, seeds};
 use super::{edits, runs, spoilt};
-use crate::common::built_in;
-use ozols::model::mechanism::StateId;
-use ozols::rank::exact::certificate::{certify, matrix, number_field};
-use ozols::verify;
-use ozols::verify::certificate::{CertificateFile, FORMAT};
-use ozols::verify::matrix::MatrixOverRing;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use std::sync::LazyLock;
 
-/// Mechanisms over the rationals, with roots, and with cosines.
-const NAMES: [&str; 4] = ["four-bar", "bennett", "peaucellier", "schatz-turbula"];
-
-pub(super) const WORDS: [&str; 16] = [
-    "0",
-    "1",
-    "-1",
-    "2",
-    "7",
-    "1/7",
-    "1/0",
-    "-0",
-    "18446744073709551615",
-    "1e400",
-    "null",
-    "[]",
-    "{}",
-    "\"",
-    ",",
-    "]",
-];
-
-/// A mechanism's matrix, its rank, and the file of the certificate.
-static CERTIFIED: LazyLock<Vec<(MatrixOverRing, usize, String)>> = LazyLock::new(|| {
-    let certified = |name: &str| {
-        let m = built_in(name);
-        let certificate = certify(&m, StateId::FREE).unwrap();
-        let rank = certificate.rank;
-        let file = CertificateFile {
-            format: FORMAT.to_owned(),
-            mechanism: m.name.clone(),
-            certificates: vec![certificate],
-            without: Vec::new(),
-        };
-        let over = matrix(&number_field(&m, StateId::FREE).unwrap(), &m, StateId::FREE).unwrap();
-        (over, rank, serde_json::to_string_pretty(&file).unwrap())
-    };
-    NAMES.iter().map(|name| certified(name)).collect()
-});
-
-/// No rank but the right one is accepted of a file about one of the mechanisms. Returns what was said.
-fn look_at(which: usize, bytes: &[u8]) -> String {
-    let (over, rank, _) = &CERTIFIED[which];
-    match CertificateFile::read(bytes) {
-        Ok(file) => {
-            let checked = file
-                .certificates
-                .iter()
-                .map(|c| match verify::check(over, c) {
-                    Ok(accepted) => {
-                        assert_eq!(accepted, *rank);
-                        "accepted".to_owned()
-                    }
-                    Err(flaw) => flaw.to_string(),
-                });
-            checked.collect::<Vec<_>>().join("\n")
-        }
-        Err(e) => {
-            let said = e.to_string();
-            assert!(!said.is_empty());
-            said
-        }
-    }
-}
-
-pub(super) fn seeds() -> Vec<Vec<u8>> {
-    let texts = CERTIFIED.iter().map(|(.., text)| text.as_bytes().to_vec());
-    texts.collect()
-}
-
-/// Looks at a file about the mechanism that it names.
-pub(super) fn look(bytes: &[u8]) -> String {
-    let text = String::from_utf8_lossy(bytes);
-    let named = NAMES.iter().position(|name| text.contains(name));
-    look_at(named.unwrap_or(0), bytes)
-}
+/// The file of each mechanism.
+static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(seeds);
 
 proptest! {
     #![proptest_config(runs(512))]
     #[test]
     fn spoilt_certificates(which in any::<Index>(), edits in edits(&WORDS)) {
-        look_at(which.index(NAMES.len()), &spoilt(&CERTIFIED[which.index(NAMES.len())].2, &edits));
+        let which = which.index(NAMES.len());
+        look_at(which, &spoilt(&FILES[which], &edits));
     }
 }

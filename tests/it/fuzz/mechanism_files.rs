@@ -1,79 +1,11 @@
 //! Mechanism files in TOML and JSON.
 
+use super::readers::mechanism_files::{WORDS, read};
 use super::{edits, runs, spoilt};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_bytes;
-use ozols::file::write::mechanism_file;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 use proptest::sample::Index;
-
-pub(super) const WORDS: [&str; 20] = [
-    "1e308",
-    "-0.0",
-    "nan",
-    "inf",
-    "99999999999999999999",
-    "\"sqrt(-1)\"",
-    "\"1/0\"",
-    "\"tan(90deg)\"",
-    "\"2^(2^9)\"",
-    "[]",
-    "{}",
-    "\"\"",
-    "\"",
-    "\"\"\"",
-    "\\u0000",
-    "null",
-    "spherical",
-    "frame",
-    "[[joint]]\n",
-    "\n",
-];
-
-/// What is read can be analysed, and written so that it reads as the same. Returns what was said.
-pub(super) fn read(name: &str, bytes: &[u8]) -> String {
-    match mechanism_from_bytes(name, bytes) {
-        Ok(m) => {
-            let written = serde_json::to_vec(&mechanism_file(&m)).unwrap();
-            let again = mechanism_from_bytes("written.json", &written).unwrap();
-            assert_eq!(
-                serde_json::to_vec(&mechanism_file(&again)).unwrap(),
-                written
-            );
-            if m.joints.len() >= 20 {
-                return "large".to_owned();
-            }
-            match analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None }) {
-                Ok(_) => "analysed".to_owned(),
-                Err(e) => e.to_string(),
-            }
-        }
-        Err(e) => {
-            assert!(!e.problems.is_empty());
-            let _ = e.render(true);
-            let said = e.problems.iter().map(|p| p.kind.to_string());
-            said.collect::<Vec<_>>().join("\n")
-        }
-    }
-}
-
-/// Some built-in mechanisms.
-pub(super) fn toml() -> Vec<Vec<u8>> {
-    let some = builtin::names().into_iter().step_by(7);
-    some.map(|n| builtin::text(n).unwrap().as_bytes().to_vec())
-        .collect()
-}
-
-pub(super) fn json() -> Vec<Vec<u8>> {
-    let some = toml().into_iter().map(|text| {
-        let text = String::from_utf8(text).unwrap();
-        let value: toml::Value = toml::from_str(&text).unwrap();
-        serde_json::to_vec_pretty(&value).unwrap()
-    });
-    some.collect()
-}
 
 fn built_in(which: Index) -> &'static str {
     let names = builtin::names();

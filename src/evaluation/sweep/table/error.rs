@@ -41,6 +41,14 @@ pub enum TableError {
     /// Its rows are not those that were written.
     #[error("{} was changed: its rows do not have the digest of its last line; make it again", .0.display())]
     Spoilt(PathBuf),
+    /// A row that is of other parameters than the first line.
+    #[error("{} was changed: sample {sample} has other parameters than its first line; make it again", path.display())]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// The sample.
+        sample: usize,
+    },
     /// A part is missing or there twice.
     #[error("the parts do not make the whole: {0}")]
     Parts(String),

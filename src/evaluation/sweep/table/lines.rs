@@ -178,9 +178,14 @@ impl Lines {
                 out.finished = true;
                 break;
             }
-            let Ok(row) = serde_json::from_str(&text) else {
+            let Ok(row) = serde_json::from_str::<SampleRow>(&text) else {
                 break;
             };
+            // Tables and drawings look each parameter up in each row.
+            if !row.at.keys().eq(out.head.parameters.keys()) {
+                let (path, sample) = (path.to_owned(), row.sample);
+                return Err(TableError::Row { path, sample });
+            }
             out.digest.add(&text);
             out.rows.push(row);
             out.whole += text.len();

@@ -1,0 +1,226 @@
+//! Small files beside mechanisms, and words: costs, changes, motions, specifications, tables, chains.
+
+use super::mechanism_files::told;
+use ozols::builtin;
+use ozols::catalog::spec::{Spec, range};
+use ozols::chains::graph6;
+use ozols::file::costs::costs_from_str;
+use ozols::file::edit::{Edit, edited};
+use ozols::file::read::workload::trajectory::trajectory;
+use ozols::file::text::mechanism_from_str;
+use ozols::shard::{Digest, Shard};
+use ozols::sweep::row::SampleRow;
+use ozols::sweep::table;
+use ozols::view::sweep::SweepData;
+use ozols::view::sweep::plot::PlottedQuantity;
+use std::path::Path;
+use std::sync::LazyLock;
+
+fn texts(some: &[&str]) -> Vec<Vec<u8>> {
+    some.iter().map(|t| t.as_bytes().to_vec()).collect()
+}
+
+/// Costs of a mechanism's redesigns. Returns what was said.
+pub(crate) fn costs(bytes: &[u8]) -> String {
+    static GRIPPER: LazyLock<ozols::Mechanism> =
+        LazyLock::new(|| ozols::built_in("gripper-10").unwrap());
+    match costs_from_str("c.toml", &String::from_utf8_lossy(bytes), &GRIPPER) {
+        Ok(spec) => {
+            let all = spec.by_type_milli.iter().map(|(_, cost)| *cost);
+            assert!(all.clone().all(|c| (0..=1_000_000_000).contains(&c)));
+            format!("{} costs", all.count())
+        }
+        Err(e) => told(&e),
+    }
+}
+
+pub(crate) fn costs_seeds() -> Vec<Vec<u8>> {
+    texts(&["spherical = 2\nchange = 1\nlink = 0.5\nharmful = 3\n\"cylindrical\" = 1e6"])
+}
+
+/// Changes to a file, as the studio sends them: what comes of them is TOML again. Returns what was said.
+pub(crate) fn edits(bytes: &[u8]) -> String {
+    let edits: Vec<Edit> = match serde_json::from_slice(bytes) {
+        Ok(edits) => edits,
+        Err(e) => return e.to_string(),
+    };
+    let text = builtin::text("gripper-10").unwrap();
+    match edited(text, &edits) {
+        Ok(after) => {
+            let other = edits.iter().any(|e| matches!(e, Edit::Text { .. }));
+            if let Err(e) = after.parse::<toml::Table>() {
+                assert!(other, "{e} in\n{after}");
+            }
+            match mechanism_from_str("x.toml", &after) {
+                Ok(_) => "a mechanism".to_owned(),
+                Err(e) => told(&e),
+            }
+        }
+        Err(e) => e.to_string(),
+    }
+}
+
+pub(crate) fn edits_seeds() -> Vec<Vec<u8>> {
+    texts(&[
+        r#"[{"do": "set", "what": "joint", "id": "1-2", "key": "type", "value": "spherical"}]"#,
+        r#"[{"do": "put", "path": ["search", "options"], "value": ["revolute", {"type": "universal"}]}]"#,
+        r#"[{"do": "add", "what": "link", "entry": {"id": "x"}}, {"do": "rename", "what": "link", "id": "1", "to": "y"}]"#,
+        r#"[{"do": "remove", "items": [["link", "2"], ["joint", "0-1"]]}]"#,
+        r#"[{"do": "text", "text": "name = \"x\""}, {"do": "add", "what": "point", "entry": {"id": "p", "link": "1", "point": [0, 1, "sqrt(2)"]}}]"#,
+    ])
+}
+
+/// A motion as CSV: all that is read of it is finite. Returns what was said.
+pub(crate) fn motion(bytes: &[u8]) -> String {
+    match trajectory("m.csv", bytes, 0.001) {
+        Ok(steps) => {
+            let finite = |v: &[f64; 3]| v.iter().all(|x| x.is_finite());
+            assert!(steps.iter().all(|s| finite(&s.acceleration)));
+            assert!(steps.iter().flat_map(|s| &s.gravity).all(finite));
+            assert!(!steps.is_empty());
+            "steps".to_owned()
+        }
+        Err(e) => e.to_string(),
+    }
+}
+
+pub(crate) fn motion_seeds() -> Vec<Vec<u8>> {
+    texts(&[
+        "ax,ay,az\n0,1,-9.81\n",
+        "# a comment\ntime, ax, ay, az, gx, gy, gz, diameter\n0, 1, 2, 3, 0, 0, -9.81, 40\n0.1, \"1e3\", -2, 3, 0, 0, -9.81, 41\n",
+    ])
+}
+
+/// What a catalogue is to hold: written in one form, which reads as itself. Returns what was said.
+pub(crate) fn spec(bytes: &[u8]) -> String {
+    let spec: Spec = match toml::from_str(&String::from_utf8_lossy(bytes)) {
+        Ok(spec) => spec,
+        Err(e) => return e.message().to_owned(),
+    };
+    if let Err(e) = spec.check() {
+        return e.to_string();
+    }
+    let written = spec.canonical();
+    let again: Spec = toml::from_str(&written).unwrap();
+    assert_eq!(again.canonical(), written);
+    assert_eq!(again.check(), Ok(()));
+    assert!(!again.forms().unwrap().is_empty());
+    assert_eq!(again.limits(), spec.limits());
+    "a specification".to_owned()
+}
+
+pub(crate) fn spec_seeds() -> Vec<Vec<u8>> {
+    let all = Spec {
+        links: "4..10".to_owned(),
+        jaws: 3,
+        unloading: vec!["prismatic".to_owned()],
+        ..Spec::default()
+    };
+    let mut out = texts(&["links = \"6\"\njaws = 2\n", ""]);
+    out.extend([Spec::default(), all].map(|s| s.canonical().into_bytes()));
+    out
+}
+
+/// The table of a sweep, its last line made to fit: shown in all ways. Returns what was said.
+pub(crate) fn sweep(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    let mut digest = Digest::default();
+    let rows = text.split_inclusive('\n').skip(1);
+    for row in rows.filter(|r| r.ends_with('\n')) {
+        if serde_json::from_str::<SampleRow>(row).is_ok() {
+            digest.add(row);
+        }
+    }
+    let foot = serde_json::json!({ "rows": digest.rows, "digest": digest.hex() });
+    // Files in memory, where there are any: of each process and thread its own.
+    let memory = Path::new("/dev/shm");
+    let folder = if memory.is_dir() {
+        memory.to_owned()
+    } else {
+        std::env::temp_dir()
+    };
+    let own = format!(
+        "ozols-fuzz-{}-{:?}",
+        std::process::id(),
+        std::thread::current().id()
+    );
+    let path = folder.join(own);
+    std::fs::write(&path, format!("{text}{foot}\n")).unwrap();
+    let read = table::read(&path);
+    std::fs::remove_file(&path).unwrap();
+    match read {
+        Ok(table) => {
+            let shown = SweepData::new(&table);
+            let _ = (
+                shown.text(Some(80)),
+                shown.csv(),
+                serde_json::to_string(&shown).unwrap(),
+            );
+            let quantities = [
+                PlottedQuantity::Redundant,
+                PlottedQuantity::Mobility,
+                PlottedQuantity::PeakForce,
+                PlottedQuantity::BestCost,
+            ];
+            let drawn = quantities.into_iter().map(|q| match shown.plot(q, &[]) {
+                Ok(plot) => {
+                    let svg = plot.svg();
+                    if let Err(e) = roxmltree::Document::parse(&svg) {
+                        panic!("{e} in\n{svg}");
+                    }
+                    "drawn".to_owned()
+                }
+                Err(e) => e.to_string(),
+            });
+            drawn.collect::<Vec<_>>().join("\n")
+        }
+        Err(e) => e.to_string().replace(&path.display().to_string(), "it"),
+    }
+}
+
+pub(crate) fn sweep_seeds() -> Vec<Vec<u8>> {
+    let head = r#"{"sweep":"rods","version":1,"ozols":"0.2.0","file":"ab","parameters":{"a":["from 1","to 3"],"b":["1","2"]},"sampling":"grid 2 x 2","asked":"","samples":4,"shard":"1/1"}"#;
+    let row = |n: usize, more: &str| {
+        format!(
+            r#"{{"sample":{n},"at":{{"a":{},"b":{}}},"states":[{{"state":"free","mobility":1,"finite_mobility":"1","finite_mobility_known_by":"rank","redundant":{n},"per_contour":[{n}],"certainty":"proven"}}]{more}}}"#,
+            1 + n / 2,
+            1 + n % 2
+        )
+    };
+    let more = r#","exact":{"a":"sqrt(2)"},"methods":{"svd":"right"}"#;
+    let rows = [row(0, ""), row(1, more), row(2, ""), row(3, "")];
+    texts(&[
+        &format!("{head}\n{}\n", rows.join("\n")),
+        &format!("{head}\n{{\"sample\":0,\"at\":{{\"a\":1,\"b\":1}},\"problem\":\"none\"}}\n"),
+    ])
+}
+
+/// Words of the command line that are taken apart, and chains. Returns what was said.
+pub(crate) fn words(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    let shard = match text.parse::<Shard>() {
+        Ok(part) => {
+            assert_eq!(part.to_string().parse(), Ok(part));
+            "a part".to_owned()
+        }
+        Err(e) => e.to_string(),
+    };
+    let numbers = match range(&text) {
+        Ok(_) => "a range".to_owned(),
+        Err(part) => format!("{part:?}"),
+    };
+    let chain = match graph6::read(&text) {
+        Ok(chain) => {
+            assert_eq!(graph6::read(&graph6::write(&chain)).as_ref(), Ok(&chain));
+            let code = graph6::code(&chain);
+            assert_eq!(graph6::code(&graph6::read(&code).unwrap()), code);
+            "a chain".to_owned()
+        }
+        Err(e) => e.to_string(),
+    };
+    [shard, numbers, chain].join("\n")
+}
+
+pub(crate) fn words_seeds() -> Vec<Vec<u8>> {
+    texts(&["1/7", "4..8", "4..=8", "E?lw", "Ctilde", "E?Bw", "CF", "Bw"])
+}
