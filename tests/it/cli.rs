@@ -5,6 +5,7 @@ mod bounds;
 mod formats;
 #[cfg(unix)]
 mod interrupt;
+mod numbers;
 mod other_files;
 mod output;
 mod small;

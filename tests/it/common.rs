@@ -49,11 +49,19 @@ pub(crate) fn json(args: &[&str]) -> Value {
     serde_json::from_str(&out(args)).unwrap()
 }
 
+/// Where a test keeps what it makes, by a name of its own: below the target folder, or where several runs at once are told to.
+fn kept(name: &str) -> PathBuf {
+    let of_this_run = std::env::var_os("OZOLS_TEST_FOLDER");
+    of_this_run
+        .map_or(env!("CARGO_TARGET_TMPDIR").into(), PathBuf::from)
+        .join(name)
+}
+
 /// What `ozols accuracy --quick` says, and the folder it writes to: run once for all tests, as it takes most of a minute.
 pub(crate) fn quick_accuracy() -> (&'static str, &'static Path) {
     static RUN: OnceLock<(String, PathBuf)> = OnceLock::new();
     let (said, folder) = RUN.get_or_init(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("quick-accuracy");
+        let folder = kept("quick-accuracy");
         let _ = fs::remove_dir_all(&folder);
         let done = run(&["accuracy", "--quick", "-o", folder.to_str().unwrap()]);
         assert!(done.status.success(), "{}", text(&done.stderr));

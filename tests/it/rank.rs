@@ -1,13 +1,17 @@
 //! How far mechanisms move, and how that is known.
 
+mod by_numbers;
 mod certificates;
 mod exact_numbers;
 mod finite_traps;
+mod groups;
 mod least_rows;
 mod mobility;
 mod poses;
+mod releases;
 pub(crate) mod rounded;
 mod screws;
+mod series;
 mod stroke;
 mod stroke_ends;
 mod stroke_poses;

@@ -3,7 +3,9 @@
 mod command;
 mod floor;
 mod geared;
+mod outside;
 mod proof;
+mod reasons;
 
 use crate::common::out;
 use ozols::builtin;

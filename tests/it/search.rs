@@ -9,6 +9,7 @@ mod held;
 pub(crate) mod ideas;
 mod inside;
 mod least_model;
+mod listed;
 mod order;
 mod self_stresses;
 mod suggest;

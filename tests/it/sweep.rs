@@ -2,6 +2,7 @@
 //! was made; what is wrong is said.
 
 mod command;
+mod redesigns;
 mod samples;
 mod table;
 mod wrong;
@@ -269,6 +270,8 @@ fn the_peak_force_is_the_greatest_that_statics_gives_over_the_stroke() {
             (told.peak_force - by_hand).abs() < 1e-3,
             "{told:?} {by_hand}"
         );
+        // Both pins of the rod bear as much: the first of equals is told.
+        assert_eq!(told.joint, "0-1");
     }
 }
 

@@ -53,3 +53,83 @@ fn a_state_may_add_couplings() {
         (11, 4, 4)
     );
 }
+
+/// A gear is no polynomial of half angles: opposite cranks of a parallelogram geared one to one move as without the gear, and the
+/// order beyond which nothing stops a motion is not known of them.
+#[test]
+fn no_bound_on_the_order_is_taken_where_joints_are_coupled() {
+    use ozols::rank::finite::{How, Proof};
+    let by_multiplicity = |m: &ozols::Mechanism| {
+        let how = exact(m).finite.how;
+        matches!(
+            how,
+            How::Submersion {
+                by: Proof::Multiplicity,
+                ..
+            }
+        )
+    };
+    let mut text = "name = \"parallelogram\"\n".to_owned();
+    for (id, role) in [
+        ("0", "role = \"frame\""),
+        ("1", ""),
+        ("2", "role = \"output\""),
+        ("3", ""),
+    ] {
+        text += &format!("[[link]]\nid = \"{id}\"\n{role}\n");
+    }
+    for (id, links, point) in [
+        ("a", "[\"0\", \"1\"]", "[0, 0, 0]"),
+        ("b", "[\"1\", \"2\"]", "[10, 30, 0]"),
+        ("c", "[\"3\", \"2\"]", "[110, 30, 0]"),
+        ("d", "[\"0\", \"3\"]", "[100, 0, 0]"),
+    ] {
+        text += &format!(
+            "[[joint]]\nid = \"{id}\"\nlinks = {links}\ntype = \"revolute\"\npoint = {point}\naxis = [0, 0, 1]\n"
+        );
+    }
+    let geared = exact(&mechanism(&(text.clone() + &coupled("a", "d", "1"))));
+    assert_eq!(
+        (geared.mobility, geared.redundant, geared.finite.mobility),
+        (1, 4, 1)
+    );
+    let bent = exact(&mechanism(&(text.clone() + &coupled("a", "b", "-1"))));
+    assert_eq!((bent.mobility, bent.redundant), (1, 4));
+    for coupling in [coupled("a", "d", "1"), coupled("a", "b", "-1")] {
+        assert!(!by_multiplicity(&mechanism(&(text.clone() + &coupling))));
+    }
+    for name in ozols::builtin::names() {
+        let m = built_in(name);
+        assert!(m.couplings.is_empty() || !by_multiplicity(&m), "{name}");
+    }
+}
+
+/// A rack with two pinions, and a sun with planets: a joint that several couplings tie is counted as by brute force.
+#[test]
+fn joints_of_several_couplings_are_counted_one_by_one() {
+    use ozols::redundancy::analysis::exact_field;
+    use ozols::search::Search;
+    use ozols::search::check::brute::brute;
+    use ozols::search::question::conditions::Conditions;
+    for name in ["rack-gripper", "planetary-gear"] {
+        let m = built_in(name);
+        let tied = |j| m.couplings_of(j).count() > 1;
+        assert!(m.joint_ids().any(tied), "{name}");
+        for max_redundant in 0..5 {
+            for keep_output in [false, true] {
+                let conditions = Conditions {
+                    max_redundant,
+                    keep_output,
+                    ..Conditions::default()
+                };
+                let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
+                let d = s.build(&|| false, &mut |_| {});
+                let found = (
+                    s.counts(&d.determinate, false),
+                    s.counts(&d.admissible, true),
+                );
+                assert_eq!(found, brute(&s).unwrap(), "{name} {max_redundant}");
+            }
+        }
+    }
+}

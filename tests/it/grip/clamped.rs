@@ -220,7 +220,8 @@ fn reactions_are_linear_in_the_payload_and_vanish_with_it() {
 /// Turned and shifted in the file, the gripper's own axes turn along: the same reactions in the joints' frames.
 #[test]
 fn loads_follow_the_gripper_in_the_files_axes() {
-    let before = built_in();
+    // A link that weighs, too: it feels the case in the file's axes.
+    let before = mechanism_from_str("heavy", &weighed()).unwrap();
     let mut m = before.clone();
     let turn = [[2.0, -2.0, 1.0], [1.0, 2.0, 2.0], [-2.0, -1.0, 2.0]];
     let turn = turn.map(|r: [f64; 3]| r.map(|x| x / 3.0));
@@ -233,6 +234,9 @@ fn loads_follow_the_gripper_in_the_files_axes() {
         j.frame.axis = by(&j.frame.axis, [0.0; 3]);
         j.frame.reference = by(&j.frame.reference, [0.0; 3]);
     }
+    let slider = m.link("3").unwrap();
+    let mass = m.links[slider].mass.as_mut().unwrap();
+    mass.centre = by(&mass.centre, [30.0, -70.0, 20.0]);
     let (a, b) = (clamped(&before), clamped(&m));
     for (x, y) in a.study.rows.iter().zip(&b.study.rows) {
         let (p, q) = (solve(&a, x), solve(&b, y));
@@ -253,19 +257,45 @@ fn loads_follow_the_gripper_in_the_files_axes() {
     }
 }
 
+/// A hinge is the same whichever of its links is named first.
+#[test]
+fn levers_turn_the_same_way_whichever_link_is_named_first() {
+    let before = built_in();
+    let a = clamped(&before);
+    let hinges = |m: &Mechanism| -> Vec<_> {
+        let all = m.joint_ids();
+        all.filter(|&j| m.joints[j].joint_type.name() == "revolute")
+            .collect()
+    };
+    for joint in hinges(&before) {
+        let mut m = before.clone();
+        m.joints[joint].links.reverse();
+        let b = clamped(&m);
+        for (x, y) in a.study.rows.iter().zip(&b.study.rows) {
+            let (one, other) = (
+                effort(&solve(&a, x).reactions),
+                effort(&solve(&b, y).reactions),
+            );
+            assert!((one - other).abs() < 1e-7 * one.abs(), "{one} {other}");
+        }
+    }
+}
+
+/// The slider with a mass, under gravity.
+fn weighed() -> String {
+    let heavy = "id = \"3\"\nmass = 2\ncentre = [-60, 0, 0]\n";
+    let pulled = "[workload]\ngravity = [0, -9.81, 0]\n[workload.grip]\n";
+    text()
+        .replace("id = \"3\"\n", heavy)
+        .replace("[workload.grip]\n", pulled)
+}
+
 /// Links with masses are pulled as the part is, in the case's direction, without its safety factor.
 #[test]
 fn links_feel_the_case() {
-    let text = text().replace(
-        "id = \"3\"\n",
-        "id = \"3\"\nmass = 2\ncentre = [-60, 0, 0]\n",
-    );
-    let pulled = text.replace(
-        "[workload.grip]\n",
-        "[workload]\ngravity = [0, -9.81, 0]\n[workload.grip]\n",
-    );
-    let weightless = mechanism_from_str("x", &text).unwrap();
-    let heavy = mechanism_from_str("x", &pulled).unwrap();
+    let weightless = weighed().replace("gravity = [0, -9.81, 0]", "");
+    let weightless = mechanism_from_str("x", &weightless).unwrap();
+    let heavy = mechanism_from_str("x", &weighed()).unwrap();
     let (a, b) = (clamped(&weightless), clamped(&heavy));
     let (row, other) = (&a.study.rows[0], &b.study.rows[0]);
     let pull = row.hardest.as_ref().unwrap().pull;

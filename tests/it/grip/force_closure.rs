@@ -105,6 +105,66 @@ fn a_vice_of_two_round_faces_holds_what_it_does_by_hand() {
     assert_eq!(open, [1, 3, 5]);
 }
 
+/// Faces without a stated size bear any moment that friction and pressure can: about the line through both no friction at that line
+/// does, but their turn. Smooth, they turn freely.
+#[test]
+fn round_faces_without_end_hold_any_turn_about_their_normal() {
+    let face = "friction = 0.2";
+    let [force, form] = found(&vice(&[flat(0.1, face), flat(-0.1, face)]));
+    assert!(force.is_closed(), "{force:?}");
+    assert!(along(&force, 1) > 100.0, "{force:?}");
+    near(along(&form, 1), 0.0, 1e-6);
+}
+
+/// What is no contact has no part in it: the margins are the same wherever another joint is.
+#[test]
+fn margins_do_not_depend_on_what_touches_nothing() {
+    let face = "friction = 0.3\nradius = 0.05";
+    let text = vice(&[flat(0.1, face), flat(-0.1, face)]);
+    let margins = |hinge: &str| found(&text.replacen("[0, 0, 9]", hinge, 1))[0].clone();
+    let (here, there) = (margins("[0, 0, 9]"), margins("[0.3, -0.4, 0.1]"));
+    near(here.at_most, there.at_most, 1e-6);
+    near(here.at_least, there.at_least, 1e-6);
+    near(along(&here, 0), along(&there, 0), 1e-6);
+}
+
+/// Contacts are out by no more than the tolerance, and some by nearly as much.
+#[test]
+fn contacts_are_out_by_the_tolerance_at_most() {
+    use chacha20::ChaCha8Rng;
+    use chacha20::rand_core::SeedableRng;
+    let face = "friction = 0.3\nradius = 0.05";
+    let part = part(&vice(&[flat(0.1, face), flat(-0.1, face)]));
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut most = 0.0f64;
+    for _ in 0..300 {
+        let sample = part.out_of_true(0.01, &mut random);
+        for f in &part.faces {
+            let [a, b] = [&part, &sample].map(|p| p.geometry.points[f.joint]);
+            let off = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+            most = most.max(off);
+        }
+    }
+    assert!(most <= 0.01 + 1e-12 && most > 0.009, "{most}");
+}
+
+/// By similarity: eight times as large and as far out of true, as many samples close.
+#[test]
+fn shares_are_those_of_a_larger_part_that_is_out_by_as_much_more() {
+    let closed = |k: f64| {
+        let face = format!("friction = 0.1\nradius = {}", 0.02 * k);
+        let text = vice(&[flat(0.02 * k, &face), flat(-0.02 * k, &face)]);
+        let text = text.replacen("[0, 0, 9]", &format!("[0, 0, {}]", 9.0 * k), 1);
+        let found = shares(&part(&text), 0.006 * k, 60, 3).unwrap();
+        assert_eq!(found.force_undecided, 0);
+        found.force_closed
+    };
+    let share = closed(1.0);
+    assert!(share > 0 && share < 60, "{share}");
+    assert_eq!(closed(8.0), share);
+    assert_eq!(closed(0.125), share);
+}
+
 /// By hand: on a ball pivot in its face a pad bears no moment, so one face alone bears that about the normal, with half the pressure.
 #[test]
 fn a_pad_on_a_ball_pivot_bears_no_moment() {

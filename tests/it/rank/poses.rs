@@ -202,3 +202,20 @@ fn idle_motions_slide_or_turn() {
         assert_eq!(idle[0].turns, turns, "{kind}");
     }
 }
+
+/// A contour that is open by more gapes more, a quarter turn and beyond.
+#[test]
+fn gaps_grow_beyond_a_quarter_turn() {
+    let m = crate::common::built_in("door-two-hinges");
+    let pose =
+        ozols::motion::pose::Pose::of_file(&m, ozols::model::mechanism::StateId::FREE).unwrap();
+    let gap = |degrees: f64| {
+        let gaps = pose.gaps(&[degrees.to_radians(), 0.0]);
+        gaps.iter().map(|x| x * x).sum::<f64>().sqrt()
+    };
+    let all: Vec<f64> = (0..=12).map(|i| gap(10.0 * f64::from(i))).collect();
+    assert!(
+        all[0] < 1e-12 && all.windows(2).all(|w| w[0] < w[1]),
+        "{all:?}"
+    );
+}

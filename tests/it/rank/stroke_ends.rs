@@ -106,3 +106,86 @@ fn angles_over_a_slide_are_refused() {
         assert!(lengths_where_it_slides(&m, false, text).is_ok());
     }
 }
+
+/// Crank 30 and rod 96 fold where the slider, on a line 66 from the crank's hinge, comes nearest to it: all three hinges in a line
+/// square to the slide, in that pose alone.
+#[test]
+fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
+    use ozols::model::mechanism::StateId;
+    use ozols::motion::pose::Pose;
+    use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
+    let [hinge, slide] = ["revolute", "prismatic"];
+    let mut text = "name = \"fold\"\nlength_unit = \"mm\"\nmode = \"planar\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\" }, { id = \"3\", role = \"output\" }]\n".to_owned();
+    for (id, links, kind, point, axis) in [
+        ("a", "[\"0\", \"1\"]", hinge, "0, 0", "0, 0, 1"),
+        ("b", "[\"1\", \"2\"]", hinge, "-24, 18", "0, 0, 1"),
+        (
+            "c",
+            "[\"2\", \"3\"]",
+            hinge,
+            "66, \"18-sqrt(1116)\"",
+            "0, 0, 1",
+        ),
+        (
+            "d",
+            "[\"0\", \"3\"]",
+            slide,
+            "66, \"18-sqrt(1116)\"",
+            "0, 1, 0",
+        ),
+    ] {
+        let drive = id == "d";
+        text += &format!(
+            "[[joint]]\nid = \"{id}\"\nlinks = {links}\ntype = \"{kind}\"\npoint = [{point}, 0]\naxis = [{axis}]\ndrive = {drive}\n"
+        );
+    }
+    let m = ozols::file::text::mechanism_from_str("fold.toml", &text).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let joint = m.joint("d").unwrap();
+    let request = StrokeRequest {
+        mechanism: &m,
+        state: StateId::FREE,
+        drive: pose.columns.iter().position(|c| c.joint == joint).unwrap(),
+        held: &[],
+        range: [0.0, 30.0],
+        steps: 7,
+        tolerance: None,
+    };
+    let found = stroke(&request, &pose);
+    assert_eq!((found.changes.len(), found.undriven), (1, 0), "{found:?}");
+    let change = found.changes[0];
+    assert_eq!(change.ranks, [3, 2, 3]);
+    let at = 1116f64.sqrt() - 18.0;
+    assert!(
+        change.between[0] < at && at < change.between[1],
+        "{change:?}"
+    );
+    assert!(change.between[1] - change.between[0] < 0.1, "{change:?}");
+}
+
+/// Two drives decide all that a five-bar's output does; one leaves a motion.
+#[test]
+fn drives_that_are_held_decide_too() {
+    use ozols::model::mechanism::StateId;
+    use ozols::motion::pose::Pose;
+    use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
+    let m = crate::common::built_in("five-bar");
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let drives: Vec<usize> = (0..pose.columns.len())
+        .filter(|&c| m.joints[pose.columns[c].joint].drive)
+        .collect();
+    assert_eq!(drives.len(), 2);
+    let undriven = |held: &[usize]| {
+        let request = StrokeRequest {
+            mechanism: &m,
+            state: StateId::FREE,
+            drive: drives[0],
+            held,
+            range: [0.0, 0.2],
+            steps: 2,
+            tolerance: None,
+        };
+        stroke(&request, &pose).undriven
+    };
+    assert_eq!([undriven(&drives[1..]), undriven(&[])], [0, 1]);
+}

@@ -3,6 +3,7 @@
 mod carried;
 mod closures;
 mod command;
+mod poses;
 mod solids;
 
 use crate::robots::{folder, none};

@@ -180,3 +180,25 @@ fn force_plans_close_beside_those_of_the_full_solve() {
         assert!(at.join(format!("{file}.svg")).exists(), "{file}");
     }
 }
+
+/// The force plan is of a pose in which the knives cut, by the file from 165 to 200 degrees of the crank, and not of one in which they
+/// do not.
+#[test]
+fn the_force_plan_is_of_the_pose_with_most_load_from_outside() {
+    use ozols::model::mechanism::StateId;
+    use ozols::statics::kinetostatics::LoadSource;
+    use ozols::statics::solve::{Model, SolvedReactions, solve};
+    let m = built_in("parallel-shears");
+    let found = solve(&m, StateId::FREE, m.loads.stroke, Model::Planar).unwrap();
+    let SolvedReactions::Planar(found) = found else {
+        panic!("it is planar")
+    };
+    assert_eq!(found.moments.len(), 73);
+    let plan = found.heaviest_contour_group().unwrap();
+    let outside = plan
+        .loads
+        .iter()
+        .filter(|l| l.source == LoadSource::External);
+    let cut: f64 = outside.map(|l| l.force[0].hypot(l.force[1])).sum();
+    near(cut, 500_000.0, 1e-6);
+}

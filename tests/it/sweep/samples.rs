@@ -1,6 +1,7 @@
 //! Where a sweep looks, and what counts as a load.
 
 use super::{LOADED, sweep};
+use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::loads::MassProperties;
 use ozols::sweep::SweepRequest;
@@ -66,4 +67,16 @@ fn masses_load_where_they_are_pulled_or_moved() {
     assert!(!is_loaded(&m));
     m.loads.drive_speeds = vec![2.0];
     assert!(is_loaded(&m));
+}
+
+/// A range without a default is looked at in its middle where nothing is swept.
+#[test]
+fn a_range_without_a_default_stands_in_its_middle() {
+    let at = |default: &str| {
+        let text = LOADED.replacen(", default = 30 }", default, 1);
+        let m = mechanism_from_str("swept.toml", &text).unwrap();
+        let pin = m.joint("1-2").unwrap();
+        m.joints[pin].frame.point[0].to_f64()
+    };
+    assert_eq!([at(" }"), at(", default = 24 }")], [30.0, 24.0]);
 }

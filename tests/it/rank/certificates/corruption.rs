@@ -1,11 +1,11 @@
 //! Certificates made false, each in a way that has to be noticed.
 
-use super::certified;
+use super::{certified, field, sparse};
 use num_rational::BigRational;
-use ozols::linalg::number_ring::Element;
-use ozols::rank::exact::certificate::Certificate;
-use ozols::verify;
+use ozols::linalg::number_ring::{Element, NumberRing};
+use ozols::rank::exact::certificate::{Budget, Certificate, certify_matrix};
 use ozols::verify::matrix::MatrixOverRing;
+use ozols::verify::{self, Flaw};
 
 /// The kinds of corruption that make a certificate false, or say something other than it did, whatever the matrix:
 /// - a kernel entry changed (the column of a pivot is not zero, so the product with J changes), dropped, doubled, or
@@ -193,4 +193,46 @@ fn corrupted_certificates_of_mechanisms_are_rejected() {
     ] {
         assert!(flaws.contains(flaw), "{flaw} was not met: {flaws:?}");
     }
+}
+
+/// A matrix of one 1 with its certificate, over the field of a number.
+fn one(text: &str) -> (MatrixOverRing, Certificate) {
+    let f = field(&[text]);
+    let m = sparse(&f, &[vec![Element::integer(1)]], 1);
+    let c = certify_matrix(&f, &m, "free", Budget::default()).unwrap();
+    assert_eq!(verify::check(&m, &c), Ok(1));
+    (m, c)
+}
+
+/// The same matrix over another ring, and its certificate with the relation and the order of the cosine of that.
+fn over(
+    c: &Certificate,
+    relation: &[i64],
+    cosine_order: Option<u64>,
+) -> (MatrixOverRing, Certificate) {
+    let relation: Vec<Element> = relation.iter().map(|&x| Element::integer(x)).collect();
+    let ring = NumberRing::rationals().adjoin(relation.clone()).unwrap();
+    let m = MatrixOverRing::new(ring, cosine_order, [1, 1], [(0, 0, Element::integer(1))]);
+    let mut c = c.clone();
+    c.field.relations = vec![relation];
+    c.field.cosine_order = cosine_order;
+    (m.unwrap(), c)
+}
+
+/// x² + 4x - 5 = (x + 5)(x - 1) has the constant of the root of 5 and is reducible; the root of 3, 2 cos 30°, is no 2 cos 45°.
+#[test]
+fn rings_that_are_not_the_field_they_are_said_to_be_are_refused() {
+    let refused = |m: &MatrixOverRing, c: &Certificate| {
+        let found = verify::check(m, c);
+        assert!(matches!(found, Err(Flaw::NotAField { .. })), "{found:?}");
+    };
+    let (_, root) = one("sqrt(5)");
+    let (m, mut c) = over(&root, &[-5, 4], None);
+    c.minor.images = vec![1];
+    refused(&m, &c);
+    let (_, cosine) = one("cos(30deg)");
+    let (m, c) = over(&cosine, &[-3, 0], Some(12));
+    assert_eq!(verify::check(&m, &c), Ok(1));
+    let (m, c) = over(&cosine, &[-3, 0], Some(8));
+    refused(&m, &c);
 }

@@ -268,6 +268,9 @@ fn kinds_of_faces_stand_in_the_shapes() {
         one([("Arm.Face2", lying), ("Base.Face1", HERE)], 38.5),
         (2, String::new())
     );
+    // As far below it, on the side that the plane's normal points away from.
+    let below = Place([0.0, 0.0, -40.0], 'y', 90.0);
+    assert_eq!(one([plane, ("Arm.Face2", below)], 38.5), (2, String::new()));
     let (held, told) = one([plane, lies], 38.0);
     assert!(held == 2 && told.contains("0.5 mm apart"), "{told}");
     assert_eq!(

@@ -119,3 +119,27 @@ fn motors_are_on_the_freedom_that_the_drive_holds() {
         );
     }
 }
+
+/// Engines refuse what moves without a mass: a link that is stated to weigh nothing weighs a gram there, like one that states none.
+#[test]
+fn a_link_that_weighs_nothing_weighs_a_gram() {
+    let of = |mass: &str| -> f64 {
+        let text = format!(
+            "name = \"arm\"\nlength_unit = \"mm\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\nrole = \"output\"\n\
+             {mass}\n[[joint]]\nid = \"A\"\nlinks = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [4, 8, 16]\naxis = [0, 1, 0]\n"
+        );
+        let m = mechanism_from_str("arm.toml", &text).unwrap();
+        let mjcf = formats::write(&m, "mjcf").unwrap();
+        let xml = roxmltree::Document::parse(&mjcf).unwrap();
+        let mut all = xml.descendants().filter(|n| n.has_tag_name("inertial"));
+        all.next()
+            .unwrap()
+            .attribute("mass")
+            .unwrap()
+            .parse()
+            .unwrap()
+    };
+    assert_eq!(of(""), 0.001);
+    assert_eq!(of("mass = 0\ncentre = [10, 20, 30]"), 0.001);
+    assert_eq!(of("mass = 2\ncentre = [10, 20, 30]"), 2.0);
+}

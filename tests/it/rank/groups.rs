@@ -1,0 +1,133 @@
+//! Groups of displacements by hand, and what does not depend on how a file is written.
+
+use crate::common::built_in;
+use ozols::closure::matrix::Closure;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::exact::field::field_of;
+use ozols::rank::finite::bonds;
+use ozols::rank::finite::displacement_group::whole_group;
+
+/// A ring of links with these joints: type, point and axis, and lines of more.
+fn ring(joints: &[(&str, [i32; 3], [i32; 3], &str)]) -> Mechanism {
+    let mut text = "name = \"ring\"\n".to_owned();
+    let count = joints.len();
+    for n in 0..count {
+        let role = match n {
+            0 => "role = \"frame\"",
+            1 => "role = \"output\"",
+            _ => "",
+        };
+        text += &format!("[[link]]\nid = \"{n}\"\n{role}\n");
+    }
+    for (n, (kind, point, axis, more)) in joints.iter().enumerate() {
+        text += &format!(
+            "[[joint]]\nid = \"j{n}\"\nlinks = [\"{n}\", \"{}\"]\ntype = \"{kind}\"\npoint = {point:?}\naxis = {axis:?}\n{more}\n",
+            (n + 1) % count
+        );
+    }
+    mechanism_from_str("ring.toml", &text).unwrap()
+}
+
+fn group(m: &Mechanism) -> String {
+    let exact = field_of(m, StateId::FREE, 0).unwrap();
+    whole_group(&exact, m, StateId::FREE).unwrap().name()
+}
+
+/// About one axis: turns, screws of one pitch, or both and so all of a cylinder's. About parallel ones: a plane, screws of one pitch
+/// with the slides across them, or turns and all slides.
+#[test]
+fn groups_about_one_direction_have_their_names() {
+    let z = [0, 0, 1];
+    let (here, there, aside) = ([0, 0, 0], [7, 0, 0], [0, 9, 0]);
+    let screw = "pitch = 3";
+    for (joints, name) in [
+        (
+            vec![("revolute", here, z, ""), ("revolute", [0, 0, 5], z, "")],
+            "the turns about one axis (1)",
+        ),
+        (
+            vec![
+                ("helical", here, z, screw),
+                ("helical", [0, 0, 5], z, screw),
+            ],
+            "one screw (1)",
+        ),
+        (
+            vec![
+                ("helical", here, z, screw),
+                ("prismatic", here, z, ""),
+                ("revolute", here, z, ""),
+            ],
+            "a group of dimension 2",
+        ),
+        (
+            vec![
+                ("revolute", here, z, ""),
+                ("revolute", there, z, ""),
+                ("revolute", aside, z, ""),
+            ],
+            "one plane (3)",
+        ),
+        (
+            vec![
+                ("helical", here, z, screw),
+                ("helical", there, z, screw),
+                ("helical", aside, z, screw),
+            ],
+            "screws of one pitch and slides across them (3)",
+        ),
+        (
+            vec![
+                ("helical", here, z, screw),
+                ("revolute", there, z, ""),
+                ("revolute", aside, z, ""),
+            ],
+            "a Schoenflies group (4)",
+        ),
+    ] {
+        assert_eq!(group(&ring(&joints)), name, "{joints:?}");
+    }
+}
+
+fn by_bonds(m: &Mechanism) -> Option<usize> {
+    let exact = field_of(m, StateId::FREE, 0).unwrap();
+    let closure = Closure::new(&exact, m, StateId::FREE).unwrap();
+    bonds::mobility(&exact, m, &closure).unwrap()
+}
+
+/// By hand, hinges about one direction: of n in a ring n - 3 move; about one axis n - 1.
+#[test]
+fn what_moves_inside_a_group_is_counted() {
+    let z = [0, 0, 1];
+    for n in 3i32..8 {
+        let at = |i: i32| [i * i, 3 * i + i * i * i, i];
+        let joints: Vec<_> = (0..n).map(|i| ("revolute", at(i), z, "")).collect();
+        let moves = usize::try_from(n - 3).unwrap();
+        assert_eq!(by_bonds(&ring(&joints)), Some(moves), "{n} in a plane");
+        let joints: Vec<_> = (0..n).map(|i| ("revolute", [0, 0, i], z, "")).collect();
+        assert_eq!(by_bonds(&ring(&joints)), Some(moves + 2), "{n} on an axis");
+    }
+}
+
+/// A joint holds the same whichever of its links is named first.
+#[test]
+fn the_order_of_a_joints_links_does_not_matter() {
+    let mut seen = 0;
+    for name in ["sarrus", "sarrus-three-legs", "3-crr", "tripteron"] {
+        let m = built_in(name);
+        let found = by_bonds(&m);
+        assert!(found.is_some(), "{name}");
+        for turned in 1u32..1 << m.joints.len().min(6) {
+            let mut other = m.clone();
+            for (i, joint) in other.joints.iter_mut().enumerate() {
+                if turned >> (i % 6) & 1 == 1 {
+                    joint.links.reverse();
+                }
+            }
+            assert_eq!(by_bonds(&other), found, "{name} {turned:b}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 100);
+}

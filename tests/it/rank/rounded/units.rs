@@ -1,0 +1,166 @@
+//! What a unit of the last digit can do, by hand; and what is told of a scene that is meant.
+
+use super::search_numeric::{plain, turned};
+use crate::common::near;
+use ozols::accuracy::stability::change::Noise;
+use ozols::closure::matrix::Closure;
+use ozols::geom::expr::Expr;
+use ozols::geom::scalars::Reals;
+use ozols::geom::vector::real;
+use ozols::meant::mechanism::{Meant, meant};
+use ozols::model::joint_type::JointType;
+use ozols::model::mechanism::{JointId, Mechanism, StateId};
+use ozols::model::rounded::uncertainties;
+use ozols::rank::numeric::scaling::{Scaling, scaled};
+use ozols::rank::rounded::intended::settle;
+use ozols::rank::rounded::moves::{moves, understood};
+use ozols::rank::rounded::snap::size;
+use ozols::rank::rounded::verdict::{reach, verdict};
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols_dense::singular_values;
+
+fn measured(name: &str, decimals: usize) -> Mechanism {
+    turned(&plain(name), decimals, &mut Noise::new(3, 0))
+}
+
+/// Units of the last digit: of points, and of directions of unit length.
+fn units(m: &Mechanism) -> [f64; 2] {
+    let half = uncertainties(m).unwrap();
+    let largest = |v: &[f64; 3]| v.iter().copied().fold(0.0, f64::max);
+    let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let points = half.point.iter().map(largest).fold(0.0, f64::max);
+    let axes = m.joints.iter().zip(&half.axis);
+    let axes = axes.map(|(j, h)| largest(h) / length(real(&j.frame.axis)));
+    let others = m.joints.iter().zip(&half.reference);
+    let others = others.map(|(j, h)| largest(h) / length(real(&j.frame.reference)));
+    [points, axes.chain(others).fold(0.0, f64::max)].map(|half| 2.0 * half)
+}
+
+/// By hand, of hinges: half a unit in three components is √3/2 of it at most. A hinge's column is off by that of its axis, by as much
+/// at an arm of the mechanism's size, and by that of its point over the size; once in every contour that passes it. No singular value
+/// is off by more than all of that together [Weyl].
+#[test]
+fn what_rounding_can_do_is_that_of_all_hinges_together() {
+    for name in [
+        "bennett",
+        "four-bar",
+        "parallelogram-3-rods",
+        "watt-six-bar",
+    ] {
+        let m = measured(name, 9);
+        assert!(m.joints.iter().all(|j| j.joint_type == JointType::Revolute));
+        let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
+        let [length, direction] = units(&m);
+        let off = 3f64.sqrt() / 2.0 * (2.0 * direction + length / Scaling::of(&closure).length());
+        let passes = closure
+            .contours
+            .iter()
+            .map(|c| c.joints.len())
+            .sum::<usize>();
+        let whole = off * (passes as f64).sqrt();
+        let largest = singular_values(&scaled(&closure)).unwrap()[0];
+        let found = verdict(&m, StateId::FREE, None).unwrap().tolerance;
+        assert!(
+            (found / (whole / largest) - 1.0).abs() < 1e-9,
+            "{name}: {found}"
+        );
+        assert!((largest - 1.0).abs() > 0.1, "{name}");
+    }
+}
+
+/// Two joints may each be off by a unit of its place and, at an arm of the size, by one of its direction.
+#[test]
+fn joints_are_snapped_as_far_as_two_roundings_go() {
+    for name in ["bennett", "gripper-10"] {
+        let m = measured(name, 7);
+        let ([length, direction], found) = (units(&m), reach(&m).unwrap());
+        let size = size(&m);
+        near(
+            found.length,
+            2.0 * (length + size * direction),
+            1e-12 * size,
+        );
+        near(found.angle, 2.0 * direction.max(length / size), 1e-15);
+        assert!(size * direction > 0.1 * length, "{name}");
+    }
+}
+
+fn scene() -> Meant {
+    meant(&measured("gripper-10", 9)).unwrap()
+}
+
+/// What has not moved is not told, and what has is: its point, its axis or its reference.
+#[test]
+fn moves_are_of_points_axes_and_references() {
+    let mut s = scene();
+    for (written, joint) in s.written.iter_mut().zip(&s.mechanism.joints) {
+        *written = joint.frame.clone();
+    }
+    assert!(moves(&s).is_empty());
+    let (still, angle) = (s.written.clone(), 0.01f64);
+    let leaned = |v: &[Expr; 3], other: &[Expr; 3]| -> [Expr; 3] {
+        let [v, other] = [v, other].map(real);
+        let unit = |v: [f64; 3]| {
+            let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            v.map(|x| x / size)
+        };
+        let (v, w) = (unit(v), unit(other));
+        [0, 1, 2].map(|i| Expr::from_f64(v[i] + angle.tan() * w[i]).unwrap())
+    };
+    s.written[2].reference = leaned(&still[2].reference, &still[2].axis);
+    s.written[4].axis = leaned(&still[4].axis, &still[4].reference);
+    s.written[5].point[0] = Expr::from_f64(still[5].point[0].to_f64() + 0.25).unwrap();
+    let found = moves(&s);
+    let joints: Vec<usize> = found.iter().map(|m| m.joint.index()).collect();
+    assert_eq!(joints, [2, 4, 5]);
+    near(found[0].turn, angle, 1e-9);
+    near(found[1].turn, angle, 1e-9);
+    near(found[2].shift, 0.25, 1e-9);
+}
+
+/// An axis that is parallel to none is not counted, and moves are told in units: two halves.
+#[test]
+fn what_was_understood_is_counted_in_groups_and_units() {
+    let mut s = scene();
+    s.rays = [0, 1, 2, 3, 4].map(|j| Some(JointId::new(j))).to_vec();
+    s.scene.cluster = vec![0, 1, 0, 2, 0];
+    s.scene.relations.clear();
+    s.scene.moved = 0.84;
+    let said = understood(&s);
+    assert!(said.starts_with("3 axes parallel;"), "{said}");
+    assert!(
+        said.ends_with("by more than 0.42 units of its last digit"),
+        "{said}"
+    );
+    s.scene.cluster = vec![0, 1, 0, 1, 0];
+    assert!(understood(&s).starts_with("3 + 2 axes parallel;"));
+}
+
+/// Where nothing is open, the mechanism that a search takes has the rank of the verdict, whatever tolerance is asked for.
+#[test]
+fn what_is_settled_has_the_rank_of_its_verdict() {
+    let (mut open, mut closed) = (0, 0);
+    for name in [
+        "bennett",
+        "gripper-10",
+        "parallelogram-3-rods",
+        "wren-platform",
+    ] {
+        for decimals in [4, 6, 9] {
+            let m = measured(name, decimals);
+            for tolerance in [None, Some(1e-9), Some(1e-6), Some(1e-3)] {
+                let found = settle(&m, &[StateId::FREE], tolerance).unwrap();
+                if found.open.is_some() {
+                    open += 1;
+                    continue;
+                }
+                closed += 1;
+                let taken = found.snapped.as_ref().unwrap_or(&m);
+                let exact = analyse(taken, &[StateId::FREE], Method::Modular).unwrap();
+                let said = found.verdicts[0].rank();
+                assert_eq!(exact[0].rank, said, "{name} {decimals} {tolerance:?}");
+            }
+        }
+    }
+    assert!(open > 2 && closed > 2, "{open} {closed}");
+}

@@ -1,0 +1,35 @@
+//! Twists of links: each is carried by all before it.
+
+use crate::common::all_to_nine_digits;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
+use ozols::motion::pose::Pose;
+use ozols::statics::reactions::geometry::Geometry;
+
+/// Three hinges about z in a row, at speeds 1, -3 and 5: links turn at 1, -2 and 3. By hand, a point at the height of the hinges and
+/// 20 before the first goes at minus the sum of speed times distance.
+#[test]
+fn a_link_is_carried_by_all_before_it() {
+    let mut text =
+        "name = \"arm\"\nlength_unit = \"m\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
+    for n in 1..4 {
+        let (role, before) = (if n == 3 { "role = \"output\"\n" } else { "" }, n - 1);
+        text += &format!(
+            "[[link]]\nid = \"{n}\"\n{role}[[joint]]\nid = \"j{n}\"\nlinks = [\"{before}\", \"{n}\"]\ntype = \"revolute\"\n\
+             point = [{}, 0, 0]\naxis = [0, 0, 1]\n",
+            10 * n
+        );
+    }
+    let m = mechanism_from_str("arm.toml", &text).unwrap();
+    let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+    let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();
+    let twists = geometry.link_twists(m.links.len(), &[1.0, -3.0, 5.0]);
+    let (spread, at) = (geometry.size, geometry.of_file([-10.0, 0.0, 0.0]));
+    for (link, turn, speed) in [("1", 1.0, -20.0), ("2", -2.0, 70.0), ("3", 3.0, -130.0)] {
+        let t = twists[m.link(link).unwrap()];
+        all_to_nine_digits([t[0], t[1], t[2]], [0.0, 0.0, turn]);
+        // Velocity of the point: v + ω × p, in the size.
+        let along = [t[3] - turn * at[1], t[4] + turn * at[0], t[5]];
+        all_to_nine_digits(along.map(|x| x * spread), [0.0, speed, 0.0]);
+    }
+}

@@ -1,0 +1,107 @@
+//! Lists of searches that end early or do not count: what is proven of them, and how long they are.
+
+use super::beyond_budget::ladder;
+use crate::common::built_in;
+use num_bigint::BigUint;
+use ozols::Request;
+use ozols::file::text::mechanism_from_str;
+use ozols::score::request::{Check, List};
+use ozols::search::answer::counts::Counts;
+use ozols::search::question::conditions::Symmetry;
+use std::collections::BTreeMap;
+
+/// A variant is proven to be among the cheapest where its cost is one up to which all are known, and that is so of the last such cost.
+#[test]
+fn as_many_are_proven_as_cost_no_more_than_what_is_known() {
+    let mut at_the_limit = 0;
+    for (contours, nodes) in [(4, 60), (4, 120), (5, 80), (5, 200), (5, 500), (6, 1000)] {
+        let m = mechanism_from_str("ladder.toml", &ladder(contours, 3, false)).unwrap();
+        let request = Request {
+            nodes,
+            list: List::Top(60),
+            check: Check::None,
+            ..Request::default()
+        };
+        let outcome = ozols::search(&m, &request).unwrap();
+        if outcome.is_exact() {
+            continue;
+        }
+        let known = outcome.known_up_to();
+        let mut list = outcome.variants();
+        let costs: Vec<i64> = list.by_ref().map(|v| v.cost_milli()).collect();
+        let proven = costs.iter().filter(|c| known.is_some_and(|k| **c <= k));
+        assert_eq!(list.summary().proven, Some(proven.count()));
+        at_the_limit += costs.iter().filter(|c| Some(**c) == known).count();
+    }
+    assert!(at_the_limit > 0);
+}
+
+/// Of a variant and its image one is listed, and still as many as were asked for, whether all are counted or not.
+#[test]
+fn lists_of_orbits_are_as_long_as_they_are_asked_to_be() {
+    let m = built_in("gripper-10");
+    let costs = |counted: bool, nodes: usize| -> Vec<i64> {
+        let request = Request {
+            counted,
+            nodes,
+            symmetry: Symmetry::OnePerOrbit,
+            list: List::Top(30),
+            check: Check::None,
+            ..Request::default()
+        };
+        let outcome = ozols::search(&m, &request).unwrap();
+        outcome.variants().map(|v| v.cost_milli()).collect()
+    };
+    let all = costs(true, 50_000_000);
+    assert_eq!(all.len(), 30);
+    assert_eq!(costs(false, 50_000_000), all);
+}
+
+/// What is counted by W, by changes, by redundant constraints and by freedoms is the same variants each time.
+#[test]
+fn counts_by_one_figure_are_sums_of_those_by_two() {
+    for name in ["four-bar", "slider-crank-spatial", "gripper-10"] {
+        let request = Request {
+            max_redundant: 2,
+            list: List::Nothing,
+            check: Check::None,
+            ..Request::default()
+        };
+        let outcome = ozols::search(&built_in(name), &request).unwrap();
+        for counts in [&outcome.determinate, &outcome.admissible] {
+            let Counts {
+                total,
+                by_mobility_and_changes,
+                ..
+            } = counts;
+            let mut by_changes = BTreeMap::<u32, BigUint>::new();
+            let mut by_mobility = BTreeMap::<i64, BigUint>::new();
+            for (&(w, changes), n) in by_mobility_and_changes {
+                *by_changes.entry(changes).or_default() += n;
+                *by_mobility.entry(w).or_default() += n;
+            }
+            assert_eq!(by_changes, counts.by_changes, "{name}");
+            assert_eq!(by_mobility, counts.by_mobility, "{name}");
+            assert_eq!(counts.by_redundant.values().sum::<BigUint>(), *total);
+            assert_eq!(counts.by_freedoms.values().sum::<BigUint>(), *total);
+            assert!(
+                counts.by_changes.len() > 2 && counts.by_redundant.len() > 1,
+                "{name}"
+            );
+        }
+    }
+}
+
+/// The frame is there in every state, whichever joints it has.
+#[test]
+fn the_frame_is_free_in_every_state() {
+    use ozols::search::question::grasp::is_free;
+    let mut m = built_in("four-bar");
+    let all: Vec<_> = m.link_ids().collect();
+    assert!(all.iter().all(|&l| is_free(&m, l)));
+    let frame = m.frame();
+    m.joints.retain(|j| !j.links.contains(&frame));
+    assert!(is_free(&m, frame));
+    m.joints.clear();
+    assert!(all.iter().all(|&l| is_free(&m, l) == (l == frame)));
+}
