@@ -3,7 +3,6 @@
 mod command;
 mod floor;
 mod geared;
-mod outside;
 mod proof;
 mod reasons;
 
