@@ -117,10 +117,11 @@ pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Neighbours
             figures[LEAST_FORCE] = None;
         }
         let entry = Entry::new(&row);
-        if other.key() == own.key {
+        let key = other.key();
+        if key == own.key {
             let best = out.own.get_or_insert(figures);
             *best = std::array::from_fn(|i| FIGURES[i].better(best[i], figures[i]));
-        } else if let Some(relation) = own.relation(&other, entry.is_symmetric()) {
+        } else if let Some(relation) = own.relation(&other, &key, entry.is_symmetric()) {
             out.near.push(Neighbour {
                 entry,
                 relation,
@@ -187,13 +188,19 @@ impl Own {
         }
     }
 
-    fn relation(&self, other: &PairStructure, is_symmetric: bool) -> Option<Nearness> {
+    /// How another structure, with its key, stands to it.
+    fn relation(
+        &self,
+        other: &PairStructure,
+        key: &Weighted,
+        is_symmetric: bool,
+    ) -> Option<Nearness> {
         let links = other.chain.links();
         match links.abs_diff(self.links) {
             0 => (hinged(other) == self.chain).then_some(Nearness::OtherRoles),
             4 if !is_symmetric => None,
             by @ (2 | 4) if links < self.links => {
-                let is_left = self.less[by / 2 - 1].contains(&other.key());
+                let is_left = self.less[by / 2 - 1].contains(key);
                 is_left.then_some(Nearness::Fewer(by))
             }
             by @ (2 | 4) => {

@@ -69,21 +69,20 @@ impl Filter {
         }
     }
 
-    fn at_least(option: &str, what: &str, x: f64) -> Filter {
+    /// Of a column that is to be `>=` or `<=` a number.
+    fn number(option: &str, column: &str, sign: &str, x: f64) -> Filter {
+        let (function, word) = match sign {
+            ">=" => ("max", "greatest"),
+            _ => ("min", "smallest"),
+        };
         let name = option.trim_start_matches('-').replace('-', " ");
         Filter {
             option: format!("{option} {x}"),
-            holds: format!("{what} >= {x}"),
-            best: Some((format!("max({what})"), format!("the greatest {name}"))),
-        }
-    }
-
-    fn at_most(option: &str, what: &str, x: f64) -> Filter {
-        let name = option.trim_start_matches('-').replace('-', " ");
-        Filter {
-            option: format!("{option} {x}"),
-            holds: format!("{what} <= {x}"),
-            best: Some((format!("min({what})"), format!("the smallest {name}"))),
+            holds: format!("{column} {sign} {x}"),
+            best: Some((
+                format!("{function}({column})"),
+                format!("the {word} {name}"),
+            )),
         }
     }
 }
@@ -98,33 +97,25 @@ impl WantedGrippers {
             ),
             (self.front, "--front", "id IN (SELECT id FROM front)"),
         ];
-        let least = [
-            ("--least-force", "least_force", self.least_force),
-            ("--stroke", "widest - narrowest", self.stroke),
-            ("--transmission", "transmission", self.transmission),
-            ("--efficiency", "efficiency", self.efficiency),
-        ];
-        let most = [
-            ("--force-ratio", "force_ratio", self.force_ratio),
-            ("--turn", "turn", self.turn),
-            ("--pin-force", "pin_force", self.pin_force),
-            ("--travel", "travel", self.travel),
-            ("--width", "width", self.width),
-            ("--height", "height", self.height),
-            ("--cost", "cost", self.cost),
+        let numbers = [
+            ("--least-force", "least_force", ">=", self.least_force),
+            ("--stroke", "widest - narrowest", ">=", self.stroke),
+            ("--transmission", "transmission", ">=", self.transmission),
+            ("--efficiency", "efficiency", ">=", self.efficiency),
+            ("--force-ratio", "force_ratio", "<=", self.force_ratio),
+            ("--turn", "turn", "<=", self.turn),
+            ("--pin-force", "pin_force", "<=", self.pin_force),
+            ("--travel", "travel", "<=", self.travel),
+            ("--width", "width", "<=", self.width),
+            ("--height", "height", "<=", self.height),
+            ("--cost", "cost", "<=", self.cost),
         ];
         let words = words.iter().filter(|(asked, ..)| *asked);
-        let least = least
+        let numbers = numbers
             .iter()
-            .filter_map(|(o, what, x)| Some(Filter::at_least(o, what, (*x)?)));
-        let most = most
-            .iter()
-            .filter_map(|(o, what, x)| Some(Filter::at_most(o, what, (*x)?)));
-        words
-            .map(|(_, o, sql)| Filter::word(o, sql))
-            .chain(least)
-            .chain(most)
-            .collect()
+            .filter_map(|(o, column, sign, x)| Some(Filter::number(o, column, sign, (*x)?)));
+        let words = words.map(|(_, o, sql)| Filter::word(o, sql));
+        words.chain(numbers).collect()
     }
 
     /// The question that asks for it; nothing where nothing is wanted.
