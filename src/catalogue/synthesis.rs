@@ -5,19 +5,23 @@
 //! finds. Places are whole millimetres, thousandths beside them where those are special by chance, or what a third of a turn makes
 //! of whole ones.
 
+mod annealing;
 pub mod beside;
+pub mod bones;
 mod coordinate;
-mod elimination;
+pub mod elimination;
 pub mod figures;
 pub mod layout;
 pub mod layout_quality;
 pub mod limits;
 pub mod mechanism;
+pub mod paired;
 pub mod place;
 pub mod point;
 pub mod recognize;
 pub mod rules;
 pub mod skeleton;
+pub mod sketch;
 pub mod stroke;
 pub mod structure;
 pub mod task;

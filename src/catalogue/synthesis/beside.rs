@@ -7,6 +7,7 @@ use crate::synthesis::place::{FINE, Place};
 use crate::synthesis::point::Point;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::skeleton::Skeleton;
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::structure::Structure;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};

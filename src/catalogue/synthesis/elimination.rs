@@ -2,7 +2,7 @@
 
 /// A square matrix and, beside it, right sides.
 #[derive(Debug, Clone, Default)]
-pub(super) struct SmallSystem {
+pub struct SmallSystem {
     size: usize,
     width: usize,
     entries: Vec<f64>,
@@ -10,7 +10,8 @@ pub(super) struct SmallSystem {
 
 impl SmallSystem {
     /// All zero: `size` unknown, and so many right sides.
-    pub(super) fn new(size: usize, sides: usize) -> SmallSystem {
+    #[must_use]
+    pub fn new(size: usize, sides: usize) -> SmallSystem {
         let width = size + sides;
         SmallSystem {
             size,
@@ -20,17 +21,18 @@ impl SmallSystem {
     }
 
     /// Makes all zero.
-    pub(super) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.entries.fill(0.0);
     }
 
     /// Adds to an entry; right sides are the columns after the unknown.
-    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
         self.entries[row * self.width + column] += value;
     }
 
     /// The value of an unknown for a right side, once solved; before that what is in that row of the side.
-    pub(super) fn get(&self, unknown: usize, side: usize) -> f64 {
+    #[must_use]
+    pub fn get(&self, unknown: usize, side: usize) -> f64 {
         self.entries[unknown * self.width + self.size + side]
     }
 
@@ -39,7 +41,7 @@ impl SmallSystem {
     ///
     /// # Complexity
     /// O(n³) for n unknown.
-    pub(super) fn solve(&mut self) -> Option<f64> {
+    pub fn solve(&mut self) -> Option<f64> {
         let (n, w) = (self.size, self.width);
         let largest = |m: f64, x: &f64| m.max(x.abs());
         let most = self.entries.iter().fold(0.0, largest);

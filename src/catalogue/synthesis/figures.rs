@@ -1,12 +1,13 @@
 //! What a laid-out gripper does over its stroke: how far it opens, with what force it closes, how the jaws move.
 
-use crate::chains::layout_symmetry::Input;
 use crate::synthesis::layout::Layout;
 use crate::synthesis::point::Point;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::skeleton::Skeleton;
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::stroke::forces::ForceFigures;
-use crate::synthesis::stroke::judge::{Grid, Judge};
+use crate::synthesis::stroke::judge::{Grid, Judge, Places};
+use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::stroke::shortfall::Shortfall;
 use crate::synthesis::stroke::walk::StrokeEnd;
 use crate::synthesis::structure::Structure;
@@ -82,30 +83,37 @@ pub struct LayoutFigures {
 /// Some dozen poses, each of O(n³) for n links.
 #[must_use]
 pub fn figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> {
-    let limits = &layout.limits;
-    let skeleton = Skeleton::new(structure, Rules::free(structure)?, *limits);
+    let skeleton = Skeleton::new(structure, Rules::free(structure)?, layout.limits);
     let places = layout.at.iter().chain(&layout.tips);
     let at: Vec<Point> = places.map(|p| p.real()).collect();
-    let mut judge = Judge::new(&skeleton);
-    let stroke = judge.follow(&at, FINE, f64::INFINITY)?;
+    of_stroke(&mut Judge::new(&skeleton), &at)
+}
+
+/// Figures of places over the stroke.
+pub(super) fn of_stroke<M: StrokeMotion>(
+    judge: &mut Judge<M>,
+    at: &Places<M>,
+) -> Option<LayoutFigures> {
+    let stroke = judge.follow(at, FINE, f64::INFINITY)?;
     let way = judge.drive_rate();
-    let margin = judge.margin(&at, BEYOND * limits.task.span());
+    let sketch = judge.motion.sketch();
+    let (limits, bones) = (*sketch.limits(), sketch.bones());
+    let jaws_hinged = bones.hinged.clone();
     #[allow(clippy::cast_precision_loss, reason = "two or three")]
-    let pairs = structure.roles.jaws.len() as f64 / 2.0;
+    let pairs = bones.jaws.len() as f64 / 2.0;
     // Newtons for a newton metre where the drive turns: lengths are in millimetres.
-    let metre = match structure.form.input {
-        Input::Slide => 1.0,
-        Input::Turn => 1000.0,
-    };
+    let metre = if bones.turns { 1000.0 } else { 1.0 };
+    let shortfall = limits.shortfall(&stroke, bones.swings());
+    let margin = judge.margin(at, BEYOND * limits.task.span());
     let travel = (stroke.drive[1] - stroke.drive[0]).abs();
     let opened = stroke.reached[1] - stroke.reached[0];
     let of = |rate: f64| metre * rate / pairs;
-    let motion = |(jaw, turn): (&usize, &f64)| match turn {
+    let motion = |(&hinged, turn): (&bool, &f64)| match turn {
         t if *t < STILL => JawMotion::Parallel,
-        _ if structure.chain.joined(structure.roles.frame, *jaw) => JawMotion::Swinging,
+        _ if hinged => JawMotion::Swinging,
         _ => JawMotion::Floating,
     };
-    let jaws = structure.roles.jaws.iter().zip(&stroke.turns);
+    let jaws = jaws_hinged.iter().zip(&stroke.turns);
     Some(LayoutFigures {
         openings: stroke.reached,
         closes: -way.signum(),
@@ -121,7 +129,7 @@ pub fn figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> 
         forces: stroke.forces,
         size: stroke.size,
         margin,
-        shortfall: skeleton.shortfall(&stroke),
+        shortfall,
         turns: stroke.turns,
     })
 }

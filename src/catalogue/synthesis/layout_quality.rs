@@ -1,9 +1,8 @@
 //! What a layout looks like, and how well it moves: the figures by which it is judged.
 
-use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::geom::vector::{cross_plane, dot, length, sub};
+use crate::synthesis::bones::Bones;
 use crate::synthesis::point::Point;
-use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::velocities::Velocity;
 
 /// Pins nearer to each other than this run into each other.
@@ -12,9 +11,6 @@ const NEAR: f64 = 14.0;
 const LONG: f64 = 75.0;
 /// A pin nearer than this to a link that it is no part of lies on it.
 const ON: f64 = 6.0;
-
-/// A pin nearer than this to the middle of the part that is held is in its way.
-const PART: f64 = 25.0;
 
 /// Figures of a layout at the pose it is drawn in.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,55 +57,47 @@ fn is_far(p: Point, [a, b]: [Point; 2], margin: f64) -> bool {
 }
 
 /// What velocities say of a layout.
-struct LayoutMotion {
+pub(super) struct LayoutMotion {
     closing: f64,
     straightness: f64,
     tips: Vec<Point>,
     transmission: f64,
-    penalty: f64,
+    pub(super) penalty: f64,
 }
 
 /// The figures of points: pins, then tips.
-impl Skeleton<'_> {
-    /// What places cost, with `moving` their velocities, too; `None` where that is more than `most`, or the pose is singular.
-    /// Every part of it only adds, so that what is too dear is known early.
+impl Bones {
+    /// What places cost however they move; `None` where that is more than `most`. Every part of it only adds, so that what is too
+    /// dear is known early.
     ///
     /// # Complexity
-    /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
-    #[must_use]
-    pub fn penalty(&self, at: &[Point], moving: bool, most: f64) -> Option<f64> {
+    /// O(p²) for p points.
+    pub(super) fn penalty(&self, at: &[Point], most: f64) -> Option<f64> {
         let cheap = |sum: f64| (sum <= most).then_some(sum);
-        let mut sum = cheap(self.places(at) + self.lengths(at).1)?;
-        sum = cheap(sum + self.spacing(at))?;
-        sum = cheap(sum + self.crossings(at).1)?;
-        if moving {
-            sum = cheap(sum + self.motion(at)?.penalty)?;
-        }
-        Some(sum)
+        let sum = cheap(self.places(at) + self.lengths(at).1)?;
+        let sum = cheap(sum + self.spacing(at))?;
+        cheap(sum + self.crossings(at).1)
     }
 
-    /// All figures; `None` where the pose is singular.
+    /// All figures.
     ///
     /// # Complexity
-    /// As [`Skeleton::penalty`].
-    #[must_use]
-    pub fn looks(&self, at: &[Point]) -> Option<Looks> {
-        let motion = self.motion(at)?;
+    /// As [`Bones::penalty`].
+    pub(super) fn looks(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
         Some(Looks {
             crossings: self.crossings(at).0,
             ratio: self.lengths(at).0,
+            penalty: self.penalty(at, f64::INFINITY)? + motion.penalty,
             transmission: motion.transmission,
             closing: motion.closing,
             straightness: motion.straightness,
             tips: motion.tips,
-            penalty: self.penalty(at, true, f64::INFINITY)?,
         })
     }
 
     /// Points that run into each other, and pins in line.
     fn spacing(&self, at: &[Point]) -> f64 {
         let mut penalty = 0.0;
-        let pins = self.rules.pins.len();
         for (i, a) in at.iter().enumerate() {
             for (j, b) in at[..i].iter().enumerate() {
                 let apart = sub(*a, *b);
@@ -119,7 +107,7 @@ impl Skeleton<'_> {
                 }
                 // Pins level with each other, or square above each other, have an axis in common: a special place that costs
                 // redesigns.
-                if i < pins && !self.rules.follows(i) && !self.rules.follows(j) {
+                if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
                         .map(|x| 0.5 * beyond(ALIGNED - x.abs(), ALIGNED))
@@ -133,8 +121,8 @@ impl Skeleton<'_> {
     /// The longest link over the shortest, and what long and short ones cost.
     fn lengths(&self, at: &[Point]) -> (f64, f64) {
         let (mut longest, mut shortest, mut penalty) = (0.0_f64, f64::INFINITY, 0.0);
-        let frame = self.structure.roles.frame;
-        for (_, points) in self.of_link.iter().enumerate().filter(|(l, _)| *l != frame) {
+        let moving = self.of_link.iter().enumerate();
+        for (_, points) in moving.filter(|(l, _)| *l != self.frame) {
             for (i, &a) in points.iter().enumerate() {
                 for &b in &points[..i] {
                     let d = length(sub(at[a], at[b]));
@@ -149,8 +137,8 @@ impl Skeleton<'_> {
     /// The sides of the links but the frame, each with its link.
     fn sides(&self, at: &[Point]) -> Vec<(usize, [usize; 2])> {
         let mut out = Vec::with_capacity(3 * at.len());
-        let frame = self.structure.roles.frame;
-        for (l, points) in self.of_link.iter().enumerate().filter(|(l, _)| *l != frame) {
+        let moving = self.of_link.iter().enumerate();
+        for (l, points) in moving.filter(|(l, _)| *l != self.frame) {
             match points[..] {
                 [a, b] => out.push((l, [a, b])),
                 [a, b, c] => out.extend([[a, b], [b, c], [c, a]].map(|e| (l, e))),
@@ -171,7 +159,9 @@ impl Skeleton<'_> {
                 count += usize::from(apart && crosses(side, [at[c], at[d]]));
             }
             for (p, &place) in at.iter().enumerate() {
-                if p == a || p == b || is_far(place, side, ON) {
+                // Where pitch circles touch is on no link.
+                let touch = self.joints.get(p).is_some_and(Option::is_none);
+                if p == a || p == b || touch || is_far(place, side, ON) {
                     continue;
                 }
                 let near = distance(place, side);
@@ -189,13 +179,8 @@ impl Skeleton<'_> {
 
     /// The frame behind, the jaws in front, pins beside the middle; or all of it round the part.
     fn places(&self, at: &[Point]) -> f64 {
-        let (pins, tips) = at.split_at(self.rules.pins.len());
-        if self.structure.is_round() {
-            // Pins where the part is are in its way, but for those of a drive behind it.
-            let within = match self.structure.form.symmetry {
-                Symmetry::Generic => PART,
-                _ => 0.0,
-            };
+        let (pins, tips) = at.split_at(self.joints.len());
+        if let Some(within) = self.round {
             let pin = |p: &Point| {
                 let far = length(*p);
                 beyond(far - 80.0, 25.0) + beyond(within - far, 10.0)
@@ -203,7 +188,7 @@ impl Skeleton<'_> {
             return pins.iter().map(pin).sum();
         }
         let mut penalty = 0.0;
-        for &i in &self.of_link[self.structure.roles.frame] {
+        for &i in &self.of_link[self.frame] {
             penalty += beyond(at[i][0] - 50.0, 25.0) + beyond(-at[i][0], 25.0);
         }
         for [x, y] in pins {
@@ -211,7 +196,7 @@ impl Skeleton<'_> {
             penalty += beyond(x - 95.0, 10.0);
             penalty += beyond(y.abs() - 60.0, 25.0) + beyond(-x, 25.0);
         }
-        for (&jaw, tip) in self.structure.roles.jaws.iter().zip(tips) {
+        for (&jaw, tip) in self.jaws.iter().zip(tips) {
             for &i in &self.of_link[jaw] {
                 let [x, y] = at[i];
                 penalty += beyond(30.0 - x, 25.0) + 0.3 * beyond(-tip[1].signum() * y, 25.0);
@@ -220,10 +205,9 @@ impl Skeleton<'_> {
         penalty
     }
 
-    /// The figures of the motion, and what they cost.
-    fn motion(&self, at: &[Point]) -> Option<LayoutMotion> {
-        let velocities = self.contours.velocities(at)?;
-        let jaws = self.structure.roles.jaws.iter().zip(&self.tips);
+    /// The figures of the motion for a unit speed of the driver, and what they cost.
+    pub(super) fn motion(&self, at: &[Point], velocities: &[Velocity]) -> LayoutMotion {
+        let jaws = self.jaws.iter().zip(&self.tips);
         let tips: Vec<Point> = jaws.map(|(&j, tip)| velocities[j].at(*tip)).collect();
         let closing = tips.iter().zip(&self.inward).map(|(v, i)| dot(*v, *i));
         let (sum, all) = (
@@ -250,9 +234,10 @@ impl Skeleton<'_> {
         let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
         out.penalty += 8.0 * beyond(0.8 - out.straightness, 0.8) + 0.5 * beyond(even - 0.5, 1.0);
         // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120.
-        let drive = match self.structure.form.input {
-            Input::Slide => out.closing,
-            Input::Turn => out.closing / 30.0,
+        let drive = if self.turns {
+            out.closing / 30.0
+        } else {
+            out.closing
         };
         out.penalty += beyond((drive.max(1e-9) / 1.5).ln().abs() - 0.9, 0.5).min(20.0);
         let turning = velocities.iter().map(|v| v.turning.abs());
@@ -263,7 +248,7 @@ impl Skeleton<'_> {
             out.transmission = out.transmission.min(transmission(&velocities[l], ends));
         }
         out.penalty += beyond(40.0 - out.transmission, 20.0);
-        Some(out)
+        out
     }
 }
 

@@ -8,6 +8,7 @@ use crate::file::schema::{
 use crate::synthesis::coordinate::{number, point, turned};
 use crate::synthesis::layout::Layout;
 use crate::synthesis::place::Place;
+use crate::synthesis::point::Point;
 use crate::synthesis::structure::Structure;
 use crate::synthesis::workload::Workload;
 use itertools::Itertools;
@@ -66,7 +67,7 @@ fn rounds(layout: &Layout) -> impl Iterator<Item = Vec<usize>> {
 }
 
 /// What a pin's joint is called.
-fn joint_name(names: &[String], pin: (usize, usize)) -> String {
+pub(super) fn joint_name(names: &[String], pin: (usize, usize)) -> String {
     format!("{}.{}", names[pin.0], names[pin.1])
 }
 
@@ -150,6 +151,68 @@ fn exact(at: &[Place]) -> Option<ToleranceEntry> {
     })
 }
 
+/// What a file says beside its joints, whatever their kinds.
+pub(super) struct Told<'a> {
+    pub(super) id: String,
+    pub(super) name: String,
+    /// What each link is called, and its points.
+    pub(super) links: Vec<(String, Vec<Point>)>,
+    pub(super) frame: usize,
+    pub(super) jaws: &'a [usize],
+    pub(super) tips: &'a [Place],
+    /// Away from the part, at each jaw.
+    pub(super) outward: Vec<Place>,
+    /// 1 where jaws hold as they close, -1 where they do as they open.
+    pub(super) grip: f64,
+}
+
+impl Told<'_> {
+    /// A file without joints.
+    pub(super) fn file(&self, workload: &Workload) -> MechanismFile {
+        let links = self.links.iter().enumerate().map(|(l, (name, points))| {
+            let mass = (workload.weighs_links() && l != self.frame).then(|| workload.mass(points));
+            LinkEntry {
+                id: name.clone(),
+                role: match l {
+                    l if l == self.frame => Some("frame".to_owned()),
+                    l if self.jaws.contains(&l) => Some("output".to_owned()),
+                    _ => None,
+                },
+                mass: mass.map(|(kg, _)| kg),
+                centre: mass.map(|(_, [x, y])| [number(x), number(y), Coordinate::Integer(0)]),
+                inertia: None,
+            }
+        });
+        // The tips, so that drawings have whole jaws.
+        let tips = self.tips.iter().zip(self.jaws).zip(["a", "b", "c"]);
+        let tips = tips.map(|((&tip, &jaw), letter)| PointEntry {
+            id: format!("tip-{letter}"),
+            link: self.links[jaw].0.clone(),
+            point: point(tip),
+            tolerance: None,
+        });
+        MechanismFile {
+            name: self.id.clone(),
+            description: format!(
+                "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held.",
+                self.links.len(),
+                self.name
+            ),
+            length_unit: Some("mm".to_owned()),
+            link: links.collect(),
+            point: tips.collect(),
+            workload: WorkloadEntry {
+                gravity: workload
+                    .weighs_links()
+                    .then(|| workload.gravity.map(number)),
+                force: workload.forces(self),
+                ..WorkloadEntry::default()
+            },
+            ..MechanismFile::default()
+        }
+    }
+}
+
 /// The entries of the file.
 #[must_use]
 pub fn mechanism_file(
@@ -161,41 +224,20 @@ pub fn mechanism_file(
     let names = link_names(structure);
     let r = &structure.roles;
     let named = |i: usize| joint_name(&names, layout.pins[i]);
-    let links = names.iter().enumerate().map(|(l, name)| {
-        let mass = (workload.weighs_links() && l != r.frame)
-            .then(|| workload.mass(&layout.points(structure, l)));
-        LinkEntry {
-            id: name.clone(),
-            role: match l {
-                l if l == r.frame => Some("frame".to_owned()),
-                l if r.jaws.contains(&l) => Some("output".to_owned()),
-                _ => None,
-            },
-            mass: mass.map(|(kg, _)| kg),
-            centre: mass.map(|(_, [x, y])| [number(x), number(y), Coordinate::Integer(0)]),
-            inertia: None,
-        }
-    });
-    // The tips, so that drawings have whole jaws.
-    let tips = layout.tips.iter().zip(&r.jaws).zip(["a", "b", "c"]);
-    let tips = tips.map(|((&tip, &jaw), letter)| PointEntry {
-        id: format!("tip-{letter}"),
-        link: names[jaw].clone(),
-        point: point(tip),
-        tolerance: None,
-    });
+    let points = |(l, name): (usize, &String)| (name.clone(), layout.points(structure, l));
+    let told = Told {
+        id: structure.id(),
+        name: structure.name(),
+        links: names.iter().enumerate().map(points).collect(),
+        frame: r.frame,
+        jaws: &r.jaws,
+        tips: &layout.tips,
+        outward: structure.outward(1),
+        grip: layout.limits.task.grip.sign(),
+    };
     MechanismFile {
-        name: structure.id(),
-        description: format!(
-            "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held.",
-            structure.chain.links(),
-            structure.name()
-        ),
-        length_unit: Some("mm".to_owned()),
-        link: links.collect(),
         tolerance: exact(&layout.at),
         joint: joints(structure, &layout.pins, &layout.at, menu),
-        point: tips.collect(),
         search: SearchEntry {
             options: menu.options.clone(),
             unloading: menu.unloading.clone(),
@@ -215,13 +257,6 @@ pub fn mechanism_file(
             },
             ..SearchEntry::default()
         },
-        workload: WorkloadEntry {
-            gravity: workload
-                .weighs_links()
-                .then(|| workload.gravity.map(number)),
-            force: workload.forces(structure, layout, &names),
-            ..WorkloadEntry::default()
-        },
-        ..MechanismFile::default()
+        ..told.file(workload)
     }
 }

@@ -6,6 +6,7 @@
 pub mod closure;
 pub mod forces;
 pub mod judge;
-mod pose;
+pub mod motion;
+pub mod pose;
 pub mod shortfall;
 pub mod walk;

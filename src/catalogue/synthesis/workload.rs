@@ -3,9 +3,8 @@
 use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{add_scaled, length, sub};
 use crate::synthesis::coordinate::{number, point, turned};
-use crate::synthesis::layout::Layout;
+use crate::synthesis::mechanism::Told;
 use crate::synthesis::point::{Point, middle};
-use crate::synthesis::structure::Structure;
 use serde::{Deserialize, Serialize};
 
 /// Forces and masses that every structure has alike.
@@ -64,17 +63,12 @@ impl Workload {
         (self.link_mass * length / 1000.0, centre)
     }
 
-    /// The forces on the jaws, links having these names: of each the part's push, then its share of the weight.
-    pub(super) fn forces(
-        &self,
-        structure: &Structure,
-        layout: &Layout,
-        names: &[String],
-    ) -> Vec<ForceEntry> {
-        let jaws = &structure.roles.jaws;
+    /// The forces on the jaws: of each the part's push, then its share of the weight.
+    pub(super) fn forces(&self, told: &Told<'_>) -> Vec<ForceEntry> {
+        let jaws = told.jaws;
         let entry = |n: usize, force| ForceEntry {
-            link: names[jaws[n]].clone(),
-            point: point(layout.tips[n]),
+            link: told.links[jaws[n]].0.clone(),
+            point: point(told.tips[n]),
             force,
             from: None,
             to: None,
@@ -83,8 +77,8 @@ impl Workload {
         let mut out = Vec::new();
         if self.closing > 0.0 {
             // In a hole the part pushes inward.
-            let holds = layout.limits.task.grip.sign() * self.closing;
-            for (n, away) in structure.outward(1).into_iter().enumerate() {
+            let holds = told.grip * self.closing;
+            for (n, away) in told.outward.iter().enumerate() {
                 let push = away.whole.map(|x| f64::from(x) * holds);
                 let [x, y] = turned(push, away.thirds);
                 out.push(entry(n, [x, y, Coordinate::Integer(0)]));

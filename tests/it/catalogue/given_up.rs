@@ -34,7 +34,7 @@ fn a_stroke_is_given_up_only_where_it_costs_too_much() {
                 assert_eq!(judge.coarse(&at, 1e9), None);
                 continue;
             };
-            let cost = skeleton.stroke_cost(&whole);
+            let cost = limits.stroke_cost(&whole);
             for share in [0.0, 0.3, 0.9, 0.999, 1.0, 1.001, 3.0] {
                 let found = judge.coarse(&at, share * cost);
                 if cost > share * cost {

@@ -91,6 +91,32 @@ impl PairChain {
         joints.map(|(links, pair)| Joint { links, pair }).collect()
     }
 
+    /// A letter for what joins each two links, (0, 1), (0, 2), (1, 2) and so on, and - where nothing does.
+    #[must_use]
+    pub fn code(&self) -> String {
+        let pairs = (0..self.links()).flat_map(|v| (0..v).map(move |u| (u, v)));
+        let letter = |(u, v)| self.between(u, v).map_or('-', PairKind::letter);
+        pairs.map(letter).collect()
+    }
+
+    /// The chain of a code; `None` where it is none.
+    #[must_use]
+    pub fn of_code(links: usize, code: &str) -> Option<PairChain> {
+        let pairs = (0..links).flat_map(|v| (0..v).map(move |u| [u, v]));
+        let mut letters = code.chars();
+        let mut joints = Vec::new();
+        for links in pairs {
+            match letters.next()? {
+                '-' => {}
+                letter => {
+                    let pair = PairKind::ALL.iter().find(|k| k.2 == letter)?.0;
+                    joints.push(Joint { links, pair });
+                }
+            }
+        }
+        (letters.next().is_none()).then(|| PairChain::new(links, joints))
+    }
+
     /// How many joints are of a kind.
     #[must_use]
     pub fn count(&self, pair: PairKind) -> usize {

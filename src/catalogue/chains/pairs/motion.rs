@@ -307,20 +307,44 @@ pub fn motions_in_way(
     found.into_iter().map(against).collect()
 }
 
-/// The motions of a chain laid out symmetrically that are their own images: one for each way of lying of joints that are
-/// their own images in which the mobility is 1, `frame`, which the symmetry carries to itself, at rest.
+/// A way in which joints that are their own images may lie, and the motion of the chain then.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SymmetricWay {
+    /// A bit for each slide and slot that is its own mirror image, in the order of the joints: 1 for a slide across the line, or a
+    /// line of action across it.
+    pub bits: u32,
+    /// The motion, the frame at rest.
+    pub motion: Vec<Velocity>,
+}
+
+/// The ways of lying in which a chain laid out symmetrically has one motion that is its own image, `frame`, which the symmetry
+/// carries to itself, at rest.
 ///
 /// # Complexity
 /// An elimination of 3n columns for each way.
+#[must_use]
+pub fn symmetric_ways(chain: &PairChain, symmetry: Swap<'_>, frame: usize) -> Vec<SymmetricWay> {
+    let field = Field::new(PRIME);
+    let ways = 0..symmetry.ways(chain);
+    let all = ways.map(|way| (way, motions_in_way(chain, symmetry, frame, way)));
+    let one = all.filter_map(|(bits, mut found)| {
+        let motion = found.pop().filter(|_| found.is_empty())?;
+        Some(SymmetricWay { bits, motion })
+    });
+    one.filter(|w| symmetry.carried(field, &w.motion) == w.motion)
+        .collect()
+}
+
+/// The motions of [`symmetric_ways`].
+///
+/// # Complexity
+/// As there.
 #[must_use]
 pub fn symmetric_motions(
     chain: &PairChain,
     symmetry: Swap<'_>,
     frame: usize,
 ) -> Vec<Vec<Velocity>> {
-    let field = Field::new(PRIME);
-    let ways = 0..symmetry.ways(chain);
-    let all = ways.map(|way| motions_in_way(chain, symmetry, frame, way));
-    let one = all.filter_map(|mut found| found.pop().filter(|_| found.is_empty()));
-    one.filter(|m| symmetry.carried(field, m) == *m).collect()
+    let ways = symmetric_ways(chain, symmetry, frame).into_iter();
+    ways.map(|w| w.motion).collect()
 }

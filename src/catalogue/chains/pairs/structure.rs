@@ -1,7 +1,7 @@
 //! A gripper as a structure: a chain of pairs with its roles, under a name that does not depend on numbers.
 
 use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::pairs::chain::{PairChain, ordered};
+use crate::chains::pairs::chain::{Joint, PairChain, ordered};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use crate::chains::pairs::roles::{PairRoles, PairSubject};
@@ -30,6 +30,30 @@ impl PairStructure {
         canonical(&self.weighted()).graph
     }
 
+    /// The structure of a key: in canonical numbering, the one of its name.
+    #[must_use]
+    pub fn of_key(key: &Weighted) -> PairStructure {
+        let links = 0..key.vertices();
+        let at = |weight: u8| links.clone().filter(move |&l| key.weight(l, l) == weight);
+        let between = links.clone().tuple_combinations().map(|(u, v)| [u, v]);
+        let driven = |[u, v]: &[usize; 2]| key.weight(*u, *v) >= DRIVEN;
+        let joints = between.clone().filter_map(|links @ [u, v]| {
+            let pair = PairKind::of_weight(key.weight(u, v) % DRIVEN)?;
+            Some(Joint { links, pair })
+        });
+        let input = between.clone().find(driven).unwrap_or_default();
+        let mut jaws = at(2);
+        let mut jaw = || jaws.next().unwrap_or_default();
+        PairStructure {
+            chain: PairChain::new(key.vertices(), joints),
+            roles: PairRoles {
+                frame: at(1).next().unwrap_or_default(),
+                input,
+                jaws: [jaw(), jaw()],
+            },
+        }
+    }
+
     /// Whether the input slides.
     #[must_use]
     pub fn slides(&self) -> bool {
@@ -53,18 +77,9 @@ impl PairStructure {
     /// numbering; equal for two structures exactly where they are the same.
     #[must_use]
     pub fn name(&self) -> String {
-        let order = canonical(&self.weighted()).order;
-        let mut place = vec![0; order.len()];
-        order.iter().enumerate().for_each(|(at, &l)| place[l] = at);
-        let roles = self.roles.image(&place);
-        let pairs = (0..order.len()).flat_map(|v| (0..v).map(move |u| (u, v)));
-        let letter = |(u, v): (usize, usize)| {
-            let pair = self.chain.between(order[u], order[v]);
-            pair.map_or('-', PairKind::letter)
-        };
+        let PairStructure { chain, roles } = PairStructure::of_key(&self.key());
         let ([i, k], [a, b]) = (roles.input, roles.jaws);
-        let letters = pairs.map(letter).join("");
-        format!("{letters} f{} i{i}-{k} j{a},{b}", roles.frame)
+        format!("{} f{} i{i}-{k} j{a},{b}", chain.code(), roles.frame)
     }
 
     /// The links of the smallest moving part that holds all roles: all links where the structure is essential, or has in nearly

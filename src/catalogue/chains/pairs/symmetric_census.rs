@@ -1,5 +1,5 @@
-//! How many grippers move symmetrically, by how many choices of a pair that is no hinge they take: a left and a right slide are
-//! one.
+//! Which grippers move symmetrically, and how many there are by how many choices of a pair that is no hinge they take: a left and
+//! a right slide are one.
 
 use crate::chains::canonical::Weighted;
 use crate::chains::pairs::chain::MOST_LINKS;
@@ -23,15 +23,25 @@ pub struct SymmetricKind {
     pub orbits: usize,
 }
 
-/// Counts of essential grippers that move symmetrically with the input joint carried to itself.
+/// A gripper that moves symmetrically.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SymmetricGripper {
+    /// Its structure, in canonical numbering.
+    pub structure: PairStructure,
+    /// How it counts.
+    pub kind: SymmetricKind,
+}
+
+/// Every essential gripper that moves symmetrically with the input joint carried to itself, as a mirror image and by half a turn
+/// apart; with the fewest orbits of pairs that are not hinges that it can be seen to have.
 ///
 /// # Complexity
 /// As of [`crate::chains::pairs::census::visit_pair_chains`], over the halves.
 #[must_use]
-pub fn symmetric_census(links: usize, menu: Menu<'_>) -> BTreeMap<SymmetricKind, u64> {
+pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper> {
     let least = Mutex::new(BTreeMap::<(bool, bool, Weighted), usize>::new());
     if !(3..=MOST_LINKS).contains(&links) {
-        return BTreeMap::new();
+        return Vec::new();
     }
     let joints = menu.most_joints(links, 2 * menu.most);
     symmetric_graphs(links, joints)
@@ -56,15 +66,27 @@ pub fn symmetric_census(links: usize, menu: Menu<'_>) -> BTreeMap<SymmetricKind,
                 }
             });
         });
-    let mut out = BTreeMap::new();
     let least = least.into_inner().unwrap_or_else(PoisonError::into_inner);
-    for ((half_turn, driven_jaw, _), orbits) in least {
-        let kind = SymmetricKind {
+    let gripper = |((half_turn, driven_jaw, key), orbits)| SymmetricGripper {
+        structure: PairStructure::of_key(&key),
+        kind: SymmetricKind {
             half_turn,
             driven_jaw,
             orbits,
-        };
-        *out.entry(kind).or_default() += 1;
+        },
+    };
+    least.into_iter().map(gripper).collect()
+}
+
+/// Counts of these.
+///
+/// # Complexity
+/// As [`symmetric_grippers`].
+#[must_use]
+pub fn symmetric_census(links: usize, menu: Menu<'_>) -> BTreeMap<SymmetricKind, u64> {
+    let mut out = BTreeMap::new();
+    for gripper in symmetric_grippers(links, menu) {
+        *out.entry(gripper.kind).or_default() += 1;
     }
     out
 }

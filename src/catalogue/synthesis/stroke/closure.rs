@@ -7,6 +7,7 @@ use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{dot, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::point::Point;
+use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
 use crate::synthesis::velocities::{Contours, Side};
 
 /// What a side follows.
@@ -33,7 +34,7 @@ struct SumSide {
 #[derive(Debug, Clone)]
 pub struct Closure {
     /// How many are unknown; the drive is the last.
-    pub(super) size: usize,
+    size: usize,
     contours: Vec<SumSide>,
     tips: Vec<SumSide>,
     /// Away from the part, over the number of pairs of jaws: by this the tips' ways add up to the opening.
@@ -41,8 +42,9 @@ pub struct Closure {
 }
 
 /// Places put into the sums: the sides as vectors.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Arms {
+#[derive(Debug, Clone)]
+pub struct Arms<'a> {
+    closure: &'a Closure,
     contours: Vec<Point>,
     tips: Vec<Point>,
     /// Cosine and sine of each unknown.
@@ -81,31 +83,47 @@ impl Closure {
             outward: inward.iter().map(|i| i.map(|x| -x / pairs)).collect(),
         }
     }
+}
 
-    /// Puts places in.
-    pub(super) fn place(&self, at: &[Point], arms: &mut Arms) {
-        let vector = |s: &SumSide| sub(at[s.to], at[s.from]);
-        arms.contours.clear();
-        arms.contours.extend(self.contours.iter().map(vector));
-        arms.tips.clear();
-        arms.tips.extend(self.tips.iter().map(vector));
-        arms.turns.resize(self.size, [1.0, 0.0]);
+impl<'a> Arms<'a> {
+    /// Room for those of a closure.
+    pub(super) fn new(closure: &'a Closure) -> Arms<'a> {
+        Arms {
+            closure,
+            contours: Vec::new(),
+            tips: Vec::new(),
+            turns: vec![[1.0, 0.0]; closure.size],
+        }
     }
 
-    /// By how much the sums miss when the unknown are `x` and the tips are to be so much farther apart than drawn, with the
-    /// rates of that; beside it what makes the rates by the width. The largest miss, in millimetres.
-    ///
-    /// # Complexity
-    /// A step a side.
-    pub(super) fn fill(
-        &self,
-        arms: &mut Arms,
-        x: &[f64],
-        wider: f64,
-        rows: &mut SmallSystem,
-    ) -> f64 {
-        let (last, slid) = (self.size - 1, x[self.size - 1]);
-        for (turn, angle) in arms.turns.iter_mut().zip(x) {
+    /// Puts places in.
+    pub(super) fn place(&mut self, at: &[Point]) {
+        let vector = |s: &SumSide| sub(at[s.to], at[s.from]);
+        self.contours.clear();
+        self.contours
+            .extend(self.closure.contours.iter().map(vector));
+        self.tips.clear();
+        self.tips.extend(self.closure.tips.iter().map(vector));
+    }
+}
+
+impl FitEquations for Arms<'_> {
+    fn size(&self) -> usize {
+        self.closure.size
+    }
+
+    fn radian(&self, unknown: usize) -> f64 {
+        if unknown + 1 == self.closure.size {
+            RADIAN
+        } else {
+            1.0
+        }
+    }
+
+    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) -> f64 {
+        let size = self.closure.size;
+        let (last, slid) = (size - 1, x[size - 1]);
+        for (turn, angle) in self.turns.iter_mut().zip(x) {
             let (sine, cosine) = angle.sin_cos();
             *turn = [cosine, sine];
         }
@@ -113,14 +131,14 @@ impl Closure {
         let moved = |s: &SumSide, [a, b]: Point| match s.follows {
             SumMover::Slide => ([slid, 0.0], None),
             SumMover::Turn(unknown) => {
-                let [c, s] = arms.turns[unknown];
+                let [c, s] = self.turns[unknown];
                 let now = [c * a - s * b, s * a + c * b];
                 (sub(now, [a, b]), Some((unknown, quarter(now))))
             }
         };
         rows.clear();
-        let (right, width) = (self.size, self.size + 1);
-        for (s, &arm) in self.contours.iter().zip(&arms.contours) {
+        let (right, width) = (size, size + 1);
+        for (s, &arm) in self.closure.contours.iter().zip(&self.contours) {
             let (by, rate) = moved(s, arm);
             let (column, rate) = rate.unwrap_or((last, [1.0, 0.0]));
             for k in 0..2 {
@@ -129,16 +147,16 @@ impl Closure {
             }
         }
         let mut open = -wider;
-        for (s, &arm) in self.tips.iter().zip(&arms.tips) {
+        for (s, &arm) in self.closure.tips.iter().zip(&self.tips) {
             let (by, rate) = moved(s, arm);
             let (column, rate) = rate.unwrap_or((last, [1.0, 0.0]));
-            let outward = self.outward[s.sum];
+            let outward = self.closure.outward[s.sum];
             rows.add(last, column, dot(rate, outward));
             open += dot(by, outward);
         }
         rows.add(last, right, open);
         rows.add(last, width, 1.0);
-        let all = (0..self.size).map(|row| rows.get(row, 0).abs());
+        let all = (0..size).map(|row| rows.get(row, 0).abs());
         all.fold(0.0, f64::max)
     }
 }

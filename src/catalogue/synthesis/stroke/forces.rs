@@ -124,7 +124,10 @@ impl JointForces {
         for (n, &jaw) in roles.jaws.iter().enumerate() {
             let Some(row) = rows(jaw) else { continue };
             // The part pushes outward; what the joints do makes up for it.
-            let (tip, push) = (links[jaw].point(skeleton.tips[n]), skeleton.inward[n]);
+            let (tip, push) = (
+                links[jaw].point(skeleton.bones.tips[n]),
+                skeleton.bones.inward[n],
+            );
             self.system.add(row, right, push[0]);
             self.system.add(row + 1, right, push[1]);
             self.system
@@ -177,8 +180,10 @@ impl JointForces {
             }
         }
         for (n, &jaw) in roles.jaws.iter().enumerate() {
-            let velocity = links[jaw].velocity.at(links[jaw].point(skeleton.tips[n]));
-            let work = dot(velocity, skeleton.inward[n]).abs();
+            let velocity = links[jaw]
+                .velocity
+                .at(links[jaw].point(skeleton.bones.tips[n]));
+            let work = dot(velocity, skeleton.bones.inward[n]).abs();
             given += work;
             out.transmission = out
                 .transmission

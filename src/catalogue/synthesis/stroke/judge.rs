@@ -1,15 +1,16 @@
 //! What places do over the stroke of a task, and what that costs.
 
-use super::forces::{ForceFigures, JointForces};
+use super::forces::ForceFigures;
+use super::motion::{HingeMotion, StrokeMotion};
 use super::pose::LinkPose;
-use super::walk::{StrokeEnd, Walk};
-use crate::chains::layout_symmetry::Input;
-use crate::geom::vector::{add_scaled, dot, length, quarter, sub};
+use super::walk::StrokeEnd;
+use crate::geom::vector::{dot, length};
 use crate::synthesis::layout_quality::{beyond, transmission};
+use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::task::{AskedMotion, PARALLEL};
-use crate::synthesis::velocities::Velocity;
 
 /// Poses of a stroke while places are tried, and how near to its end it is followed: a fraction of the stroke.
 const COARSE: Grid = Grid {
@@ -104,34 +105,52 @@ struct ReachedStroke {
     ends: [Option<StrokeEnd>; 2],
 }
 
-/// Strokes of a skeleton, one after another.
+/// Strokes, one after another.
 #[derive(Debug)]
-pub struct Judge<'a> {
-    skeleton: &'a Skeleton<'a>,
-    pub(super) walk: Walk<'a>,
+pub struct Judge<M> {
+    pub(in crate::synthesis) motion: M,
     pub(super) links: Vec<LinkPose>,
     gathered: Gathered,
-    forces: JointForces,
 }
 
-impl<'a> Judge<'a> {
+/// The places of what moves.
+pub(in crate::synthesis) type Places<M> = <<M as StrokeMotion>::Sketch as Sketch>::Places;
+
+impl<'a> Judge<HingeMotion<'a>> {
     /// Of a skeleton.
     #[must_use]
-    pub fn new(skeleton: &'a Skeleton<'a>) -> Judge<'a> {
+    pub fn new(skeleton: &'a Skeleton<'a>) -> Self {
+        Judge::of(HingeMotion::new(skeleton))
+    }
+}
+
+impl<M: StrokeMotion> Judge<M> {
+    /// Of what moves.
+    #[must_use]
+    pub fn of(motion: M) -> Judge<M> {
+        let bones = motion.sketch().bones();
         Judge {
-            skeleton,
-            walk: Walk::new(&skeleton.closure),
-            links: vec![LinkPose::default(); skeleton.structure.chain.links()],
+            links: vec![LinkPose::AT_REST; bones.of_link.len()],
             gathered: Gathered {
                 transmission: 90.0,
                 straightness: 1.0,
                 rates: Between::NOTHING,
-                turns: vec![Between::NOTHING; skeleton.tips.len()],
+                turns: vec![Between::NOTHING; bones.tips.len()],
                 sides: [Between::NOTHING; 2],
                 forces: ForceFigures::BEST,
             },
-            forces: JointForces::new(skeleton),
+            motion,
         }
+    }
+
+    fn limits(&self) -> &Limits {
+        self.motion.sketch().limits()
+    }
+
+    /// Stands at the drawn pose of places; `false` where that is singular.
+    fn stand(&mut self, at: &Places<M>) -> bool {
+        self.motion.place(at);
+        self.motion.walk_mut().back()
     }
 
     /// The figures of places at a dozen poses, as they are looked at while places are tried; `None` where the drawn pose is
@@ -139,7 +158,7 @@ impl<'a> Judge<'a> {
     ///
     /// # Complexity
     /// Some corrections of O(n³) for n links, for each of some dozen poses.
-    pub fn coarse(&mut self, at: &[Point], most: f64) -> Option<StrokeFigures> {
+    pub fn coarse(&mut self, at: &Places<M>, most: f64) -> Option<StrokeFigures> {
         self.follow(at, COARSE, most)
     }
 
@@ -147,11 +166,11 @@ impl<'a> Judge<'a> {
     ///
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
-    pub fn follow(&mut self, at: &[Point], grid: Grid, most: f64) -> Option<StrokeFigures> {
-        if !self.walk.stand(at) {
+    pub fn follow(&mut self, at: &Places<M>, grid: Grid, most: f64) -> Option<StrokeFigures> {
+        if !self.stand(at) {
             return None;
         }
-        let task = self.skeleton.limits.task;
+        let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         let finest = grid.finest * task.span();
         // Until an end is reached, or is not, nothing is said against it.
@@ -167,7 +186,7 @@ impl<'a> Judge<'a> {
         }
         self.weigh(at);
         for (n, to) in [task.narrowest, task.widest].into_iter().enumerate() {
-            if n > 0 && !self.walk.back() {
+            if n > 0 && !self.motion.walk_mut().back() {
                 return None;
             }
             let all = to - drawn;
@@ -178,21 +197,26 @@ impl<'a> Judge<'a> {
                     return None;
                 }
                 i += 1.0;
-                way.ends[n] = self.walk.advance(all * i / count, finest).err();
+                way.ends[n] = self
+                    .motion
+                    .walk_mut()
+                    .advance(all * i / count, finest)
+                    .err();
                 self.look(at);
                 if grid.forces_everywhere || i == count || way.ends[n].is_some() {
                     self.weigh(at);
                 }
             }
-            way.reached[n] = drawn + self.walk.wider;
-            way.drive[n] = self.walk.x.last().copied().unwrap_or(0.0);
+            let walk = self.motion.walk();
+            way.reached[n] = drawn + walk.wider;
+            way.drive[n] = walk.x.last().copied().unwrap_or(0.0);
         }
         (!self.is_dearer(&way, most)).then(|| self.figures(&way))
     }
 
     /// Whether what is known so far costs more than `most`: more poses make no figure better.
     fn is_dearer(&self, way: &ReachedStroke, most: f64) -> bool {
-        most < f64::INFINITY && self.skeleton.stroke_cost(&self.figures(way)) > most
+        most < f64::INFINITY && self.limits().stroke_cost(&self.figures(way)) > most
     }
 
     fn figures(&self, way: &ReachedStroke) -> StrokeFigures {
@@ -213,99 +237,59 @@ impl<'a> Judge<'a> {
     /// How fast the drive goes by the width at the last pose, mm or rad a millimetre: negative where it goes back as jaws open.
     #[must_use]
     pub fn drive_rate(&self) -> f64 {
-        self.walk.rate()
+        self.motion.walk().rate()
     }
 
     /// How much farther than the task asks the tips can come, narrower and wider, in millimetres and at most `most`; 0 where they
     /// do not come as far.
-    pub fn margin(&mut self, at: &[Point], most: f64) -> [f64; 2] {
-        let task = self.skeleton.limits.task;
+    pub fn margin(&mut self, at: &Places<M>, most: f64) -> [f64; 2] {
+        let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         [(task.narrowest, -most), (task.widest, most)].map(|(end, more)| {
-            let goes = self.walk.stand(at);
+            let goes = self.stand(at);
             let to = end - drawn;
+            let walk = self.motion.walk_mut();
             // That it ends on the way is what is asked.
-            let _ = self.walk.advance(to + more, 1e-3);
-            let farther = (self.walk.wider - to) * more.signum();
+            let _ = walk.advance(to + more, 1e-3);
+            let farther = (walk.wider - to) * more.signum();
             if goes { farther.max(0.0) } else { 0.0 }
         })
     }
 
     /// Takes in what the joint forces say; where they have no one solution, the worst.
-    fn weigh(&mut self, at: &[Point]) {
-        let (skeleton, links) = (self.skeleton, &self.links);
-        let here = if self.forces.solve(skeleton, links, at) {
-            (self.forces).figures(skeleton, links, &skeleton.limits.task.friction)
-        } else {
-            ForceFigures::WORST
-        };
+    fn weigh(&mut self, at: &Places<M>) {
+        let here = self.motion.forces(at, &self.links);
+        let here = here.unwrap_or(ForceFigures::WORST);
         self.gathered.forces = self.gathered.forces.worse(here);
     }
 
-    /// Where the links are at the pose that the walk stands in.
-    fn pose(&mut self, at: &[Point]) {
-        let contours = &self.skeleton.contours;
-        let (x, rates) = (&self.walk.x, &self.walk.rates);
-        let last = x.len() - 1;
-        self.links[self.skeleton.structure.roles.frame] = LinkPose {
-            turn: [1.0, 0.0],
-            ..LinkPose::default()
-        };
-        for s in &contours.tree {
-            let before = self.links[s.from];
-            let unknown = contours.unknown[s.link];
-            if unknown.is_none() && contours.input == Input::Slide {
-                self.links[s.link] = LinkPose {
-                    turn: [1.0, 0.0],
-                    shift: [x[last], 0.0],
-                    velocity: Velocity {
-                        turning: 0.0,
-                        shift: [rates[last], 0.0],
-                    },
-                };
-                continue;
-            }
-            let unknown = unknown.unwrap_or(last);
-            let (pin, turning) = (before.point(at[s.joint]), rates[unknown]);
-            let (sine, cosine) = x[unknown].sin_cos();
-            let mut here = LinkPose {
-                turn: [cosine, sine],
-                ..LinkPose::default()
-            };
-            here.shift = sub(pin, here.point(at[s.joint]));
-            here.velocity = Velocity {
-                turning,
-                shift: add_scaled(before.velocity.at(pin), -turning, quarter(pin)),
-            };
-            self.links[s.link] = here;
-        }
-    }
-
-    fn look(&mut self, at: &[Point]) {
-        self.pose(at);
-        let s = self.skeleton;
+    fn look(&mut self, at: &Places<M>) {
+        self.motion.pose(at, &mut self.links);
+        let sketch = self.motion.sketch();
+        let (bones, points) = (sketch.bones(), sketch.points(at));
         let g = &mut self.gathered;
-        g.rates.take(self.walk.rate().abs());
-        for &(link, ends) in &s.rods {
+        g.rates.take(self.motion.walk().rate().abs());
+        for &(link, ends) in &bones.rods {
             let pose = &self.links[link];
-            let ends = ends.map(|i| pose.point(at[i]));
+            let ends = ends.map(|i| pose.point(points[i]));
             g.transmission = g.transmission.min(transmission(&pose.velocity, ends));
         }
         let (mut opens, mut all, mut least) = (0.0, 0.0, f64::INFINITY);
-        for (n, (&jaw, inward)) in s.structure.roles.jaws.iter().zip(&s.inward).enumerate() {
+        for (n, (&jaw, inward)) in bones.jaws.iter().zip(&bones.inward).enumerate() {
             let pose = &self.links[jaw];
-            let tip = pose.point(s.tips[n]);
+            let tip = pose.point(bones.tips[n]);
             let velocity = pose.velocity.at(tip);
             let open = -dot(velocity, *inward);
             (opens, all, least) = (opens + open, all + length(velocity), least.min(open));
-            let angle = s.contours.unknown[jaw].map_or(0.0, |u| self.walk.x[u]);
-            g.turns[n].take(angle);
+            g.turns[n].take(pose.angle);
             g.take(tip);
         }
         let share = if least > 0.0 { opens / all } else { 0.0 };
         g.straightness = g.straightness.min(share);
-        for (i, &(link, _)) in s.rules.pins.iter().enumerate() {
-            g.take(self.links[link].point(at[i]));
+        for (place, ends) in points.iter().zip(&bones.joints) {
+            if let Some([link, _]) = *ends {
+                g.take(self.links[link].point(*place));
+            }
         }
     }
 }
@@ -326,11 +310,11 @@ impl Gathered {
     }
 }
 
-impl Skeleton<'_> {
+impl Limits {
     /// What a stroke costs, 0 at best. First that both ends are reached, then what the task and the limits ask.
     #[must_use]
     pub fn stroke_cost(&self, f: &StrokeFigures) -> f64 {
-        let task = &self.limits.task;
+        let task = &self.task;
         let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
         let mut cost = 0.0;
         for m in missing.into_iter().filter(|m| *m > 0.0) {

@@ -2,7 +2,7 @@
 
 use super::judge::StrokeFigures;
 use super::walk::StrokeEnd;
-use crate::synthesis::skeleton::Skeleton;
+use crate::synthesis::limits::Limits;
 use crate::synthesis::task::{AskedMotion, PARALLEL};
 use thiserror::Error;
 
@@ -76,12 +76,11 @@ impl Shortfall {
     }
 }
 
-impl Skeleton<'_> {
-    /// The first that a stroke lacks of what the task asks.
+impl Limits {
+    /// The first that a stroke lacks of what the task asks, `swings` being whether every jaw turns about a hinge in the frame.
     #[must_use]
-    pub fn shortfall(&self, f: &StrokeFigures) -> Option<Shortfall> {
-        let (structure, limits) = (self.structure, &self.limits);
-        let task = &limits.task;
+    pub fn shortfall(&self, f: &StrokeFigures, swings: bool) -> Option<Shortfall> {
+        let task = &self.task;
         if let Some(why) = f.ends[0] {
             let (reached, asked) = (f.reached[0], task.narrowest);
             return Some(Shortfall::Closing {
@@ -105,12 +104,10 @@ impl Skeleton<'_> {
         if ratio > most {
             return Some(Shortfall::ForceRatio { ratio, most });
         }
-        let roles = &structure.roles;
-        let swings = |&jaw: &usize| structure.chain.joined(roles.frame, jaw);
         let turn = f.turn();
         match task.motion {
             AskedMotion::Parallel if turn > PARALLEL => return Some(Shortfall::Turn { turn }),
-            AskedMotion::Swinging if !roles.jaws.iter().all(swings) => {
+            AskedMotion::Swinging if !swings => {
                 return Some(Shortfall::NotSwinging);
             }
             AskedMotion::Any | AskedMotion::Parallel | AskedMotion::Swinging => {}
@@ -119,7 +116,7 @@ impl Skeleton<'_> {
         if (0..2).any(|k| room[k] > 0.0 && size[k] > room[k]) {
             return Some(Shortfall::Room { size, room });
         }
-        let (worst, least) = (f.transmission, limits.transmission);
+        let (worst, least) = (f.transmission, self.transmission);
         (worst < least).then_some(Shortfall::Transmission { worst, least })
     }
 }

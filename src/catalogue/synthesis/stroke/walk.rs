@@ -3,9 +3,7 @@
 //! A step is halved where the first correction is large beside it, where the determinant changes its sign, or where the drive
 //! would turn back: so no step passes a singular pose or a dead point unseen.
 
-use super::closure::{Arms, Closure};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::point::Point;
 
 /// Corrections of a step at most.
 const CORRECTIONS: usize = 6;
@@ -13,8 +11,8 @@ const CORRECTIONS: usize = 6;
 const CORRECTION: f64 = 0.25;
 /// Contours that are open by less than this are closed, in millimetres.
 const CLOSED: f64 = 1e-8;
-/// So many millimetres of the drive count as a radian of a link, when steps and corrections are compared.
-const RADIAN: f64 = 50.0;
+/// So many millimetres count as a radian of a link.
+pub(in crate::synthesis) const RADIAN: f64 = 50.0;
 /// A drive that is so many times faster by the width than in the drawn pose is near to where the jaws turn back; one that is
 /// so many times slower, to a dead point.
 const FAR: f64 = 4.0;
@@ -52,32 +50,44 @@ impl StrokeEnd {
     }
 }
 
+/// The equations that hold where the links fit together and the tips are so far apart; the drive is the last unknown.
+pub trait FitEquations {
+    /// How many there are, and how many unknown.
+    fn size(&self) -> usize;
+
+    /// How many of an unknown count as a radian of a link, when steps and corrections are compared.
+    fn radian(&self, unknown: usize) -> f64;
+
+    /// By how much they miss when the unknown are `x` and the tips are to be so many millimetres farther apart than drawn, in the
+    /// first right side, with the rates of that; in the second what makes the rates by the width. The largest miss, in
+    /// millimetres.
+    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) -> f64;
+}
+
 /// A pose on the way.
 #[derive(Debug, Clone)]
-pub struct Walk<'a> {
-    closure: &'a Closure,
-    arms: Arms,
+pub struct Walk<E> {
+    pub(in crate::synthesis) equations: E,
     rows: SmallSystem,
     /// How much farther apart the tips are than drawn, in millimetres.
-    pub(super) wider: f64,
+    pub(in crate::synthesis) wider: f64,
     /// The unknown: turns in rad, then the drive in mm or rad.
-    pub(super) x: Vec<f64>,
+    pub(in crate::synthesis) x: Vec<f64>,
     /// Their rates by the width.
-    pub(super) rates: Vec<f64>,
+    pub(in crate::synthesis) rates: Vec<f64>,
     /// Sign of the determinant.
     sign: f64,
     trial: Vec<f64>,
     drawn_rate: f64,
 }
 
-impl<'a> Walk<'a> {
+impl<E: FitEquations> Walk<E> {
     /// Room for walks.
     #[must_use]
-    pub fn new(closure: &'a Closure) -> Walk<'a> {
-        let n = closure.size;
+    pub fn new(equations: E) -> Walk<E> {
+        let n = equations.size();
         Walk {
-            closure,
-            arms: Arms::default(),
+            equations,
             rows: SmallSystem::new(n, 2),
             wider: 0.0,
             x: vec![0.0; n],
@@ -88,13 +98,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Stands at the drawn pose of places, pins and then tips; `false` where that is singular.
-    pub fn stand(&mut self, at: &[Point]) -> bool {
-        self.closure.place(at, &mut self.arms);
-        self.back()
-    }
-
-    /// Stands at the drawn pose again.
+    /// Stands at the drawn pose; `false` where that is singular.
     pub fn back(&mut self) -> bool {
         self.wider = 0.0;
         self.trial.fill(0.0);
@@ -112,21 +116,19 @@ impl<'a> Walk<'a> {
     }
 
     fn size(&self, of: impl Fn(usize) -> f64) -> f64 {
-        let last = self.closure.size - 1;
-        let turns = (0..last).map(|i| of(i).abs());
-        turns.fold(of(last).abs() / RADIAN, f64::max)
+        let sizes = (0..self.x.len()).map(|i| of(i).abs() / self.equations.radian(i));
+        sizes.fold(0.0, f64::max)
     }
 
     /// Closes the contours at a width from the trial, and takes it where the first correction is at most `most`.
     fn correct(&mut self, wider: f64, most: f64) -> bool {
         for n in 0..CORRECTIONS {
-            let trial = &self.trial;
-            let miss = (self.closure).fill(&mut self.arms, trial, wider, &mut self.rows);
+            let miss = (self.equations).fill(&self.trial, wider, &mut self.rows);
             let Some(sign) = self.rows.solve() else {
                 return false;
             };
             if miss < CLOSED {
-                let rate = self.rows.get(self.closure.size - 1, 1);
+                let rate = self.rows.get(self.x.len() - 1, 1);
                 let same = self.sign == 0.0 || (sign == self.sign && rate * self.rate() > 0.0);
                 if !same || !rate.is_finite() {
                     return false;

@@ -1,0 +1,216 @@
+//! A place for every joint, found by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
+
+use crate::synthesis::layout::keeps;
+use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::sketch::Sketch;
+use crate::synthesis::stroke::judge::{Judge, Places};
+use crate::synthesis::stroke::motion::StrokeMotion;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use sha2::{Digest, Sha256};
+
+/// A layout that costs less than this is taken without looking for a better one.
+const GOOD: f64 = 3.0;
+
+/// Places at the end of a start.
+pub(super) struct FoundPlaces<P> {
+    /// Whether the drawn pose keeps the limits.
+    pub(super) within: bool,
+    /// Whether the stroke does what the task asks.
+    pub(super) does: bool,
+    pub(super) looks: Looks,
+    /// What drawn pose and stroke cost.
+    pub(super) cost: f64,
+    pub(super) at: P,
+    pub(super) start: u32,
+}
+
+impl<P> FoundPlaces<P> {
+    /// Limits first, then the task, then what all costs.
+    fn order(&self) -> (bool, bool, f64) {
+        (!self.within, !self.does, self.cost)
+    }
+
+    /// Whether no better ones need be looked for.
+    pub(super) fn is_good(&self) -> bool {
+        self.within && self.does && self.cost < GOOD
+    }
+
+    /// Whether they are better than others, where there are any.
+    pub(super) fn is_better_than(&self, best: Option<&FoundPlaces<P>>) -> bool {
+        best.is_none_or(|b| self.order() < b.order())
+    }
+}
+
+/// What a search for places from one start ends with; `None` where that is a singular pose.
+pub(super) fn search_from<M: StrokeMotion>(
+    sketch: &M::Sketch,
+    judge: &mut Judge<M>,
+    random: ChaCha8Rng,
+    start: u32,
+) -> Option<FoundPlaces<Places<M>>> {
+    let at = anneal(sketch, judge, random);
+    let looks = sketch.looks(&at)?;
+    let stroke = judge.coarse(&at, f64::INFINITY)?;
+    let limits = sketch.limits();
+    Some(FoundPlaces {
+        cost: looks.penalty + limits.stroke_cost(&stroke),
+        does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
+        within: keeps(limits, &looks),
+        looks,
+        at,
+        start,
+    })
+}
+
+/// Random numbers of a start, the same for the same name and seed.
+pub(super) fn random(name: &str, seed: u64, start: u32) -> ChaCha8Rng {
+    let name = format!("{name} {seed} {start}");
+    let digest = Sha256::digest(name);
+    let mut key = [0; 32];
+    key.copy_from_slice(&digest);
+    ChaCha8Rng::from_seed(key)
+}
+
+/// From 0 to 1.
+#[allow(clippy::cast_precision_loss, reason = "53 bits")]
+pub(super) fn unit(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Roughly normal, of variance 1.
+pub(super) fn bell(random: &mut ChaCha8Rng) -> f64 {
+    (0..12).map(|_| unit(random)).sum::<f64>() - 6.0
+}
+
+/// What is looked at in a part of a search for places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Look {
+    Places,
+    Motion,
+    Stroke,
+}
+
+/// A part of a search: how many moves, and how warm it is at the beginning and at the end.
+struct Phase {
+    look: Look,
+    moves: usize,
+    warmth: [f64; 2],
+}
+
+/// Places alone, which is cheap; then the motion of the drawn pose, too; then the whole stroke, warmed up again a little.
+const PHASES: [Phase; 3] = [
+    Phase {
+        look: Look::Places,
+        moves: 800,
+        warmth: [1.0, 0.47],
+    },
+    Phase {
+        look: Look::Motion,
+        moves: 700,
+        warmth: [0.47, 0.0],
+    },
+    Phase {
+        look: Look::Stroke,
+        moves: 500,
+        warmth: [0.4, 0.0],
+    },
+];
+
+/// A search for places from one start.
+struct Annealing<'s, 'j, M: StrokeMotion> {
+    sketch: &'s M::Sketch,
+    judge: &'j mut Judge<M>,
+    random: ChaCha8Rng,
+    /// The places, what they cost, and those before the last move.
+    at: Places<M>,
+    now: f64,
+    before: Places<M>,
+    /// The cheapest of the phase.
+    best: (f64, Places<M>),
+}
+
+impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
+    fn new(sketch: &'s M::Sketch, judge: &'j mut Judge<M>, mut random: ChaCha8Rng) -> Self {
+        let at = sketch.first_places(&mut random);
+        Annealing {
+            before: at.clone(),
+            best: (f64::INFINITY, at.clone()),
+            now: f64::INFINITY,
+            sketch,
+            judge,
+            random,
+            at,
+        }
+    }
+
+    /// What the places cost; `None` where that is more than `most`, or the pose is singular.
+    fn cost(&mut self, look: Look, most: f64) -> Option<f64> {
+        let drawn = (self.sketch).penalty(&self.at, look != Look::Places, most)?;
+        if look != Look::Stroke {
+            return Some(drawn);
+        }
+        let stroke = self.judge.coarse(&self.at, most - drawn)?;
+        let all = drawn + self.sketch.limits().stroke_cost(&stroke);
+        (all <= most).then_some(all)
+    }
+
+    /// Whether the places do what the task asks.
+    fn does(&mut self) -> bool {
+        let stroke = self.judge.coarse(&self.at, f64::INFINITY);
+        let swings = self.sketch.bones().swings();
+        stroke.is_some_and(|f| self.sketch.limits().shortfall(&f, swings).is_none())
+    }
+
+    fn phase(&mut self, phase: &Phase) {
+        // A stroke is judged from the best of what was drawn.
+        if phase.look == Look::Stroke {
+            self.at.clone_from(&self.best.1);
+        }
+        self.now = self
+            .cost(phase.look, f64::INFINITY)
+            .unwrap_or(f64::INFINITY);
+        self.best = (self.now, self.at.clone());
+        if phase.look == Look::Stroke && self.now < GOOD && self.does() {
+            return;
+        }
+        let [from, to] = phase.warmth;
+        for step in 0..phase.moves {
+            #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
+            let done = step as f64 / phase.moves as f64;
+            self.step(phase.look, from + (to - from) * done);
+        }
+    }
+
+    /// Tries other places.
+    fn step(&mut self, look: Look, warmth: f64) {
+        let heat = 2.0 * warmth * warmth;
+        self.before.clone_from(&self.at);
+        self.sketch.change(&mut self.at, warmth, &mut self.random);
+        // Taken where exp((now - then) / heat) is above a random number: what is too dear is not looked at to the end.
+        let most = self.now - heat * unit(&mut self.random).ln();
+        match self.cost(look, most) {
+            Some(then) => {
+                self.now = then;
+                if then < self.best.0 {
+                    self.best.0 = then;
+                    self.best.1.clone_from(&self.at);
+                }
+            }
+            None => self.at.clone_from(&self.before),
+        }
+    }
+}
+
+/// The places at the end of one search.
+fn anneal<M: StrokeMotion>(
+    sketch: &M::Sketch,
+    judge: &mut Judge<M>,
+    random: ChaCha8Rng,
+) -> Places<M> {
+    let mut search = Annealing::new(sketch, judge, random);
+    for phase in &PHASES {
+        search.phase(phase);
+    }
+    search.best.1
+}

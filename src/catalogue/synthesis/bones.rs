@@ -1,0 +1,142 @@
+//! What layouts of all kinds have in common: the points of each link, and what the links are for.
+
+use crate::closure::tree::forest;
+use crate::geom::vector::{add_scaled, sub, unit};
+use crate::synthesis::annealing::bell;
+use crate::synthesis::point::{Point, middle};
+use chacha20::ChaCha8Rng;
+
+/// The points of a gripper's links. Points are numbered: those of the joints in their order, then the tips.
+#[derive(Debug, Clone)]
+pub struct Bones {
+    /// The link that stands still.
+    pub frame: usize,
+    /// The link that is driven.
+    pub driver: usize,
+    /// The jaws.
+    pub jaws: Vec<usize>,
+    /// Points of each link: its joints, and of a jaw its tip.
+    pub of_link: Vec<Vec<usize>>,
+    /// The same as bits.
+    pub members: Vec<u32>,
+    /// The links of each joint that has a point on both.
+    pub joints: Vec<Option<[usize; 2]>>,
+    /// Joints that are where others have them.
+    pub follows: Vec<bool>,
+    /// Where the tips of the jaws are.
+    pub tips: Vec<Point>,
+    /// Which way each tip closes, of length 1.
+    pub inward: Vec<Point>,
+    /// Links that only push and pull: of two pins, neither frame nor driver nor jaw.
+    pub rods: Vec<(usize, [usize; 2])>,
+    /// Whether the drive turns.
+    pub turns: bool,
+    /// Whether each jaw turns about a hinge in the frame.
+    pub hinged: Vec<bool>,
+    /// Of a gripper that is all round the part: how near to the middle of it joints may be.
+    pub round: Option<f64>,
+}
+
+/// What links do, and how joints are placed.
+#[derive(Debug, Clone)]
+pub(super) struct Plan<'a> {
+    pub(super) frame: usize,
+    pub(super) driver: usize,
+    pub(super) jaws: &'a [usize],
+    /// The links of each joint that has a point on both.
+    pub(super) joints: Vec<Option<[usize; 2]>>,
+    pub(super) follows: Vec<bool>,
+    pub(super) tips: Vec<Point>,
+    pub(super) turns: bool,
+    pub(super) hinged: Vec<bool>,
+    pub(super) round: Option<f64>,
+}
+
+impl Bones {
+    /// Of so many links, of which those may be rods that `pinned` says.
+    pub(super) fn new(links: usize, plan: Plan<'_>, pinned: impl Fn(usize) -> bool) -> Bones {
+        let mut of_link = vec![Vec::new(); links];
+        for (i, ends) in plan.joints.iter().enumerate() {
+            for &link in ends.iter().flatten() {
+                of_link[link].push(i);
+            }
+        }
+        for (n, &jaw) in plan.jaws.iter().enumerate() {
+            of_link[jaw].push(plan.joints.len() + n);
+        }
+        let rods = of_link.iter().enumerate().filter_map(|(l, points)| {
+            let [a, b] = points[..] else { return None };
+            let pulls = l != plan.frame && l != plan.driver && pinned(l);
+            pulls.then_some((l, [a, b]))
+        });
+        let centre = middle(&plan.tips);
+        let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
+        Bones {
+            rods: rods.collect(),
+            members: of_link.iter().map(bits).collect(),
+            inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
+            of_link,
+            joints: plan.joints,
+            follows: plan.follows,
+            tips: plan.tips,
+            frame: plan.frame,
+            driver: plan.driver,
+            jaws: plan.jaws.to_vec(),
+            turns: plan.turns,
+            hinged: plan.hinged,
+            round: plan.round,
+        }
+    }
+
+    /// Whether every jaw turns about a hinge in the frame.
+    #[must_use]
+    pub fn swings(&self) -> bool {
+        self.hinged.iter().all(|h| *h)
+    }
+
+    /// Links between frame and jaws as far ahead as they are joints away, each joint between its two links; the tips after them.
+    pub(super) fn first_places(
+        &self,
+        joints: Vec<[usize; 2]>,
+        random: &mut ChaCha8Rng,
+    ) -> Vec<Point> {
+        // Joints on a shortest way from a link to each.
+        let far = |from: usize| {
+            let (_, steps) = forest(
+                self.of_link.len(),
+                joints.iter().copied(),
+                |_| false,
+                [from],
+            );
+            let mut away = vec![0.0_f64; self.of_link.len()];
+            for s in steps {
+                away[s.link] = away[s.from] + 1.0;
+            }
+            away
+        };
+        let frame = far(self.frame);
+        let jaws: Vec<Vec<f64>> = self.jaws.iter().map(|&j| far(j)).collect();
+        let ahead_most = middle(&self.tips);
+        let place = |l: usize| -> Point {
+            let away = || jaws.iter().map(|j| j[l]);
+            let near = away().fold(f64::INFINITY, f64::min);
+            let ahead = frame[l] / (frame[l] + near).max(1.0);
+            // The nearer jaws draw a link to their side.
+            let all = away().sum::<f64>();
+            #[allow(clippy::cast_precision_loss, reason = "two or three")]
+            let mean = all / jaws.len() as f64;
+            let start = [0.8 * ahead * ahead_most[0], ahead * ahead_most[1]];
+            let sides = away().zip(&self.inward);
+            sides.fold(start, |place, (away, inward)| {
+                add_scaled(place, 40.0 * (away - mean) / all.max(1.0), *inward)
+            })
+        };
+        let mut at: Vec<Point> = Vec::with_capacity(joints.len() + self.tips.len());
+        for &[u, v] in &joints {
+            let [x, y] = middle(&[place(u), place(v)]);
+            at.push([x + 12.0 * bell(random), y + 12.0 * bell(random)].map(f64::round));
+        }
+        at.extend(&self.tips);
+        at
+    }
+}

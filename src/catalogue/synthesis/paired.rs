@@ -1,0 +1,17 @@
+//! Layouts of grippers with slides, gears and slots, symmetric ones.
+//!
+//! Here every link has a pose of its own, and a joint is the rows that hold between two of them, whatever its kind: what hinges
+//! alone allow, turns as the only unknown, does not go on with slots. Points are whole millimetres, directions have whole
+//! lengths (3, 4 and 5), radii are whole, so that layouts are exact as they stand.
+
+pub mod direction;
+pub mod equations;
+pub mod figures;
+pub mod forces;
+pub mod layout;
+pub mod mechanism;
+pub mod places;
+pub mod rows;
+pub mod rules;
+pub mod sketch;
+pub mod structure;

@@ -1,0 +1,159 @@
+//! The rows of a paired gripper as equations for the poses of its links.
+
+use crate::geom::vector::{cross_plane, dot, sub};
+use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::paired::places::PairPlaces;
+use crate::synthesis::paired::rows::{Rows, Seen, Term};
+use crate::synthesis::paired::sketch::PairSketch;
+use crate::synthesis::point::Point;
+use crate::synthesis::stroke::pose::LinkPose;
+use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
+use crate::synthesis::velocities::Velocity;
+
+/// Where a link's unknown stand: two of its shift and one of its turn. The frame has none.
+pub(super) fn place_of(link: usize, frame: usize) -> Option<usize> {
+    (link != frame).then(|| 3 * (link - usize::from(link > frame)))
+}
+
+/// Puts the terms of a row into a system; velocities of links are those of the points that `about` says, and a turning is one of
+/// the arm [`RADIAN`].
+pub(super) fn put(
+    system: &mut SmallSystem,
+    row: usize,
+    terms: &[Term],
+    frame: usize,
+    about: impl Fn(usize) -> Point,
+) {
+    for term in terms {
+        let Some(column) = place_of(term.link, frame) else {
+            continue;
+        };
+        let moment = cross_plane(sub(term.at, about(term.link)), term.force);
+        system.add(row, column, term.force[0]);
+        system.add(row, column + 1, term.force[1]);
+        system.add(row, column + 2, moment / RADIAN + term.moment);
+    }
+}
+
+/// Velocities of all links for a unit speed of the driver, as drawn; `None` in a singular pose.
+///
+/// # Complexity
+/// O(n³) for n links.
+pub(super) fn velocities(sketch: &PairSketch<'_>, at: &PairPlaces) -> Option<Vec<Velocity>> {
+    let frame = sketch.bones.frame;
+    let links = &sketch.at_rest[..];
+    let rows = Rows {
+        rules: &sketch.rules,
+        at,
+        links,
+    };
+    let size = 3 * (links.len() - 1);
+    let mut system = SmallSystem::new(size, 1);
+    let mut row = 0;
+    rows.each(Seen::Ratio, &mut |_, terms| {
+        put(&mut system, row, terms, frame, |_| [0.0; 2]);
+        row += 1;
+    });
+    let (_, drive) = rows.drive(sketch.input, sketch.drive);
+    put(&mut system, row, &drive, frame, |_| [0.0; 2]);
+    system.add(row, size, 1.0);
+    system.solve()?;
+    let velocity = |link: usize| match place_of(link, frame) {
+        None => Velocity::default(),
+        Some(k) => Velocity {
+            turning: system.get(k + 2, 0) / RADIAN,
+            shift: [system.get(k, 0), system.get(k + 1, 0)],
+        },
+    };
+    Some((0..links.len()).map(velocity).collect())
+}
+
+/// The equations of a stroke: shift and turn of every moving link, the turn as millimetres at the arm [`RADIAN`], and the drive.
+#[derive(Debug, Clone)]
+pub struct PairEquations<'a> {
+    sketch: &'a PairSketch<'a>,
+    pub(super) at: Option<PairPlaces>,
+    links: Vec<LinkPose>,
+}
+
+impl<'a> PairEquations<'a> {
+    /// Room for those of a sketch.
+    #[must_use]
+    pub fn new(sketch: &'a PairSketch<'a>) -> PairEquations<'a> {
+        PairEquations {
+            links: sketch.at_rest.clone(),
+            at: None,
+            sketch,
+        }
+    }
+
+    /// The poses that the unknown say.
+    pub(super) fn poses(&self, x: &[f64], links: &mut [LinkPose]) {
+        for (link, pose) in links.iter_mut().enumerate() {
+            if let Some(k) = place_of(link, self.sketch.bones.frame) {
+                *pose = LinkPose::turned(x[k + 2] / RADIAN);
+                pose.shift = [x[k], x[k + 1]];
+            }
+        }
+    }
+}
+
+impl FitEquations for PairEquations<'_> {
+    fn size(&self) -> usize {
+        3 * (self.links.len() - 1) + 1
+    }
+
+    fn radian(&self, unknown: usize) -> f64 {
+        if unknown + 1 == self.size() && self.sketch.bones.turns {
+            1.0
+        } else {
+            RADIAN
+        }
+    }
+
+    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) -> f64 {
+        let (sketch, size) = (self.sketch, self.size());
+        let (bones, last) = (&sketch.bones, size - 1);
+        let mut links = std::mem::take(&mut self.links);
+        self.poses(x, &mut links);
+        rows.clear();
+        if let Some(at) = &self.at {
+            let all = Rows {
+                rules: &sketch.rules,
+                at,
+                links: &links,
+            };
+            let shift = |link: usize| links[link].shift;
+            let mut row = 0;
+            all.each(Seen::Ratio, &mut |off, terms| {
+                put(rows, row, terms, bones.frame, shift);
+                rows.add(row, size, off);
+                row += 1;
+            });
+            // What the drive has gone is what its links have.
+            let (gone, terms) = all.drive(sketch.input, sketch.drive);
+            put(rows, row, &terms, bones.frame, shift);
+            rows.add(row, last, -1.0);
+            rows.add(row, size, gone - x[last]);
+            row += 1;
+            let mut open = -wider;
+            for (n, &jaw) in bones.jaws.iter().enumerate() {
+                let tip = links[jaw].point(bones.tips[n]);
+                let outward = bones.inward[n].map(|x| -x);
+                open += dot(sub(tip, bones.tips[n]), outward);
+                let term = Term {
+                    link: jaw,
+                    force: outward,
+                    at: tip,
+                    moment: 0.0,
+                };
+                put(rows, row, &[term], bones.frame, shift);
+            }
+            rows.add(row, size, open);
+            rows.add(row, size + 1, 1.0);
+        }
+        self.links = links;
+        let all = (0..size).map(|row| rows.get(row, 0).abs());
+        all.fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,260 @@
+//! Forces in the joints of a paired gripper at a pose of the stroke, the jaws each holding the part with a newton, without
+//! friction, and what they say of it.
+
+use crate::chains::pairs::kind::PairKind;
+use crate::geom::vector::{add_scaled, cross_plane, dot, length, quarter, sub};
+use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::paired::equations::{PairEquations, place_of};
+use crate::synthesis::paired::places::PairPlaces;
+use crate::synthesis::paired::rows::{Rows, Seen};
+use crate::synthesis::paired::sketch::PairSketch;
+use crate::synthesis::point::Point;
+use crate::synthesis::stroke::forces::ForceFigures;
+use crate::synthesis::stroke::motion::StrokeMotion;
+use crate::synthesis::stroke::pose::LinkPose;
+use crate::synthesis::stroke::walk::{RADIAN, Walk};
+use crate::synthesis::velocities::Velocity;
+
+/// What a joint does: the force on its second link, where that acts, and a moment beside it, in N and N mm.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PairForce {
+    /// On the second link of the joint.
+    pub force: Point,
+    /// Where.
+    pub at: Point,
+    /// About that point, of a slide.
+    pub moment: f64,
+}
+
+/// The forces of all joints, and of the drive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairForces {
+    /// Of each joint.
+    pub joints: Vec<PairForce>,
+    /// What the drive does: N, or N mm, the way its coordinate grows.
+    pub drive: f64,
+}
+
+/// The equilibrium of every moving link, with the links at these poses; `None` where there is no one solution.
+///
+/// # Complexity
+/// O(n³) for n links.
+#[must_use]
+pub(super) fn forces(
+    sketch: &PairSketch<'_>,
+    at: &PairPlaces,
+    links: &[LinkPose],
+) -> Option<PairForces> {
+    let (bones, rules) = (&sketch.bones, &sketch.rules);
+    let rows = Rows { rules, at, links };
+    let size = 3 * (links.len() - 1);
+    let mut system = SmallSystem::new(size, 1);
+    // A column for each row of the joints: what it does to the links for a newton of it.
+    let mut own: Vec<(usize, usize, PairForce)> = Vec::with_capacity(size);
+    let mut column = 0;
+    for (joint, j) in rules.joints.iter().enumerate() {
+        rows.joint(joint, Seen::Force, &mut |_, terms| {
+            for term in terms {
+                add(
+                    &mut system,
+                    column,
+                    term.link,
+                    bones.frame,
+                    term.force,
+                    term.at,
+                );
+                if let Some(row) = place_of(term.link, bones.frame) {
+                    system.add(row + 2, column, term.moment);
+                }
+                if term.link == j.links[1] {
+                    let force = PairForce {
+                        force: term.force,
+                        at: term.at,
+                        moment: term.moment * RADIAN,
+                    };
+                    own.push((joint, column, force));
+                }
+            }
+            column += 1;
+        });
+    }
+    let (_, drive) = rows.drive(sketch.input, sketch.drive);
+    for term in drive {
+        add(
+            &mut system,
+            column,
+            term.link,
+            bones.frame,
+            term.force,
+            term.at,
+        );
+        if let Some(row) = place_of(term.link, bones.frame) {
+            system.add(row + 2, column, term.moment);
+        }
+    }
+    for (n, &jaw) in bones.jaws.iter().enumerate() {
+        // The part pushes outward; what the joints do makes up for it.
+        let tip = links[jaw].point(bones.tips[n]);
+        add(&mut system, size, jaw, bones.frame, bones.inward[n], tip);
+    }
+    system.solve()?;
+    let mut joints = vec![PairForce::default(); rules.joints.len()];
+    for (joint, column, unit) in own {
+        let size = system.get(column, 0);
+        let sum = &mut joints[joint];
+        sum.at = unit.at;
+        sum.moment += size * unit.moment;
+        sum.force = [0, 1].map(|k| sum.force[k] + size * unit.force[k]);
+    }
+    let drive = system.get(column, 0);
+    Some(PairForces { joints, drive })
+}
+
+/// Adds a force on a link to a column of the equilibrium, moments as forces at the arm [`RADIAN`].
+fn add(
+    system: &mut SmallSystem,
+    column: usize,
+    link: usize,
+    frame: usize,
+    force: Point,
+    at: Point,
+) {
+    if let Some(row) = place_of(link, frame) {
+        system.add(row, column, force[0]);
+        system.add(row + 1, column, force[1]);
+        system.add(row + 2, column, cross_plane(at, force) / RADIAN);
+    }
+}
+
+/// What forces say, with the links moving as they do for a millimetre of the width.
+fn figures(
+    sketch: &PairSketch<'_>,
+    at: &PairPlaces,
+    links: &[LinkPose],
+    forces: &PairForces,
+) -> ForceFigures {
+    let (bones, friction) = (&sketch.bones, &sketch.limits.task.friction);
+    let rules = &sketch.rules;
+    let rows = Rows { rules, at, links };
+    let mut out = ForceFigures::BEST;
+    let (mut lost, mut given) = (0.0, 0.0);
+    for (i, (joint, f)) in rules.joints.iter().zip(&forces.joints).enumerate() {
+        let [u, v] = joint.links.map(|l| links[l].velocity);
+        let force = length(f.force);
+        out.peak = out.peak.max(force);
+        let slid = || length(sub(v.at(f.at), u.at(f.at)));
+        lost += friction.coefficient
+            * match joint.pair {
+                PairKind::Hinge => friction.pin_radius * force * (u.turning - v.turning).abs(),
+                // Pressed on at both ends of the guide.
+                PairKind::Slide => force.max(2.0 * f.moment.abs() / friction.guide) * slid(),
+                PairKind::Slot => force * rows.sliding(i).abs(),
+                // Where pitch circles touch they roll.
+                PairKind::Gear => 0.0,
+            };
+    }
+    for (n, &jaw) in bones.jaws.iter().enumerate() {
+        let velocity = links[jaw].velocity.at(links[jaw].point(bones.tips[n]));
+        let work = dot(velocity, bones.inward[n]).abs();
+        given += work;
+        let passed = passed(sketch, links, forces, jaw, work);
+        out.transmission = out.transmission.min(passed);
+    }
+    let driver = passed(sketch, links, forces, sketch.drive[1], given);
+    out.transmission = out.transmission.min(driver);
+    out.efficiency = given / (given + lost).max(1e-12);
+    out
+}
+
+/// The angle whose sine is the work of a link over what the forces at its moving joints could do at their speeds; what holds it in
+/// the frame passes nothing on.
+fn passed(
+    sketch: &PairSketch<'_>,
+    links: &[LinkPose],
+    forces: &PairForces,
+    link: usize,
+    work: f64,
+) -> f64 {
+    let joints = sketch.rules.joints.iter().zip(&forces.joints).enumerate();
+    let own = joints.filter(|(i, (joint, _))| {
+        joint.is_at(link) && !joint.is_at(sketch.bones.frame) && *i != sketch.input
+    });
+    let could = own.map(|(_, (_, f))| length(f.force) * length(links[link].velocity.at(f.at)));
+    let could: f64 = could.sum();
+    (work / could.max(1e-12)).min(1.0).asin().to_degrees()
+}
+
+impl Rows<'_> {
+    /// How fast a pin goes along its slot.
+    fn sliding(&self, joint: usize) -> f64 {
+        let pinned = self.at.pinned[joint];
+        let [u, v] = self.rules.joints[joint].links;
+        let slotted = if pinned == u { v } else { u };
+        let pin = self.links[pinned].point(self.at.points[joint]);
+        let along = self.along(slotted, joint);
+        let speed = |l: usize| self.links[l].velocity.at(pin);
+        dot(along, sub(speed(pinned), speed(slotted)))
+    }
+}
+
+/// The strokes of a paired structure.
+#[derive(Debug)]
+pub struct PairMotion<'a> {
+    sketch: &'a PairSketch<'a>,
+    walk: Walk<PairEquations<'a>>,
+}
+
+impl<'a> PairMotion<'a> {
+    /// Of a sketch.
+    #[must_use]
+    pub fn new(sketch: &'a PairSketch<'a>) -> PairMotion<'a> {
+        PairMotion {
+            walk: Walk::new(PairEquations::new(sketch)),
+            sketch,
+        }
+    }
+}
+
+impl<'a> StrokeMotion for PairMotion<'a> {
+    type Sketch = PairSketch<'a>;
+    type Equations = PairEquations<'a>;
+
+    fn sketch(&self) -> &PairSketch<'a> {
+        self.sketch
+    }
+
+    fn walk(&self) -> &Walk<PairEquations<'a>> {
+        &self.walk
+    }
+
+    fn walk_mut(&mut self) -> &mut Walk<PairEquations<'a>> {
+        &mut self.walk
+    }
+
+    fn place(&mut self, at: &PairPlaces) {
+        self.walk.equations.at = Some(at.clone());
+    }
+
+    fn pose(&self, _: &PairPlaces, links: &mut [LinkPose]) {
+        let walk = &self.walk;
+        walk.equations.poses(&walk.x, links);
+        for (link, pose) in links.iter_mut().enumerate() {
+            let Some(k) = place_of(link, self.sketch.bones.frame) else {
+                *pose = LinkPose::AT_REST;
+                continue;
+            };
+            let turning = walk.rates[k + 2] / RADIAN;
+            // Of the point that is at the origin now.
+            let shift = [walk.rates[k], walk.rates[k + 1]];
+            pose.velocity = Velocity {
+                turning,
+                shift: add_scaled(shift, -turning, quarter(pose.shift)),
+            };
+        }
+    }
+
+    fn forces(&mut self, at: &PairPlaces, links: &[LinkPose]) -> Option<ForceFigures> {
+        let forces = forces(self.sketch, at, links)?;
+        Some(figures(self.sketch, at, links, &forces))
+    }
+}

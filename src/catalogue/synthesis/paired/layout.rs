@@ -1,0 +1,86 @@
+//! A place for every joint of a paired structure, looked for from seeds that follow from its name.
+
+use crate::synthesis::annealing::{FoundPlaces, random, search_from};
+use crate::synthesis::layout::{NoLayout, keeps};
+use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::limits::Limits;
+use crate::synthesis::paired::forces::PairMotion;
+use crate::synthesis::paired::places::PairPlaces;
+use crate::synthesis::paired::rules::{NoRules, PairRules};
+use crate::synthesis::paired::sketch::PairSketch;
+use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::stroke::judge::Judge;
+
+/// Starts of the search for places at most, for each way of lying.
+const STARTS: u32 = 6;
+
+/// A paired structure with a place for every joint.
+#[derive(Debug, Clone)]
+pub struct PairLayout {
+    /// The joints with their rules.
+    pub rules: PairRules,
+    /// Their places.
+    pub at: PairPlaces,
+    /// The figures it was taken for.
+    pub looks: Looks,
+    /// What it was made for.
+    pub limits: Limits,
+    /// The start it was found from.
+    pub start: u32,
+}
+
+/// Lays a structure out; the same for the same seed.
+///
+/// # Errors
+/// Why there is none.
+///
+/// # Complexity
+/// Some thousand looks at places, of which some hundred are at a whole stroke, for each of the ways it may lie on itself.
+pub fn layout(
+    paired: &PairedStructure,
+    limits: &Limits,
+    seed: u64,
+) -> Result<PairLayout, NoLayout> {
+    let name = paired.name();
+    let mut best: Option<(FoundPlaces<PairPlaces>, PairRules)> = None;
+    let mut why = NoRules::Still;
+    let mut start = 0;
+    for lay in paired.lays() {
+        let rules = match PairRules::new(paired, &lay) {
+            Ok(rules) => rules,
+            Err(e) => {
+                why = e;
+                continue;
+            }
+        };
+        let sketch = PairSketch::new(paired, rules, *limits);
+        let mut judge = Judge::of(PairMotion::new(&sketch));
+        for _ in 0..STARTS {
+            let found = search_from(&sketch, &mut judge, random(&name, seed, start), start);
+            start += 1;
+            let Some(found) = found else { continue };
+            let good = found.is_good();
+            if found.is_better_than(best.as_ref().map(|b| &b.0)) {
+                best = Some((found, sketch.rules.clone()));
+            }
+            if good {
+                break;
+            }
+        }
+        if best.as_ref().is_some_and(|b| b.0.is_good()) {
+            break;
+        }
+    }
+    let (found, rules) = best.ok_or(NoLayout::Pairs(why))?;
+    let looks = found.looks;
+    if !keeps(limits, &looks) {
+        return Err(NoLayout::limits(&looks));
+    }
+    Ok(PairLayout {
+        at: found.at,
+        limits: *limits,
+        start: found.start,
+        rules,
+        looks,
+    })
+}

@@ -1,0 +1,217 @@
+//! A paired layout as a mechanism file: hinges square to the plane, guides and slots in it, gears as couplings.
+
+use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::pairs::kind::PairKind;
+use crate::file::schema::{
+    Coordinate, CouplingEntry, DriveWord, JointEntry, MechanismFile, OptionEntry, OptionTable,
+    SearchEntry, Unloading,
+};
+use crate::synthesis::coordinate::point;
+use crate::synthesis::mechanism::{Menu, Told, joint_name};
+use crate::synthesis::paired::layout::PairLayout;
+use crate::synthesis::paired::places::Teeth;
+use crate::synthesis::paired::rules::Mesh;
+use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::place::Place;
+use crate::synthesis::point::Point;
+use crate::synthesis::workload::Workload;
+
+/// What each link is called: frame, the jaws, slider or crank, of a cylinder between two links cylinder and piston, and the rest by
+/// their numbers.
+#[must_use]
+pub(crate) fn link_names(paired: &PairedStructure) -> Vec<String> {
+    let roles = &paired.structure.roles;
+    let [base, driver] = paired.drive();
+    let slides = paired.structure.slides();
+    let name = |l: usize| match l {
+        l if l == roles.frame => "frame".to_owned(),
+        l if l == roles.jaws[0] => "jaw-a".to_owned(),
+        l if l == roles.jaws[1] => "jaw-b".to_owned(),
+        l if l == driver && base == roles.frame && slides => "slider".to_owned(),
+        l if l == driver && base == roles.frame => "crank".to_owned(),
+        l if l == driver && slides => "piston".to_owned(),
+        l if l == base && slides => "cylinder".to_owned(),
+        l => format!("link-{l}"),
+    };
+    (0..paired.structure.chain.links()).map(name).collect()
+}
+
+/// A place of whole millimetres.
+#[allow(clippy::cast_possible_truncation, reason = "whole and small")]
+fn whole(p: Point) -> Place {
+    Place::from(p.map(|x| x.round() as i32))
+}
+
+fn named(name: &str, freedoms: &[&str]) -> OptionEntry {
+    OptionEntry::Table(Box::new(OptionTable {
+        freedoms: Some(freedoms.iter().map(|f| (*f).to_owned()).collect()),
+        name: Some(name.to_owned()),
+        ..OptionTable::default()
+    }))
+}
+
+fn word(kind: &str) -> OptionEntry {
+    OptionEntry::Word(kind.to_owned())
+}
+
+/// What may be in place of a guide: z along it, x square to the plane of motion.
+fn slides() -> Vec<OptionEntry> {
+    vec![
+        word("prismatic"),
+        word("cylindrical"),
+        named("tongue-in-groove", &["tz", "tx"]),
+        named("round-tongue-in-groove", &["tz", "tx", "rz"]),
+        named("ball-in-groove", &["tz", "tx", "rz", "ry"]),
+    ]
+}
+
+/// What may be in place of a pin in a slot: z along the pin, x along the slot.
+fn slots() -> Vec<OptionEntry> {
+    vec![
+        word("slotted"),
+        named("pin-in-deep-slot", &["rz", "tx", "tz"]),
+        named("ball-in-slot", &["rx", "ry", "rz", "tx"]),
+        named("ball-in-deep-slot", &["rx", "ry", "rz", "tx", "tz"]),
+    ]
+}
+
+impl PairedStructure {
+    fn joint(&self, layout: &PairLayout, i: usize, names: &[String], menu: &Menu) -> JointEntry {
+        let joint = &layout.rules.joints[i];
+        let input = joint.links == self.structure.roles.input;
+        let links = if input { self.drive() } else { joint.links };
+        let [x, y] = layout.at.along[i].whole();
+        let upright = [0, 0, 1].map(Coordinate::Integer);
+        let along = [i64::from(x), i64::from(y), 0].map(Coordinate::Integer);
+        let (kind, axis, reference, options) = match joint.pair {
+            PairKind::Slide => ("prismatic", along, Some(upright), Some(slides())),
+            PairKind::Slot => ("slotted", upright, Some(along), Some(slots())),
+            PairKind::Hinge | PairKind::Gear => ("revolute", upright, None, None),
+        };
+        let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();
+        // The pin is on the first link, the slot in the second.
+        let links = if joint.pair == PairKind::Slot && layout.at.pinned[i] == links[1] {
+            [links[1], links[0]]
+        } else {
+            links
+        };
+        JointEntry {
+            id: joint_name(names, (joint.links[0], joint.links[1])),
+            links: links.map(|l| names[l].clone()),
+            kind: kind.to_owned(),
+            freedoms: None,
+            point: point(whole(layout.at.points[i])),
+            axis: Some(axis),
+            reference,
+            lead: None,
+            pitch: None,
+            tolerance: None,
+            drive: DriveWord::Driven(input),
+            state: None,
+            options: options.filter(|_| !input),
+            forbid: Vec::new(),
+            unloading: in_series.then_some(Unloading::Allowed(true)),
+        }
+    }
+
+    fn coupling(
+        &self,
+        layout: &PairLayout,
+        i: usize,
+        mesh: &Mesh,
+        names: &[String],
+    ) -> CouplingEntry {
+        let roles = &self.structure.roles;
+        // A joint's coordinate is that of its second link against the first.
+        let of = mesh.held.map(|j| layout.rules.joints[j]);
+        let first = of.map(|j| {
+            if j.links == roles.input {
+                self.drive()[0]
+            } else {
+                j.links[0]
+            }
+        });
+        let turned = first.iter().filter(|&&l| l != mesh.carrier).count() == 1;
+        let signed = |x: i32| i64::from(if turned { -x } else { x });
+        let ratio = match layout.at.teeth[i] {
+            Teeth::Gears([r, s]) if r == s => Coordinate::Integer(signed(-1)),
+            Teeth::Gears([r, s]) => Coordinate::Expression(format!("{}/{s}", signed(-r))),
+            Teeth::Rack(radius) => Coordinate::Integer(signed(radius)),
+        };
+        CouplingEntry {
+            joints: of.map(|j| joint_name(names, (j.links[0], j.links[1]))),
+            ratio,
+            gear: true,
+        }
+    }
+}
+
+/// The entries of the file.
+#[must_use]
+pub fn mechanism_file(
+    paired: &PairedStructure,
+    layout: &PairLayout,
+    menu: &Menu,
+    workload: &Workload,
+) -> MechanismFile {
+    let names = link_names(paired);
+    let roles = &paired.structure.roles;
+    let rules = &layout.rules;
+    let joints = 0..rules.joints.len();
+    let geared = |i: &usize| rules.joints[*i].pair == PairKind::Gear;
+    let points = |l: usize| {
+        let of = |i: &usize| rules.joints[*i].is_at(l) && !geared(i);
+        let own = joints.clone().filter(of).map(|i| layout.at.points[i]);
+        let jaw = roles.jaws.iter().position(|&j| j == l);
+        let tip = jaw.map(|n| layout.at.points[rules.joints.len() + n]);
+        own.chain(tip).collect()
+    };
+    let tips: Vec<Place> = layout.at.points[rules.joints.len()..]
+        .iter()
+        .map(|&p| whole(p))
+        .collect();
+    let told = Told {
+        id: paired.id(),
+        name: paired.name(),
+        links: names
+            .iter()
+            .enumerate()
+            .map(|(l, n)| (n.clone(), points(l)))
+            .collect(),
+        frame: roles.frame,
+        jaws: &roles.jaws,
+        tips: &tips,
+        outward: [[0, 1], [0, -1]].map(Place::from).into(),
+        grip: layout.limits.task.grip.sign(),
+    };
+    let name = |i: usize| {
+        let [u, v] = rules.joints[i].links;
+        joint_name(&names, (u, v))
+    };
+    let images = rules.images().filter(|(a, _)| !geared(a));
+    let images: Vec<[String; 2]> = images.map(|(a, b)| [name(a), name(b)]).collect();
+    let mirror = paired.symmetry == Symmetry::Mirror;
+    let couplings = joints.clone().filter_map(|i| {
+        let mesh = rules.meshes[i].as_ref()?;
+        Some(paired.coupling(layout, i, mesh, &names))
+    });
+    let made = joints.clone().filter(|i| !geared(i));
+    MechanismFile {
+        joint: made
+            .map(|i| paired.joint(layout, i, &names, menu))
+            .collect(),
+        coupling: couplings.collect(),
+        search: SearchEntry {
+            options: menu.options.clone(),
+            unloading: menu.unloading.clone(),
+            mirror: if mirror { images.clone() } else { Vec::new() },
+            turn: if mirror {
+                Vec::new()
+            } else {
+                images.into_iter().map(Vec::from).collect()
+            },
+            ..SearchEntry::default()
+        },
+        ..told.file(workload)
+    }
+}

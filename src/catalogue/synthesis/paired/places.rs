@@ -1,0 +1,38 @@
+//! Where the joints of a paired gripper are.
+
+use crate::synthesis::paired::direction::Direction;
+use crate::synthesis::point::Point;
+
+/// Where all joints are, by their places in the chain's list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairPlaces {
+    /// A point of each joint, in millimetres, and the tips after them: the pin of a hinge or a slot, a point of a guide, the point
+    /// where pitch circles touch.
+    pub points: Vec<Point>,
+    /// The direction of each slide, and of each slot.
+    pub along: Vec<Direction>,
+    /// The link that has the pin of each slot.
+    pub pinned: Vec<usize>,
+    /// The teeth of each gear pair.
+    pub teeth: Vec<Teeth>,
+}
+
+/// How fast teeth go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Teeth {
+    /// Of two gears outside each other: pitch radii in this ratio.
+    Gears([i32; 2]),
+    /// Of a pinion with a rack: the pitch radius in millimetres, negative where the rack is on the other side of it.
+    Rack(i32),
+}
+
+impl Teeth {
+    /// How fast the second gear turns by the first, or the rack goes by the pinion: millimetres a radian.
+    #[must_use]
+    pub fn ratio(self) -> f64 {
+        match self {
+            Teeth::Gears([a, b]) => -f64::from(a) / f64::from(b),
+            Teeth::Rack(radius) => f64::from(radius),
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! What each joint of a paired gripper demands of its links at a pose: rows, each a wrench that does no work.
+//!
+//! A row adds up forces times the velocities of points, and moments times turnings; the same numbers are the forces by which the
+//! joint acts. A hinge has two, a slide two, a slot and a gear pair one, and the drive one.
+
+use crate::chains::pairs::kind::PairKind;
+use crate::geom::vector::{add_scaled, dot, quarter, scale, sub, unit};
+use crate::synthesis::paired::places::{PairPlaces, Teeth};
+use crate::synthesis::paired::rules::{Mesh, PairRules};
+use crate::synthesis::point::Point;
+use crate::synthesis::stroke::pose::LinkPose;
+use crate::synthesis::stroke::walk::RADIAN;
+
+/// What a row has to do with a link.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Term {
+    pub(super) link: usize,
+    /// A force on the link, and where it acts.
+    pub(super) force: Point,
+    pub(super) at: Point,
+    /// A moment on it, a force at the arm of [`RADIAN`].
+    pub(super) moment: f64,
+}
+
+impl Term {
+    fn force(link: usize, force: Point, at: Point) -> Term {
+        Term {
+            link,
+            force,
+            at,
+            moment: 0.0,
+        }
+    }
+
+    fn moment(link: usize, moment: f64) -> Term {
+        Term {
+            link,
+            force: [0.0; 2],
+            at: [0.0; 2],
+            moment,
+        }
+    }
+}
+
+/// How teeth are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// As a ratio of turns on the carrier, which holds over any way.
+    Ratio,
+    /// As a force where the pitch circles touch, which is what the hinges feel.
+    Force,
+}
+
+/// The rows of all joints, drawn at places, with their links at poses.
+#[derive(Clone, Copy)]
+pub(super) struct Rows<'a> {
+    pub(super) rules: &'a PairRules,
+    pub(super) at: &'a PairPlaces,
+    pub(super) links: &'a [LinkPose],
+}
+
+/// A row: by how much it misses, in millimetres, and its terms.
+type Visit<'v> = &'v mut dyn FnMut(f64, &[Term]);
+
+fn ends(rows: &Rows<'_>, joint: usize) -> [usize; 2] {
+    rows.rules.joints[joint].links
+}
+
+impl Rows<'_> {
+    fn on(&self, link: usize, joint: usize) -> Point {
+        self.links[link].point(self.at.points[joint])
+    }
+
+    /// The direction of a slide or a slot, as it is fixed to a link.
+    pub(super) fn along(&self, link: usize, joint: usize) -> Point {
+        self.links[link].direction(self.at.along[joint].real())
+    }
+
+    /// How far a link has turned against another.
+    fn turn(&self, [of, against]: [usize; 2]) -> f64 {
+        self.links[of].angle - self.links[against].angle
+    }
+
+    /// Every joint's rows, in order.
+    pub(super) fn each(&self, seen: Seen, visit: Visit<'_>) {
+        for joint in 0..self.rules.joints.len() {
+            self.joint(joint, seen, visit);
+        }
+    }
+
+    /// The rows of a joint.
+    pub(super) fn joint(&self, joint: usize, seen: Seen, visit: Visit<'_>) {
+        let [u, v] = ends(self, joint);
+        match (self.rules.joints[joint].pair, self.rules.meshes[joint]) {
+            (PairKind::Hinge, _) => {
+                let [a, b] = [u, v].map(|l| self.on(l, joint));
+                let apart = sub(b, a);
+                for (k, along) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
+                    let back = scale(along, -1.0);
+                    visit(
+                        apart[k],
+                        &[Term::force(v, along, b), Term::force(u, back, a)],
+                    );
+                }
+            }
+            (PairKind::Slide, _) => {
+                let turn = RADIAN * self.turn([v, u]);
+                visit(turn, &[Term::moment(v, 1.0), Term::moment(u, -1.0)]);
+                self.line([v, u], joint, visit);
+            }
+            (PairKind::Slot, _) => {
+                let pinned = self.at.pinned[joint];
+                let slotted = if pinned == u { v } else { u };
+                self.line([pinned, slotted], joint, visit);
+            }
+            (PairKind::Gear, Some(mesh)) => match seen {
+                Seen::Ratio => self.ratio(joint, &mesh, visit),
+                Seen::Force => self.teeth(joint, &mesh, visit),
+            },
+            (PairKind::Gear, None) => {}
+        }
+    }
+
+    /// A point of the first link stays on a line of the second.
+    fn line(&self, [pinned, slotted]: [usize; 2], joint: usize, visit: Visit<'_>) {
+        let normal = quarter(self.along(slotted, joint));
+        let pin = self.on(pinned, joint);
+        let off = dot(normal, sub(pin, self.on(slotted, joint)));
+        let back = scale(normal, -1.0);
+        visit(
+            off,
+            &[
+                Term::force(pinned, normal, pin),
+                Term::force(slotted, back, pin),
+            ],
+        );
+    }
+
+    fn ratio(&self, joint: usize, mesh: &Mesh, visit: Visit<'_>) {
+        let ratio = self.at.teeth[joint].ratio();
+        let ([first, second], carrier) = (mesh.gears, mesh.carrier);
+        let turned = self.turn([first, carrier]);
+        if mesh.rack {
+            let guide = mesh.held[1];
+            let along = self.along(carrier, guide);
+            let on = self.on(second, guide);
+            let gone = dot(along, sub(on, self.on(carrier, guide)));
+            let arm = ratio / RADIAN;
+            visit(
+                gone - ratio * turned,
+                &[
+                    Term::force(second, along, on),
+                    Term::force(carrier, scale(along, -1.0), on),
+                    Term::moment(first, -arm),
+                    Term::moment(carrier, arm),
+                ],
+            );
+        } else {
+            let off = self.turn([second, carrier]) - ratio * turned;
+            visit(
+                RADIAN * off,
+                &[
+                    Term::moment(second, 1.0),
+                    Term::moment(first, -ratio),
+                    Term::moment(carrier, ratio - 1.0),
+                ],
+            );
+        }
+    }
+
+    /// Where the pitch circles of a gear pair touch, and which way their teeth press.
+    pub(super) fn pitch(&self, joint: usize, mesh: &Mesh) -> [Point; 2] {
+        let [a, b] = [0, 1].map(|k| self.on(mesh.carrier, mesh.held[k]));
+        match self.at.teeth[joint] {
+            Teeth::Gears([r, s]) => {
+                let apart = sub(b, a);
+                let at = add_scaled(a, f64::from(r) / f64::from(r + s), apart);
+                [at, quarter(unit(apart))]
+            }
+            Teeth::Rack(radius) => {
+                let along = self.along(mesh.carrier, mesh.held[1]);
+                [add_scaled(a, -f64::from(radius), quarter(along)), along]
+            }
+        }
+    }
+
+    fn teeth(&self, joint: usize, mesh: &Mesh, visit: Visit<'_>) {
+        let [at, along] = self.pitch(joint, mesh);
+        let [first, second] = mesh.gears;
+        visit(
+            0.0,
+            &[
+                Term::force(first, along, at),
+                Term::force(second, scale(along, -1.0), at),
+            ],
+        );
+    }
+
+    /// How far the drive has gone, in mm or in rad, and the row of its speed.
+    pub(super) fn drive(&self, joint: usize, [base, driver]: [usize; 2]) -> (f64, [Term; 2]) {
+        if self.rules.joints[joint].pair == PairKind::Slide {
+            let along = self.along(base, joint);
+            let on = self.on(driver, joint);
+            let gone = dot(along, sub(on, self.on(base, joint)));
+            let back = Term::force(base, scale(along, -1.0), on);
+            (gone, [Term::force(driver, along, on), back])
+        } else {
+            let arm = 1.0 / RADIAN;
+            let terms = [Term::moment(driver, arm), Term::moment(base, -arm)];
+            (self.turn([driver, base]), terms)
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! Which places of a paired gripper are free, and which follow from them.
+
+use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::pairs::chain::{Joint, PairChain, carried};
+use crate::chains::pairs::kind::PairKind;
+use crate::geom::vector::{add_scaled, scale, sub};
+use crate::synthesis::paired::direction::Direction;
+use crate::synthesis::paired::places::{PairPlaces, Teeth};
+use crate::synthesis::paired::structure::{Lay, PairedStructure};
+use crate::synthesis::point::Point;
+use itertools::Itertools;
+use thiserror::Error;
+
+/// Where a joint is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PairRule {
+    /// Where it likes.
+    Free,
+    /// It is its own image; a slide or a slot on a mirror line then has this direction.
+    Own(Option<Direction>),
+    /// The image of another joint.
+    Image(usize),
+}
+
+/// A gear pair with the link that carries it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mesh {
+    /// The link that keeps the gears at their distance.
+    pub carrier: usize,
+    /// The gears; the rack second.
+    pub gears: [usize; 2],
+    /// The joints by which the carrier holds them.
+    pub held: [usize; 2],
+    /// Whether the second slides: a rack.
+    pub rack: bool,
+}
+
+impl Mesh {
+    fn carried(self, swap: &[usize], joints: &[Joint]) -> Option<Mesh> {
+        let at = |i: usize| {
+            let links = carried(joints[i].links, swap);
+            joints.iter().position(|j| j.links == links)
+        };
+        let [a, b] = self.held.map(at);
+        Some(Mesh {
+            carrier: swap[self.carrier],
+            gears: self.gears.map(|l| swap[l]),
+            held: [a?, b?],
+            rack: self.rack,
+        })
+    }
+}
+
+/// Why a structure of pairs lies nowhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoRules {
+    /// A slot between links that change places.
+    #[error("a pin in a slot between links that change places is not its own image as it moves")]
+    SwappedSlot,
+    /// A slot by half a turn onto itself.
+    #[error("a pin at the centre of half a turn moves in no slot")]
+    CentralSlot,
+    /// Gears that change places, on a carrier that does so, too.
+    #[error("gears that change places need a carrier that does not")]
+    SwappedCarrier,
+    /// No way of lying on itself moves.
+    #[error("in no symmetric places do its jaws move against each other")]
+    Still,
+}
+
+/// The joints of a structure, each with its rule.
+#[derive(Debug, Clone)]
+pub struct PairRules {
+    /// The joints.
+    pub joints: Vec<Joint>,
+    /// Their rules.
+    pub rules: Vec<PairRule>,
+    /// The gear pairs among them.
+    pub meshes: Vec<Option<Mesh>>,
+    /// Where each joint's links go.
+    swap: Vec<usize>,
+    symmetry: Symmetry,
+}
+
+impl PairRules {
+    /// The rules of a structure that lies on itself so.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn new(paired: &PairedStructure, lay: &Lay) -> Result<PairRules, NoRules> {
+        let (chain, symmetry) = (&paired.structure.chain, paired.symmetry);
+        let joints = chain.joints();
+        let mut rules = vec![PairRule::Free; joints.len()];
+        let mut meshes: Vec<Option<Mesh>> = vec![None; joints.len()];
+        let mut ways = 0;
+        for (i, joint) in joints.iter().enumerate() {
+            if rules[i] != PairRule::Free {
+                continue;
+            }
+            let links = carried(joint.links, &lay.swap);
+            let own = links == joint.links;
+            let swapped = own && lay.swap[joint.links[0]] != joint.links[0];
+            meshes[i] = mesh(chain, &joints, joint, |c| !swapped || lay.swap[c] == c);
+            if joint.pair == PairKind::Gear && meshes[i].is_none() {
+                return Err(NoRules::SwappedCarrier);
+            }
+            if !own {
+                let image = joints.iter().position(|j| j.links == links);
+                let image = image.ok_or(NoRules::Still)?;
+                rules[image] = PairRule::Image(i);
+                meshes[image] = meshes[i].and_then(|m| m.carried(&lay.swap, &joints));
+                continue;
+            }
+            let slot = joint.pair == PairKind::Slot;
+            if slot && swapped {
+                return Err(NoRules::SwappedSlot);
+            }
+            if slot && symmetry == Symmetry::HalfTurn {
+                return Err(NoRules::CentralSlot);
+            }
+            let mut along = None;
+            if symmetry == Symmetry::Mirror && (slot || joint.pair == PairKind::Slide) {
+                // A slot with its line of action across lies ahead, a slide across goes across.
+                let across = lay.bits >> ways & 1 == 1;
+                ways += 1;
+                along = Some(if across != slot {
+                    Direction::ACROSS
+                } else {
+                    Direction::AHEAD
+                });
+            }
+            rules[i] = PairRule::Own(along);
+        }
+        Ok(PairRules {
+            joints,
+            rules,
+            meshes,
+            swap: lay.swap.clone(),
+            symmetry,
+        })
+    }
+
+    /// The joints that may be placed, each for its image, too.
+    pub fn movable(&self) -> impl Iterator<Item = usize> + '_ {
+        let fixed = |i: usize| {
+            let own = matches!(self.rules[i], PairRule::Own(_));
+            let central = own && self.symmetry == Symmetry::HalfTurn;
+            own && self.joints[i].pair == PairKind::Gear
+                || central && self.joints[i].pair == PairKind::Hinge
+        };
+        let image = |i: usize| matches!(self.rules[i], PairRule::Image(_));
+        (0..self.joints.len()).filter(move |&i| !image(i) && !fixed(i))
+    }
+
+    /// The pairs of joints that are images of each other.
+    pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let rules = self.rules.iter().enumerate();
+        rules.filter_map(|(i, rule)| match rule {
+            PairRule::Image(of) => Some((*of, i)),
+            _ => None,
+        })
+    }
+
+    /// The image of a point.
+    #[must_use]
+    pub fn image(&self, [x, y]: Point) -> Point {
+        match self.symmetry {
+            Symmetry::HalfTurn => [-x, -y],
+            _ => [x, -y],
+        }
+    }
+
+    fn turned(&self, direction: Direction) -> Direction {
+        match self.symmetry {
+            Symmetry::HalfTurn => direction.reversed(),
+            _ => direction.mirrored(),
+        }
+    }
+
+    /// Puts what follows in its place.
+    pub fn settle(&self, at: &mut PairPlaces) {
+        for (i, rule) in self.rules.iter().enumerate() {
+            match *rule {
+                PairRule::Free => {}
+                PairRule::Own(along) => {
+                    let [x, _] = at.points[i];
+                    at.points[i] = match self.symmetry {
+                        Symmetry::HalfTurn => [0.0, 0.0],
+                        _ => [x, 0.0],
+                    };
+                    at.along[i] = along.unwrap_or(at.along[i]);
+                    if self.joints[i].pair == PairKind::Gear {
+                        at.teeth[i] = Teeth::Gears([1, 1]);
+                    }
+                }
+                PairRule::Image(of) => {
+                    at.points[i] = self.image(at.points[of]);
+                    at.along[i] = self.turned(at.along[of]);
+                    at.pinned[i] = self.swap[at.pinned[of]];
+                }
+            }
+        }
+        // Teeth follow from the guides of racks.
+        for (of, i) in self.images() {
+            at.teeth[i] = self.image_of_teeth(at, of, i);
+        }
+        for i in 0..self.joints.len() {
+            if let Some(pitch) = self.pitch_point(at, i) {
+                at.points[i] = pitch;
+            }
+        }
+    }
+
+    fn image_of_teeth(&self, at: &PairPlaces, of: usize, image: usize) -> Teeth {
+        let held = |i: usize| self.meshes[i].map(|m| at.along[m.held[1]]);
+        match (at.teeth[of], held(of), held(image)) {
+            (Teeth::Rack(radius), Some(along), Some(there)) => {
+                // A mirror image turns the other way; a guide that is its own image may go the other way.
+                let turns = self.symmetry != Symmetry::HalfTurn;
+                let goes = self.turned(along) != there;
+                Teeth::Rack(if turns == goes { radius } else { -radius })
+            }
+            (teeth, ..) => teeth,
+        }
+    }
+
+    /// Where the pitch circles of a gear pair touch.
+    fn pitch_point(&self, at: &PairPlaces, i: usize) -> Option<Point> {
+        let mesh = self.meshes[i]?;
+        let [a, b] = mesh.held.map(|j| at.points[j]);
+        Some(match at.teeth[i] {
+            Teeth::Gears([r, s]) => add_scaled(a, f64::from(r) / f64::from(r + s), sub(b, a)),
+            Teeth::Rack(radius) => {
+                let [x, y] = at.along[mesh.held[1]].real();
+                add_scaled(a, 1.0, scale([y, -x], f64::from(radius)))
+            }
+        })
+    }
+}
+
+/// The carrier of a gear pair: the first that is allowed of those that hinge both, then of those that let one slide.
+fn mesh(
+    chain: &PairChain,
+    joints: &[Joint],
+    joint: &Joint,
+    allowed: impl Fn(usize) -> bool,
+) -> Option<Mesh> {
+    if joint.pair != PairKind::Gear {
+        return None;
+    }
+    let held = |carrier: usize, gear: usize| {
+        let links = [carrier.min(gear), carrier.max(gear)];
+        joints.iter().position(|j| j.links == links)
+    };
+    let [u, v] = joint.links;
+    let slides = |c: usize, gear: usize| chain.between(c, gear) == Some(PairKind::Slide);
+    let hinges = |c: usize, gear: usize| chain.between(c, gear) == Some(PairKind::Hinge);
+    let of = |carrier: usize| {
+        let gears = match (carrier, [u, v]) {
+            (c, [u, v]) if hinges(c, u) && hinges(c, v) => [u, v],
+            (c, [u, v]) if hinges(c, u) && slides(c, v) => [u, v],
+            (c, [u, v]) if slides(c, u) && hinges(c, v) => [v, u],
+            _ => return None,
+        };
+        let rack = slides(carrier, gears[1]);
+        let [a, b] = gears.map(|gear| held(carrier, gear));
+        Some(Mesh {
+            carrier,
+            gears,
+            held: [a?, b?],
+            rack,
+        })
+    };
+    let found = (0..chain.links()).filter(|&c| allowed(c)).filter_map(of);
+    found.sorted_by_key(|m| m.rack).next()
+}

@@ -1,0 +1,40 @@
+//! A structure whose places are looked for: what is asked of it while they are tried.
+
+use crate::synthesis::bones::Bones;
+use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::limits::Limits;
+use crate::synthesis::point::Point;
+use chacha20::ChaCha8Rng;
+
+/// A structure with rules for its places.
+pub trait Sketch {
+    /// Places of all joints.
+    type Places: Clone;
+
+    /// The points of its links.
+    fn bones(&self) -> &Bones;
+
+    /// What it is to be like and to do.
+    fn limits(&self) -> &Limits;
+
+    /// Where the points are.
+    fn points<'p>(&self, at: &'p Self::Places) -> &'p [Point];
+
+    /// Places to begin with.
+    fn first_places(&self, random: &mut ChaCha8Rng) -> Self::Places;
+
+    /// Other places, by how warm the search still is: 1 at first, 0 at its end.
+    fn change(&self, at: &mut Self::Places, warmth: f64, random: &mut ChaCha8Rng);
+
+    /// What places cost, with `moving` their velocities, too; `None` where that is more than `most`, or the pose is singular.
+    ///
+    /// # Complexity
+    /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
+    fn penalty(&self, at: &Self::Places, moving: bool, most: f64) -> Option<f64>;
+
+    /// All figures; `None` where the pose is singular.
+    ///
+    /// # Complexity
+    /// As [`Sketch::penalty`].
+    fn looks(&self, at: &Self::Places) -> Option<Looks>;
+}
