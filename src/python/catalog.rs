@@ -45,13 +45,13 @@ pub(crate) fn catalog_build(
         let mut store = Store::create(&path, spec).map_err(failed)?;
         let there = store.ids().map_err(failed)?;
         let work = work(spec, shard).map_err(failed)?;
-        let all: usize = work.iter().map(|w| w.structures.len()).sum();
+        let all = work.count();
         let mut added = 0;
         let stopped = || stop.load(Ordering::Relaxed);
         let ended = build(
             spec,
             &work,
-            |s| stopped() || there.contains(&s.id()),
+            |id| stopped() || there.contains(id),
             |row| {
                 added += 1;
                 tell((there.len() + added, all));

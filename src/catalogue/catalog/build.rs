@@ -1,12 +1,14 @@
 //! Every structure of a specification, in parallel, each given when it is done.
 
 use crate::catalog::general::{General, InputPair};
-use crate::catalog::row::{RowError, StructureRow, row_of_pair};
+use crate::catalog::row::{PairedRow, RowError, StructureRow, row_of_pair, row_of_paired};
 use crate::catalog::spec::Spec;
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::pairs::sharing::Menu;
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
+use crate::synthesis::paired::structure::{PairedStructure, paired_structures};
 use crate::synthesis::structure::{Structure, structures};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -26,16 +28,33 @@ pub enum BuildError {
     Row(#[from] RowError),
 }
 
-/// A chain with its automorphisms and the structures that are asked of it.
+/// What is to be built.
 #[derive(Debug)]
 pub struct Work {
-    chain: Chain,
-    automorphisms: Vec<Vec<usize>>,
-    /// The structures.
-    pub structures: Vec<Structure>,
+    /// Structures of hinges, by their chains, in the order of their codes.
+    chains: Vec<ChainWork>,
+    /// Structures with slides, gears and slots.
+    paired: Vec<PairedStructure>,
 }
 
-impl Work {
+/// A chain with its automorphisms and the structures that are asked of it.
+#[derive(Debug)]
+struct ChainWork {
+    chain: Chain,
+    automorphisms: Vec<Vec<usize>>,
+    structures: Vec<Structure>,
+}
+
+/// A row of a catalogue.
+#[derive(Debug, Clone)]
+pub enum CatalogueRow {
+    /// Of a structure of hinges.
+    Hinged(Box<StructureRow>),
+    /// Of one with slides, gears or slots.
+    Paired(Box<PairedRow>),
+}
+
+impl ChainWork {
     /// The structures, those together that have a search in common.
     fn by_pair(&self) -> Vec<Vec<&Structure>> {
         let pairs = self
@@ -50,13 +69,48 @@ impl Work {
     }
 }
 
-/// The structures of a part of a specification, by chains, in the order of their codes.
+impl Work {
+    /// How many structures there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        let hinged = self.chains.iter().map(|w| w.structures.len());
+        hinged.sum::<usize>() + self.paired.len()
+    }
+}
+
+/// The structures of a part of a specification.
 ///
 /// # Errors
 /// Where the specification is wrong.
-pub fn work(spec: &Spec, shard: Shard) -> Result<Vec<Work>, BuildError> {
+pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
+    Ok(Work {
+        chains: chain_work(spec, shard)?,
+        paired: paired_work(spec, shard)?,
+    })
+}
+
+fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildError> {
+    let forms = spec.paired_forms().map_err(RowError::from)?;
+    let kinds = spec.pairs().map_err(RowError::from)?;
+    if forms.is_empty() {
+        return Ok(Vec::new());
+    }
+    let menu = Menu {
+        kinds: &kinds,
+        most: spec.at_most,
+    };
+    let links = spec.links().map_err(RowError::from)?;
+    let mut out: Vec<PairedStructure> = links.flat_map(|n| paired_structures(n, menu)).collect();
+    out.retain(|p| forms.contains(&(p.input(), p.symmetry)) && shard.has(&p.name()));
+    Ok(out)
+}
+
+fn chain_work(spec: &Spec, shard: Shard) -> Result<Vec<ChainWork>, BuildError> {
     let forms = spec.forms().map_err(RowError::from)?;
     let mut out = Vec::new();
+    if forms.is_empty() {
+        return Ok(out);
+    }
     for n in spec.links().map_err(RowError::from)?.filter(|n| n % 2 == 0) {
         let all = chains(n, 1)?;
         out.par_extend(all.into_par_iter().map(|chain| {
@@ -64,7 +118,7 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Vec<Work>, BuildError> {
             let subject = Subject::new(&chain, &automorphisms);
             let mut structures = structures(&subject, spec.jaws, &forms);
             structures.retain(|s| shard.has(&s.name()));
-            Work {
+            ChainWork {
                 structures,
                 automorphisms,
                 chain,
@@ -74,48 +128,77 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Vec<Work>, BuildError> {
     Ok(out)
 }
 
-/// Makes the rows of all structures but those that `skip` knows, in parallel, and gives each to `done` when it is ready,
+/// Makes the rows of all structures but those whose ids `skip` knows, in parallel, and gives each to `done` when it is ready,
 /// one at a time. Which comes first depends on the threads; what is in a row does not. Ends early where `done` breaks.
 ///
 /// # Errors
 /// The first failure.
 pub fn build<B: Send>(
     spec: &Spec,
-    work: &[Work],
-    skip: impl Fn(&Structure) -> bool + Sync,
-    done: impl FnMut(StructureRow) -> ControlFlow<B> + Send,
+    work: &Work,
+    skip: impl Fn(&str) -> bool + Sync,
+    done: impl FnMut(CatalogueRow) -> ControlFlow<B> + Send,
 ) -> Result<Option<B>, BuildError> {
     let done = Mutex::new(done);
-    let one = |w: &Work, structure: &Structure, general: Option<&General>| {
-        if skip(structure) {
-            return Ok(());
-        }
-        let subject = Subject::new(&w.chain, &w.automorphisms);
-        let row = row_of_pair(&subject, structure, spec, general);
-        let row = row.map_err(|e| Some(Err(BuildError::Row(e))))?;
+    let give = |row: CatalogueRow| -> Result<(), Ended<B>> {
         let Ok(mut done) = done.lock() else {
-            return Err(None);
+            return Err(Ended::Poisoned);
         };
         match done(row) {
             ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(b) => Err(Some(Ok(b))),
+            ControlFlow::Break(b) => Err(Ended::Asked(b)),
         }
     };
-    let all = work.par_iter().flat_map(|w| {
-        let together = w.by_pair().into_par_iter();
-        together.map(move |together| (w, together))
-    });
-    let ended = all.try_for_each(|(w, together)| {
-        let Some(first) = together.iter().find(|s| !skip(s)) else {
+    let paired = || {
+        work.paired.par_iter().try_for_each(|p| {
+            if skip(&p.id()) {
+                return Ok(());
+            }
+            let row = row_of_paired(p, spec).map_err(Ended::failed)?;
+            give(CatalogueRow::Paired(Box::new(row)))
+        })
+    };
+    let one = |w: &ChainWork, structure: &Structure, general: Option<&General>| {
+        if skip(&structure.id()) {
             return Ok(());
-        };
-        let general = General::of(first, spec).map_err(|e| Some(Err(BuildError::Row(e))))?;
-        let each = together.par_iter();
-        each.try_for_each(|s| one(w, s, general.as_ref()))
-    });
-    match ended {
-        Ok(()) | Err(None) => Ok(None),
-        Err(Some(Ok(b))) => Ok(Some(b)),
-        Err(Some(Err(e))) => Err(e),
+        }
+        let subject = Subject::new(&w.chain, &w.automorphisms);
+        let row = row_of_pair(&subject, structure, spec, general).map_err(Ended::failed)?;
+        give(CatalogueRow::Hinged(Box::new(row)))
+    };
+    let hinged = || {
+        let all = work.chains.par_iter().flat_map(|w| {
+            let together = w.by_pair().into_par_iter();
+            together.map(move |together| (w, together))
+        });
+        all.try_for_each(|(w, together)| {
+            let Some(first) = together.iter().find(|s| !skip(&s.id())) else {
+                return Ok(());
+            };
+            let general = General::of(first, spec).map_err(Ended::failed)?;
+            let each = together.par_iter();
+            each.try_for_each(|s| one(w, s, general.as_ref()))
+        })
+    };
+    match paired().and_then(|()| hinged()) {
+        Ok(()) | Err(Ended::Poisoned) => Ok(None),
+        Err(Ended::Asked(b)) => Ok(Some(b)),
+        Err(Ended::Failed(e)) => Err(e),
+    }
+}
+
+/// Why building ends before all is built.
+enum Ended<B> {
+    /// Whoever takes the rows has enough.
+    Asked(B),
+    /// It panicked.
+    Poisoned,
+    /// A row failed.
+    Failed(BuildError),
+}
+
+impl<B> Ended<B> {
+    fn failed(e: RowError) -> Ended<B> {
+        Ended::Failed(BuildError::Row(e))
     }
 }

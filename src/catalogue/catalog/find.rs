@@ -8,8 +8,8 @@ use crate::chains::pairs::structure::PairStructure;
 use serde_json::Value;
 
 /// A structure of two jaws, its id and form first.
-const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL)), chain, input, frame, driver, jaw_a, jaw_b \
-     FROM structures WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
+const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
+     code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,9 +56,12 @@ pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     let slides = row.get(3)?.as_str()? == "slide";
     let link = |i: usize| usize::try_from(row.get(i)?.as_u64()?).ok();
     let (frame, driver) = (link(4)?, link(5)?);
-    let input = ordered([frame, driver]);
+    let input = ordered([link(9).unwrap_or(frame), driver]);
     Some(PairStructure {
-        chain: PairChain::hinged(&chain, slides.then_some(input)),
+        chain: match row.get(8)?.as_str() {
+            Some(code) => PairChain::of_code(chain.links(), code)?,
+            None => PairChain::hinged(&chain, slides.then_some(input)),
+        },
         roles: PairRoles {
             frame,
             input,

@@ -89,7 +89,7 @@ fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechan
     let mut coordinate = || random.next_u32().cast_signed() / 2;
     let place = |_| Place::from([coordinate(), coordinate()]);
     let at: Vec<Place> = structure.chain.joints().into_iter().map(place).collect();
-    mechanism(structure, &bare_file(structure, &at, &spec.menu()?))
+    mechanism(&structure.name(), &bare_file(structure, &at, &spec.menu()?))
 }
 
 /// Whether two diagrams in the same order have the same variants.

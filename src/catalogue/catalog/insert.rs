@@ -1,12 +1,12 @@
 //! A row as entries of the tables.
 
 use crate::catalog::drawn::{DrawnMechanism, known};
+use crate::catalog::entered::{Entered, Placed, StructureColumns};
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
 use crate::format::number;
 use crate::geom::vector::sides;
 use crate::model::ranking::Term;
 use crate::synthesis::stroke::walk::StrokeEnd;
-use crate::synthesis::structure::Structure;
 use itertools::Itertools;
 use num_bigint::BigUint;
 use rusqlite::types::ToSqlOutput;
@@ -14,10 +14,28 @@ use rusqlite::{ToSql, Transaction};
 use std::collections::BTreeMap;
 
 /// Enters a row.
-pub(super) fn row(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
-    structure(t, row)?;
+pub(super) fn row<S: Entered, L: Placed>(
+    t: &Transaction<'_>,
+    row: &StructureRow<S, L>,
+) -> rusqlite::Result<()> {
+    let columns = row.structure.columns();
+    structure(t, row, &columns)?;
+    if let Some(pairs) = &columns.pairs {
+        put(
+            t,
+            "pairs",
+            &[
+                ("structure", &columns.id),
+                ("code", &pairs.code),
+                ("slides", &number(pairs.kinds.slides)),
+                ("gears", &number(pairs.kinds.gears)),
+                ("slots", &number(pairs.kinds.slots)),
+                ("driven_from", &number(pairs.driven_from)),
+            ],
+        )?;
+    }
     match &row.laid {
-        Ok(laid) => layout(t, &row.structure, laid),
+        Ok(laid) => layout(t, &columns.id, laid),
         Err(_) => Ok(()),
     }
 }
@@ -44,25 +62,28 @@ fn put(t: &Transaction<'_>, table: &str, row: &[(&str, &dyn ToSql)]) -> rusqlite
     Ok(())
 }
 
-fn structure(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
-    let (s, r) = (&row.structure, &row.structure.roles);
+fn structure<S, L>(
+    t: &Transaction<'_>,
+    row: &StructureRow<S, L>,
+    s: &StructureColumns,
+) -> rusqlite::Result<()> {
     put(
         t,
         "structures",
         &[
-            ("id", &s.id()),
-            ("name", &s.name()),
-            ("chain", &row.chain()),
-            ("links", &number(s.chain.links())),
-            ("joints", &number(s.chain.joint_count())),
-            ("frame", &number(r.frame)),
-            ("driver", &number(r.driver)),
-            ("jaw_a", &number(r.jaws[0])),
-            ("jaw_b", &number(r.jaws[1])),
-            ("jaw_c", &r.jaws.get(2).map(|&l| number(l))),
-            ("input", &s.form.input.name()),
-            ("symmetry", &s.form.symmetry.name()),
-            ("parallel", &s.form.parallel),
+            ("id", &s.id),
+            ("name", &s.name),
+            ("chain", &s.chain),
+            ("links", &number(s.links)),
+            ("joints", &number(s.joints)),
+            ("frame", &number(s.frame)),
+            ("driver", &number(s.driver)),
+            ("jaw_a", &number(s.jaws[0])),
+            ("jaw_b", &number(s.jaws[1])),
+            ("jaw_c", &s.jaws.get(2).map(|&l| number(l))),
+            ("input", &s.input.name()),
+            ("symmetry", &s.symmetry.name()),
+            ("parallel", &s.parallel),
             ("jaws_at_frame", &number(row.jaws_at_frame)),
             ("truss", &row.truss),
             ("graph_symmetric", &row.graph_symmetric),
@@ -80,11 +101,11 @@ fn rounded(x: f64) -> f64 {
     number::rounded(if x.abs() < 1e-9 { 0.0 } else { x }, 4)
 }
 
-fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<()> {
-    let (l, f, id) = (&laid.layout.looks, &laid.figures, s.id());
+fn layout<L: Placed>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
+    let (l, f) = (laid.layout.looks(), &laid.figures);
     let end = |w: Option<StrokeEnd>| w.map(StrokeEnd::word);
     // Tips and drive as they grip: as they open, in a hole.
-    let grips = laid.layout.limits.task.grip.sign();
+    let grips = laid.layout.limits().task.grip.sign();
     let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded(grips * t[k]));
     let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
     put(
@@ -93,11 +114,11 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
         &[
             ("structure", &id),
             ("mechanism", &laid.file),
-            ("start", &laid.layout.start),
+            ("start", &laid.layout.start()),
             ("crossings", &number(l.crossings)),
             ("link_ratio", &rounded(l.ratio)),
             ("transmission", &rounded(l.transmission)),
-            ("area", &rounded(laid.size())),
+            ("area", &rounded(area(laid))),
             ("opening_min", &rounded(f.openings[0])),
             ("opening_max", &rounded(f.openings[1])),
             ("travel", &rounded(f.travel)),
@@ -130,13 +151,13 @@ fn layout(t: &Transaction<'_>, s: &Structure, laid: &Laid) -> rusqlite::Result<(
             ),
         ],
     )?;
-    stroke(t, &id, laid)?;
-    found(t, &id, &laid.counts, &laid.symmetric, &laid.ideas)
+    stroke(t, id, laid)?;
+    found(t, id, &laid.counts, &laid.symmetric, &laid.ideas)
 }
 
 /// Enters what a layout does of its task.
-fn stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
-    let (task, f) = (&laid.layout.limits.task, &laid.figures);
+fn stroke<L: Placed>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
+    let (task, f) = (&laid.layout.limits().task, &laid.figures);
     let reached = !f.shortfall.is_some_and(|s| s.is_of_reach());
     put(
         t,
@@ -258,12 +279,8 @@ fn milli(cost: i64) -> f64 {
     cost as f64 / 1000.0
 }
 
-impl Laid {
-    /// Area of the box round pins and tips, in square millimetres.
-    fn size(&self) -> f64 {
-        let points = self.layout.at.iter().chain(&self.layout.tips);
-        let points: Vec<[f64; 2]> = points.map(|p| p.real()).collect();
-        let [width, height] = sides(&points);
-        width * height
-    }
+/// Area of the box round joints and tips, in square millimetres.
+fn area<L: Placed>(laid: &Laid<L>) -> f64 {
+    let [width, height] = sides(&laid.layout.points());
+    width * height
 }

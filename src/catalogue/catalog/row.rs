@@ -4,7 +4,6 @@ use crate::catalog::general::General;
 use crate::catalog::searched::mechanism;
 pub use crate::catalog::searched::{RowError, request};
 use crate::catalog::spec::Spec;
-use crate::chains::graph6;
 use crate::chains::roles::Subject;
 use crate::file::schema::MechanismFile;
 use crate::file::write;
@@ -28,35 +27,38 @@ use crate::synthesis::beside::beside;
 use crate::synthesis::figures::{LayoutFigures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
+use crate::synthesis::paired;
+use crate::synthesis::paired::layout::PairLayout;
+use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::structure::Structure;
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
 
-/// A structure of a catalogue.
+/// A structure of a catalogue, `S`, that lies as an `L` says.
 #[derive(Debug, Clone)]
-pub struct StructureRow {
+pub struct StructureRow<S = Structure, L = Layout> {
     /// The structure.
-    pub structure: Structure,
+    pub structure: S,
     /// How many of the jaws are joined to the frame.
     pub jaws_at_frame: usize,
-    /// Whether it makes a truss with a part hinged to both jaws, where there are two.
+    /// Whether it makes a truss with a part hinged to both jaws, where there are two and all its joints are hinges but the input.
     pub truss: bool,
     /// Whether its graph is symmetric, jaw for jaw.
     pub graph_symmetric: bool,
     /// What it is when laid out, or why it is not.
-    pub laid: Result<Laid, NoLayout>,
+    pub laid: Result<Laid<L>, NoLayout>,
 }
 
 /// A structure laid out, searched and scored.
 #[derive(Debug, Clone)]
-pub struct Laid {
+pub struct Laid<L = Layout> {
     /// Where it is.
-    pub layout: Layout,
+    pub layout: L,
     /// What it does over its stroke.
     pub figures: LayoutFigures,
     /// The mechanism as a file in TOML.
     pub file: String,
-    /// W and σ as built, all joints hinges.
+    /// W and σ as built.
     pub as_built: (usize, usize),
     /// The mobility that is really there, and how that is known.
     pub finite: Finite,
@@ -198,7 +200,7 @@ impl AsFile {
     fn new(structure: &Structure, layout: Layout, spec: &Spec) -> Result<AsFile, RowError> {
         let file = mechanism_file(structure, &layout, &spec.menu()?, &spec.workload);
         Ok(AsFile {
-            built: mechanism(structure, &file)?,
+            built: mechanism(&structure.name(), &file)?,
             layout,
             file,
         })
@@ -276,33 +278,93 @@ fn lay(
         file,
         built,
     } = as_file;
-    let Some(figures) = figures(structure, &layout) else {
-        return Ok(Err(NoLayout::NotRegular));
+    let as_file = LaidFile {
+        name: structure.name(),
+        figures: figures(structure, &layout),
+        file,
+        built,
     };
-    let method = Method::Auto { tolerance: None };
-    let as_built = analyse(&built, &[StateId::FREE], method)?.swap_remove(0);
-    if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {
-        return Ok(Err(NoLayout::NotRegular));
+    as_file.searched(layout, |built| {
+        variants.map_or_else(|| of_its_own(built, spec), Ok)
+    })
+}
+
+/// A layout as a file, before it is searched.
+struct LaidFile {
+    name: String,
+    file: MechanismFile,
+    built: Mechanism,
+    figures: Option<LayoutFigures>,
+}
+
+impl LaidFile {
+    /// The layout with its variants; why it counts as none where its pose is not proven to be a regular one.
+    fn searched<L>(
+        self,
+        layout: L,
+        variants: impl FnOnce(&Mechanism) -> Result<Variants, RowError>,
+    ) -> Result<Result<Laid<L>, NoLayout>, RowError> {
+        let Some(figures) = self.figures else {
+            return Ok(Err(NoLayout::NotRegular));
+        };
+        let method = Method::Auto { tolerance: None };
+        let as_built = analyse(&self.built, &[StateId::FREE], method)?.swap_remove(0);
+        if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {
+            return Ok(Err(NoLayout::NotRegular));
+        }
+        let variants = variants(&self.built)?;
+        let text = write::toml(&self.file, &[]).map_err(|e| RowError::File {
+            structure: self.name,
+            why: e.to_string(),
+        })?;
+        Ok(Ok(Laid {
+            layout,
+            figures,
+            file: text,
+            as_built: (as_built.mobility, as_built.redundant),
+            finite: as_built.finite,
+            counts: variants.counts,
+            exact: variants.exact,
+            symmetric: variants.symmetric,
+            ideas: variants.ideas,
+        }))
     }
-    let variants = match variants {
-        Some(variants) => variants,
-        None => of_its_own(&built, spec)?,
+}
+
+/// A row of a structure with slides, gears or slots.
+pub type PairedRow = StructureRow<PairedStructure, PairLayout>;
+
+/// The row of a structure with slides, gears or slots.
+///
+/// # Errors
+/// As [`row`].
+///
+/// # Complexity
+/// A search for places and one of the variants.
+pub fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow, RowError> {
+    let laid = match paired::layout::layout(paired, &spec.limits(), spec.seed) {
+        Err(why) => Err(why),
+        Ok(layout) => {
+            let menu = spec.menu()?;
+            let file = paired::mechanism::mechanism_file(paired, &layout, &menu, &spec.workload);
+            let as_file = LaidFile {
+                name: paired.name(),
+                built: mechanism(&paired.name(), &file)?,
+                figures: paired::figures::figures(paired, &layout),
+                file,
+            };
+            as_file.searched(layout, |built| of_its_own(built, spec))?
+        }
     };
-    let text = write::toml(&file, &[]).map_err(|e| RowError::File {
-        structure: structure.name(),
-        why: e.to_string(),
-    })?;
-    Ok(Ok(Laid {
-        layout,
-        figures,
-        file: text,
-        as_built: (as_built.mobility, as_built.redundant),
-        finite: as_built.finite,
-        counts: variants.counts,
-        exact: variants.exact,
-        symmetric: variants.symmetric,
-        ideas: variants.ideas,
-    }))
+    let (chain, roles) = (&paired.structure.chain, &paired.structure.roles);
+    let at_frame = |&&jaw: &&usize| chain.between(roles.frame, jaw).is_some();
+    Ok(StructureRow {
+        jaws_at_frame: roles.jaws.iter().filter(at_frame).count(),
+        truss: false,
+        graph_symmetric: true,
+        structure: paired.clone(),
+        laid,
+    })
 }
 
 /// The first ideas of a search, each with the scores of its first variant.
@@ -326,15 +388,7 @@ pub(super) fn ideas(search: &Search, diagrams: &Diagrams, top: usize) -> Vec<Ide
     search.ideas(diagrams, top).into_iter().map(row).collect()
 }
 
-impl StructureRow {
-    /// The code of its chain.
-    #[must_use]
-    pub fn chain(&self) -> String {
-        graph6::write(&self.structure.chain)
-    }
-}
-
-impl Laid {
+impl<L> Laid<L> {
     /// Orbits of determinate variants of W = 1.
     #[must_use]
     pub fn orbits(&self) -> BigUint {

@@ -9,7 +9,6 @@ use crate::redundancy::analysis::{AnalysisError, exact_field};
 use crate::score::request::{Check, List, Request};
 use crate::score::run::RunError;
 use crate::search::Search;
-use crate::synthesis::structure::Structure;
 use itertools::Itertools;
 use std::sync::Arc;
 use thiserror::Error;
@@ -54,13 +53,10 @@ pub fn request(spec: &Spec) -> Request {
     }
 }
 
-/// The mechanism of a file that the program made.
-pub(super) fn mechanism(
-    structure: &Structure,
-    file: &MechanismFile,
-) -> Result<Mechanism, RowError> {
+/// The mechanism of a file that the program made of a structure of this name.
+pub(super) fn mechanism(name: &str, file: &MechanismFile) -> Result<Mechanism, RowError> {
     build(file).map_err(|found| RowError::File {
-        structure: structure.name(),
+        structure: name.to_owned(),
         why: found.iter().map(|(_, kind)| kind.to_string()).join("; "),
     })
 }

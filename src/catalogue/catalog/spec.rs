@@ -1,6 +1,7 @@
 //! What a catalogue is to hold.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::pairs::kind::PairKind;
 use crate::file::schema::{OptionEntry, OptionTable};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::mechanism::Menu;
@@ -15,6 +16,9 @@ use thiserror::Error;
 /// Most links of a structure: with more there are millions of structures.
 pub const MOST_LINKS: usize = 12;
 
+/// Most links of a structure with pairs.
+pub const MOST_PAIRED: usize = 8;
+
 /// The widest part of a task, in mm: pins stand within some 100 mm of each other.
 const WIDEST: i64 = 200;
 
@@ -22,7 +26,7 @@ const WIDEST: i64 = 200;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Spec {
-    /// Links from and to, both included: "4..8".
+    /// Links from and to, both included: "4..8"; even numbers, with pairs odd ones, too.
     pub links: String,
     /// Jaws of each structure: 2 or 3.
     pub jaws: usize,
@@ -32,6 +36,10 @@ pub struct Spec {
     pub symmetries: Vec<String>,
     /// Whether layouts with the jaws on parallelograms are made too: "with", "without" or "only".
     pub parallel: String,
+    /// Pairs beside hinges that symmetric structures may have: "slide", "gear", "slot"; none by default.
+    pub pairs: Vec<String>,
+    /// Pairs that are not hinges at most, a left and a right one being one.
+    pub at_most: usize,
     /// What may be put in place of a hinge, by name.
     pub options: Vec<String>,
     /// What may be put in series with a hinge, an unloading joint with a link of its own, by name; nothing by default.
@@ -64,6 +72,8 @@ impl Default for Spec {
             inputs: words(&["slide", "turn"]),
             symmetries: words(&["generic", "mirror", "half-turn", "threefold"]),
             parallel: "with".to_owned(),
+            pairs: Vec::new(),
+            at_most: 3,
             options: words(&[
                 "cylindrical",
                 "universal",
@@ -103,6 +113,11 @@ pub enum SpecError {
         "links: {0:?} is not a range of even numbers from 4 to {MOST_LINKS}, such as 4..8: chains of mobility 1 have an even number of links"
     )]
     Links(String),
+    /// Too many links for pairs.
+    #[error(
+        "links: structures with pairs have {MOST_PAIRED} links at most: there are too many beyond"
+    )]
+    PairedLinks,
     /// A number out of its range.
     #[error("{what} must be from {from} to {to}")]
     Range {
@@ -136,7 +151,7 @@ impl SpecError {
     pub fn key(&self) -> Option<&'static str> {
         match self {
             SpecError::Word { what, .. } | SpecError::Range { what, .. } => Some(what),
-            SpecError::Links(_) => Some("links"),
+            SpecError::Links(_) | SpecError::PairedLinks => Some("links"),
             SpecError::NoLoad => Some("closing"),
             SpecError::Nothing => Some("symmetries"),
             SpecError::Widths => Some("narrowest"),
@@ -195,8 +210,46 @@ impl Spec {
         let wrong = || SpecError::Links(self.links.clone());
         let all = range(&self.links).map_err(|_| wrong())?;
         let known = *all.start() >= 4 && *all.end() <= MOST_LINKS;
-        let some = known && all.clone().any(|n| n % 2 == 0);
+        let some = known && all.clone().any(|n| n % 2 == 0 || !self.pairs.is_empty());
+        if some && !self.pairs.is_empty() && *all.end() > MOST_PAIRED {
+            return Err(SpecError::PairedLinks);
+        }
         some.then_some(all).ok_or_else(wrong)
+    }
+
+    /// The pairs beside hinges.
+    ///
+    /// # Errors
+    /// Where a word means nothing.
+    pub fn pairs(&self) -> Result<Vec<PairKind>, SpecError> {
+        let others = PairKind::ALL.iter().filter(|k| k.0 != PairKind::Hinge);
+        let known: Vec<(PairKind, &str)> = others.map(|k| (k.0, k.1)).collect();
+        let kinds = self.pairs.iter().map(|w| word("pairs", w, &known));
+        kinds.collect()
+    }
+
+    /// The forms that structures with pairs are laid out in, of those that are asked for.
+    ///
+    /// # Errors
+    /// Where a word means nothing.
+    pub fn paired_forms(&self) -> Result<Vec<(Input, Symmetry)>, SpecError> {
+        if self.pairs()?.is_empty() || self.jaws != 2 || self.parallel == "only" {
+            return Ok(Vec::new());
+        }
+        let (inputs, symmetries) = self.words()?;
+        let symmetric = |s: &Symmetry| matches!(s, Symmetry::Mirror | Symmetry::HalfTurn);
+        let symmetries = symmetries.into_iter().filter(symmetric);
+        Ok(inputs.into_iter().cartesian_product(symmetries).collect())
+    }
+
+    fn words(&self) -> Result<(Vec<Input>, Vec<Symmetry>), SpecError> {
+        let inputs = self.inputs.iter();
+        let inputs = inputs
+            .map(|w| word("inputs", w, &Input::ALL))
+            .try_collect()?;
+        let symmetries = self.symmetries.iter();
+        let symmetries = symmetries.map(|w| word("symmetries", w, &Symmetry::ALL));
+        Ok((inputs, symmetries.try_collect()?))
     }
 
     /// The forms that structures are laid out in.
@@ -204,16 +257,7 @@ impl Spec {
     /// # Errors
     /// Where a word means nothing, or no form is left.
     pub fn forms(&self) -> Result<Vec<Form>, SpecError> {
-        let inputs: Vec<Input> = self
-            .inputs
-            .iter()
-            .map(|w| word("inputs", w, &Input::ALL))
-            .try_collect()?;
-        let symmetries: Vec<Symmetry> = self
-            .symmetries
-            .iter()
-            .map(|w| word("symmetries", w, &Symmetry::ALL))
-            .try_collect()?;
+        let (inputs, symmetries) = self.words()?;
         let words = [
             (None, "with"),
             (Some(false), "without"),
@@ -227,9 +271,10 @@ impl Spec {
                 && f.suits(self.jaws)
         };
         let forms: Vec<Form> = Form::all().filter(asked).collect();
-        (!forms.is_empty())
-            .then_some(forms)
-            .ok_or(SpecError::Nothing)
+        if forms.is_empty() && self.paired_forms()?.is_empty() {
+            return Err(SpecError::Nothing);
+        }
+        Ok(forms)
     }
 
     /// What may be done to a hinge.
@@ -283,6 +328,7 @@ impl Spec {
         whole("jaws", self.jaws, 2, 3)?;
         whole("ideas", self.ideas, 0, 1000)?;
         whole("nodes", self.nodes, 1, 100_000_000)?;
+        whole("at_most", self.at_most, 1, 12)?;
         within("ratio", self.ratio, 0, 1000)?;
         within("transmission", self.transmission, 0, 90)?;
         let w = &self.workload;
@@ -327,6 +373,7 @@ impl Spec {
             &mut same.symmetries,
             &mut same.options,
             &mut same.unloading,
+            &mut same.pairs,
         ] {
             list.sort();
             list.dedup();

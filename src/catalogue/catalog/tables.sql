@@ -8,7 +8,7 @@ CREATE TABLE parts (               -- parts of the structures that are all there
 ) WITHOUT ROWID;
 CREATE TABLE structures (
   id TEXT PRIMARY KEY,             -- short name: number of links, and the beginning of the SHA-256 of the whole name
-  name TEXT NOT NULL UNIQUE,       -- whole name: chain, frame-driver, jaws, input, symmetry
+  name TEXT NOT NULL UNIQUE,       -- whole name: chain, frame-driver, jaws, input, symmetry; with pairs their code, frame, input, jaws, symmetry
   chain TEXT NOT NULL,             -- graph6 of the canonical numbering
   links INTEGER NOT NULL,
   joints INTEGER NOT NULL,
@@ -21,7 +21,7 @@ CREATE TABLE structures (
   symmetry TEXT NOT NULL,          -- generic, mirror, half-turn, threefold
   parallel INTEGER NOT NULL,       -- 1: each jaw stands on a parallelogram
   jaws_at_frame INTEGER NOT NULL,  -- how many jaws are joined to the frame
-  truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and nothing less is; of two jaws alone
+  truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and nothing less is; of two jaws and hinges alone
   graph_symmetric INTEGER NOT NULL,
   no_layout TEXT                   -- why it has no layout; NULL where it has one
 ) WITHOUT ROWID;
@@ -52,7 +52,7 @@ CREATE TABLE layouts (
   jaw_turn REAL NOT NULL,          -- the most that a jaw turns over the stroke, degrees
   ends_closing TEXT,               -- jaws-turn-back, dead-point, singular: why the stroke ends before the task's; NULL where it does not
   ends_opening TEXT,
-  mobility INTEGER NOT NULL,       -- W as built, all joints hinges
+  mobility INTEGER NOT NULL,       -- W as built
   redundant INTEGER NOT NULL,      -- sigma as built
   finite TEXT NOT NULL,            -- the mobility that is really there, and how that is known
   determinate NOT NULL,            -- variants with sigma = 0: a number, or its digits as text beyond 63 bits
@@ -75,6 +75,14 @@ CREATE TABLE strokes (             -- what a layout does of the task it was made
   margin_closing REAL NOT NULL,    -- how far on the jaws could go beyond the task before the stroke ends, mm; a fifth of it at most
   margin_opening REAL NOT NULL,
   shortfall TEXT                   -- the worst of what the task asks and this does not; NULL where it does all of it
+) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS pairs ( -- of structures with slides, gears or slots
+  structure TEXT PRIMARY KEY REFERENCES structures(id),
+  code TEXT NOT NULL,              -- a letter for each two links, (0, 1), (0, 2), (1, 2)...: R hinge, P slide, G gear or rack, S slot, - none
+  slides INTEGER NOT NULL,         -- how many
+  gears INTEGER NOT NULL,
+  slots INTEGER NOT NULL,
+  driven_from INTEGER NOT NULL     -- the link that the driver moves against: the frame, or another that moves
 ) WITHOUT ROWID;
 CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their own files
   id TEXT PRIMARY KEY,             -- drawn-, and the beginning of the SHA-256 of the file
@@ -122,8 +130,10 @@ CREATE VIEW grippers AS            -- layouts by what a designer asks of them
 SELECT s.id, s.links, s.input, s.symmetry, s.parallel, l.jaw_a_motion AS jaws, l.force_min AS least_force,
   k.force_ratio, l.opening_min AS narrowest, l.opening_max AS widest, l.jaw_turn AS turn,
   k.transmission, k.pin_force, k.efficiency, l.travel, k.width, k.height, l.best_cost AS cost, l.determinate_w1 AS redesigns,
-  k.reached, k.shortfall
-FROM structures s JOIN layouts l ON l.structure = s.id LEFT JOIN strokes k ON k.structure = s.id;
+  k.reached, k.shortfall, coalesce(p.slides, s.input = 'slide') AS slides, coalesce(p.gears, 0) AS gears,
+  coalesce(p.slots, 0) AS slots
+FROM structures s JOIN layouts l ON l.structure = s.id LEFT JOIN strokes k ON k.structure = s.id
+  LEFT JOIN pairs p ON p.structure = s.id;
 CREATE VIEW front AS               -- of those that do the task, what no other with the same input beats: as good in all six, better in one
 SELECT a.id, a.links, a.cost, a.least_force, a.pin_force, a.turn, a.width * a.height AS area, a.input
 FROM grippers a

@@ -1,9 +1,9 @@
 //! An open catalogue: what it holds, and what is added.
 
 use super::error::StoreError;
+use crate::catalog::build::CatalogueRow;
 use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;
-use crate::catalog::row::StructureRow;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, ErrorCode, OptionalExtension, TransactionBehavior, params};
 use serde_json::Value;
@@ -62,10 +62,13 @@ impl Store {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn add(&mut self, row: &StructureRow) -> Stored<()> {
+    pub fn add(&mut self, row: &CatalogueRow) -> Stored<()> {
         let mut all = || -> rusqlite::Result<()> {
             let t = (self.db).transaction_with_behavior(TransactionBehavior::Immediate)?;
-            insert::row(&t, row)?;
+            match row {
+                CatalogueRow::Hinged(row) => insert::row(&t, row)?,
+                CatalogueRow::Paired(row) => insert::row(&t, row)?,
+            }
             t.commit()
         };
         let done = all();

@@ -108,6 +108,10 @@ impl Store {
                 6,
                 "INSERT INTO main.strokes SELECT * FROM part.strokes WHERE structure NOT IN there;",
             ),
+            (
+                7,
+                "INSERT INTO main.pairs SELECT * FROM part.pairs WHERE structure NOT IN there;",
+            ),
         ];
         let later = later.iter().filter(|(since, _)| version >= *since);
         let later: String = later.map(|(_, statement)| *statement).collect();

@@ -8,7 +8,7 @@ use rusqlite::Connection;
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables.
-pub(super) const VERSION: i64 = 6;
+pub(super) const VERSION: i64 = 7;
 /// The oldest version that can be carried on: those before lack counts that only building again gives.
 pub(super) const OLDEST: i64 = 4;
 
@@ -17,13 +17,22 @@ pub(crate) const TABLES: &str = include_str!("../tables.sql");
 
 /// What each version but the first has beside the one before it: views that go, and what is made, by the words it begins with in
 /// [`TABLES`].
-const STEPS: [(i64, &str, &[&str]); 2] = [
+const STEPS: [(i64, &str, &[&str]); 3] = [
     (5, "", &["CREATE TABLE parts"]),
     (
         6,
         "DROP VIEW IF EXISTS front;",
         &[
             "CREATE TABLE strokes",
+            "CREATE VIEW grippers",
+            "CREATE VIEW front",
+        ],
+    ),
+    (
+        7,
+        "DROP VIEW IF EXISTS front; DROP VIEW IF EXISTS grippers;",
+        &[
+            "CREATE TABLE IF NOT EXISTS pairs",
             "CREATE VIEW grippers",
             "CREATE VIEW front",
         ],
@@ -38,7 +47,12 @@ fn statement(begins: &str) -> &'static str {
 }
 
 /// Views in the place of tables that lack something, for whoever reads a version before the one named.
-const VIEWS: [(i64, &str); 8] = [
+const VIEWS: [(i64, &str); 9] = [
+    (
+        7,
+        "CREATE TEMP VIEW pairs AS SELECT NULL AS structure, NULL AS code, NULL AS slides, NULL AS gears, NULL AS slots, \
+         NULL AS driven_from WHERE 0;",
+    ),
     (
         6,
         "CREATE TEMP VIEW strokes AS SELECT NULL AS structure, NULL AS narrowest, NULL AS widest, NULL AS reached, NULL AS force_ratio, \

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Build {
-    /// Numbers of links, the last included; chains of mobility 1 have an even number.
+    /// Numbers of links, the last included; chains of mobility 1 have an even number, with gears and slots any.
     #[arg(long, value_name = "N..M")]
     links: Option<String>,
     /// Jaws: 2 or 3, these at 120°; 2 by default.
@@ -35,6 +35,13 @@ pub(in crate::cli) struct Build {
     /// Layouts with each jaw on a parallelogram: with, without or only.
     #[arg(long, value_name = "WORD")]
     parallel: Option<String>,
+    /// Pairs beside hinges in symmetric structures: slide, gear (or rack), slot (pin in a slot, cam, wedge); the driver alone may
+    /// slide otherwise.
+    #[arg(long, value_name = "KINDS", value_delimiter = ',')]
+    pairs: Vec<String>,
+    /// Pairs that are not hinges at most, a left and a right one being one; 3 by default.
+    #[arg(long, value_name = "K")]
+    at_most: Option<usize>,
     /// What may be put in place of a hinge.
     #[arg(long, value_name = "TYPES", value_delimiter = ',')]
     options: Vec<String>,
@@ -86,6 +93,7 @@ impl Build {
         let lists = [
             (&self.input, &mut spec.inputs),
             (&self.symmetry, &mut spec.symmetries),
+            (&self.pairs, &mut spec.pairs),
             (&self.options, &mut spec.options),
             (&self.unloading, &mut spec.unloading),
         ];
@@ -97,6 +105,7 @@ impl Build {
         if let Some(word) = &self.parallel {
             spec.parallel.clone_from(word);
         }
+        spec.at_most = self.at_most.unwrap_or(spec.at_most);
         spec.jaws = self.jaws.unwrap_or(spec.jaws);
         spec.ideas = self.ideas.unwrap_or(spec.ideas);
         spec.ratio = self.ratio.unwrap_or(spec.ratio);
@@ -131,14 +140,14 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     let there = store.ids()?;
     let part = a.shard.unwrap_or(Shard::WHOLE);
     let work = work(&spec, part)?;
-    let all: usize = work.iter().map(|w| w.structures.len()).sum();
+    let all = work.count();
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
     let mut count = 0;
     let ended = build(
         &spec,
         &work,
-        |s| interrupt::pending() || there.contains(&s.id()),
+        |id| interrupt::pending() || there.contains(id),
         |row| {
             count += 1;
             bar.step("structures", there.len() + count, all);

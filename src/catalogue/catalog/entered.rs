@@ -1,0 +1,158 @@
+//! What structures and layouts of every kind say of themselves in the tables.
+
+use crate::chains::chain::Chain;
+use crate::chains::graph6;
+use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::pairs::census::Kinds;
+use crate::synthesis::layout::Layout;
+use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::limits::Limits;
+use crate::synthesis::paired::layout::PairLayout;
+use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::point::Point;
+use crate::synthesis::structure::Structure;
+
+/// What the tables say of a structure.
+#[derive(Debug, Clone)]
+pub(super) struct StructureColumns {
+    /// Its short name.
+    pub(super) id: String,
+    /// Its whole name.
+    pub(super) name: String,
+    /// The code of the graph of its links and joints.
+    pub(super) chain: String,
+    /// Links.
+    pub(super) links: usize,
+    /// Joints.
+    pub(super) joints: usize,
+    /// The link that stands still.
+    pub(super) frame: usize,
+    /// The link that is driven.
+    pub(super) driver: usize,
+    /// Two or three.
+    pub(super) jaws: Vec<usize>,
+    /// How the driver moves.
+    pub(super) input: Input,
+    /// How it lies on itself.
+    pub(super) symmetry: Symmetry,
+    /// Whether its jaws stand on parallelograms.
+    pub(super) parallel: bool,
+    /// Its pairs, where they are not hinges and a driver that slides in the frame.
+    pub(super) pairs: Option<PairColumns>,
+}
+
+/// What the tables say of the pairs of a structure.
+#[derive(Debug, Clone)]
+pub(super) struct PairColumns {
+    /// A letter for each two links.
+    pub(super) code: String,
+    /// How many are no hinges.
+    pub(super) kinds: Kinds,
+    /// The link that the driver moves against.
+    pub(super) driven_from: usize,
+}
+
+/// A structure that is entered in a catalogue.
+pub(super) trait Entered {
+    /// What the tables say of it.
+    fn columns(&self) -> StructureColumns;
+}
+
+impl Entered for Structure {
+    fn columns(&self) -> StructureColumns {
+        let r = &self.roles;
+        StructureColumns {
+            id: self.id(),
+            name: self.name(),
+            chain: graph6::write(&self.chain),
+            links: self.chain.links(),
+            joints: self.chain.joint_count(),
+            frame: r.frame,
+            driver: r.driver,
+            jaws: r.jaws.clone(),
+            input: self.form.input,
+            symmetry: self.form.symmetry,
+            parallel: self.form.parallel,
+            pairs: None,
+        }
+    }
+}
+
+impl Entered for PairedStructure {
+    fn columns(&self) -> StructureColumns {
+        let (chain, roles) = (&self.structure.chain, &self.structure.roles);
+        let joints = chain.joints();
+        let graph = joints.iter().map(|j| (j.links[0], j.links[1]));
+        let [driven_from, driver] = self.drive();
+        StructureColumns {
+            id: self.id(),
+            name: self.name(),
+            chain: graph6::write(&Chain::new(chain.links(), graph)),
+            links: chain.links(),
+            joints: joints.len(),
+            frame: roles.frame,
+            driver,
+            jaws: roles.jaws.to_vec(),
+            input: self.input(),
+            symmetry: self.symmetry,
+            parallel: false,
+            pairs: Some(PairColumns {
+                code: chain.code(),
+                kinds: Kinds::of(chain),
+                driven_from,
+            }),
+        }
+    }
+}
+
+/// Places of a structure, whatever joins its links.
+pub(super) trait Placed {
+    /// The figures it was taken for.
+    fn looks(&self) -> &Looks;
+
+    /// What it was made for.
+    fn limits(&self) -> &Limits;
+
+    /// The start it was found from.
+    fn start(&self) -> u32;
+
+    /// Where its joints and tips are.
+    fn points(&self) -> Vec<Point>;
+}
+
+impl Placed for Layout {
+    fn looks(&self) -> &Looks {
+        &self.looks
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    fn start(&self) -> u32 {
+        self.start
+    }
+
+    fn points(&self) -> Vec<Point> {
+        let all = self.at.iter().chain(&self.tips);
+        all.map(|p| p.real()).collect()
+    }
+}
+
+impl Placed for PairLayout {
+    fn looks(&self) -> &Looks {
+        &self.looks
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    fn start(&self) -> u32 {
+        self.start
+    }
+
+    fn points(&self) -> Vec<Point> {
+        self.at.points.clone()
+    }
+}
