@@ -11,6 +11,8 @@ mod contents;
 mod data;
 mod explorer;
 mod figures;
+#[cfg(feature = "store")]
+mod gripper;
 #[doc(hidden)]
 pub mod moving;
 mod number;

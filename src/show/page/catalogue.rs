@@ -1,22 +1,19 @@
 //! A catalogue as one page: a card for each structure, with its drawing, to filter, sort and choose from.
 
 use super::data::escaped;
+use super::gripper::drawing;
 use super::policy::{self, POLICY};
 use super::style::STYLE;
 use crate::catalog::store::{Store, StoreError};
-use crate::file::text::mechanism_from_str;
-use crate::geom::vector::{real, sides};
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, Role, StateId};
 use maud::{DOCTYPE, PreEscaped, html};
-use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 const CARDS: &str = include_str!("catalogue.css");
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 7] = [
+const SCRIPT: [&str; 8] = [
     include_str!("script/gripper.js"),
+    include_str!("script/pairs.js"),
     include_str!("script/hull.js"),
     include_str!("script/motion.js"),
     include_str!("script/moving.js"),
@@ -44,103 +41,6 @@ fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError>
     let (names, rows) = store.query(sql, None)?;
     let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
     Ok(rows.into_iter().map(map).collect())
-}
-
-/// The drawing of a mechanism as numbers.
-#[derive(Serialize)]
-struct DrawingData {
-    /// The places of the joints, and their names.
-    pins: Vec<[f64; 2]>,
-    names: Vec<String>,
-    /// The pins of each link.
-    links: Vec<Vec<usize>>,
-    /// The links that are the frame, the driver and the jaws.
-    frame: usize,
-    driver: Option<usize>,
-    jaws: Vec<usize>,
-    /// The joint that drives, and whether it slides.
-    drive: Option<usize>,
-    slides: bool,
-    /// Where the jaws grip.
-    tips: Option<Vec<[f64; 2]>>,
-    /// Units of the drawing for one of the mechanism.
-    scale: f64,
-}
-
-/// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y.
-fn drawing(text: &str) -> Option<DrawingData> {
-    let m = mechanism_from_str("mechanism.toml", text).ok()?;
-    let place = |j: &Joint| {
-        let [x, y, _] = real(&j.frame.point);
-        [x, y]
-    };
-    let joints: Vec<&Joint> = m.joints_in(StateId::FREE).map(|j| &m.joints[j]).collect();
-    let square = |j: &&Joint| {
-        let [x, y, z] = real(&j.frame.axis);
-        let across = x == 0.0 && y == 0.0;
-        match j.joint_type {
-            JointType::Prismatic | JointType::Cylindrical => across || z == 0.0,
-            _ => across,
-        }
-    };
-    if !joints.iter().all(square) {
-        return None;
-    }
-    let pins: Vec<[f64; 2]> = joints.iter().map(|j| place(j)).collect();
-    let links: Vec<Vec<usize>> = m
-        .link_ids()
-        .map(|l| {
-            let of = |(_, j): &(usize, &&Joint)| j.links.contains(&l);
-            joints
-                .iter()
-                .enumerate()
-                .filter(of)
-                .map(|(i, _)| i)
-                .collect()
-        })
-        .collect();
-    let drive = joints.iter().position(|j| j.drive);
-    let driver = drive.map(|d| joints[d].links[1].index());
-    let jaws: Vec<usize> = m
-        .links_with_ids()
-        .filter(|(_, l)| l.role == Role::Output)
-        .map(|(l, _)| l.index())
-        .collect();
-    // What a person drew may say by its forces where the part is.
-    let tip = |jaw: &usize| {
-        let points = m.points.iter().map(|p| (p.link, &p.point));
-        let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
-        let (_, at) = points.chain(forces).find(|(l, _)| l.index() == *jaw)?;
-        let [x, y, _] = real(at);
-        Some([x, y])
-    };
-    let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
-    let tips = tips.filter(|t| (2..=3).contains(&t.len()));
-    let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
-    let place = |p: &[f64; 2]| p.map(|x| x * scaled);
-    let slides = |d: usize| joints[d].joint_type.freedoms().iter().any(|f| f.slides());
-    Some(DrawingData {
-        pins: pins.iter().map(place).collect(),
-        names: joints.iter().map(|j| j.id.clone()).collect(),
-        links,
-        frame: m.frame().index(),
-        driver,
-        jaws,
-        slides: drive.is_some_and(slides),
-        drive,
-        tips: tips.map(|t| t.iter().map(place).collect()),
-        scale: scaled,
-    })
-}
-
-/// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a
-/// drawn mechanism is in.
-fn scale(points: &[[f64; 2]]) -> f64 {
-    let [width, height] = sides(points);
-    match width.max(height) {
-        s if s > 0.0 && !(60.0..=400.0).contains(&s) => 160.0 / s,
-        _ => 1.0,
-    }
 }
 
 /// The page of a catalogue, `file` being its name for the commands that go on with it.

@@ -3,9 +3,10 @@
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::pairs::chain::Joint;
 use crate::chains::pairs::kind::PairKind;
+use crate::geom::vector::{length, sub};
 use crate::synthesis::annealing::{bell, unit};
 use crate::synthesis::bones::{Bones, Plan};
-use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::layout_quality::{Looks, beyond};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::direction::{self, Direction};
 use crate::synthesis::paired::equations::velocities;
@@ -33,6 +34,9 @@ const RATIOS: [[i32; 2]; 9] = [
     [4, 3],
     [1, 3],
 ];
+/// Pitch circles of a larger radius are in the way of other parts, and teeth on smaller ones are few. In millimetres.
+const LARGE: f64 = 25.0;
+const SMALL: f64 = 8.0;
 /// Pitch radii of pinions, in millimetres.
 const RADII: RangeInclusive<i32> = 5..=40;
 
@@ -134,6 +138,19 @@ impl<'a> PairSketch<'a> {
         }
     }
 
+    /// What pitch circles cost that are large, or too small for teeth.
+    fn pitch_penalty(&self, at: &PairPlaces) -> f64 {
+        let meshes = self.rules.meshes.iter().enumerate();
+        let circles = meshes.filter_map(|(i, m)| Some((at.points[i], (*m)?)));
+        let radii = circles.flat_map(|(pitch, mesh)| {
+            let turning = if mesh.rack { 1 } else { 2 };
+            let held = mesh.held.into_iter().take(turning);
+            held.map(move |j| length(sub(at.points[j], pitch)))
+        });
+        let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
+        radii.map(cost).sum()
+    }
+
     /// Changes the teeth of a gear pair.
     fn change_teeth(teeth: &mut Teeth, warmth: f64, random: &mut ChaCha8Rng) {
         *teeth = match *teeth {
@@ -212,7 +229,7 @@ impl Sketch for PairSketch<'_> {
     }
 
     fn penalty(&self, at: &PairPlaces, moving: bool, most: f64) -> Option<f64> {
-        let sum = self.bones.penalty(&at.points, most)?;
+        let sum = self.bones.penalty(&at.points, most)? + self.pitch_penalty(at);
         if !moving {
             return Some(sum);
         }
@@ -222,6 +239,8 @@ impl Sketch for PairSketch<'_> {
 
     fn looks(&self, at: &PairPlaces) -> Option<Looks> {
         let motion = self.bones.motion(&at.points, &velocities(self, at)?);
-        self.bones.looks(&at.points, motion)
+        let mut looks = self.bones.looks(&at.points, motion)?;
+        looks.penalty += self.pitch_penalty(at);
+        Some(looks)
     }
 }

@@ -51,20 +51,22 @@ function gripper(card, title, changed, elsewhere) {
     note.textContent = 'Not in one plane: ozols draw shows it.';
     return note;
   }
-  const at = elsewhere || d;
-  const pins = at.pins.map(flip), tips = (at.tips || []).map(flip);
+  const pose = elsewhere ? elsewhere.pose : new Array(3 * d.links.length).fill(0);
+  const at = (link, i) => flip(placed(pose, link, d.pins[i]));
+  const tips = (d.tips || []).map((t, n) => flip(placed(pose, d.jaws[n], t)));
+  // A slide is where its block is.
+  const pins = d.ends.map(([a, b], i) => at(b === d.frame && d.kinds[i] === 'slide' ? a : b, i));
   // The same sight however it moves.
-  const all = [...d.pins, ...(d.tips || [])].map(flip);
+  const all = [...d.pins, ...(d.tips || []), ...pitchBounds(d)].map(flip);
   const low = [0, 1].map((k) => Math.min(...all.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...all.map((p) => p[k])));
   // Labels stand beside their pins, those on the right to the left of them.
   const margin = [changed ? 40 : 20, 20], size = [0, 1].map((k) => high[k] - low[k] + 2 * margin[k]);
   const box = [low[0] - margin[0], low[1] - margin[1], size[0], size[1]], centre = box[0] + size[0] / 2;
   const out = [element('title', {}, [title])];
-  const slidePin = d.slides ? d.drive : -1;
   d.links.forEach((of, l) => {
     if (l === d.frame) return;
     const jaw = d.jaws.indexOf(l);
-    const points = of.map((i) => pins[i]).concat(tips[jaw] ? [tips[jaw]] : []);
+    const points = of.map((i) => at(l, i)).concat(tips[jaw] ? [tips[jaw]] : []);
     if (points.length < 2) return;
     const kind = jaw >= 0 ? 'jaw' : l === d.driver ? 'driver' : '';
     out.push(element('path', { class: 'link ' + kind, d: path(hull(points), points.length > 2) }));
@@ -75,22 +77,21 @@ function gripper(card, title, changed, elsewhere) {
     const radius = Math.hypot(tips[0][0] - middle[0], tips[0][1] - middle[1]);
     out.push(element('circle', { class: 'part', cx: middle[0], cy: middle[1], r: radius }));
   }
-  d.links[d.frame].forEach((i) => {
+  out.push(...gearsOf(d, pose));
+  d.kinds.forEach((kind, i) => {
     const [x, y] = pins[i];
-    if (i === slidePin) {
-      const guide = flip(d.pins[i]);
-      out.push(element('path', { class: 'guide', d: `M${guide[0] - 16} ${y - 6}h32M${guide[0] - 16} ${y + 6}h32` }));
-      out.push(element('rect', { class: 'block', x: x - 8, y: y - 5, width: 16, height: 10, rx: 1 }));
-    } else {
-      out.push(element('path', { class: 'ground', d: `M${x} ${y}l-5 8h10zM${x - 7} ${y + 8}h14` }));
-    }
+    if (kind === 'slide') out.push(...slideOf(d, pose, i, i === d.drive ? '' : ' idle'));
+    else if (kind === 'slot') out.push(slotOf(d, pose, i));
+    else if (d.ends[i].includes(d.frame)) out.push(element('path', { class: 'ground', d: `M${x} ${y}l-5 8h10zM${x - 7} ${y + 8}h14` }));
   });
   pins.forEach(([x, y], i) => {
-    if (i !== slidePin) out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }));
+    if (d.kinds[i] !== 'slide') out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }));
   });
   if (card.closes && !elsewhere) {
     const [x, y] = pins[d.drive], s = card.closes;
-    out.push(element('path', { class: 'drive', d: d.slides ? straight([x - 11 * s, y - 11], [x + 11 * s, y - 11]) : round([x, y], 10, s) }));
+    const [u, v] = flip(d.along[d.drive]), [left, up] = u < 0 ? [-v, u] : [v, -u];
+    const beside = (k) => [x + 11 * (left + k * u), y + 11 * (up + k * v)];
+    out.push(element('path', { class: 'drive', d: d.slides ? straight(beside(-s), beside(s)) : round([x, y], 10, s) }));
   }
   if (!card.drawn && !elsewhere) out.push(...arrows(card, tips));
   for (const [name, word] of changed || []) {

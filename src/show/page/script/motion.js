@@ -23,32 +23,58 @@ function placed(pose, link, [x, y]) {
   return [dx + x * Math.cos(t) - y * Math.sin(t), dy + x * Math.sin(t) + y * Math.cos(t)];
 }
 
-/** What holds a pose together, each with its slopes, the last number what it misses: pins meet, and the drive is where it is asked. */
+/** The slopes of where a drawn point of a link is along a direction, the point's place and direction being those of a pose. */
+function slopes(pose, link, at, [u, v], sign) {
+  const arm = [at[0] - pose[3 * link], at[1] - pose[3 * link + 1]];
+  return [[3 * link, sign * u], [3 * link + 1, sign * v], [3 * link + 2, sign * (v * arm[0] - u * arm[1])]];
+}
+
+/** How far a joint has gone: its turn, or how far its second link is ahead of its first; with the slopes of that. */
+function gone(d, pose, i) {
+  const [a, b] = d.ends[i];
+  if (d.kinds[i] !== 'slide') return [pose[3 * b + 2] - pose[3 * a + 2], [[3 * b + 2, 1], [3 * a + 2, -1]]];
+  const u = turnedBy(pose, a, d.along[i]), [p, q] = [placed(pose, a, d.pins[i]), placed(pose, b, d.pins[i])];
+  return [(q[0] - p[0]) * u[0] + (q[1] - p[1]) * u[1], [...slopes(pose, b, q, u, 1), ...slopes(pose, a, q, u, -1)]];
+}
+
+/** A direction of a link as it has turned. */
+function turnedBy(pose, link, [x, y]) {
+  const t = pose[3 * link + 2];
+  return [x * Math.cos(t) - y * Math.sin(t), x * Math.sin(t) + y * Math.cos(t)];
+}
+
+/** What holds a pose together, each with its slopes, the last number what it misses: joints fit, and the drive is where it is asked. */
 function conditions(d, pose, drive) {
   const size = 3 * d.links.length, out = [];
-  const row = (missed, slopes) => {
+  const row = (missed, of) => {
     const made = new Array(size + 1).fill(0);
-    for (const [at, slope] of slopes) made[at] += slope;
+    for (const [at, slope] of of) made[at] += slope;
     made[size] = -missed;
     out.push(made);
   };
+  // A point of one link is on a line of another.
+  const line = (i, pinned, slotted, u) => {
+    const [p, q] = [placed(pose, pinned, d.pins[i]), placed(pose, slotted, d.pins[i])];
+    row((p[0] - q[0]) * u[0] + (p[1] - q[1]) * u[1], [...slopes(pose, pinned, p, u, 1), ...slopes(pose, slotted, p, u, -1)]);
+  };
   for (let k = 0; k < 3; k += 1) row(pose[3 * d.frame + k], [[3 * d.frame + k, 1]]);
-  const driver = 3 * d.driver;
-  if (d.slides) {
-    row(pose[driver] - drive, [[driver, 1]]);
-    row(pose[driver + 1], [[driver + 1, 1]]);
-    row(pose[driver + 2], [[driver + 2, 1]]);
-  } else row(pose[driver + 2] - drive, [[driver + 2, 1]]);
-  d.pins.forEach((pin, i) => {
-    if (d.slides && i === d.drive) return;
-    const [a, b] = d.links.flatMap((of, l) => (of.includes(i) ? [l] : []));
-    const [p, q] = [placed(pose, a, pin), placed(pose, b, pin)];
-    // A point turns square to its arm.
-    const arm = (l, at) => [at[0] - pose[3 * l], at[1] - pose[3 * l + 1]];
-    const [u, v] = [arm(a, p), arm(b, q)];
-    row(p[0] - q[0], [[3 * a, 1], [3 * b, -1], [3 * a + 2, -u[1]], [3 * b + 2, v[1]]]);
-    row(p[1] - q[1], [[3 * a + 1, 1], [3 * b + 1, -1], [3 * a + 2, u[0]], [3 * b + 2, -v[0]]]);
+  const [at, of] = gone(d, pose, d.drive);
+  row(at - drive, of);
+  d.kinds.forEach((kind, i) => {
+    const [a, b] = d.ends[i];
+    if (kind === 'hinge') {
+      const [p, q] = [placed(pose, a, d.pins[i]), placed(pose, b, d.pins[i])];
+      for (const u of [[1, 0], [0, 1]]) row((p[0] - q[0]) * u[0] + (p[1] - q[1]) * u[1], [...slopes(pose, a, p, u, 1), ...slopes(pose, b, q, u, -1)]);
+      return;
+    }
+    if (kind === 'slide') row(pose[3 * b + 2] - pose[3 * a + 2], [[3 * b + 2, 1], [3 * a + 2, -1]]);
+    const [pinned, slotted] = kind === 'slot' ? [a, b] : [b, a], [x, y] = turnedBy(pose, slotted, d.along[i]);
+    line(i, pinned, slotted, [-y, x]);
   });
+  for (const g of d.gears) {
+    const [[first, firsts], [second, seconds]] = g.joints.map((i) => gone(d, pose, i));
+    row(second - g.ratio * first, [...seconds, ...firsts.map(([k, slope]) => [k, -g.ratio * slope])]);
+  }
   return out;
 }
 
@@ -66,11 +92,10 @@ function poseAt(d, near, drive) {
   return null;
 }
 
-/** Pins and tips in a pose. */
+/** Pins and tips in a pose; a slide is where its block is. */
 function frameAt(d, pose) {
-  const owner = (i) => d.links.findIndex((of) => of.includes(i));
-  const slid = (pin, i) => (d.slides && i === d.drive ? placed(pose, d.driver, pin) : placed(pose, owner(i), pin));
-  return { pins: d.pins.map(slid), tips: d.tips.map((tip, n) => placed(pose, d.jaws[n], tip)) };
+  const block = ([a, b], i) => (b === d.frame && d.kinds[i] === 'slide' ? a : b);
+  return { pose, pins: d.pins.map((pin, i) => placed(pose, block(d.ends[i], i), pin)), tips: d.tips.map((tip, n) => placed(pose, d.jaws[n], tip)) };
 }
 
 /** How far the tips are apart, along the lines on which they are drawn from their middle; less than nothing where they have passed. */
@@ -105,5 +130,5 @@ function framesOf(card) {
   const slack = (card.opening_max - card.opening_min) / STEPS;
   const closing = way(card.closes, (w) => w > card.opening_min - slack / 2);
   const wider = way(-card.closes, (w) => w < card.opening_max + slack / 2);
-  return [...wider.reverse(), { pins: d.pins, tips: d.tips }, ...closing];
+  return [...wider.reverse(), { pose: still, pins: d.pins, tips: d.tips }, ...closing];
 }
