@@ -5,10 +5,11 @@ use crate::catalog::row::{PairedRow, RowError, StructureRow, row_of_pair, row_of
 use crate::catalog::spec::Spec;
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::pairs::classics::classics;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
-use crate::synthesis::paired::structure::{PairedStructure, paired_structures};
+use crate::synthesis::paired::structure::{PairedStructure, forms_of, paired_structures};
 use crate::synthesis::structure::{Structure, structures};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -33,8 +34,8 @@ pub enum BuildError {
 pub struct Work {
     /// Structures of hinges, by their chains, in the order of their codes.
     chains: Vec<ChainWork>,
-    /// Structures with slides, gears and slots.
-    paired: Vec<PairedStructure>,
+    /// Structures with slides, gears and slots, each in the forms it may have, of which the first counts that has a layout.
+    paired: Vec<Vec<PairedStructure>>,
 }
 
 /// A chain with its automorphisms and the structures that are asked of it.
@@ -89,7 +90,10 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
     })
 }
 
-fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildError> {
+fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<Vec<PairedStructure>>, BuildError> {
+    if spec.classics {
+        return Ok(known_schemes(shard));
+    }
     let forms = spec.paired_forms().map_err(RowError::from)?;
     let kinds = spec.pairs().map_err(RowError::from)?;
     if forms.is_empty() {
@@ -100,15 +104,27 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
         most: spec.at_most,
     };
     let links = spec.links().map_err(RowError::from)?;
-    let mut out: Vec<PairedStructure> = links.flat_map(|n| paired_structures(n, menu)).collect();
-    out.retain(|p| forms.contains(&(p.input(), p.symmetry)) && shard.has(&p.name()));
-    Ok(out)
+    let all = links.flat_map(|n| paired_structures(n, menu));
+    let all = all.flat_map(|p| {
+        let other = p.on_parallelograms();
+        std::iter::once(p).chain(other)
+    });
+    let asked = all.filter(|p| forms.contains(&(p.input(), p.form)) && shard.has(&p.name()));
+    Ok(asked.map(|p| vec![p]).collect())
+}
+
+/// The well-known schemes that are structures, each once.
+fn known_schemes(shard: Shard) -> Vec<Vec<PairedStructure>> {
+    let all = classics().iter().map(|c| &c.structure);
+    let all = all.unique_by(|s| s.key()).map(forms_of);
+    let of = |forms: &Vec<PairedStructure>| forms.first().is_some_and(|p| shard.has(&p.name()));
+    all.filter(of).collect()
 }
 
 fn chain_work(spec: &Spec, shard: Shard) -> Result<Vec<ChainWork>, BuildError> {
     let forms = spec.forms().map_err(RowError::from)?;
     let mut out = Vec::new();
-    if forms.is_empty() {
+    if forms.is_empty() || spec.classics {
         return Ok(out);
     }
     for n in spec.links().map_err(RowError::from)?.filter(|n| n % 2 == 0) {
@@ -150,12 +166,13 @@ pub fn build<B: Send>(
         }
     };
     let paired = || {
-        work.paired.par_iter().try_for_each(|p| {
-            if skip(&p.id()) {
+        work.paired.par_iter().try_for_each(|forms| {
+            if forms.iter().any(|p| skip(&p.id())) {
                 return Ok(());
             }
-            let row = row_of_paired(p, spec).map_err(Ended::failed)?;
-            give(CatalogueRow::Paired(Box::new(row)))
+            let rows = forms.iter().map(|p| row_of_paired(p, spec));
+            let row = first_laid(rows).map_err(Ended::failed)?;
+            row.map_or(Ok(()), |row| give(CatalogueRow::Paired(Box::new(row))))
         })
     };
     let one = |w: &ChainWork, structure: &Structure, general: Option<&General>| {
@@ -185,6 +202,21 @@ pub fn build<B: Send>(
         Err(Ended::Asked(b)) => Ok(Some(b)),
         Err(Ended::Failed(e)) => Err(e),
     }
+}
+
+/// The first row that has a layout, or else the first.
+fn first_laid(
+    rows: impl Iterator<Item = Result<PairedRow, RowError>>,
+) -> Result<Option<PairedRow>, RowError> {
+    let mut first = None;
+    for row in rows {
+        let row = row?;
+        if row.laid.is_ok() {
+            return Ok(Some(row));
+        }
+        first.get_or_insert(row);
+    }
+    Ok(first)
 }
 
 /// Why building ends before all is built.

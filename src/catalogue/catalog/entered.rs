@@ -2,8 +2,12 @@
 
 use crate::chains::chain::Chain;
 use crate::chains::graph6;
-use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::layout_symmetry::Input;
 use crate::chains::pairs::census::Kinds;
+use crate::chains::pairs::chain::{PairChain, ordered};
+use crate::chains::pairs::classics::{Classic, classics_of};
+use crate::chains::pairs::roles::PairRoles;
+use crate::chains::pairs::structure::PairStructure;
 use crate::synthesis::layout::Layout;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
@@ -33,12 +37,14 @@ pub(super) struct StructureColumns {
     pub(super) jaws: Vec<usize>,
     /// How the driver moves.
     pub(super) input: Input,
-    /// How it lies on itself.
-    pub(super) symmetry: Symmetry,
+    /// How it lies on itself, in a word.
+    pub(super) symmetry: String,
     /// Whether its jaws stand on parallelograms.
     pub(super) parallel: bool,
     /// Its pairs, where they are not hinges and a driver that slides in the frame.
     pub(super) pairs: Option<PairColumns>,
+    /// Well-known schemes of this structure.
+    pub(super) classics: Vec<&'static Classic>,
 }
 
 /// What the tables say of the pairs of a structure.
@@ -71,10 +77,31 @@ impl Entered for Structure {
             driver: r.driver,
             jaws: r.jaws.clone(),
             input: self.form.input,
-            symmetry: self.form.symmetry,
+            symmetry: self.form.symmetry.name().to_owned(),
             parallel: self.form.parallel,
             pairs: None,
+            classics: self
+                .pairs()
+                .map_or_else(Vec::new, |p| classics_of(&p.key()).collect()),
         }
+    }
+}
+
+impl Structure {
+    /// The same as a structure of pairs; of two jaws.
+    fn pairs(&self) -> Option<PairStructure> {
+        let r = &self.roles;
+        let input = ordered([r.frame, r.driver]);
+        let slide = (self.form.input == Input::Slide).then_some(input);
+        let jaws: [usize; 2] = r.jaws.clone().try_into().ok()?;
+        Some(PairStructure {
+            chain: PairChain::hinged(&self.chain, slide),
+            roles: PairRoles {
+                frame: r.frame,
+                input,
+                jaws: ordered(jaws),
+            },
+        })
     }
 }
 
@@ -94,13 +121,14 @@ impl Entered for PairedStructure {
             driver,
             jaws: roles.jaws.to_vec(),
             input: self.input(),
-            symmetry: self.symmetry,
-            parallel: false,
+            symmetry: self.form.symmetry_name(),
+            parallel: self.form.parallel,
             pairs: Some(PairColumns {
                 code: chain.code(),
                 kinds: Kinds::of(chain),
                 driven_from,
             }),
+            classics: classics_of(&self.structure.key()).collect(),
         }
     }
 }

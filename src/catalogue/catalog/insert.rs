@@ -34,6 +34,14 @@ pub(super) fn row<S: Entered, L: Placed>(
             ],
         )?;
     }
+    for classic in &columns.classics {
+        let values: [(&str, &dyn ToSql); 3] = [
+            ("structure", &columns.id),
+            ("id", &classic.id),
+            ("about", &classic.about),
+        ];
+        put(t, "classics", &values)?;
+    }
     match &row.laid {
         Ok(laid) => layout(t, &columns.id, laid),
         Err(_) => Ok(()),
@@ -82,7 +90,7 @@ fn structure<S, L>(
             ("jaw_b", &number(s.jaws[1])),
             ("jaw_c", &s.jaws.get(2).map(|&l| number(l))),
             ("input", &s.input.name()),
-            ("symmetry", &s.symmetry.name()),
+            ("symmetry", &s.symmetry),
             ("parallel", &s.parallel),
             ("jaws_at_frame", &number(row.jaws_at_frame)),
             ("truss", &row.truss),

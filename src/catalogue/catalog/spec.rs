@@ -5,6 +5,7 @@ use crate::chains::pairs::kind::PairKind;
 use crate::file::schema::{OptionEntry, OptionTable};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::mechanism::Menu;
+use crate::synthesis::paired::structure::PairedForm;
 use crate::synthesis::structure::Form;
 use crate::synthesis::task::Task;
 use crate::synthesis::workload::Workload;
@@ -40,6 +41,8 @@ pub struct Spec {
     pub pairs: Vec<String>,
     /// Pairs that are not hinges at most, a left and a right one being one.
     pub at_most: usize,
+    /// The well-known schemes and nothing else, whatever their number of links, each as symmetric as it can be.
+    pub classics: bool,
     /// What may be put in place of a hinge, by name.
     pub options: Vec<String>,
     /// What may be put in series with a hinge, an unloading joint with a link of its own, by name; nothing by default.
@@ -74,6 +77,7 @@ impl Default for Spec {
             parallel: "with".to_owned(),
             pairs: Vec::new(),
             at_most: 3,
+            classics: false,
             options: words(&[
                 "cylindrical",
                 "universal",
@@ -232,14 +236,29 @@ impl Spec {
     ///
     /// # Errors
     /// Where a word means nothing.
-    pub fn paired_forms(&self) -> Result<Vec<(Input, Symmetry)>, SpecError> {
-        if self.pairs()?.is_empty() || self.jaws != 2 || self.parallel == "only" {
+    pub fn paired_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
+        if self.pairs()?.is_empty() || self.jaws != 2 {
             return Ok(Vec::new());
         }
         let (inputs, symmetries) = self.words()?;
+        let parallel = self.parallelograms()?;
         let symmetric = |s: &Symmetry| matches!(s, Symmetry::Mirror | Symmetry::HalfTurn);
-        let symmetries = symmetries.into_iter().filter(symmetric);
-        Ok(inputs.into_iter().cartesian_product(symmetries).collect())
+        let forms = symmetries.into_iter().filter(symmetric).map(PairedForm::of);
+        let forms = forms.cartesian_product([false, true]);
+        let forms = forms.map(|(f, parallel)| PairedForm { parallel, ..f });
+        let forms = forms.filter(|f| parallel.is_none_or(|p| p == f.parallel));
+        let forms: Vec<PairedForm> = forms.collect();
+        Ok(inputs.into_iter().cartesian_product(forms).collect())
+    }
+
+    /// Whether layouts with the jaws on parallelograms are asked for, where one of both is.
+    fn parallelograms(&self) -> Result<Option<bool>, SpecError> {
+        let words = [
+            (None, "with"),
+            (Some(false), "without"),
+            (Some(true), "only"),
+        ];
+        word("parallel", &self.parallel, &words)
     }
 
     fn words(&self) -> Result<(Vec<Input>, Vec<Symmetry>), SpecError> {
@@ -258,12 +277,7 @@ impl Spec {
     /// Where a word means nothing, or no form is left.
     pub fn forms(&self) -> Result<Vec<Form>, SpecError> {
         let (inputs, symmetries) = self.words()?;
-        let words = [
-            (None, "with"),
-            (Some(false), "without"),
-            (Some(true), "only"),
-        ];
-        let parallel: Option<bool> = word("parallel", &self.parallel, &words)?;
+        let parallel = self.parallelograms()?;
         let asked = |f: &Form| {
             inputs.contains(&f.input)
                 && symmetries.contains(&f.symmetry)

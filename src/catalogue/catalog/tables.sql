@@ -18,7 +18,7 @@ CREATE TABLE structures (
   jaw_b INTEGER NOT NULL,
   jaw_c INTEGER,                   -- NULL where there are two
   input TEXT NOT NULL,             -- slide, turn
-  symmetry TEXT NOT NULL,          -- generic, mirror, half-turn, threefold
+  symmetry TEXT NOT NULL,          -- generic, mirror, half-turn, threefold; -but-input where it carries the input joint elsewhere
   parallel INTEGER NOT NULL,       -- 1: each jaw stands on a parallelogram
   jaws_at_frame INTEGER NOT NULL,  -- how many jaws are joined to the frame
   truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and nothing less is; of two jaws and hinges alone
@@ -83,6 +83,12 @@ CREATE TABLE IF NOT EXISTS pairs ( -- of structures with slides, gears or slots
   gears INTEGER NOT NULL,
   slots INTEGER NOT NULL,
   driven_from INTEGER NOT NULL     -- the link that the driver moves against: the frame, or another that moves
+) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS classics ( -- well-known schemes that have a structure
+  structure TEXT NOT NULL REFERENCES structures(id),
+  id TEXT NOT NULL,                -- a word for it, such as wedge-hook
+  about TEXT NOT NULL,             -- what it is
+  PRIMARY KEY (structure, id)
 ) WITHOUT ROWID;
 CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their own files
   id TEXT PRIMARY KEY,             -- drawn-, and the beginning of the SHA-256 of the file

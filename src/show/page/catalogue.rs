@@ -27,7 +27,8 @@ const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_f
      coalesce(k.transmission, l.transmission) AS transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
      opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
-     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front FROM structures JOIN layouts l ON l.structure = id \
+     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front, \
+     (SELECT group_concat(c.id, ', ') FROM classics c WHERE c.structure = structures.id) AS classics FROM structures JOIN layouts l ON l.structure = id \
      LEFT JOIN strokes k ON k.structure = id ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
 /// What a card of a drawn mechanism is made of.
 const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
@@ -109,7 +110,7 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                     (filters())
                     p.help {
                         "Green: the driver, with the way it goes to close. Blue: the jaws; red arrows: how their tips close on the part, dashed. "
-                        "Triangles on a line: hinges in the frame; two lines: a guide in it."
+                        "Triangles on a line: hinges in the frame; a block between two lines: a slide on its guide; long and round: a slot; dashed and dotted: pitch circles."
                     }
                     p.note id="count" role="status" {}
                     ul id="cards" tabindex="-1" {}
@@ -160,7 +161,7 @@ fn filters() -> maud::Markup {
             label { "Turn of the jaws at most " input type="number" id="turn" min="0" step="5" inputmode="numeric"; }
             label { input type="checkbox" id="does"; " Only those that do the task" }
             label { input type="checkbox" id="front"; " Only those that no other beats" }
-            label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id or chain"; }
+            label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id, chain or scheme"; }
             (select("sort", "First", &[
                 ("", "fewest links, symmetric"), ("best_cost", "least cost"), ("force_min", "greatest least force"),
                 ("transmission", "best transmission angle"), ("pin_force", "least joint force"), ("jaw_turn", "least turn"),

@@ -110,7 +110,8 @@ impl Store {
             ),
             (
                 7,
-                "INSERT INTO main.pairs SELECT * FROM part.pairs WHERE structure NOT IN there;",
+                "INSERT INTO main.pairs SELECT * FROM part.pairs WHERE structure NOT IN there; \
+                 INSERT INTO main.classics SELECT * FROM part.classics WHERE structure NOT IN there;",
             ),
         ];
         let later = later.iter().filter(|(since, _)| version >= *since);

@@ -33,6 +33,7 @@ const STEPS: [(i64, &str, &[&str]); 3] = [
         "DROP VIEW IF EXISTS front; DROP VIEW IF EXISTS grippers;",
         &[
             "CREATE TABLE IF NOT EXISTS pairs",
+            "CREATE TABLE IF NOT EXISTS classics",
             "CREATE VIEW grippers",
             "CREATE VIEW front",
         ],
@@ -51,7 +52,7 @@ const VIEWS: [(i64, &str); 9] = [
     (
         7,
         "CREATE TEMP VIEW pairs AS SELECT NULL AS structure, NULL AS code, NULL AS slides, NULL AS gears, NULL AS slots, \
-         NULL AS driven_from WHERE 0;",
+         NULL AS driven_from WHERE 0; CREATE TEMP VIEW classics AS SELECT NULL AS structure, NULL AS id, NULL AS about WHERE 0;",
     ),
     (
         6,

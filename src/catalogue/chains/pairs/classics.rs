@@ -1,5 +1,6 @@
 //! Gripper schemes that are well known, as structures.
 
+use crate::chains::canonical::Weighted;
 use crate::chains::pairs::chain::{Joint, PairChain, ordered};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
@@ -7,6 +8,7 @@ use crate::chains::pairs::structure::PairStructure;
 use itertools::Itertools;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 const TEXT: &str = include_str!("classics.toml");
 
@@ -56,25 +58,31 @@ impl Written {
     }
 }
 
-/// Every scheme, by its word.
-///
-/// # Panics
-/// Never: the text is part of the program, and a test reads it.
-#[must_use]
-pub fn classics() -> Vec<Classic> {
+/// Every scheme, by its word, with its key.
+static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
     let all: BTreeMap<String, Written> = toml::from_str(TEXT).expect("a test reads it");
     let classic = |(id, entry): (String, Written)| Classic {
         structure: entry.structure().expect("a test reads it"),
         about: entry.about,
         id,
     };
-    all.into_iter().map(classic).collect()
+    let all: Vec<Classic> = all.into_iter().map(classic).collect();
+    let keys = all.iter().map(|c| c.structure.key()).collect();
+    (all, keys)
+});
+
+/// Every scheme, by its word.
+///
+/// # Panics
+/// Never: the text is part of the program, and a test reads it.
+#[must_use]
+pub fn classics() -> &'static [Classic] {
+    &ALL.0
 }
 
-/// The schemes that have a structure.
-#[must_use]
-pub fn classics_of(structure: &PairStructure) -> Vec<Classic> {
-    let key = structure.key();
-    let same = |c: &Classic| c.structure.key() == key;
-    classics().into_iter().filter(same).collect()
+/// The schemes that have a structure of this key.
+pub fn classics_of(key: &Weighted) -> impl Iterator<Item = &'static Classic> {
+    let (all, keys) = &*ALL;
+    let same = keys.iter().positions(move |k| k == key);
+    same.map(|i| &all[i])
 }

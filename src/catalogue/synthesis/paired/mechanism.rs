@@ -188,9 +188,12 @@ pub fn mechanism_file(
         let [u, v] = rules.joints[i].links;
         joint_name(&names, (u, v))
     };
-    let images = rules.images().filter(|(a, _)| !geared(a));
+    // A drive on one side alone is no symmetry of what is asked.
+    let images = rules
+        .images()
+        .filter(|(a, _)| !geared(a) && !paired.form.one_sided);
     let images: Vec<[String; 2]> = images.map(|(a, b)| [name(a), name(b)]).collect();
-    let mirror = paired.symmetry == Symmetry::Mirror;
+    let mirror = paired.form.symmetry == Symmetry::Mirror;
     let couplings = joints.clone().filter_map(|i| {
         let mesh = rules.meshes[i].as_ref()?;
         Some(paired.coupling(layout, i, mesh, &names))

@@ -20,6 +20,8 @@ pub enum PairRule {
     Own(Option<Direction>),
     /// The image of another joint.
     Image(usize),
+    /// The fourth corner of a parallelogram: from the first joint to the second as from the third to this one.
+    Parallelogram([usize; 3]),
 }
 
 /// A gear pair with the link that carries it.
@@ -64,6 +66,9 @@ pub enum NoRules {
     /// Gears that change places, on a carrier that does so, too.
     #[error("gears that change places need a carrier that does not")]
     SwappedCarrier,
+    /// The parallelograms of the jaws ask for what the symmetry does not give.
+    #[error("the parallelograms do not go with the symmetry")]
+    Parallelograms,
     /// No way of lying on itself moves.
     #[error("in no symmetric places do its jaws move against each other")]
     Still,
@@ -78,6 +83,8 @@ pub struct PairRules {
     pub rules: Vec<PairRule>,
     /// The gear pairs among them.
     pub meshes: Vec<Option<Mesh>>,
+    /// Joints in an order in which each comes after those that it follows from.
+    order: Vec<usize>,
     /// Where each joint's links go.
     swap: Vec<usize>,
     symmetry: Symmetry,
@@ -89,7 +96,7 @@ impl PairRules {
     /// # Errors
     /// Why it cannot.
     pub fn new(paired: &PairedStructure, lay: &Lay) -> Result<PairRules, NoRules> {
-        let (chain, symmetry) = (&paired.structure.chain, paired.symmetry);
+        let (chain, symmetry) = (&paired.structure.chain, paired.form.symmetry);
         let joints = chain.joints();
         let mut rules = vec![PairRule::Free; joints.len()];
         let mut meshes: Vec<Option<Mesh>> = vec![None; joints.len()];
@@ -99,11 +106,14 @@ impl PairRules {
                 continue;
             }
             let links = carried(joint.links, &lay.swap);
-            let own = links == joint.links;
+            let own = links == joint.links && symmetry != Symmetry::Generic;
             let swapped = own && lay.swap[joint.links[0]] != joint.links[0];
             meshes[i] = mesh(chain, &joints, joint, |c| !swapped || lay.swap[c] == c);
             if joint.pair == PairKind::Gear && meshes[i].is_none() {
                 return Err(NoRules::SwappedCarrier);
+            }
+            if symmetry == Symmetry::Generic {
+                continue;
             }
             if !own {
                 let image = joints.iter().position(|j| j.links == links);
@@ -132,10 +142,16 @@ impl PairRules {
             }
             rules[i] = PairRule::Own(along);
         }
+        if paired.form.parallel {
+            let rings = paired.rings().ok_or(NoRules::Parallelograms)?;
+            parallelograms(&rings, &joints, &mut rules).ok_or(NoRules::Parallelograms)?;
+        }
+        let order = in_order(&rules).ok_or(NoRules::Parallelograms)?;
         Ok(PairRules {
             joints,
             rules,
             meshes,
+            order,
             swap: lay.swap.clone(),
             symmetry,
         })
@@ -149,8 +165,11 @@ impl PairRules {
             own && self.joints[i].pair == PairKind::Gear
                 || central && self.joints[i].pair == PairKind::Hinge
         };
-        let image = |i: usize| matches!(self.rules[i], PairRule::Image(_));
-        (0..self.joints.len()).filter(move |&i| !image(i) && !fixed(i))
+        let follows = |i: usize| {
+            let rule = self.rules[i];
+            matches!(rule, PairRule::Image(_) | PairRule::Parallelogram(_))
+        };
+        (0..self.joints.len()).filter(move |&i| !follows(i) && !fixed(i))
     }
 
     /// The pairs of joints that are images of each other.
@@ -180,9 +199,13 @@ impl PairRules {
 
     /// Puts what follows in its place.
     pub fn settle(&self, at: &mut PairPlaces) {
-        for (i, rule) in self.rules.iter().enumerate() {
-            match *rule {
+        for &i in &self.order {
+            match self.rules[i] {
                 PairRule::Free => {}
+                PairRule::Parallelogram([a, b, c]) => {
+                    let side = sub(at.points[b], at.points[a]);
+                    at.points[i] = add_scaled(at.points[c], 1.0, side);
+                }
                 PairRule::Own(along) => {
                     let [x, _] = at.points[i];
                     at.points[i] = match self.symmetry {
@@ -237,6 +260,46 @@ impl PairRules {
             }
         })
     }
+}
+
+/// Lets one corner of each parallelogram follow from the others; of one that is an image all do already. `None` where none can.
+fn parallelograms(
+    rings: &[[[usize; 2]; 4]],
+    joints: &[Joint],
+    rules: &mut [PairRule],
+) -> Option<()> {
+    let at = |links: [usize; 2]| joints.iter().position(|j| j.links == links);
+    for ring in rings {
+        let corners = ring.map(at);
+        let [a, b, c, d] = [corners[0]?, corners[1]?, corners[2]?, corners[3]?];
+        let turned = [[a, b, c, d], [b, a, d, c], [c, d, a, b], [d, c, b, a]];
+        let free = turned.iter().find(|k| rules[k[3]] == PairRule::Free);
+        let image = |i: usize| matches!(rules[i], PairRule::Image(_));
+        match free {
+            Some(&[a, b, c, d]) => rules[d] = PairRule::Parallelogram([a, b, c]),
+            None if [a, b, c, d].into_iter().any(image) => {}
+            None => return None,
+        }
+    }
+    Some(())
+}
+
+/// Every joint after those it follows from; `None` where they follow from each other.
+fn in_order(rules: &[PairRule]) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = Vec::new();
+    while order.len() < rules.len() {
+        let done = |i: &usize| order.contains(i);
+        let ready = |&i: &usize| {
+            !done(&i)
+                && match &rules[i] {
+                    PairRule::Image(of) => done(of),
+                    PairRule::Parallelogram(of) => of.iter().all(done),
+                    PairRule::Free | PairRule::Own(_) => true,
+                }
+        };
+        order.push((0..rules.len()).find(ready)?);
+    }
+    Some(order)
 }
 
 /// The carrier of a gear pair: the first that is allowed of those that hinge both, then of those that let one slide.

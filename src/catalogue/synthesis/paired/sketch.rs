@@ -94,10 +94,10 @@ impl<'a> PairSketch<'a> {
             jaws: &roles.jaws,
             joints: rules.joints.iter().map(point).collect(),
             follows: rules.rules.iter().map(|r| !free(r)).collect(),
-            tips: tips(paired.symmetry, &limits).to_vec(),
+            tips: tips(paired.form.symmetry, &limits).to_vec(),
             turns: paired.input() == Input::Turn,
             hinged: roles.jaws.iter().map(hinged).collect(),
-            round: (paired.symmetry == Symmetry::HalfTurn).then_some(0.0),
+            round: (paired.form.symmetry == Symmetry::HalfTurn).then_some(0.0),
         };
         let at_input = |j: &Joint| j.links == roles.input;
         PairSketch {

@@ -1,12 +1,13 @@
 //! Structures of pairs with the symmetry they are to have.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::chains::pairs::chain::carried;
+use crate::chains::pairs::chain::{carried, ordered};
 use crate::chains::pairs::kind::PairKind;
-use crate::chains::pairs::motion::{Image, Swap, symmetric_ways};
+use crate::chains::pairs::motion::{Image, Swap, motion, symmetric_ways};
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::pairs::structure::PairStructure;
 use crate::chains::pairs::symmetric_census::symmetric_grippers;
+use itertools::Itertools;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -15,8 +16,38 @@ use std::fmt::Write as _;
 pub struct PairedStructure {
     /// Chain and roles, in canonical numbering.
     pub structure: PairStructure,
-    /// Mirror image or half turn.
+    /// How it is laid out.
+    pub form: PairedForm,
+}
+
+/// How a structure of pairs is laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PairedForm {
+    /// Mirror image, half turn or generic.
     pub symmetry: Symmetry,
+    /// Whether the symmetry carries the input joint elsewhere, so that it drives one side alone.
+    pub one_sided: bool,
+    /// Whether each jaw stands on a parallelogram with the frame or a driver that slides in it, so that it does not turn.
+    pub parallel: bool,
+}
+
+impl PairedForm {
+    /// A symmetry, driven on both sides, without parallelograms.
+    #[must_use]
+    pub fn of(symmetry: Symmetry) -> PairedForm {
+        PairedForm {
+            symmetry,
+            one_sided: false,
+            parallel: false,
+        }
+    }
+
+    /// The symmetry in a word: "mirror", "mirror-but-input".
+    #[must_use]
+    pub fn symmetry_name(self) -> String {
+        let but = if self.one_sided { "-but-input" } else { "" };
+        format!("{}{but}", self.symmetry.name())
+    }
 }
 
 /// How a symmetric structure may lie on itself.
@@ -32,7 +63,9 @@ impl PairedStructure {
     /// The name that says all of it.
     #[must_use]
     pub fn name(&self) -> String {
-        format!("{} {}", self.structure.name(), self.symmetry.name())
+        let parallel = if self.form.parallel { " parallel" } else { "" };
+        let symmetry = self.form.symmetry_name();
+        format!("{} {symmetry}{parallel}", self.structure.name())
     }
 
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
@@ -75,14 +108,15 @@ impl PairedStructure {
     pub fn lays(&self) -> Vec<Lay> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
         let [a, b] = roles.jaws;
-        let image = match self.symmetry {
+        let image = match self.form.symmetry {
+            Symmetry::Generic => return self.generic_lay().into_iter().collect(),
             Symmetry::HalfTurn => Image::HalfTurn,
-            _ => Image::Mirror,
+            Symmetry::Mirror | Symmetry::Threefold => Image::Mirror,
         };
         let involutions = chain.automorphisms().into_iter().filter(|s| {
             let back = (0..s.len()).all(|l| s[s[l]] == l);
-            let keeps = s[roles.frame] == roles.frame && carried(roles.input, s) == roles.input;
-            back && keeps && s[a] == b
+            let keeps = carried(roles.input, s) == roles.input;
+            back && keeps != self.form.one_sided && s[roles.frame] == roles.frame && s[a] == b
         });
         let mut out = Vec::new();
         for swap in involutions {
@@ -99,6 +133,35 @@ impl PairedStructure {
         }
         out
     }
+
+    /// No symmetry, where it moves as a gripper so.
+    fn generic_lay(&self) -> Option<Lay> {
+        let found = motion(&self.structure.chain)?;
+        self.structure.roles.moves_in(&found).then(|| Lay {
+            swap: (0..self.structure.chain.links()).collect(),
+            bits: 0,
+        })
+    }
+
+    /// The joints of a parallelogram for each jaw, or `None` where one has none: of two rods those at the base, then those at the
+    /// jaw in the same order.
+    #[must_use]
+    pub fn rings(&self) -> Option<Vec<[[usize; 2]; 4]>> {
+        let (chain, roles) = (&self.structure.chain, &self.structure.roles);
+        let [base, driver] = self.drive();
+        let sliding = (base == roles.frame && self.structure.slides()).then_some(driver);
+        let hinged = |u: usize, v: usize| chain.between(u, v) == Some(PairKind::Hinge);
+        let ring = |jaw: usize| {
+            let bases = std::iter::once(roles.frame).chain(sliding);
+            bases.filter(|b| *b != jaw).find_map(|base| {
+                let rod =
+                    |l: &usize| hinged(*l, jaw) && hinged(*l, base) && !roles.jaws.contains(l);
+                let (p, q) = (0..chain.links()).filter(rod).tuples().next()?;
+                Some([[p, base], [q, base], [p, jaw], [q, jaw]].map(ordered))
+            })
+        };
+        roles.jaws.iter().map(|&jaw| ring(jaw)).collect()
+    }
 }
 
 /// The structures of so many links that have such pairs, symmetric ones of the symmetries that are asked for; those of hinges and
@@ -111,13 +174,53 @@ pub fn paired_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
     let all = symmetric_grippers(links, menu).into_iter();
     let paired = all.map(|g| PairedStructure {
         structure: g.structure,
-        symmetry: if g.kind.half_turn {
+        form: PairedForm::of(if g.kind.half_turn {
             Symmetry::HalfTurn
         } else {
             Symmetry::Mirror
-        },
+        }),
     });
     paired.filter(|p| !p.is_hinged()).collect()
+}
+
+/// A well-known scheme in the forms it may be laid out in, from the most symmetric to none.
+#[must_use]
+pub fn forms_of(structure: &PairStructure) -> Vec<PairedStructure> {
+    let symmetric = [false, true]
+        .into_iter()
+        .cartesian_product([Symmetry::Mirror, Symmetry::HalfTurn]);
+    let forms = symmetric.map(|(one_sided, symmetry)| (symmetry, one_sided));
+    let forms = forms.chain([(Symmetry::Generic, false)]);
+    let structure = PairStructure::of_key(&structure.key());
+    let of = |(symmetry, one_sided)| PairedStructure {
+        structure: structure.clone(),
+        form: PairedForm {
+            one_sided,
+            ..PairedForm::of(symmetry)
+        },
+    };
+    let all = forms.map(of).filter(|p| !p.lays().is_empty());
+    all.map(PairedStructure::on_parallelograms_if_any).collect()
+}
+
+impl PairedStructure {
+    fn on_parallelograms_if_any(self) -> PairedStructure {
+        let parallel = self.rings().is_some();
+        PairedStructure {
+            form: PairedForm {
+                parallel,
+                ..self.form
+            },
+            ..self
+        }
+    }
+
+    /// The same with each jaw on a parallelogram, where it has one.
+    #[must_use]
+    pub fn on_parallelograms(&self) -> Option<PairedStructure> {
+        let found = self.clone().on_parallelograms_if_any();
+        found.form.parallel.then_some(found)
+    }
 }
 
 impl PairedStructure {

@@ -42,6 +42,9 @@ pub(in crate::cli) struct Build {
     /// Pairs that are not hinges at most, a left and a right one being one; 3 by default.
     #[arg(long, value_name = "K")]
     at_most: Option<usize>,
+    /// The well-known schemes alone, whatever their number of links, each as symmetric as it can be.
+    #[arg(long, conflicts_with_all = ["links", "pairs", "at_most"])]
+    classics: bool,
     /// What may be put in place of a hinge.
     #[arg(long, value_name = "TYPES", value_delimiter = ',')]
     options: Vec<String>,
@@ -105,6 +108,7 @@ impl Build {
         if let Some(word) = &self.parallel {
             spec.parallel.clone_from(word);
         }
+        spec.classics |= self.classics;
         spec.at_most = self.at_most.unwrap_or(spec.at_most);
         spec.jaws = self.jaws.unwrap_or(spec.jaws);
         spec.ideas = self.ideas.unwrap_or(spec.ideas);

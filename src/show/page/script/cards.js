@@ -31,6 +31,7 @@ function cardOf(c) {
   button.append(
     gripper(c, `Gripper ${c.drawn ? c.name : c.id}`),
     text('b', c.drawn ? c.name : c.id),
+    ...(c.classics ? [text('span', `known as ${c.classics}`)] : []),
     text('span', `${c.links} links, ${formOf(c)}`),
     text('span', c.drawn ? c.description : `${c.jaw_c_motion ? 'three jaws' : 'jaws'} ${jawsOf(c)}, ${short(c.force_min)} ${unit(c)} at least`),
     text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
@@ -57,7 +58,7 @@ const FILTERS = {
   turn: number((c, v) => !c.drawn && c.jaw_turn <= v),
   does: (c) => c.reached === 1 && !c.shortfall,
   front: (c) => c.front === 1,
-  find: (c, v) => c.name.toLowerCase().includes(v) || c.id.includes(v),
+  find: (c, v) => c.name.toLowerCase().includes(v) || c.id.includes(v) || (c.classics || '').includes(v),
 };
 
 /** What is asked, read once for all cards: of each filter that is set, its id and whether it keeps a card. */
@@ -77,7 +78,7 @@ function inTheWay(asked) {
   });
   const out = without.length ? [without.join(', ')] : ['more than one filter is in the way'];
   if (by('jaws').value === 'parallel' && !data.cards.some((c) => FILTERS.jaws(c, 'parallel'))) {
-    out.push('with hinges alone, jaws that do not turn need ten links; with slides, six do (ozols catalog count --pairs slide)');
+    out.push('with hinges alone, jaws that do not turn need ten links; with slides, four do (ozols catalog build --pairs slide,gear,slot)');
   }
   return out.join('; ');
 }

@@ -87,7 +87,8 @@ impl FoundData {
         let kinds = Kinds::of(chain);
         let slides = found.structure.slides();
         let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
-        let classics = classics_of(&found.structure.part(part)).into_iter();
+        let key = found.structure.part(part).key();
+        let classics = classics_of(&key);
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
@@ -117,8 +118,8 @@ impl FoundData {
             half_turn_but_input: symmetries.map(|s| s.half_turn_but_input),
             classics: classics
                 .map(|c| ClassicData {
-                    id: c.id,
-                    about: c.about,
+                    id: c.id.clone(),
+                    about: c.about.clone(),
                 })
                 .collect(),
             neighbours: known.as_ref().map(|k| NeighbourData::all(&k.neighbours)),

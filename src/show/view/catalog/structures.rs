@@ -6,6 +6,7 @@ use crate::format::number::{grouped, significant};
 use crate::format::phrase::plural_of;
 use crate::format::plain::plain;
 use crate::view::terminal::layout::{fit, table};
+use itertools::Itertools;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
@@ -91,6 +92,10 @@ impl QueryAnswer {
 pub struct StructureData {
     /// The row of `structures`, or of `drawn`.
     pub structure: Map<String, Value>,
+    /// The row of `pairs`; `None` of one of hinges and a driver that slides in the frame.
+    pub pairs: Option<Map<String, Value>>,
+    /// The rows of `classics`: well-known schemes of this structure.
+    pub classics: Vec<Map<String, Value>>,
     /// The row of `layouts`; `None` where it has no layout.
     pub layout: Option<Map<String, Value>>,
     /// The row of `strokes`; `None` where its layout was made for no task.
@@ -116,6 +121,8 @@ impl StructureData {
         structure.extend(maps("SELECT * FROM drawn WHERE id = ?1")?);
         Ok(StructureData {
             structure: structure.pop().unwrap_or_default(),
+            pairs: maps("SELECT * FROM pairs WHERE structure = ?1")?.pop(),
+            classics: maps("SELECT * FROM classics WHERE structure = ?1 ORDER BY id")?,
             layout: maps("SELECT * FROM layouts WHERE structure = ?1")?.pop(),
             stroke: maps("SELECT * FROM strokes WHERE structure = ?1")?.pop(),
             counts: maps("SELECT * FROM counts WHERE structure = ?1 ORDER BY mobility, changes")?,
@@ -179,6 +186,19 @@ fn stroke_text(d: &StructureData) -> String {
     )
 }
 
+/// How many joints are no hinges, in brackets.
+fn pairs_text(d: &StructureData) -> String {
+    let Some(pairs) = &d.pairs else {
+        return String::new();
+    };
+    let p = of(pairs);
+    let kinds = ["slide", "gear", "slot"];
+    let some = kinds.iter().map(|k| (k, p(&format!("{k}s"))));
+    let some = some.filter(|(_, n)| n != "0");
+    let words = some.map(|(kind, n)| plural_of(&n, kind)).join(", ");
+    format!(" ({words})")
+}
+
 /// The figures of a structure with a layout, or why it has none.
 fn structure_text(d: &StructureData) -> String {
     let s = of(&d.structure);
@@ -193,14 +213,24 @@ fn structure_text(d: &StructureData) -> String {
     } else {
         (format!("{} and {}", s("jaw_a"), s("jaw_b")), "")
     };
+    for classic in &d.classics {
+        let c = of(classic);
+        let _ = writeln!(out, "Known as {}: {}", c("id"), c("about"));
+    }
     let _ = writeln!(
         out,
-        "{}, {}; frame {}, driver {} ({}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}",
+        "{}, {}{}; frame {}, driver {} ({}{}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}",
         plural_of(&s("links"), "link"),
         plural_of(&s("joints"), "joint"),
+        pairs_text(d),
         s("frame"),
         s("driver"),
         s("input"),
+        match &d.pairs {
+            Some(p) if of(p)("driven_from") != s("frame") =>
+                format!(" against {}", of(p)("driven_from")),
+            _ => String::new(),
+        },
         s("jaws_at_frame"),
         s("symmetry"),
         if s("parallel") == "1" {
