@@ -111,16 +111,15 @@ impl<'a> PairSketch<'a> {
         }
     }
 
-    /// Whether a joint guides a jaw in the frame.
+    /// Whether a joint guides a jaw in the frame: such jaws slide straight across, as those do that are made.
     fn guides_jaw(&self, joint: usize) -> bool {
         let joint = &self.rules.joints[joint];
         let jaw = self.bones.jaws.iter().any(|&j| joint.is_at(j));
-        jaw && joint.is_at(self.bones.frame)
+        joint.pair == PairKind::Slide && jaw && joint.is_at(self.bones.frame)
     }
 
     fn first_direction(&self, joint: usize, random: &mut ChaCha8Rng) -> Direction {
-        if self.guides_jaw(joint) && self.rules.joints[joint].pair == PairKind::Slide {
-            // Jaws that slide close straight.
+        if self.guides_jaw(joint) {
             return Direction::ACROSS;
         }
         Direction::number(below(direction::ALL, random))
@@ -208,7 +207,7 @@ impl Sketch for PairSketch<'_> {
         let pair = self.rules.joints[joint].pair;
         let turns = match (pair, self.rules.rules[joint]) {
             (PairKind::Slide | PairKind::Slot, PairRule::Own(along)) => along.is_none(),
-            (PairKind::Slide | PairKind::Slot, _) => true,
+            (PairKind::Slide | PairKind::Slot, _) => !self.guides_jaw(joint),
             _ => false,
         };
         if pair == PairKind::Gear {

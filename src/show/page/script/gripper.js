@@ -66,7 +66,7 @@ function gripper(card, title, changed, elsewhere) {
   d.links.forEach((of, l) => {
     if (l === d.frame) return;
     const jaw = d.jaws.indexOf(l);
-    const points = of.map((i) => at(l, i)).concat(tips[jaw] ? [tips[jaw]] : []);
+    const points = [...of.map((i) => at(l, i)), ...rackPoints(d, pose, l), ...(tips[jaw] ? [tips[jaw]] : [])];
     if (points.length < 2) return;
     const kind = jaw >= 0 ? 'jaw' : l === d.driver ? 'driver' : '';
     out.push(element('path', { class: 'link ' + kind, d: path(hull(points), points.length > 2) }));

@@ -32,6 +32,12 @@ function pitchBounds(d) {
   }));
 }
 
+/** Where the racks are that a link carries. */
+function rackPoints(d, pose, link) {
+  const own = d.gears.filter((g) => g.links.some((l, k) => l === link && d.kinds[g.joints[k]] === 'slide'));
+  return own.map((g) => flip(placed(pose, link, g.pitch)));
+}
+
 /** Pitch circles, and of a rack the line on which it rolls. */
 function gearsOf(d, pose) {
   return d.gears.flatMap((g) => g.joints.map((i, k) => {
