@@ -13,6 +13,7 @@ mod motions;
 mod neighbours;
 mod orbits;
 mod out_of_plane;
+mod paired;
 mod pairs;
 mod rows;
 mod store;

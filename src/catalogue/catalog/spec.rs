@@ -122,6 +122,12 @@ pub enum SpecError {
         "links: structures with pairs have {MOST_PAIRED} links at most: there are too many beyond"
     )]
     PairedLinks,
+    /// Pairs in a form that they are not laid out in.
+    #[error(
+        "pairs: structures with pairs have two jaws and are laid out as mirror images or by half a turn; ask for mirror or half-turn \
+         among the symmetries"
+    )]
+    PairedForms,
     /// A number out of its range.
     #[error("{what} must be from {from} to {to}")]
     Range {
@@ -156,6 +162,7 @@ impl SpecError {
         match self {
             SpecError::Word { what, .. } | SpecError::Range { what, .. } => Some(what),
             SpecError::Links(_) | SpecError::PairedLinks => Some("links"),
+            SpecError::PairedForms => Some("pairs"),
             SpecError::NoLoad => Some("closing"),
             SpecError::Nothing => Some("symmetries"),
             SpecError::Widths => Some("narrowest"),
@@ -359,6 +366,9 @@ impl Spec {
         self.check_task()?;
         self.links()?;
         self.forms()?;
+        if !self.pairs()?.is_empty() && self.paired_forms()?.is_empty() {
+            return Err(SpecError::PairedForms);
+        }
         self.menu().map(|_| ())
     }
 

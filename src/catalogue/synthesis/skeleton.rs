@@ -34,6 +34,11 @@ impl<'a> Skeleton<'a> {
     pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Skeleton<'a> {
         let r = &structure.roles;
         let tips = structure.tips(&limits.task);
+        // Pins where the part is are in its way, but for those of a drive behind it.
+        let near = match structure.form.symmetry {
+            Symmetry::Generic => PART,
+            _ => 0.0,
+        };
         let plan = Plan {
             frame: r.frame,
             driver: r.driver,
@@ -43,11 +48,7 @@ impl<'a> Skeleton<'a> {
             tips: tips.iter().map(|t| t.real()).collect(),
             turns: structure.form.input == Input::Turn,
             hinged: (r.jaws.iter().map(|&j| structure.chain.joined(r.frame, j))).collect(),
-            // Pins where the part is are in its way, but for those of a drive behind it.
-            round: structure.is_round().then(|| match structure.form.symmetry {
-                Symmetry::Generic => PART,
-                _ => 0.0,
-            }),
+            round: structure.is_round().then_some(near),
         };
         let bones = Bones::new(structure.chain.links(), plan, |_| true);
         let contours = Contours::new(structure);

@@ -30,6 +30,8 @@ pub(super) fn whole(file: &str) -> String {
         "structures ORDER BY id",
         "layouts ORDER BY structure",
         "strokes ORDER BY structure",
+        "pairs ORDER BY structure",
+        "classics ORDER BY structure, id",
         "drawn ORDER BY id",
         "counts ORDER BY structure, mobility, changes",
         "ideas ORDER BY structure, place",

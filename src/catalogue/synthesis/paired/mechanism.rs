@@ -136,7 +136,8 @@ impl PairedStructure {
         let ratio = match layout.at.teeth[i] {
             Teeth::Gears([r, s]) if r == s => Coordinate::Integer(signed(-1)),
             Teeth::Gears([r, s]) => Coordinate::Expression(format!("{}/{s}", signed(-r))),
-            Teeth::Rack(radius) => Coordinate::Integer(signed(radius)),
+            Teeth::Rack(diameter) if diameter % 2 == 0 => Coordinate::Integer(signed(diameter / 2)),
+            Teeth::Rack(diameter) => Coordinate::Expression(format!("{}/2", signed(diameter))),
         };
         CouplingEntry {
             joints: of.map(|j| joint_name(names, (j.links[0], j.links[1]))),

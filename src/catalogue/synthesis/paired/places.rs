@@ -22,7 +22,7 @@ pub struct PairPlaces {
 pub enum Teeth {
     /// Of two gears outside each other: pitch radii in this ratio.
     Gears([i32; 2]),
-    /// Of a pinion with a rack: the pitch radius in millimetres, negative where the rack is on the other side of it.
+    /// Of a pinion with a rack: the pitch diameter in whole millimetres, negative where the rack is on the other side of it.
     Rack(i32),
 }
 
@@ -32,7 +32,7 @@ impl Teeth {
     pub fn ratio(self) -> f64 {
         match self {
             Teeth::Gears([a, b]) => -f64::from(a) / f64::from(b),
-            Teeth::Rack(radius) => f64::from(radius),
+            Teeth::Rack(diameter) => f64::from(diameter) / 2.0,
         }
     }
 }

@@ -177,9 +177,9 @@ impl Rows<'_> {
                 let at = add_scaled(a, f64::from(r) / f64::from(r + s), apart);
                 [at, quarter(unit(apart))]
             }
-            Teeth::Rack(radius) => {
+            teeth @ Teeth::Rack(_) => {
                 let along = self.along(mesh.carrier, mesh.held[1]);
-                [add_scaled(a, -f64::from(radius), quarter(along)), along]
+                [add_scaled(a, -teeth.ratio(), quarter(along)), along]
             }
         }
     }

@@ -3,7 +3,7 @@
 use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
-use crate::geom::vector::{add_scaled, scale, sub};
+use crate::geom::vector::{add_scaled, sub};
 use crate::synthesis::paired::direction::Direction;
 use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
@@ -238,11 +238,11 @@ impl PairRules {
     fn image_of_teeth(&self, at: &PairPlaces, of: usize, image: usize) -> Teeth {
         let held = |i: usize| self.meshes[i].map(|m| at.along[m.held[1]]);
         match (at.teeth[of], held(of), held(image)) {
-            (Teeth::Rack(radius), Some(along), Some(there)) => {
+            (Teeth::Rack(diameter), Some(along), Some(there)) => {
                 // A mirror image turns the other way; a guide that is its own image may go the other way.
                 let turns = self.symmetry != Symmetry::HalfTurn;
                 let goes = self.turned(along) != there;
-                Teeth::Rack(if turns == goes { radius } else { -radius })
+                Teeth::Rack(if turns == goes { diameter } else { -diameter })
             }
             (teeth, ..) => teeth,
         }
@@ -254,9 +254,9 @@ impl PairRules {
         let [a, b] = mesh.held.map(|j| at.points[j]);
         Some(match at.teeth[i] {
             Teeth::Gears([r, s]) => add_scaled(a, f64::from(r) / f64::from(r + s), sub(b, a)),
-            Teeth::Rack(radius) => {
+            teeth @ Teeth::Rack(_) => {
                 let [x, y] = at.along[mesh.held[1]].real();
-                add_scaled(a, 1.0, scale([y, -x], f64::from(radius)))
+                add_scaled(a, teeth.ratio(), [y, -x])
             }
         })
     }

@@ -37,8 +37,8 @@ const RATIOS: [[i32; 2]; 9] = [
 /// Pitch circles of a larger radius are in the way of other parts, and teeth on smaller ones are few. In millimetres.
 const LARGE: f64 = 25.0;
 const SMALL: f64 = 8.0;
-/// Pitch radii of pinions, in millimetres.
-const RADII: RangeInclusive<i32> = 5..=40;
+/// Pitch diameters of pinions, in millimetres.
+const DIAMETERS: RangeInclusive<i32> = 10..=80;
 
 /// A paired structure with the rules of its joints.
 #[derive(Debug)]
@@ -130,8 +130,12 @@ impl<'a> PairSketch<'a> {
             Some(mesh) if mesh.rack => {
                 #[allow(clippy::cast_possible_truncation, reason = "small")]
                 #[allow(clippy::cast_possible_wrap, reason = "small")]
-                let radius = 8 + below(15, random) as i32;
-                Teeth::Rack(if unit(random) < 0.5 { radius } else { -radius })
+                let diameter = 16 + below(30, random) as i32;
+                Teeth::Rack(if unit(random) < 0.5 {
+                    diameter
+                } else {
+                    -diameter
+                })
             }
             _ => Teeth::Gears([1, 1]),
         }
@@ -154,12 +158,12 @@ impl<'a> PairSketch<'a> {
     fn change_teeth(teeth: &mut Teeth, warmth: f64, random: &mut ChaCha8Rng) {
         *teeth = match *teeth {
             Teeth::Gears(_) => Teeth::Gears(RATIOS[below(RATIOS.len(), random)]),
-            Teeth::Rack(radius) if unit(random) < 0.1 => Teeth::Rack(-radius),
-            Teeth::Rack(radius) => {
+            Teeth::Rack(diameter) if unit(random) < 0.1 => Teeth::Rack(-diameter),
+            Teeth::Rack(diameter) => {
                 #[allow(clippy::cast_possible_truncation, reason = "some millimetres")]
-                let by = ((1.0 + 8.0 * warmth) * bell(random)).round() as i32;
-                let now = (radius.abs() + by).clamp(*RADII.start(), *RADII.end());
-                Teeth::Rack(radius.signum() * now)
+                let by = ((2.0 + 16.0 * warmth) * bell(random)).round() as i32;
+                let now = (diameter.abs() + by).clamp(*DIAMETERS.start(), *DIAMETERS.end());
+                Teeth::Rack(diameter.signum() * now)
             }
         };
     }

@@ -1,0 +1,529 @@
+//! Layouts with slides, gears and slots: against the statics of their own files over the whole stroke, which solve contours of
+//! joints in space, and against force curves that were published with them.
+
+use super::carried_on::scattered;
+use super::command::{at, fails, ok, whole};
+use super::pairs::{menu, shared};
+use crate::common::{run, text};
+use ozols::chains::pairs::classics::classics;
+use ozols::chains::pairs::structure::PairStructure;
+use ozols::synthesis::figures::LayoutFigures;
+use ozols::synthesis::limits::Limits;
+use ozols::synthesis::paired::direction::Direction;
+use ozols::synthesis::paired::figures::figures;
+use ozols::synthesis::paired::layout::PairLayout;
+use ozols::synthesis::paired::places::{PairPlaces, Teeth};
+use ozols::synthesis::paired::rules::PairRules;
+use ozols::synthesis::paired::sketch::PairSketch;
+use ozols::synthesis::paired::structure::{PairedStructure, forms_of, paired_structures};
+use ozols::synthesis::sketch::Sketch;
+use ozols::synthesis::task::Task;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+use tempfile::{TempDir, tempdir};
+
+/// The well-known schemes, built once.
+fn known() -> &'static str {
+    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
+    let (_, file) = FILE.get_or_init(|| {
+        let folder = tempdir().unwrap();
+        let file = at(&folder, "known.db");
+        ok(&["catalog", "build", "--classics", "--quiet", "-o", &file]);
+        (folder, file)
+    });
+    file
+}
+
+/// Every structure of up to five links, and of six with a left and a right pair that is no hinge.
+fn some() -> &'static str {
+    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
+    let (_, file) = FILE.get_or_init(|| {
+        let folder = tempdir().unwrap();
+        let file = at(&folder, "some.db");
+        ok(&PAIRED
+            .iter()
+            .copied()
+            .chain([file.as_str()])
+            .collect::<Vec<_>>());
+        (folder, file)
+    });
+    file
+}
+
+const PAIRED: [&str; 13] = [
+    "catalog",
+    "build",
+    "--pairs",
+    "slide,gear,slot",
+    "--at-most",
+    "2",
+    "--symmetry",
+    "mirror,half-turn",
+    "--links",
+    "4..6",
+    "--ideas=2",
+    "--quiet",
+    "-o",
+];
+
+fn rows(file: &str, sql: &str) -> Vec<Value> {
+    let json = ok(&["catalog", "query", file, sql, "--format", "json"]);
+    serde_json::from_str(&json).unwrap()
+}
+
+fn number(row: &Value, key: &str) -> f64 {
+    row[key].as_f64().unwrap()
+}
+
+/// A pose of a stroke by the statics of a file.
+#[derive(Clone, Copy)]
+struct Pulled {
+    /// In mm, or rad.
+    drive: f64,
+    /// In N, or N m.
+    effort: f64,
+    /// The greatest force of a joint in the plane, in N; of a guide what presses on it.
+    joint: f64,
+}
+
+fn in_plane(reaction: &Value) -> f64 {
+    let force = |frame: &str, k: usize| reaction[frame][k].as_f64().unwrap();
+    if reaction["type"] == "prismatic" {
+        // Its frame: z along the guide, x square to the plane.
+        return force("force", 1).abs();
+    }
+    force("global_force", 0).hypot(force("global_force", 1))
+}
+
+/// Poses from the drawn one on.
+fn efforts(toml: &str, to: f64) -> Vec<Pulled> {
+    const STEPS: u32 = 60;
+    let stroke = format!("0:{to:?}:{STEPS}");
+    // Where links lock before the end it gives what is reached, with exit code 1.
+    let json = run(&["statics", toml, "--stroke", &stroke, "--format", "json"]);
+    let told: Value = serde_json::from_str(&text(&json.stdout)).unwrap();
+    let mut out: Vec<Pulled> = told["positions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| {
+            let reactions = p["reactions"].as_array().unwrap();
+            let driven = reactions.iter().find(|r| !r["drive"].is_null()).unwrap();
+            Pulled {
+                drive: number(p, "drive"),
+                effort: number(&driven["drive"], "effort"),
+                joint: reactions.iter().map(in_plane).fold(0.0, f64::max),
+            }
+        })
+        .collect();
+    out.sort_by(|a, b| a.drive.abs().total_cmp(&b.drive.abs()));
+    out
+}
+
+/// The poses until so much work is done, N mm, the last between two.
+fn until(poses: &[Pulled], work: f64, metre: f64) -> Option<Vec<Pulled>> {
+    let (mut done, mut out) = (0.0, vec![poses[0]]);
+    for pair in poses.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let part = ((a.effort + b.effort) / 2.0 * (b.drive - a.drive)).abs() * metre;
+        if done + part >= work {
+            let between = |x: f64, y: f64| x + (y - x) * (work - done) / part;
+            out.push(Pulled {
+                drive: between(a.drive, b.drive),
+                effort: between(a.effort, b.effort),
+                joint: between(a.joint, b.joint),
+            });
+            return Some(out);
+        }
+        done += part;
+        out.push(b);
+    }
+    None
+}
+
+/// The jaws, each pressed on by 100 N, are drawn 30 mm apart: closing them does 3,000 N mm of work and opening them to 50 mm takes
+/// 2,000. The drive that does as much by the forces of the file goes as far as the layout says.
+fn pulls_as_its_file_says(file: &str, row: &Value, folder: &TempDir) {
+    let id = row["id"].as_str().unwrap();
+    let toml = at(folder, &format!("{id}.toml"));
+    ok(&["catalog", "export", file, id, "-o", &toml]);
+    let metre = if row["input"] == "turn" { 1000.0 } else { 1.0 };
+    let (travel, closes) = (number(row, "travel"), number(row, "closes"));
+    let (mut gone, mut all) = (0.0, Vec::new());
+    for (way, work) in [(closes, 3000.0), (-closes, 2000.0)] {
+        // Beyond the end links may lock: a little less, where that does.
+        let found = [0.8, 0.999]
+            .into_iter()
+            .find_map(|share| until(&efforts(&toml, way * share * travel), work, metre));
+        let found = found.unwrap_or_else(|| panic!("{id}: no end"));
+        gone += found.last().unwrap().drive.abs();
+        all.extend(found);
+    }
+    let near = |told: f64, found: f64, what: &str| {
+        assert!(
+            (told / found - 1.0).abs() < 0.02,
+            "{id}: {what}: told {told}, found {found}"
+        );
+    };
+    assert!(
+        (gone / travel - 1.0).abs() < 2e-3,
+        "{id}: travel {travel}, by work {gone}"
+    );
+    let forces = all.iter().map(|p| 100.0 / p.effort.abs());
+    let least = forces.clone().fold(f64::INFINITY, f64::min);
+    near(number(row, "force_min"), least, "least force");
+    near(
+        number(row, "force_max"),
+        forces.fold(0.0, f64::max),
+        "greatest force",
+    );
+    // Teeth press on hinges that the one reaction of a coupling leaves out.
+    if row["gears"] == 0 {
+        let joint = all.iter().map(|p| p.joint / 100.0).fold(0.0, f64::max);
+        near(number(row, "pin_force"), joint, "joint force");
+    }
+}
+
+const LAID: &str = "SELECT id, links, input, travel, closes, force_min, force_max, pin_force, gears, finite, certainty, mobility FROM structures \
+     JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id JOIN pairs p ON p.structure = id WHERE reached = 1 ORDER BY id";
+
+#[test]
+fn strokes_are_those_of_the_files_statics() {
+    let folder = tempdir().unwrap();
+    let well_known = rows(known(), LAID);
+    assert_eq!(well_known.len(), 30);
+    let all = rows(some(), LAID);
+    let of = |i: u64| usize::try_from(i % all.len() as u64).unwrap();
+    let drawn: BTreeSet<usize> = scattered(11).take(12).map(of).collect();
+    for row in well_known.iter().chain(drawn.iter().map(|&i| &all[i])) {
+        assert_eq!(
+            (&row["finite"], &row["mobility"]),
+            (&"1, proven".into(), &1.into())
+        );
+    }
+    // Of the many links one: they take longest, and have no other joints.
+    let one = first_of("cam-plate-parallelograms");
+    let few = |r: &&Value| number(r, "links") < 8.0 || r["id"] == one;
+    for row in well_known.iter().filter(few) {
+        pulls_as_its_file_says(known(), row, &folder);
+    }
+    for &i in &drawn {
+        pulls_as_its_file_says(some(), &all[i], &folder);
+    }
+}
+
+/// Every scheme that is a structure is there by its name, and does its task.
+#[test]
+fn well_known_schemes_stand_in_a_catalogue_by_name() {
+    let found = rows(
+        known(),
+        "SELECT c.id, g.jaws, g.turn FROM classics c JOIN grippers g ON g.id = c.structure WHERE reached = 1 AND shortfall IS NULL",
+    );
+    let names: BTreeSet<&str> = found.iter().map(|r| r["id"].as_str().unwrap()).collect();
+    // `../shared/pairs/classic.json`: 37 schemes, of which 31 are structures as they are counted.
+    let told: Value = serde_json::from_str(&shared("classic.json")).unwrap();
+    let schemes = told["schemes"].as_array().unwrap();
+    let found_there = |s: &&Value| s["match"].as_str().unwrap().starts_with("found 1");
+    let counted = schemes.iter().filter(found_there);
+    let published: BTreeSet<&str> = counted.map(|s| s["id"].as_str().unwrap()).collect();
+    assert_eq!(published.len(), 31);
+    assert_eq!(names, published);
+    // What translates by structure, or on parallelograms, does not turn.
+    for scheme in schemes
+        .iter()
+        .filter(|s| names.contains(s["id"].as_str().unwrap()))
+    {
+        let row = found.iter().find(|r| r["id"] == scheme["id"]).unwrap();
+        let parallel = scheme["jaw_motion"]
+            .as_str()
+            .unwrap()
+            .starts_with("parallel");
+        assert_eq!(row["jaws"] == "parallel", parallel, "{row}");
+    }
+    let shown = ok(&["catalog", "show", known(), &first_of("wedge-hook")]);
+    assert!(shown.contains("Known as wedge-hook"), "{shown}");
+    assert!(shown.contains("5 joints (3 slides, 2 slots)"), "{shown}");
+    let between = ok(&["catalog", "show", known(), &first_of("slot-coupled-jaws")]);
+    assert!(between.contains("(slide against "), "{between}");
+}
+
+fn first_of(scheme: &str) -> String {
+    let sql = format!("SELECT structure FROM classics WHERE id = '{scheme}'");
+    rows(known(), &sql)[0]["structure"]
+        .as_str()
+        .unwrap()
+        .to_owned()
+}
+
+/// A catalogue finds its own files again.
+#[test]
+fn what_is_exported_is_found() {
+    let folder = tempdir().unwrap();
+    for row in rows(known(), "SELECT DISTINCT structure FROM classics") {
+        let id = row["structure"].as_str().unwrap();
+        let toml = at(&folder, "gripper.toml");
+        ok(&["catalog", "export", known(), id, "-o", &toml]);
+        let found = ok(&["catalog", "find", &toml, "--in", known()]);
+        assert!(found.contains(id), "{id}: {found}");
+    }
+}
+
+#[test]
+fn parts_make_the_whole_and_nothing_is_made_twice() {
+    let folder = tempdir().unwrap();
+    let small = |file: &str, more: &[&str]| {
+        let mut words = PAIRED.to_vec();
+        words[9] = "4..5";
+        ok(&[&words[..], &[file], more].concat())
+    };
+    let (one, merged) = (at(&folder, "one.db"), at(&folder, "merged.db"));
+    small(&one, &["--threads", "1"]);
+    let parts = [1, 2, 3].map(|i| {
+        let part = at(&folder, &format!("{i}.db"));
+        small(&part, &["--shard", &format!("{i}/3")]);
+        part
+    });
+    ok(&[
+        "catalog", "merge", &parts[0], &parts[1], &parts[2], "-o", &merged,
+    ]);
+    assert_eq!(whole(&merged), whole(&one));
+    assert!(whole(&one).contains("wedge-levers"));
+    assert!(small(&one, &[]).contains("0 structures added"));
+}
+
+#[test]
+fn what_is_not_laid_out_is_refused() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "none.db");
+    let build = |words: &str, says: &str| {
+        let words = words.split(' ');
+        let all: Vec<&str> = ["catalog", "build"]
+            .into_iter()
+            .chain(words)
+            .chain(["-o", &file])
+            .collect();
+        fails(&all, says);
+        assert!(
+            !std::path::Path::new(&file).exists(),
+            "{words:?}",
+            words = all
+        );
+    };
+    build("--pairs cam", "\"cam\" is none of slide, gear, slot");
+    build("--pairs slide --links 6..9", "8 links at most");
+    build("--pairs slide --jaws 3 --links 6", "have two jaws");
+    build("--pairs gear --symmetry generic", "mirror or half-turn");
+    build("--pairs gear --at-most 0", "at_most must be from 1 to 12");
+    build("--classics --links 4", "cannot be used with");
+}
+
+/// A key says all of a structure, and every structure that is counted moves in some symmetric places.
+#[test]
+fn keys_are_read_back_and_symmetric_structures_lie_somewhere() {
+    for links in 4..=6 {
+        for paired in paired_structures(links, menu(2)) {
+            let structure = &paired.structure;
+            assert_eq!(&PairStructure::of_key(&structure.key()), structure);
+            assert!(!paired.lays().is_empty(), "{}", paired.name());
+        }
+    }
+}
+
+/// The task of `dims.json`: tips 30 mm apart when closed, each opens by 10 mm. They are drawn closed.
+fn published_task() -> Task {
+    Task {
+        narrowest: 29.999,
+        widest: 50.0,
+        ..Task::default()
+    }
+}
+
+/// Tips are drawn so much farther ahead than there, in mm.
+const AHEAD: f64 = 20.0;
+
+/// A scheme laid out by hand: joints by the links' names in `classics.toml`.
+struct ByHand {
+    paired: PairedStructure,
+    rules: PairRules,
+    at: PairPlaces,
+}
+
+impl ByHand {
+    fn new(id: &str) -> ByHand {
+        let classic = classics().iter().find(|c| c.id == id).unwrap();
+        let paired = forms_of(&classic.structure).swap_remove(0);
+        let lay = paired.lays().swap_remove(0);
+        let rules = PairRules::new(&paired, &lay).unwrap();
+        let count = rules.joints.len();
+        let half = 15.0;
+        let mut points = vec![[0.0; 2]; count];
+        points.extend([[120.0, half], [120.0, -half]]);
+        let at = PairPlaces {
+            points,
+            along: vec![Direction::AHEAD; count],
+            pinned: rules.joints.iter().map(|j| j.links[0]).collect(),
+            teeth: vec![Teeth::Gears([1, 1]); count],
+        };
+        ByHand { paired, rules, at }
+    }
+
+    /// The joint of two links; links are told by what they do.
+    fn joint(&self, a: usize, b: usize) -> usize {
+        let links = [a.min(b), a.max(b)];
+        self.rules
+            .joints
+            .iter()
+            .position(|j| j.links == links)
+            .unwrap()
+    }
+
+    /// The link between two that are not joined.
+    fn between(&self, a: usize, b: usize) -> usize {
+        let chain = &self.paired.structure.chain;
+        let both = |l: &usize| chain.between(*l, a).is_some() && chain.between(*l, b).is_some();
+        (0..chain.links()).find(both).unwrap()
+    }
+
+    /// Puts a joint in a place, its image where that belongs.
+    fn put(&mut self, joint: usize, [x, y]: [f64; 2]) {
+        let image = self.rules.images().find(|i| i.1 == joint);
+        let (joint, y) = image.map_or((joint, y), |(of, _)| (of, -y));
+        self.at.points[joint] = [x + AHEAD, y];
+    }
+
+    fn turn(&mut self, joint: usize, along: Direction) {
+        let image = self.rules.images().find(|i| i.1 == joint);
+        let (joint, along) = image.map_or((joint, along), |(of, _)| (of, along.mirrored()));
+        self.at.along[joint] = along;
+    }
+
+    fn figures(mut self) -> LayoutFigures {
+        self.rules.settle(&mut self.at);
+        let limits = Limits {
+            task: published_task(),
+            ..Limits::default()
+        };
+        let sketch = PairSketch::new(&self.paired, self.rules.clone(), limits);
+        let layout = PairLayout {
+            looks: sketch.looks(&self.at).unwrap(),
+            rules: self.rules,
+            at: self.at,
+            limits,
+            start: 0,
+        };
+        figures(&self.paired, &layout).unwrap()
+    }
+}
+
+/// Force curves of `../shared/pairs/dims.json`, from closed to open in eleven steps.
+#[test]
+fn forces_are_those_published_for_four_schemes() {
+    let told: Value = serde_json::from_str(&shared("dims.json")).unwrap();
+    let check = |id: &str, f: LayoutFigures| {
+        let scheme = &told["schemes"][id];
+        let curve = scheme["q_closed_to_open"].as_array().unwrap().iter();
+        let curve: Vec<f64> = curve.map(|q| q.as_f64().unwrap()).collect();
+        let least = curve.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = curve.iter().copied().fold(0.0, f64::max);
+        let near = |told: f64, found: f64, what: &str| {
+            assert!(
+                (found / told - 1.0).abs() < 1e-3,
+                "{id}: {what}: told {told}, found {found}"
+            );
+        };
+        near(
+            least.min(scheme["best_min_q"].as_f64().unwrap()),
+            f.force[0],
+            "least",
+        );
+        near(most, f.force[2], "greatest");
+        near(
+            scheme["mean_over_jaw_travel"].as_f64().unwrap(),
+            f.force[1],
+            "mean",
+        );
+        near(scheme["drive_stroke"].as_f64().unwrap(), f.travel, "travel");
+    };
+    let size = |id: &str, key: &str| number(&told["schemes"][id]["layout"], key);
+
+    let id = "piston-links-angular";
+    let mut g = ByHand::new(id);
+    let roles = g.paired.structure.roles;
+    let (f, [j, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+    let rod = g.between(driver, j);
+    g.put(g.joint(f, j), [size(id, "hinge_x"), size(id, "hinge_y")]);
+    g.put(g.joint(rod, j), [size(id, "tail_x"), size(id, "tail_y")]);
+    g.put(
+        g.joint(rod, driver),
+        [size(id, "piston_x"), size(id, "piston_y")],
+    );
+    check(id, g.figures());
+
+    let id = "toggle-sliding-jaws";
+    let mut g = ByHand::new(id);
+    let roles = g.paired.structure.roles;
+    let (f, [j, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+    let rod = g.between(driver, j);
+    g.turn(g.joint(f, j), Direction::ACROSS);
+    g.put(g.joint(f, j), [60.0, 10.0]);
+    let u = size(id, "u_closed");
+    g.put(g.joint(rod, j), [50.0, size(id, "jaw_pin_y_closed")]);
+    g.put(g.joint(rod, driver), [50.0 - u, size(id, "piston_pin_y")]);
+    check(id, g.figures());
+
+    let id = "cylinder-between-jaws-gears";
+    let mut g = ByHand::new(id);
+    let roles = g.paired.structure.roles;
+    let (frame, [jaw, _], [u, v]) = (roles.frame, roles.jaws, roles.input);
+    let chain = &g.paired.structure.chain;
+    let cylinder = if chain.between(u, jaw).is_some() {
+        u
+    } else {
+        v
+    };
+    g.put(
+        g.joint(frame, jaw),
+        [size(id, "hinge_x"), size(id, "hinge_y")],
+    );
+    g.put(
+        g.joint(cylinder, jaw),
+        [size(id, "tail_x"), size(id, "tail_y")],
+    );
+    g.put(g.joint(u, v), [size(id, "tail_x"), 0.0]);
+    check(id, g.figures());
+
+    let id = "rack-two-segments";
+    let mut g = ByHand::new(id);
+    let roles = g.paired.structure.roles;
+    let (frame, [jaw, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+    g.put(
+        g.joint(frame, jaw),
+        [size(id, "hinge_x"), size(id, "hinge_y")],
+    );
+    // The pitch line is at y = 5, between the hinges at 22.5: of the two sides of a pinion the inner one.
+    let mesh = g.joint(driver, jaw);
+    let image = g.rules.images().find(|i| i.1 == mesh);
+    let (of, inner) = image.map_or((mesh, 35), |(of, _)| (of, -35));
+    g.at.teeth[of] = Teeth::Rack(inner);
+    check(id, g.figures());
+}
+
+/// `dims.json` has a closed form of the wedge: half the cotangent of the angle between slot and drive, all over the stroke.
+#[test]
+fn a_wedge_pulls_by_its_angle() {
+    for (slot, cotangent) in [(6, 4.0 / 3.0), (5, 15.0 / 8.0), (9, 3.0 / 4.0)] {
+        let mut g = ByHand::new("wedge-hook");
+        let roles = g.paired.structure.roles;
+        let (frame, [jaw, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+        g.turn(g.joint(frame, jaw), Direction::ACROSS);
+        g.put(g.joint(frame, jaw), [60.0, 30.0]);
+        g.turn(g.joint(driver, jaw), Direction::number(slot));
+        g.put(g.joint(driver, jaw), [40.0, 12.0]);
+        let f = g.figures();
+        for force in f.force {
+            assert!((force - cotangent / 2.0).abs() < 1e-6, "{f:?}");
+        }
+        assert!((f.travel - 10.0 * cotangent).abs() < 0.01, "{f:?}");
+    }
+}
