@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import path from "node:path";
 import { bodyTests } from "./bodies.mjs";
 import { catalogueTests } from "./catalogue.mjs";
+import { pairTests } from "./pairs.mjs";
 import { stageTests } from "./stage.mjs";
 import { studioTests } from "./studio.mjs";
 import { browser, column, fits, open, picture, report } from "./pages.mjs";
@@ -27,6 +28,7 @@ const many = report("gripper-10-many", "gripper-10", "--top", "10000");
 const loaded = report("gripper-10-loaded", "gripper-10-loaded", "--pool", "20000");
 
 catalogueTests(test);
+pairTests(test);
 stageTests(test, { gripper, loaded });
 bodyTests(test, { gripper });
 studioTests(test);
