@@ -18,6 +18,7 @@ pub mod mechanism;
 pub mod paired;
 pub mod place;
 pub mod point;
+mod random;
 pub mod recognize;
 pub mod rules;
 pub mod skeleton;

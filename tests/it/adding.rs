@@ -164,5 +164,5 @@ fn every_column_of_the_catalogue_is_entered_by_its_name() {
         }
         tables += 1;
     }
-    assert_eq!(tables, 6);
+    assert_eq!(tables, 8);
 }

@@ -156,13 +156,13 @@ pub fn build<B: Send>(
     done: impl FnMut(CatalogueRow) -> ControlFlow<B> + Send,
 ) -> Result<Option<B>, BuildError> {
     let done = Mutex::new(done);
-    let give = |row: CatalogueRow| -> Result<(), Ended<B>> {
+    let give = |row: CatalogueRow| -> Result<(), BuildEnd<B>> {
         let Ok(mut done) = done.lock() else {
-            return Err(Ended::Poisoned);
+            return Err(BuildEnd::Poisoned);
         };
         match done(row) {
             ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(b) => Err(Ended::Asked(b)),
+            ControlFlow::Break(b) => Err(BuildEnd::Asked(b)),
         }
     };
     let paired = || {
@@ -171,7 +171,7 @@ pub fn build<B: Send>(
                 return Ok(());
             }
             let rows = forms.iter().map(|p| row_of_paired(p, spec));
-            let row = first_laid(rows).map_err(Ended::failed)?;
+            let row = first_laid(rows).map_err(BuildEnd::failed)?;
             row.map_or(Ok(()), |row| give(CatalogueRow::Paired(Box::new(row))))
         })
     };
@@ -180,7 +180,7 @@ pub fn build<B: Send>(
             return Ok(());
         }
         let subject = Subject::new(&w.chain, &w.automorphisms);
-        let row = row_of_pair(&subject, structure, spec, general).map_err(Ended::failed)?;
+        let row = row_of_pair(&subject, structure, spec, general).map_err(BuildEnd::failed)?;
         give(CatalogueRow::Hinged(Box::new(row)))
     };
     let hinged = || {
@@ -192,15 +192,15 @@ pub fn build<B: Send>(
             let Some(first) = together.iter().find(|s| !skip(&s.id())) else {
                 return Ok(());
             };
-            let general = General::of(first, spec).map_err(Ended::failed)?;
+            let general = General::of(first, spec).map_err(BuildEnd::failed)?;
             let each = together.par_iter();
             each.try_for_each(|s| one(w, s, general.as_ref()))
         })
     };
     match paired().and_then(|()| hinged()) {
-        Ok(()) | Err(Ended::Poisoned) => Ok(None),
-        Err(Ended::Asked(b)) => Ok(Some(b)),
-        Err(Ended::Failed(e)) => Err(e),
+        Ok(()) | Err(BuildEnd::Poisoned) => Ok(None),
+        Err(BuildEnd::Asked(b)) => Ok(Some(b)),
+        Err(BuildEnd::Failed(e)) => Err(e),
     }
 }
 
@@ -220,7 +220,7 @@ fn first_laid(
 }
 
 /// Why building ends before all is built.
-enum Ended<B> {
+enum BuildEnd<B> {
     /// Whoever takes the rows has enough.
     Asked(B),
     /// It panicked.
@@ -229,8 +229,8 @@ enum Ended<B> {
     Failed(BuildError),
 }
 
-impl<B> Ended<B> {
-    fn failed(e: RowError) -> Ended<B> {
-        Ended::Failed(BuildError::Row(e))
+impl<B> BuildEnd<B> {
+    fn failed(e: RowError) -> BuildEnd<B> {
+        BuildEnd::Failed(BuildError::Row(e))
     }
 }

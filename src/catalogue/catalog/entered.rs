@@ -134,7 +134,7 @@ impl Entered for PairedStructure {
 }
 
 /// Places of a structure, whatever joins its links.
-pub(super) trait Placed {
+pub(super) trait LaidOut {
     /// The figures it was taken for.
     fn looks(&self) -> &Looks;
 
@@ -148,7 +148,7 @@ pub(super) trait Placed {
     fn points(&self) -> Vec<Point>;
 }
 
-impl Placed for Layout {
+impl LaidOut for Layout {
     fn looks(&self) -> &Looks {
         &self.looks
     }
@@ -167,7 +167,7 @@ impl Placed for Layout {
     }
 }
 
-impl Placed for PairLayout {
+impl LaidOut for PairLayout {
     fn looks(&self) -> &Looks {
         &self.looks
     }

@@ -1,7 +1,7 @@
 //! A row as entries of the tables.
 
 use crate::catalog::drawn::{DrawnMechanism, known};
-use crate::catalog::entered::{Entered, Placed, StructureColumns};
+use crate::catalog::entered::{Entered, LaidOut, StructureColumns};
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
 use crate::format::number;
 use crate::geom::vector::sides;
@@ -14,7 +14,7 @@ use rusqlite::{ToSql, Transaction};
 use std::collections::BTreeMap;
 
 /// Enters a row.
-pub(super) fn row<S: Entered, L: Placed>(
+pub(super) fn row<S: Entered, L: LaidOut>(
     t: &Transaction<'_>,
     row: &StructureRow<S, L>,
 ) -> rusqlite::Result<()> {
@@ -35,12 +35,15 @@ pub(super) fn row<S: Entered, L: Placed>(
         )?;
     }
     for classic in &columns.classics {
-        let values: [(&str, &dyn ToSql); 3] = [
-            ("structure", &columns.id),
-            ("id", &classic.id),
-            ("about", &classic.about),
-        ];
-        put(t, "classics", &values)?;
+        put(
+            t,
+            "classics",
+            &[
+                ("structure", &columns.id),
+                ("id", &classic.id),
+                ("about", &classic.about),
+            ],
+        )?;
     }
     match &row.laid {
         Ok(laid) => layout(t, &columns.id, laid),
@@ -109,7 +112,7 @@ fn rounded(x: f64) -> f64 {
     number::rounded(if x.abs() < 1e-9 { 0.0 } else { x }, 4)
 }
 
-fn layout<L: Placed>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
+fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
     let (l, f) = (laid.layout.looks(), &laid.figures);
     let end = |w: Option<StrokeEnd>| w.map(StrokeEnd::word);
     // Tips and drive as they grip: as they open, in a hole.
@@ -164,7 +167,7 @@ fn layout<L: Placed>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite:
 }
 
 /// Enters what a layout does of its task.
-fn stroke<L: Placed>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
+fn stroke<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
     let (task, f) = (&laid.layout.limits().task, &laid.figures);
     let reached = !f.shortfall.is_some_and(|s| s.is_of_reach());
     put(
@@ -288,7 +291,7 @@ fn milli(cost: i64) -> f64 {
 }
 
 /// Area of the box round joints and tips, in square millimetres.
-fn area<L: Placed>(laid: &Laid<L>) -> f64 {
+fn area<L: LaidOut>(laid: &Laid<L>) -> f64 {
     let [width, height] = sides(&laid.layout.points());
     width * height
 }

@@ -76,7 +76,7 @@ CREATE TABLE strokes (             -- what a layout does of the task it was made
   margin_opening REAL NOT NULL,
   shortfall TEXT                   -- the worst of what the task asks and this does not; NULL where it does all of it
 ) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS pairs ( -- of structures with slides, gears or slots
+CREATE TABLE pairs ( -- of structures with slides, gears or slots
   structure TEXT PRIMARY KEY REFERENCES structures(id),
   code TEXT NOT NULL,              -- a letter for each two links, (0, 1), (0, 2), (1, 2)...: R hinge, P slide, G gear or rack, S slot, - none
   slides INTEGER NOT NULL,         -- how many
@@ -84,7 +84,7 @@ CREATE TABLE IF NOT EXISTS pairs ( -- of structures with slides, gears or slots
   slots INTEGER NOT NULL,
   driven_from INTEGER NOT NULL     -- the link that the driver moves against: the frame, or another that moves
 ) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS classics ( -- well-known schemes that have a structure
+CREATE TABLE classics ( -- well-known schemes that have a structure
   structure TEXT NOT NULL REFERENCES structures(id),
   id TEXT NOT NULL,                -- a word for it, such as wedge-hook
   about TEXT NOT NULL,             -- what it is

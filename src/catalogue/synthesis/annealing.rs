@@ -1,13 +1,11 @@
 //! A place for every joint, found by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
-use crate::synthesis::layout::keeps;
 use crate::synthesis::layout_quality::Looks;
-use crate::synthesis::sketch::Sketch;
-use crate::synthesis::stroke::judge::{Judge, Places};
+use crate::synthesis::random::unit;
+use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
 use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use sha2::{Digest, Sha256};
 
 /// A layout that costs less than this is taken without looking for a better one.
 const GOOD: f64 = 3.0;
@@ -44,11 +42,11 @@ impl<P> FoundPlaces<P> {
 
 /// What a search for places from one start ends with; `None` where that is a singular pose.
 pub(super) fn search_from<M: StrokeMotion>(
-    sketch: &M::Sketch,
+    sketch: &M::Of,
     judge: &mut Judge<M>,
     random: ChaCha8Rng,
     start: u32,
-) -> Option<FoundPlaces<Places<M>>> {
+) -> Option<FoundPlaces<PlacesOf<M>>> {
     let at = anneal(sketch, judge, random);
     let looks = sketch.looks(&at)?;
     let stroke = judge.coarse(&at, f64::INFINITY)?;
@@ -56,31 +54,11 @@ pub(super) fn search_from<M: StrokeMotion>(
     Some(FoundPlaces {
         cost: looks.penalty + limits.stroke_cost(&stroke),
         does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
-        within: keeps(limits, &looks),
+        within: looks.keep(limits),
         looks,
         at,
         start,
     })
-}
-
-/// Random numbers of a start, the same for the same name and seed.
-pub(super) fn random(name: &str, seed: u64, start: u32) -> ChaCha8Rng {
-    let name = format!("{name} {seed} {start}");
-    let digest = Sha256::digest(name);
-    let mut key = [0; 32];
-    key.copy_from_slice(&digest);
-    ChaCha8Rng::from_seed(key)
-}
-
-/// From 0 to 1.
-#[allow(clippy::cast_precision_loss, reason = "53 bits")]
-pub(super) fn unit(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-}
-
-/// Roughly normal, of variance 1.
-pub(super) fn bell(random: &mut ChaCha8Rng) -> f64 {
-    (0..12).map(|_| unit(random)).sum::<f64>() - 6.0
 }
 
 /// What is looked at in a part of a search for places.
@@ -119,19 +97,19 @@ const PHASES: [Phase; 3] = [
 
 /// A search for places from one start.
 struct Annealing<'s, 'j, M: StrokeMotion> {
-    sketch: &'s M::Sketch,
+    sketch: &'s M::Of,
     judge: &'j mut Judge<M>,
     random: ChaCha8Rng,
     /// The places, what they cost, and those before the last move.
-    at: Places<M>,
+    at: PlacesOf<M>,
     now: f64,
-    before: Places<M>,
+    before: PlacesOf<M>,
     /// The cheapest of the phase.
-    best: (f64, Places<M>),
+    best: (f64, PlacesOf<M>),
 }
 
 impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
-    fn new(sketch: &'s M::Sketch, judge: &'j mut Judge<M>, mut random: ChaCha8Rng) -> Self {
+    fn new(sketch: &'s M::Of, judge: &'j mut Judge<M>, mut random: ChaCha8Rng) -> Self {
         let at = sketch.first_places(&mut random);
         Annealing {
             before: at.clone(),
@@ -204,10 +182,10 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
 
 /// The places at the end of one search.
 fn anneal<M: StrokeMotion>(
-    sketch: &M::Sketch,
+    sketch: &M::Of,
     judge: &mut Judge<M>,
     random: ChaCha8Rng,
-) -> Places<M> {
+) -> PlacesOf<M> {
     let mut search = Annealing::new(sketch, judge, random);
     for phase in &PHASES {
         search.phase(phase);

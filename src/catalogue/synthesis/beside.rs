@@ -2,12 +2,12 @@
 
 use crate::chains::layout_symmetry::Input;
 use crate::synthesis::figures::figures;
-use crate::synthesis::layout::{Layout, keeps};
+use crate::synthesis::layout::Layout;
 use crate::synthesis::place::{FINE, Place};
 use crate::synthesis::point::Point;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::structure::Structure;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -45,6 +45,6 @@ pub fn beside(structure: &Structure, layout: &Layout, seed: u64, number: u32) ->
         ..layout.clone()
     };
     let does = |l: &Layout| figures(structure, l).is_some_and(|f| f.shortfall.is_none());
-    let kept = keeps(&moved.limits, &moved.looks) && (does(&moved) || !does(layout));
+    let kept = moved.looks.keep(&moved.limits) && (does(&moved) || !does(layout));
     kept.then_some(moved)
 }

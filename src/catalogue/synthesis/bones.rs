@@ -2,8 +2,8 @@
 
 use crate::closure::tree::forest;
 use crate::geom::vector::{add_scaled, sub, unit};
-use crate::synthesis::annealing::bell;
 use crate::synthesis::point::{Point, middle};
+use crate::synthesis::random::bell;
 use chacha20::ChaCha8Rng;
 
 /// The points of a gripper's links. Points are numbered: those of the joints in their order, then the tips.
@@ -39,7 +39,7 @@ pub struct Bones {
 
 /// What links do, and how joints are placed.
 #[derive(Debug, Clone)]
-pub(super) struct Plan<'a> {
+pub(super) struct BonePlan<'a> {
     pub(super) frame: usize,
     pub(super) driver: usize,
     pub(super) jaws: &'a [usize],
@@ -54,7 +54,7 @@ pub(super) struct Plan<'a> {
 
 impl Bones {
     /// Of so many links, of which those may be rods that `pinned` says.
-    pub(super) fn new(links: usize, plan: Plan<'_>, pinned: impl Fn(usize) -> bool) -> Bones {
+    pub(super) fn new(links: usize, plan: BonePlan<'_>, pinned: impl Fn(usize) -> bool) -> Bones {
         let mut of_link = vec![Vec::new(); links];
         for (i, ends) in plan.joints.iter().enumerate() {
             for &link in ends.iter().flatten() {

@@ -4,9 +4,9 @@ use crate::synthesis::layout::Layout;
 use crate::synthesis::point::Point;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::forces::ForceFigures;
-use crate::synthesis::stroke::judge::{Grid, Judge, Places};
+use crate::synthesis::stroke::judge::{Grid, Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::stroke::shortfall::Shortfall;
 use crate::synthesis::stroke::walk::StrokeEnd;
@@ -92,7 +92,7 @@ pub fn figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> 
 /// Figures of places over the stroke.
 pub(super) fn of_stroke<M: StrokeMotion>(
     judge: &mut Judge<M>,
-    at: &Places<M>,
+    at: &PlacesOf<M>,
 ) -> Option<LayoutFigures> {
     let stroke = judge.follow(at, FINE, f64::INFINITY)?;
     let way = judge.drive_rate();

@@ -4,20 +4,20 @@
 
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
-use crate::synthesis::annealing::{FoundPlaces, bell, random, search_from};
+use crate::synthesis::annealing::{FoundPlaces, search_from};
 use crate::synthesis::bones::Bones;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::rules::NoRules;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
+use crate::synthesis::random::{bell, below, random};
 use crate::synthesis::rules::{Rule, Rules};
 use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::structure::Structure;
 use chacha20::ChaCha8Rng;
-use chacha20::rand_core::Rng;
 use thiserror::Error;
 
 /// Starts of the search for places at most.
@@ -121,7 +121,7 @@ pub fn layout(
     let found = best_of_starts(&skeleton, seed);
     let found = found.ok_or(NoLayout::Motion(NoGripper::DeadDrive))?;
     let looks = found.looks;
-    if !keeps(limits, &looks) {
+    if !looks.keep(limits) {
         return Err(NoLayout::limits(&looks));
     }
     let rules = &skeleton.rules;
@@ -134,14 +134,6 @@ pub fn layout(
         looks,
         start: found.start,
     })
-}
-
-/// Whether a drawn pose keeps the limits.
-pub(super) fn keeps(limits: &Limits, looks: &Looks) -> bool {
-    looks.ratio <= limits.ratio
-        && looks.transmission >= limits.transmission
-        && looks.crossings <= limits.crossings
-        && looks.straightness >= LEAST_CLOSING
 }
 
 /// The best places of some starts; of the first alone where those are good. `None` where all end in singular poses.
@@ -163,11 +155,8 @@ fn best_of_starts(skeleton: &Skeleton<'_>, seed: u64) -> Option<FoundPlaces<Vec<
     best
 }
 
-/// The tips' motion must close them by this share at least.
-const LEAST_CLOSING: f64 = 0.35;
-
-impl Sketch for Skeleton<'_> {
-    type Places = Vec<Point>;
+impl LayoutSketch for Skeleton<'_> {
+    type JointPlaces = Vec<Point>;
 
     fn bones(&self) -> &Bones {
         &self.bones
@@ -191,9 +180,7 @@ impl Sketch for Skeleton<'_> {
     fn change(&self, at: &mut Vec<Point>, warmth: f64, random: &mut ChaCha8Rng) {
         let reach = 2.0 + 18.0 * warmth;
         let movable = self.rules.movable().count();
-        #[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
-        let which = (random.next_u64() % movable as u64) as usize;
-        let Some(pin) = self.rules.movable().nth(which) else {
+        let Some(pin) = self.rules.movable().nth(below(movable, random)) else {
             return;
         };
         let [x, y] = at[pin];

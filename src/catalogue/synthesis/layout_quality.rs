@@ -2,6 +2,7 @@
 
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
+use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::velocities::Velocity;
 
@@ -30,6 +31,19 @@ pub struct Looks {
     pub tips: Vec<Point>,
     /// What the places cost, 0 at best.
     pub penalty: f64,
+}
+
+/// The tips' motion must close them by this share at least.
+const LEAST_CLOSING: f64 = 0.35;
+
+impl Looks {
+    /// Whether the drawn pose keeps the limits.
+    pub(super) fn keep(&self, limits: &Limits) -> bool {
+        self.ratio <= limits.ratio
+            && self.transmission >= limits.transmission
+            && self.crossings <= limits.crossings
+            && self.straightness >= LEAST_CLOSING
+    }
 }
 
 /// Pins whose coordinates differ by less than this are nearly in line.

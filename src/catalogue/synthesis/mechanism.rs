@@ -10,7 +10,7 @@ use crate::synthesis::layout::Layout;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
 use crate::synthesis::structure::Structure;
-use crate::synthesis::workload::Workload;
+use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
 
 /// What each link is called: frame, slider or crank, the jaws, and the rest by their numbers.
@@ -152,21 +152,17 @@ fn exact(at: &[Place]) -> Option<ToleranceEntry> {
 }
 
 /// What a file says beside its joints, whatever their kinds.
-pub(super) struct Told<'a> {
+pub(super) struct FileHead<'a> {
     pub(super) id: String,
     pub(super) name: String,
     /// What each link is called, and its points.
     pub(super) links: Vec<(String, Vec<Point>)>,
     pub(super) frame: usize,
     pub(super) jaws: &'a [usize],
-    pub(super) tips: &'a [Place],
-    /// Away from the part, at each jaw.
-    pub(super) outward: Vec<Place>,
-    /// 1 where jaws hold as they close, -1 where they do as they open.
-    pub(super) grip: f64,
+    pub(super) held: HeldPart<'a>,
 }
 
-impl Told<'_> {
+impl FileHead<'_> {
     /// A file without joints.
     pub(super) fn file(&self, workload: &Workload) -> MechanismFile {
         let links = self.links.iter().enumerate().map(|(l, (name, points))| {
@@ -184,13 +180,15 @@ impl Told<'_> {
             }
         });
         // The tips, so that drawings have whole jaws.
-        let tips = self.tips.iter().zip(self.jaws).zip(["a", "b", "c"]);
+        let tips = self.held.tips.iter().zip(self.jaws).zip(["a", "b", "c"]);
         let tips = tips.map(|((&tip, &jaw), letter)| PointEntry {
             id: format!("tip-{letter}"),
             link: self.links[jaw].0.clone(),
             point: point(tip),
             tolerance: None,
         });
+        let jaws = self.jaws.iter().map(|&j| self.links[j].0.clone());
+        let jaws: Vec<String> = jaws.collect();
         MechanismFile {
             name: self.id.clone(),
             description: format!(
@@ -205,7 +203,7 @@ impl Told<'_> {
                 gravity: workload
                     .weighs_links()
                     .then(|| workload.gravity.map(number)),
-                force: workload.forces(self),
+                force: workload.forces(&jaws, &self.held),
                 ..WorkloadEntry::default()
             },
             ..MechanismFile::default()
@@ -225,15 +223,17 @@ pub fn mechanism_file(
     let r = &structure.roles;
     let named = |i: usize| joint_name(&names, layout.pins[i]);
     let points = |(l, name): (usize, &String)| (name.clone(), layout.points(structure, l));
-    let told = Told {
+    let told = FileHead {
         id: structure.id(),
         name: structure.name(),
         links: names.iter().enumerate().map(points).collect(),
         frame: r.frame,
         jaws: &r.jaws,
-        tips: &layout.tips,
-        outward: structure.outward(1),
-        grip: layout.limits.task.grip.sign(),
+        held: HeldPart {
+            tips: &layout.tips,
+            outward: &structure.outward(1),
+            grip: layout.limits.task.grip.sign(),
+        },
     };
     MechanismFile {
         tolerance: exact(&layout.at),

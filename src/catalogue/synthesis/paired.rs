@@ -10,6 +10,7 @@ pub mod figures;
 pub mod forces;
 pub mod layout;
 pub mod mechanism;
+mod moves;
 pub mod places;
 pub mod rows;
 pub mod rules;

@@ -1,7 +1,7 @@
 //! What of a structure does not depend on where its pins are, gathered once for the many places that are tried.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::synthesis::bones::{Bones, Plan};
+use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::stroke::closure::Closure;
@@ -39,7 +39,7 @@ impl<'a> Skeleton<'a> {
             Symmetry::Generic => PART,
             _ => 0.0,
         };
-        let plan = Plan {
+        let plan = BonePlan {
             frame: r.frame,
             driver: r.driver,
             jaws: &r.jaws,

@@ -7,9 +7,9 @@ use crate::synthesis::point::Point;
 use chacha20::ChaCha8Rng;
 
 /// A structure with rules for its places.
-pub trait Sketch {
+pub trait LayoutSketch {
     /// Places of all joints.
-    type Places: Clone;
+    type JointPlaces: Clone;
 
     /// The points of its links.
     fn bones(&self) -> &Bones;
@@ -18,23 +18,23 @@ pub trait Sketch {
     fn limits(&self) -> &Limits;
 
     /// Where the points are.
-    fn points<'p>(&self, at: &'p Self::Places) -> &'p [Point];
+    fn points<'p>(&self, at: &'p Self::JointPlaces) -> &'p [Point];
 
     /// Places to begin with.
-    fn first_places(&self, random: &mut ChaCha8Rng) -> Self::Places;
+    fn first_places(&self, random: &mut ChaCha8Rng) -> Self::JointPlaces;
 
     /// Other places, by how warm the search still is: 1 at first, 0 at its end.
-    fn change(&self, at: &mut Self::Places, warmth: f64, random: &mut ChaCha8Rng);
+    fn change(&self, at: &mut Self::JointPlaces, warmth: f64, random: &mut ChaCha8Rng);
 
     /// What places cost, with `moving` their velocities, too; `None` where that is more than `most`, or the pose is singular.
     ///
     /// # Complexity
     /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
-    fn penalty(&self, at: &Self::Places, moving: bool, most: f64) -> Option<f64>;
+    fn penalty(&self, at: &Self::JointPlaces, moving: bool, most: f64) -> Option<f64>;
 
     /// All figures; `None` where the pose is singular.
     ///
     /// # Complexity
-    /// As [`Sketch::penalty`].
-    fn looks(&self, at: &Self::Places) -> Option<Looks>;
+    /// As [`LayoutSketch::penalty`].
+    fn looks(&self, at: &Self::JointPlaces) -> Option<Looks>;
 }

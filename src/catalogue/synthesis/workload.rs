@@ -3,7 +3,7 @@
 use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{add_scaled, length, sub};
 use crate::synthesis::coordinate::{number, point, turned};
-use crate::synthesis::mechanism::Told;
+use crate::synthesis::place::Place;
 use crate::synthesis::point::{Point, middle};
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +31,16 @@ impl Default for Workload {
             link_mass: 0.0,
         }
     }
+}
+
+/// Where and how a part is held.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HeldPart<'a> {
+    pub(super) tips: &'a [Place],
+    /// Away from the part, at each jaw.
+    pub(super) outward: &'a [Place],
+    /// 1 where jaws hold as they close, -1 where they do as they open.
+    pub(super) grip: f64,
 }
 
 /// A rod from the middle of a link's points to each of them, in millimetres: their length, and where their mass is.
@@ -63,12 +73,11 @@ impl Workload {
         (self.link_mass * length / 1000.0, centre)
     }
 
-    /// The forces on the jaws: of each the part's push, then its share of the weight.
-    pub(super) fn forces(&self, told: &Told<'_>) -> Vec<ForceEntry> {
-        let jaws = told.jaws;
+    /// The forces on jaws of these names: of each the part's push, then its share of the weight.
+    pub(super) fn forces(&self, jaws: &[String], held: &HeldPart<'_>) -> Vec<ForceEntry> {
         let entry = |n: usize, force| ForceEntry {
-            link: told.links[jaws[n]].0.clone(),
-            point: point(told.tips[n]),
+            link: jaws[n].clone(),
+            point: point(held.tips[n]),
             force,
             from: None,
             to: None,
@@ -77,8 +86,8 @@ impl Workload {
         let mut out = Vec::new();
         if self.closing > 0.0 {
             // In a hole the part pushes inward.
-            let holds = told.grip * self.closing;
-            for (n, away) in told.outward.iter().enumerate() {
+            let holds = held.grip * self.closing;
+            for (n, away) in held.outward.iter().enumerate() {
                 let push = away.whole.map(|x| f64::from(x) * holds);
                 let [x, y] = turned(push, away.thirds);
                 out.push(entry(n, [x, y, Coordinate::Integer(0)]));

@@ -32,8 +32,8 @@ const STEPS: [(i64, &str, &[&str]); 3] = [
         7,
         "DROP VIEW IF EXISTS front; DROP VIEW IF EXISTS grippers;",
         &[
-            "CREATE TABLE IF NOT EXISTS pairs",
-            "CREATE TABLE IF NOT EXISTS classics",
+            "CREATE TABLE pairs",
+            "CREATE TABLE classics",
             "CREATE VIEW grippers",
             "CREATE VIEW front",
         ],

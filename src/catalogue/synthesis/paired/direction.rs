@@ -26,37 +26,37 @@ pub(super) const ALL: usize = 4 * QUARTER.len();
 
 /// A direction whose coordinates and length are whole: the sides of a right triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Direction(usize);
+pub struct WholeDirection(usize);
 
-impl Direction {
+impl WholeDirection {
     /// Along x.
-    pub const AHEAD: Direction = Direction(0);
+    pub const AHEAD: WholeDirection = WholeDirection(0);
     /// Along y.
-    pub const ACROSS: Direction = Direction(QUARTER.len());
+    pub const ACROSS: WholeDirection = WholeDirection(QUARTER.len());
 
     /// The direction of a number: one turn of them.
     #[must_use]
-    pub fn number(n: usize) -> Direction {
-        Direction(n % ALL)
+    pub fn number(n: usize) -> WholeDirection {
+        WholeDirection(n % ALL)
     }
 
     /// The next but so many, left round where positive.
     #[must_use]
-    pub fn turned(self, by: isize) -> Direction {
+    pub fn turned(self, by: isize) -> WholeDirection {
         let all = ALL.cast_signed();
-        Direction((self.0.cast_signed() + by).rem_euclid(all).cast_unsigned())
+        WholeDirection((self.0.cast_signed() + by).rem_euclid(all).cast_unsigned())
     }
 
     /// Its image across the x axis.
     #[must_use]
-    pub fn mirrored(self) -> Direction {
-        Direction((ALL - self.0) % ALL)
+    pub fn mirrored(self) -> WholeDirection {
+        WholeDirection((ALL - self.0) % ALL)
     }
 
     /// The opposite one.
     #[must_use]
-    pub fn reversed(self) -> Direction {
-        Direction((self.0 + ALL / 2) % ALL)
+    pub fn reversed(self) -> WholeDirection {
+        WholeDirection((self.0 + ALL / 2) % ALL)
     }
 
     /// Its coordinates.
@@ -81,13 +81,13 @@ impl Direction {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, Direction};
+    use super::{ALL, WholeDirection};
 
     #[test]
     fn directions_go_round_once_and_have_whole_lengths() {
         let mut before = -1.0;
         for n in 0..ALL {
-            let d = Direction::number(n);
+            let d = WholeDirection::number(n);
             let [x, y] = d.whole();
             let length = f64::from(x).hypot(f64::from(y));
             assert_eq!(length, length.round());

@@ -3,7 +3,7 @@
 use crate::geom::vector::{cross_plane, dot, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::paired::places::PairPlaces;
-use crate::synthesis::paired::rows::{Rows, Seen, Term};
+use crate::synthesis::paired::rows::{PoseRows, TeethSeen, Term};
 use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::pose::LinkPose;
@@ -42,7 +42,7 @@ pub(super) fn put(
 pub(super) fn velocities(sketch: &PairSketch<'_>, at: &PairPlaces) -> Option<Vec<Velocity>> {
     let frame = sketch.bones.frame;
     let links = &sketch.at_rest[..];
-    let rows = Rows {
+    let rows = PoseRows {
         rules: &sketch.rules,
         at,
         links,
@@ -50,7 +50,7 @@ pub(super) fn velocities(sketch: &PairSketch<'_>, at: &PairPlaces) -> Option<Vec
     let size = 3 * (links.len() - 1);
     let mut system = SmallSystem::new(size, 1);
     let mut row = 0;
-    rows.each(Seen::Ratio, &mut |_, terms| {
+    rows.each(TeethSeen::Ratio, &mut |_, terms| {
         put(&mut system, row, terms, frame, |_| [0.0; 2]);
         row += 1;
     });
@@ -118,14 +118,14 @@ impl FitEquations for PairEquations<'_> {
         self.poses(x, &mut links);
         rows.clear();
         if let Some(at) = &self.at {
-            let all = Rows {
+            let all = PoseRows {
                 rules: &sketch.rules,
                 at,
                 links: &links,
             };
             let shift = |link: usize| links[link].shift;
             let mut row = 0;
-            all.each(Seen::Ratio, &mut |off, terms| {
+            all.each(TeethSeen::Ratio, &mut |off, terms| {
                 put(rows, row, terms, bones.frame, shift);
                 rows.add(row, size, off);
                 row += 1;
@@ -141,13 +141,13 @@ impl FitEquations for PairEquations<'_> {
                 let tip = links[jaw].point(bones.tips[n]);
                 let outward = bones.inward[n].map(|x| -x);
                 open += dot(sub(tip, bones.tips[n]), outward);
-                let term = Term {
-                    link: jaw,
-                    force: outward,
-                    at: tip,
-                    moment: 0.0,
-                };
-                put(rows, row, &[term], bones.frame, shift);
+                put(
+                    rows,
+                    row,
+                    &[Term::force(jaw, outward, tip)],
+                    bones.frame,
+                    shift,
+                );
             }
             rows.add(row, size, open);
             rows.add(row, size + 1, 1.0);

@@ -6,7 +6,7 @@ use crate::geom::vector::{add_scaled, cross_plane, dot, length, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::paired::equations::{PairEquations, place_of};
 use crate::synthesis::paired::places::PairPlaces;
-use crate::synthesis::paired::rows::{Rows, Seen};
+use crate::synthesis::paired::rows::{PoseRows, TeethSeen, Term};
 use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::forces::ForceFigures;
@@ -46,57 +46,31 @@ pub(super) fn forces(
     links: &[LinkPose],
 ) -> Option<PairForces> {
     let (bones, rules) = (&sketch.bones, &sketch.rules);
-    let rows = Rows { rules, at, links };
+    let rows = PoseRows { rules, at, links };
     let size = 3 * (links.len() - 1);
-    let mut system = SmallSystem::new(size, 1);
+    let mut balance = Equilibrium {
+        system: SmallSystem::new(size, 1),
+        frame: bones.frame,
+    };
     // A column for each row of the joints: what it does to the links for a newton of it.
     let mut own: Vec<(usize, usize, PairForce)> = Vec::with_capacity(size);
     let mut column = 0;
     for (joint, j) in rules.joints.iter().enumerate() {
-        rows.joint(joint, Seen::Force, &mut |_, terms| {
-            for term in terms {
-                add(
-                    &mut system,
-                    column,
-                    term.link,
-                    bones.frame,
-                    term.force,
-                    term.at,
-                );
-                if let Some(row) = place_of(term.link, bones.frame) {
-                    system.add(row + 2, column, term.moment);
-                }
-                if term.link == j.links[1] {
-                    let force = PairForce {
-                        force: term.force,
-                        at: term.at,
-                        moment: term.moment * RADIAN,
-                    };
-                    own.push((joint, column, force));
-                }
-            }
+        rows.joint(joint, TeethSeen::Force, &mut |_, terms| {
+            balance.add(column, terms);
+            let on_second = terms.iter().filter(|t| t.link == j.links[1]);
+            own.extend(on_second.map(|t| (joint, column, PairForce::of(t))));
             column += 1;
         });
     }
     let (_, drive) = rows.drive(sketch.input, sketch.drive);
-    for term in drive {
-        add(
-            &mut system,
-            column,
-            term.link,
-            bones.frame,
-            term.force,
-            term.at,
-        );
-        if let Some(row) = place_of(term.link, bones.frame) {
-            system.add(row + 2, column, term.moment);
-        }
-    }
+    balance.add(column, &drive);
     for (n, &jaw) in bones.jaws.iter().enumerate() {
         // The part pushes outward; what the joints do makes up for it.
         let tip = links[jaw].point(bones.tips[n]);
-        add(&mut system, size, jaw, bones.frame, bones.inward[n], tip);
+        balance.add(size, &[Term::force(jaw, bones.inward[n], tip)]);
     }
+    let mut system = balance.system;
     system.solve()?;
     let mut joints = vec![PairForce::default(); rules.joints.len()];
     for (joint, column, unit) in own {
@@ -104,25 +78,40 @@ pub(super) fn forces(
         let sum = &mut joints[joint];
         sum.at = unit.at;
         sum.moment += size * unit.moment;
-        sum.force = [0, 1].map(|k| sum.force[k] + size * unit.force[k]);
+        sum.force = add_scaled(sum.force, size, unit.force);
     }
     let drive = system.get(column, 0);
     Some(PairForces { joints, drive })
 }
 
-/// Adds a force on a link to a column of the equilibrium, moments as forces at the arm [`RADIAN`].
-fn add(
-    system: &mut SmallSystem,
-    column: usize,
-    link: usize,
+/// Forces and moments on every moving link, a column for each that is unknown, and one for those that are not.
+struct Equilibrium {
+    system: SmallSystem,
     frame: usize,
-    force: Point,
-    at: Point,
-) {
-    if let Some(row) = place_of(link, frame) {
-        system.add(row, column, force[0]);
-        system.add(row + 1, column, force[1]);
-        system.add(row + 2, column, cross_plane(at, force) / RADIAN);
+}
+
+impl Equilibrium {
+    /// Adds what a row does to its links; moments are forces at the arm [`RADIAN`].
+    fn add(&mut self, column: usize, terms: &[Term]) {
+        for term in terms {
+            let Some(row) = place_of(term.link, self.frame) else {
+                continue;
+            };
+            let moment = cross_plane(term.at, term.force) / RADIAN + term.moment;
+            self.system.add(row, column, term.force[0]);
+            self.system.add(row + 1, column, term.force[1]);
+            self.system.add(row + 2, column, moment);
+        }
+    }
+}
+
+impl PairForce {
+    fn of(term: &Term) -> PairForce {
+        PairForce {
+            force: term.force,
+            at: term.at,
+            moment: term.moment * RADIAN,
+        }
     }
 }
 
@@ -135,7 +124,7 @@ fn figures(
 ) -> ForceFigures {
     let (bones, friction) = (&sketch.bones, &sketch.limits.task.friction);
     let rules = &sketch.rules;
-    let rows = Rows { rules, at, links };
+    let rows = PoseRows { rules, at, links };
     let mut out = ForceFigures::BEST;
     let (mut lost, mut given) = (0.0, 0.0);
     for (i, (joint, f)) in rules.joints.iter().zip(&forces.joints).enumerate() {
@@ -184,7 +173,7 @@ fn passed(
     (work / could.max(1e-12)).min(1.0).asin().to_degrees()
 }
 
-impl Rows<'_> {
+impl PoseRows<'_> {
     /// How fast a pin goes along its slot.
     fn sliding(&self, joint: usize) -> f64 {
         let pinned = self.at.pinned[joint];
@@ -216,7 +205,7 @@ impl<'a> PairMotion<'a> {
 }
 
 impl<'a> StrokeMotion for PairMotion<'a> {
-    type Sketch = PairSketch<'a>;
+    type Of = PairSketch<'a>;
     type Equations = PairEquations<'a>;
 
     fn sketch(&self) -> &PairSketch<'a> {

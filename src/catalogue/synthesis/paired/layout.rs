@@ -1,7 +1,7 @@
 //! A place for every joint of a paired structure, looked for from seeds that follow from its name.
 
-use crate::synthesis::annealing::{FoundPlaces, random, search_from};
-use crate::synthesis::layout::{NoLayout, keeps};
+use crate::synthesis::annealing::{FoundPlaces, search_from};
+use crate::synthesis::layout::NoLayout;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::forces::PairMotion;
@@ -9,6 +9,7 @@ use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rules::{NoRules, PairRules};
 use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::random::random;
 use crate::synthesis::stroke::judge::Judge;
 
 /// Starts of the search for places at most, for each way of lying.
@@ -73,7 +74,7 @@ pub fn layout(
     }
     let (found, rules) = best.ok_or(NoLayout::Pairs(why))?;
     let looks = found.looks;
-    if !keeps(limits, &looks) {
+    if !looks.keep(limits) {
         return Err(NoLayout::limits(&looks));
     }
     Ok(PairLayout {

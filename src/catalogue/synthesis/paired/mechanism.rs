@@ -7,14 +7,14 @@ use crate::file::schema::{
     SearchEntry, Unloading,
 };
 use crate::synthesis::coordinate::point;
-use crate::synthesis::mechanism::{Menu, Told, joint_name};
+use crate::synthesis::mechanism::{FileHead, Menu, joint_name};
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::places::Teeth;
 use crate::synthesis::paired::rules::Mesh;
 use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
-use crate::synthesis::workload::Workload;
+use crate::synthesis::workload::{HeldPart, Workload};
 
 /// What each link is called: frame, the jaws, slider or crank, of a cylinder between two links cylinder and piston, and the rest by
 /// their numbers.
@@ -171,7 +171,7 @@ pub fn mechanism_file(
         .iter()
         .map(|&p| whole(p))
         .collect();
-    let told = Told {
+    let told = FileHead {
         id: paired.id(),
         name: paired.name(),
         links: names
@@ -181,9 +181,11 @@ pub fn mechanism_file(
             .collect(),
         frame: roles.frame,
         jaws: &roles.jaws,
-        tips: &tips,
-        outward: [[0, 1], [0, -1]].map(Place::from).into(),
-        grip: layout.limits.task.grip.sign(),
+        held: HeldPart {
+            tips: &tips,
+            outward: &[[0, 1], [0, -1]].map(Place::from),
+            grip: layout.limits.task.grip.sign(),
+        },
     };
     let name = |i: usize| {
         let [u, v] = rules.joints[i].links;

@@ -1,6 +1,6 @@
 //! Where the joints of a paired gripper are.
 
-use crate::synthesis::paired::direction::Direction;
+use crate::synthesis::paired::direction::WholeDirection;
 use crate::synthesis::point::Point;
 
 /// Where all joints are, by their places in the chain's list.
@@ -10,7 +10,7 @@ pub struct PairPlaces {
     /// where pitch circles touch.
     pub points: Vec<Point>,
     /// The direction of each slide, and of each slot.
-    pub along: Vec<Direction>,
+    pub along: Vec<WholeDirection>,
     /// The link that has the pin of each slot.
     pub pinned: Vec<usize>,
     /// The teeth of each gear pair.

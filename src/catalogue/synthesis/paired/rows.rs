@@ -23,7 +23,7 @@ pub(super) struct Term {
 }
 
 impl Term {
-    fn force(link: usize, force: Point, at: Point) -> Term {
+    pub(super) fn force(link: usize, force: Point, at: Point) -> Term {
         Term {
             link,
             force,
@@ -44,7 +44,7 @@ impl Term {
 
 /// How teeth are seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Seen {
+pub(super) enum TeethSeen {
     /// As a ratio of turns on the carrier, which holds over any way.
     Ratio,
     /// As a force where the pitch circles touch, which is what the hinges feel.
@@ -53,7 +53,7 @@ pub(super) enum Seen {
 
 /// The rows of all joints, drawn at places, with their links at poses.
 #[derive(Clone, Copy)]
-pub(super) struct Rows<'a> {
+pub(super) struct PoseRows<'a> {
     pub(super) rules: &'a PairRules,
     pub(super) at: &'a PairPlaces,
     pub(super) links: &'a [LinkPose],
@@ -62,11 +62,11 @@ pub(super) struct Rows<'a> {
 /// A row: by how much it misses, in millimetres, and its terms.
 type Visit<'v> = &'v mut dyn FnMut(f64, &[Term]);
 
-fn ends(rows: &Rows<'_>, joint: usize) -> [usize; 2] {
+fn ends(rows: &PoseRows<'_>, joint: usize) -> [usize; 2] {
     rows.rules.joints[joint].links
 }
 
-impl Rows<'_> {
+impl PoseRows<'_> {
     fn on(&self, link: usize, joint: usize) -> Point {
         self.links[link].point(self.at.points[joint])
     }
@@ -82,14 +82,14 @@ impl Rows<'_> {
     }
 
     /// Every joint's rows, in order.
-    pub(super) fn each(&self, seen: Seen, visit: Visit<'_>) {
+    pub(super) fn each(&self, seen: TeethSeen, visit: Visit<'_>) {
         for joint in 0..self.rules.joints.len() {
             self.joint(joint, seen, visit);
         }
     }
 
     /// The rows of a joint.
-    pub(super) fn joint(&self, joint: usize, seen: Seen, visit: Visit<'_>) {
+    pub(super) fn joint(&self, joint: usize, seen: TeethSeen, visit: Visit<'_>) {
         let [u, v] = ends(self, joint);
         match (self.rules.joints[joint].pair, self.rules.meshes[joint]) {
             (PairKind::Hinge, _) => {
@@ -114,8 +114,8 @@ impl Rows<'_> {
                 self.line([pinned, slotted], joint, visit);
             }
             (PairKind::Gear, Some(mesh)) => match seen {
-                Seen::Ratio => self.ratio(joint, &mesh, visit),
-                Seen::Force => self.teeth(joint, &mesh, visit),
+                TeethSeen::Ratio => self.ratio(joint, &mesh, visit),
+                TeethSeen::Force => self.teeth(joint, &mesh, visit),
             },
             (PairKind::Gear, None) => {}
         }

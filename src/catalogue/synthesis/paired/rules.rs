@@ -4,7 +4,7 @@ use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
 use crate::geom::vector::{add_scaled, sub};
-use crate::synthesis::paired::direction::Direction;
+use crate::synthesis::paired::direction::WholeDirection;
 use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
 use crate::synthesis::point::Point;
@@ -17,7 +17,7 @@ pub enum PairRule {
     /// Where it likes.
     Free,
     /// It is its own image; a slide or a slot on a mirror line then has this direction.
-    Own(Option<Direction>),
+    Own(Option<WholeDirection>),
     /// The image of another joint.
     Image(usize),
     /// The fourth corner of a parallelogram: from the first joint to the second as from the third to this one.
@@ -122,22 +122,15 @@ impl PairRules {
                 meshes[image] = meshes[i].and_then(|m| m.carried(&lay.swap, &joints));
                 continue;
             }
-            let slot = joint.pair == PairKind::Slot;
-            if slot && swapped {
-                return Err(NoRules::SwappedSlot);
-            }
-            if slot && symmetry == Symmetry::HalfTurn {
-                return Err(NoRules::CentralSlot);
-            }
             let mut along = None;
-            if symmetry == Symmetry::Mirror && (slot || joint.pair == PairKind::Slide) {
+            if has_two_ways(joint.pair, swapped, symmetry)? {
                 // A slot with its line of action across lies ahead, a slide across goes across.
                 let across = lay.bits >> ways & 1 == 1;
                 ways += 1;
-                along = Some(if across != slot {
-                    Direction::ACROSS
+                along = Some(if across == (joint.pair == PairKind::Slot) {
+                    WholeDirection::AHEAD
                 } else {
-                    Direction::AHEAD
+                    WholeDirection::ACROSS
                 });
             }
             rules[i] = PairRule::Own(along);
@@ -190,7 +183,7 @@ impl PairRules {
         }
     }
 
-    fn turned(&self, direction: Direction) -> Direction {
+    fn turned(&self, direction: WholeDirection) -> WholeDirection {
         match self.symmetry {
             Symmetry::HalfTurn => direction.reversed(),
             _ => direction.mirrored(),
@@ -259,6 +252,16 @@ impl PairRules {
                 add_scaled(a, teeth.ratio(), [y, -x])
             }
         })
+    }
+}
+
+/// Whether a joint that is its own image may lie in two ways.
+fn has_two_ways(pair: PairKind, swapped: bool, symmetry: Symmetry) -> Result<bool, NoRules> {
+    match (pair, symmetry) {
+        (PairKind::Slot, _) if swapped => Err(NoRules::SwappedSlot),
+        (PairKind::Slot, Symmetry::HalfTurn) => Err(NoRules::CentralSlot),
+        (PairKind::Slot | PairKind::Slide, Symmetry::Mirror) => Ok(true),
+        _ => Ok(false),
     }
 }
 

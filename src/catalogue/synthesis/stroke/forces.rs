@@ -124,10 +124,8 @@ impl JointForces {
         for (n, &jaw) in roles.jaws.iter().enumerate() {
             let Some(row) = rows(jaw) else { continue };
             // The part pushes outward; what the joints do makes up for it.
-            let (tip, push) = (
-                links[jaw].point(skeleton.bones.tips[n]),
-                skeleton.bones.inward[n],
-            );
+            let push = skeleton.bones.inward[n];
+            let tip = links[jaw].point(skeleton.bones.tips[n]);
             self.system.add(row, right, push[0]);
             self.system.add(row + 1, right, push[1]);
             self.system

@@ -9,7 +9,7 @@ use crate::synthesis::layout_quality::{beyond, transmission};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::task::{AskedMotion, PARALLEL};
 
 /// Poses of a stroke while places are tried, and how near to its end it is followed: a fraction of the stroke.
@@ -114,7 +114,7 @@ pub struct Judge<M> {
 }
 
 /// The places of what moves.
-pub(in crate::synthesis) type Places<M> = <<M as StrokeMotion>::Sketch as Sketch>::Places;
+pub(in crate::synthesis) type PlacesOf<M> = <<M as StrokeMotion>::Of as LayoutSketch>::JointPlaces;
 
 impl<'a> Judge<HingeMotion<'a>> {
     /// Of a skeleton.
@@ -148,7 +148,7 @@ impl<M: StrokeMotion> Judge<M> {
     }
 
     /// Stands at the drawn pose of places; `false` where that is singular.
-    fn stand(&mut self, at: &Places<M>) -> bool {
+    fn stand(&mut self, at: &PlacesOf<M>) -> bool {
         self.motion.place(at);
         self.motion.walk_mut().back()
     }
@@ -158,7 +158,7 @@ impl<M: StrokeMotion> Judge<M> {
     ///
     /// # Complexity
     /// Some corrections of O(n³) for n links, for each of some dozen poses.
-    pub fn coarse(&mut self, at: &Places<M>, most: f64) -> Option<StrokeFigures> {
+    pub fn coarse(&mut self, at: &PlacesOf<M>, most: f64) -> Option<StrokeFigures> {
         self.follow(at, COARSE, most)
     }
 
@@ -166,7 +166,7 @@ impl<M: StrokeMotion> Judge<M> {
     ///
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
-    pub fn follow(&mut self, at: &Places<M>, grid: Grid, most: f64) -> Option<StrokeFigures> {
+    pub fn follow(&mut self, at: &PlacesOf<M>, grid: Grid, most: f64) -> Option<StrokeFigures> {
         if !self.stand(at) {
             return None;
         }
@@ -242,7 +242,7 @@ impl<M: StrokeMotion> Judge<M> {
 
     /// How much farther than the task asks the tips can come, narrower and wider, in millimetres and at most `most`; 0 where they
     /// do not come as far.
-    pub fn margin(&mut self, at: &Places<M>, most: f64) -> [f64; 2] {
+    pub fn margin(&mut self, at: &PlacesOf<M>, most: f64) -> [f64; 2] {
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         [(task.narrowest, -most), (task.widest, most)].map(|(end, more)| {
@@ -257,13 +257,13 @@ impl<M: StrokeMotion> Judge<M> {
     }
 
     /// Takes in what the joint forces say; where they have no one solution, the worst.
-    fn weigh(&mut self, at: &Places<M>) {
+    fn weigh(&mut self, at: &PlacesOf<M>) {
         let here = self.motion.forces(at, &self.links);
         let here = here.unwrap_or(ForceFigures::WORST);
         self.gathered.forces = self.gathered.forces.worse(here);
     }
 
-    fn look(&mut self, at: &Places<M>) {
+    fn look(&mut self, at: &PlacesOf<M>) {
         self.motion.pose(at, &mut self.links);
         let sketch = self.motion.sketch();
         let (bones, points) = (sketch.bones(), sketch.points(at));

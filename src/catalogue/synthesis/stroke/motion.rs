@@ -8,18 +8,18 @@ use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{add_scaled, quarter, sub};
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::Sketch;
+use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::velocities::Velocity;
 
 /// The strokes of a sketch, one after another.
 pub trait StrokeMotion {
     /// What is moved.
-    type Sketch: Sketch;
+    type Of: LayoutSketch;
     /// What holds where its links fit together.
     type Equations: FitEquations;
 
     /// What is moved.
-    fn sketch(&self) -> &Self::Sketch;
+    fn sketch(&self) -> &Self::Of;
 
     /// The pose on the way.
     fn walk(&self) -> &Walk<Self::Equations>;
@@ -28,15 +28,15 @@ pub trait StrokeMotion {
     fn walk_mut(&mut self) -> &mut Walk<Self::Equations>;
 
     /// Puts places into the equations.
-    fn place(&mut self, at: &<Self::Sketch as Sketch>::Places);
+    fn place(&mut self, at: &<Self::Of as LayoutSketch>::JointPlaces);
 
     /// Where the links are at the pose that the walk stands in.
-    fn pose(&self, at: &<Self::Sketch as Sketch>::Places, links: &mut [LinkPose]);
+    fn pose(&self, at: &<Self::Of as LayoutSketch>::JointPlaces, links: &mut [LinkPose]);
 
     /// What the joint forces say there; `None` where they have no one solution.
     fn forces(
         &mut self,
-        at: &<Self::Sketch as Sketch>::Places,
+        at: &<Self::Of as LayoutSketch>::JointPlaces,
         links: &[LinkPose],
     ) -> Option<ForceFigures>;
 }
@@ -62,7 +62,7 @@ impl<'a> HingeMotion<'a> {
 }
 
 impl<'a> StrokeMotion for HingeMotion<'a> {
-    type Sketch = Skeleton<'a>;
+    type Of = Skeleton<'a>;
     type Equations = Arms<'a>;
 
     fn sketch(&self) -> &Skeleton<'a> {

@@ -1,0 +1,31 @@
+//! Random numbers that a search for places takes.
+
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use sha2::{Digest, Sha256};
+
+/// Random numbers of a start, the same for the same name and seed.
+pub(super) fn random(name: &str, seed: u64, start: u32) -> ChaCha8Rng {
+    let name = format!("{name} {seed} {start}");
+    let digest = Sha256::digest(name);
+    let mut key = [0; 32];
+    key.copy_from_slice(&digest);
+    ChaCha8Rng::from_seed(key)
+}
+
+/// From 0 to 1.
+#[allow(clippy::cast_precision_loss, reason = "53 bits")]
+pub(super) fn unit(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Roughly normal, of variance 1.
+pub(super) fn bell(random: &mut ChaCha8Rng) -> f64 {
+    (0..12).map(|_| unit(random)).sum::<f64>() - 6.0
+}
+
+/// A number below another.
+#[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
+pub(super) fn below(n: usize, random: &mut ChaCha8Rng) -> usize {
+    (random.next_u64() % n as u64) as usize
+}
