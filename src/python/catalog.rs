@@ -22,8 +22,7 @@ fn spec(json: &str) -> PyResult<Spec> {
 pub(crate) fn catalog_plan(py: Python<'_>, json: &str) -> PyResult<(String, Vec<String>)> {
     let spec = spec(json)?;
     let work = py.detach(|| work(&spec, Shard::WHOLE)).map_err(failed)?;
-    let all = work.iter().flat_map(|w| &w.structures);
-    let mut ids: Vec<String> = all.map(|s| s.id()).collect();
+    let mut ids: Vec<String> = work.ids().collect();
     ids.sort_unstable();
     Ok((spec.canonical(), ids))
 }
@@ -48,24 +47,25 @@ pub(crate) fn catalog_build(
         let all = work.count();
         let mut added = 0;
         let stopped = || stop.load(Ordering::Relaxed);
-        let ended = build(
-            spec,
-            &work,
-            |id| stopped() || there.contains(id),
-            |row| {
-                added += 1;
-                tell((there.len() + added, all));
-                match store.add(&row) {
-                    Err(e) => ControlFlow::Break(Some(e)),
-                    Ok(()) if stopped() => ControlFlow::Break(None),
-                    Ok(()) => ControlFlow::Continue(()),
-                }
-            },
-        );
-        match ended.map_err(failed)? {
-            Some(Some(e)) => return Err(failed(e)),
-            None if !stopped() => store.finish_part(shard, all).map_err(failed)?,
-            _ => {}
+        let made = store.add_while(|send| {
+            build(
+                spec,
+                &work,
+                |id| stopped() || there.contains(id),
+                |row| {
+                    added += 1;
+                    tell((there.len() + added, all));
+                    if send.send(row).is_err() || stopped() {
+                        ControlFlow::Break(())
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                },
+            )
+        });
+        made.map_err(failed)?.map_err(failed)?;
+        if !stopped() {
+            store.finish_part(shard, all).map_err(failed)?;
         }
         Ok(added)
     })

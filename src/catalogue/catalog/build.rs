@@ -77,6 +77,15 @@ impl Work {
         let hinged = self.chains.iter().map(|w| w.structures.len());
         hinged.sum::<usize>() + self.paired.len()
     }
+
+    /// The ids of the structures; of one in several forms that of the first.
+    pub fn ids(&self) -> impl Iterator<Item = String> + '_ {
+        let hinged = self.chains.iter().flat_map(|w| &w.structures);
+        let paired = self.paired.iter().filter_map(|forms| forms.first());
+        hinged
+            .map(Structure::id)
+            .chain(paired.map(PairedStructure::id))
+    }
 }
 
 /// The structures of a part of a specification.

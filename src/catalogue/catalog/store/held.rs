@@ -9,6 +9,7 @@ use rusqlite::{Connection, ErrorCode, OptionalExtension, TransactionBehavior, pa
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{SyncSender, sync_channel};
 
 /// An open catalogue.
 #[derive(Debug)]
@@ -18,6 +19,9 @@ pub struct Store {
     /// That of the tables in the file.
     pub(super) version: i64,
 }
+
+/// Rows that wait for the disk at most.
+const WAITING: usize = 256;
 
 pub(super) type Stored<T> = Result<T, StoreError>;
 
@@ -58,21 +62,49 @@ impl Store {
         self.ok(all())
     }
 
-    /// Adds a structure with all that is known of it, at once or not at all.
+    /// Adds structures with all that is known of them, at once or not at all.
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn add(&mut self, row: &CatalogueRow) -> Stored<()> {
+    pub fn add(&mut self, rows: &[CatalogueRow]) -> Stored<()> {
         let mut all = || -> rusqlite::Result<()> {
             let t = (self.db).transaction_with_behavior(TransactionBehavior::Immediate)?;
-            match row {
-                CatalogueRow::Hinged(row) => insert::row(&t, row)?,
-                CatalogueRow::Paired(row) => insert::row(&t, row)?,
+            for row in rows {
+                match row {
+                    CatalogueRow::Hinged(row) => insert::row(&t, row)?,
+                    CatalogueRow::Paired(row) => insert::row(&t, row)?,
+                }
             }
             t.commit()
         };
         let done = all();
         self.ok(done)
+    }
+
+    /// Adds structures while `make` makes them and sends them: those that wait when the disk is ready go together, since the disk
+    /// takes as long for many as for one. Where the file cannot be written sending fails.
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    ///
+    /// # Panics
+    /// Where `make` does.
+    pub fn add_while<R>(&mut self, make: impl FnOnce(SyncSender<CatalogueRow>) -> R) -> Stored<R> {
+        let (send, made) = sync_channel(WAITING);
+        std::thread::scope(|scope| {
+            let writer = scope.spawn(move || -> Stored<()> {
+                while let Ok(first) = made.recv() {
+                    let all: Vec<_> = std::iter::once(first).chain(made.try_iter()).collect();
+                    self.add(&all)?;
+                }
+                Ok(())
+            });
+            let out = make(send);
+            match writer.join() {
+                Ok(written) => written.map(|()| out),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        })
     }
 
     /// Whether a drawn mechanism is there, searched for so many ideas.

@@ -148,24 +148,23 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
     let mut count = 0;
-    let ended = build(
-        &spec,
-        &work,
-        |id| interrupt::pending() || there.contains(id),
-        |row| {
-            count += 1;
-            bar.step("structures", there.len() + count, all);
-            match store.add(&row) {
-                Err(e) => ControlFlow::Break(Some(e)),
-                Ok(()) if interrupt::pending() => ControlFlow::Break(None),
-                Ok(()) => ControlFlow::Continue(()),
-            }
-        },
-    )?;
+    store.add_while(|send| {
+        build(
+            &spec,
+            &work,
+            |id| interrupt::pending() || there.contains(id),
+            |row| {
+                count += 1;
+                bar.step("structures", there.len() + count, all);
+                if send.send(row).is_err() || interrupt::pending() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            },
+        )
+    })??;
     bar.clear();
-    if let Some(Some(e)) = ended {
-        return Err(e.into());
-    }
     if !interrupt::pending() {
         store.finish_part(part, all)?;
     }
