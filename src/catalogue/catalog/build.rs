@@ -5,11 +5,11 @@ use crate::catalog::row::{PairedRow, RowError, StructureRow, row_of_pair, row_of
 use crate::catalog::spec::Spec;
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
-use crate::chains::pairs::classics::classics;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
-use crate::synthesis::paired::structure::{PairedStructure, forms_of, paired_structures};
+use crate::synthesis::paired::known::known_schemes;
+use crate::synthesis::paired::structure::{PairedStructure, paired_structures};
 use crate::synthesis::structure::{Structure, structures};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -34,8 +34,8 @@ pub enum BuildError {
 pub struct Work {
     /// Structures of hinges, by their chains, in the order of their codes.
     chains: Vec<ChainWork>,
-    /// Structures with slides, gears and slots, each in the forms it may have, of which the first counts that has a layout.
-    paired: Vec<Vec<PairedStructure>>,
+    /// Structures with slides, gears and slots.
+    paired: Vec<PairedStructure>,
 }
 
 /// A chain with its automorphisms and the structures that are asked of it.
@@ -78,10 +78,10 @@ impl Work {
         hinged.sum::<usize>() + self.paired.len()
     }
 
-    /// The ids of the structures; of one in several forms that of the first.
+    /// The ids of the structures.
     pub fn ids(&self) -> impl Iterator<Item = String> + '_ {
         let hinged = self.chains.iter().flat_map(|w| &w.structures);
-        let paired = self.paired.iter().filter_map(|forms| forms.first());
+        let paired = self.paired.iter();
         hinged
             .map(Structure::id)
             .chain(paired.map(PairedStructure::id))
@@ -99,9 +99,10 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
     })
 }
 
-fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<Vec<PairedStructure>>, BuildError> {
+fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildError> {
     if spec.classics {
-        return Ok(known_schemes(shard));
+        let all = known_schemes().into_iter();
+        return Ok(all.filter(|p| shard.has(&p.name())).collect());
     }
     let forms = spec.paired_forms().map_err(RowError::from)?;
     let kinds = spec.pairs().map_err(RowError::from)?;
@@ -119,15 +120,7 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<Vec<PairedStructure>>, B
         std::iter::once(p).chain(other)
     });
     let asked = all.filter(|p| forms.contains(&(p.input(), p.form)) && shard.has(&p.name()));
-    Ok(asked.map(|p| vec![p]).collect())
-}
-
-/// The well-known schemes that are structures, each once.
-fn known_schemes(shard: Shard) -> Vec<Vec<PairedStructure>> {
-    let all = classics().iter().map(|c| &c.structure);
-    let all = all.unique_by(|s| s.key()).map(forms_of);
-    let of = |forms: &Vec<PairedStructure>| forms.first().is_some_and(|p| shard.has(&p.name()));
-    all.filter(of).collect()
+    Ok(asked.collect())
 }
 
 fn chain_work(spec: &Spec, shard: Shard) -> Result<Vec<ChainWork>, BuildError> {
@@ -175,13 +168,12 @@ pub fn build<B: Send>(
         }
     };
     let paired = || {
-        work.paired.par_iter().try_for_each(|forms| {
-            if forms.iter().any(|p| skip(&p.id())) {
+        work.paired.par_iter().try_for_each(|p| {
+            if skip(&p.id()) {
                 return Ok(());
             }
-            let rows = forms.iter().map(|p| row_of_paired(p, spec));
-            let row = first_laid(rows).map_err(BuildEnd::failed)?;
-            row.map_or(Ok(()), |row| give(CatalogueRow::Paired(Box::new(row))))
+            let row = row_of_paired(p, spec).map_err(BuildEnd::failed)?;
+            give(CatalogueRow::Paired(Box::new(row)))
         })
     };
     let one = |w: &ChainWork, structure: &Structure, general: Option<&General>| {
@@ -211,21 +203,6 @@ pub fn build<B: Send>(
         Err(BuildEnd::Asked(b)) => Ok(Some(b)),
         Err(BuildEnd::Failed(e)) => Err(e),
     }
-}
-
-/// The first row that has a layout, or else the first.
-fn first_laid(
-    rows: impl Iterator<Item = Result<PairedRow, RowError>>,
-) -> Result<Option<PairedRow>, RowError> {
-    let mut first = None;
-    for row in rows {
-        let row = row?;
-        if row.laid.is_ok() {
-            return Ok(Some(row));
-        }
-        first.get_or_insert(row);
-    }
-    Ok(first)
 }
 
 /// Why building ends before all is built.

@@ -8,6 +8,7 @@ pub mod direction;
 pub mod equations;
 pub mod figures;
 pub mod forces;
+pub mod known;
 pub mod layout;
 pub mod mechanism;
 mod moves;

@@ -183,28 +183,8 @@ pub fn paired_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
     paired.filter(|p| !p.is_hinged()).collect()
 }
 
-/// A well-known scheme in the forms it may be laid out in, from the most symmetric to none.
-#[must_use]
-pub fn forms_of(structure: &PairStructure) -> Vec<PairedStructure> {
-    let symmetric = [false, true]
-        .into_iter()
-        .cartesian_product([Symmetry::Mirror, Symmetry::HalfTurn]);
-    let forms = symmetric.map(|(one_sided, symmetry)| (symmetry, one_sided));
-    let forms = forms.chain([(Symmetry::Generic, false)]);
-    let structure = PairStructure::of_key(&structure.key());
-    let of = |(symmetry, one_sided)| PairedStructure {
-        structure: structure.clone(),
-        form: PairedForm {
-            one_sided,
-            ..PairedForm::of(symmetry)
-        },
-    };
-    let all = forms.map(of).filter(|p| !p.lays().is_empty());
-    all.map(PairedStructure::on_parallelograms_if_any).collect()
-}
-
 impl PairedStructure {
-    fn on_parallelograms_if_any(self) -> PairedStructure {
+    pub(super) fn on_parallelograms_if_any(self) -> PairedStructure {
         let parallel = self.rings().is_some();
         PairedStructure {
             form: PairedForm {

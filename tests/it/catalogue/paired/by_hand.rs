@@ -7,11 +7,12 @@ use ozols::synthesis::figures::LayoutFigures;
 use ozols::synthesis::limits::Limits;
 use ozols::synthesis::paired::direction::WholeDirection;
 use ozols::synthesis::paired::figures::figures;
+use ozols::synthesis::paired::known::most_symmetric;
 use ozols::synthesis::paired::layout::PairLayout;
 use ozols::synthesis::paired::places::{PairPlaces, Teeth};
 use ozols::synthesis::paired::rules::PairRules;
 use ozols::synthesis::paired::sketch::PairSketch;
-use ozols::synthesis::paired::structure::{PairedStructure, forms_of};
+use ozols::synthesis::paired::structure::PairedStructure;
 use ozols::synthesis::sketch::LayoutSketch;
 use ozols::synthesis::task::Task;
 use serde_json::Value;
@@ -38,7 +39,7 @@ struct ByHand {
 impl ByHand {
     fn new(id: &str) -> ByHand {
         let classic = classics().iter().find(|c| c.id == id).unwrap();
-        let paired = forms_of(&classic.structure).swap_remove(0);
+        let paired = most_symmetric(&classic.structure).unwrap();
         let lay = paired.lays().swap_remove(0);
         let rules = PairRules::new(&paired, &lay).unwrap();
         let count = rules.joints.len();

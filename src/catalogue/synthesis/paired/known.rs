@@ -1,0 +1,40 @@
+//! Well-known schemes in the forms that they are laid out in.
+
+use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::pairs::classics::classics;
+use crate::chains::pairs::structure::PairStructure;
+use crate::synthesis::paired::rules::PairRules;
+use crate::synthesis::paired::structure::{PairedForm, PairedStructure};
+use itertools::Itertools;
+
+/// The well-known schemes that are structures, each once.
+#[must_use]
+pub fn known_schemes() -> Vec<PairedStructure> {
+    let all = classics().iter().map(|c| &c.structure);
+    let all = all.unique_by(|s| s.key());
+    all.filter_map(most_symmetric).collect()
+}
+
+/// A structure in the most symmetric form in which it lies somewhere; `None` where it does so in none.
+///
+/// # Complexity
+/// As [`PairedStructure::lays`], for each form.
+#[must_use]
+pub fn most_symmetric(structure: &PairStructure) -> Option<PairedStructure> {
+    let symmetric = [Symmetry::Mirror, Symmetry::HalfTurn];
+    let forms = [false, true].into_iter().cartesian_product(symmetric);
+    let forms = forms.map(|(one_sided, symmetry)| PairedForm {
+        one_sided,
+        ..PairedForm::of(symmetry)
+    });
+    let structure = PairStructure::of_key(&structure.key());
+    let mut all = forms.chain([PairedForm::of(Symmetry::Generic)]);
+    let found = all.find_map(|form| {
+        let structure = structure.clone();
+        let paired = PairedStructure { structure, form };
+        let mut lays = paired.lays().into_iter();
+        lays.any(|lay| PairRules::new(&paired, &lay).is_ok())
+            .then_some(paired)
+    });
+    found.map(PairedStructure::on_parallelograms_if_any)
+}
