@@ -7,9 +7,6 @@ use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
 use chacha20::ChaCha8Rng;
 
-/// A layout that costs less than this is taken without looking for a better one.
-const GOOD: f64 = 3.0;
-
 /// Places at the end of a start.
 pub(super) struct FoundPlaces<P> {
     /// Whether the drawn pose keeps the limits.
@@ -30,8 +27,8 @@ impl<P> FoundPlaces<P> {
     }
 
     /// Whether no better ones need be looked for.
-    pub(super) fn is_good(&self) -> bool {
-        self.within && self.does && self.cost < GOOD
+    pub(super) fn are_good(&self, sketch: &impl LayoutSketch) -> bool {
+        self.within && self.does && self.cost < sketch.good()
     }
 
     /// Whether they are better than others, where there are any.
@@ -149,7 +146,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
             .cost(phase.look, f64::INFINITY)
             .unwrap_or(f64::INFINITY);
         self.best = (self.now, self.at.clone());
-        if phase.look == Look::Stroke && self.now < GOOD && self.does() {
+        if phase.look == Look::Stroke && self.now < self.sketch.good() && self.does() {
             return;
         }
         let [from, to] = phase.warmth;

@@ -23,6 +23,9 @@ use thiserror::Error;
 /// Starts of the search for places at most.
 const STARTS: u32 = 6;
 
+/// A layout that costs less than this is taken without looking for a better one.
+const GOOD: f64 = 3.0;
+
 /// A structure with a place for every joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
@@ -144,7 +147,7 @@ fn best_of_starts(skeleton: &Skeleton<'_>, seed: u64) -> Option<FoundPlaces<Vec<
     for start in 0..STARTS {
         let found = search_from(skeleton, &mut judge, random(&name, seed, start), start);
         let Some(found) = found else { continue };
-        let good = found.is_good();
+        let good = found.are_good(skeleton);
         if found.is_better_than(best.as_ref()) {
             best = Some(found);
         }
@@ -164,6 +167,10 @@ impl LayoutSketch for Skeleton<'_> {
 
     fn limits(&self) -> &Limits {
         &self.limits
+    }
+
+    fn good(&self) -> f64 {
+        GOOD
     }
 
     fn points<'p>(&self, at: &'p Vec<Point>) -> &'p [Point] {

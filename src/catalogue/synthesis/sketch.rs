@@ -17,6 +17,9 @@ pub trait LayoutSketch {
     /// What it is to be like and to do.
     fn limits(&self) -> &Limits;
 
+    /// Places that cost less are taken without looking for better ones.
+    fn good(&self) -> f64;
+
     /// Where the points are.
     fn points<'p>(&self, at: &'p Self::JointPlaces) -> &'p [Point];
 

@@ -60,7 +60,7 @@ pub fn layout(
             let found = search_from(&sketch, &mut judge, random(&name, seed, start), start);
             start += 1;
             let Some(found) = found else { continue };
-            let good = found.is_good();
+            let good = found.are_good(&sketch);
             if found.is_better_than(best.as_ref().map(|b| &b.0)) {
                 best = Some((found, sketch.rules.clone()));
             }
@@ -68,7 +68,7 @@ pub fn layout(
                 break;
             }
         }
-        if best.as_ref().is_some_and(|b| b.0.is_good()) {
+        if best.as_ref().is_some_and(|b| b.0.are_good(&sketch)) {
             break;
         }
     }

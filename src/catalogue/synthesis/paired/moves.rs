@@ -16,6 +16,8 @@ use crate::synthesis::sketch::LayoutSketch;
 use chacha20::ChaCha8Rng;
 use std::ops::RangeInclusive;
 
+/// A layout that costs less than this is taken without looking for a better one.
+const GOOD: f64 = 1.0;
 /// Pitch radii of two gears, in a ratio.
 const RATIOS: [[i32; 2]; 9] = [
     [1, 1],
@@ -102,6 +104,10 @@ impl LayoutSketch for PairSketch<'_> {
 
     fn limits(&self) -> &Limits {
         &self.limits
+    }
+
+    fn good(&self) -> f64 {
+        GOOD
     }
 
     fn points<'p>(&self, at: &'p PairPlaces) -> &'p [Point] {
