@@ -190,7 +190,7 @@ export function catalogueTests(test) {
     await open(file, {}, async (tab) => {
       await cards(tab).first().click();
       const id = await tab.locator("#chosen-name").innerText();
-      for (const [name, holds] of [[`${id}.toml`, /\[\[joint\]\]/], [`${id}.svg`, /^<svg(?![^]*var\()[^]*\.gripper/]]) {
+      for (const [name, holds] of [[`${id}.toml`, /\[\[joint\]\]/], [`${id}.xml`, /^<mujoco [^]*<\/mujoco>\s*$/], [`${id}.svg`, /^<svg(?![^]*var\()[^]*\.gripper/]]) {
         const [file] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("link", { name }).click()]);
         assert.equal(file.suggestedFilename(), name);
         assert.match(readFileSync(await file.path(), "utf8"), holds);

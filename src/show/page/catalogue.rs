@@ -5,6 +5,8 @@ use super::gripper::drawing;
 use super::policy::{self, POLICY};
 use super::style::STYLE;
 use crate::catalog::store::{Store, StoreError};
+use crate::file::text::mechanism_from_str;
+use crate::robots::formats;
 use maud::{DOCTYPE, PreEscaped, html};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -63,7 +65,11 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
         let mechanism = card.get("mechanism").cloned();
         let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
         let of = ideas.remove(id).unwrap_or_default();
-        let drawn = mechanism.as_ref().and_then(Value::as_str).and_then(drawing);
+        let mechanism = mechanism.as_ref().and_then(Value::as_str);
+        let mechanism = mechanism.and_then(|m| mechanism_from_str("mechanism.toml", m).ok());
+        let drawn = mechanism.as_ref().and_then(drawing);
+        let mjcf = mechanism.and_then(|m| formats::write(&m, "mjcf").ok());
+        card.insert("mjcf".to_owned(), mjcf.into());
         card.insert(
             "ideas".to_owned(),
             of.into_iter().map(Value::Object).collect(),

@@ -1,6 +1,5 @@
 //! A gripper of a catalogue as numbers, for the script that draws and moves it.
 
-use crate::file::text::mechanism_from_str;
 use crate::geom::vector::{real, sides, unit};
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
@@ -50,8 +49,7 @@ struct GearData {
 }
 
 /// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y.
-pub(super) fn drawing(text: &str) -> Option<DrawingData> {
-    let m = mechanism_from_str("mechanism.toml", text).ok()?;
+pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
     let ids: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let joints: Vec<&Joint> = ids.iter().map(|&j| &m.joints[j]).collect();
     let square = |j: &&Joint| {
@@ -98,7 +96,7 @@ pub(super) fn drawing(text: &str) -> Option<DrawingData> {
     let place = |p: &[f64; 2]| p.map(|x| x * scaled);
     let slides = |d: usize| joints[d].joint_type.freedoms().iter().any(|f| f.slides());
     let gears = m.couplings_in(StateId::FREE).filter(|c| c.gear);
-    let gears = gears.filter_map(|c| GearData::new(&m, c, &ids, &pins, scaled));
+    let gears = gears.filter_map(|c| GearData::new(m, c, &ids, &pins, scaled));
     Some(DrawingData {
         gears: gears.collect(),
         ends: joints.iter().map(|j| j.links.map(|l| l.index())).collect(),

@@ -85,7 +85,8 @@ function gripper(card, title, changed, elsewhere) {
     else if (d.ends[i].includes(d.frame)) out.push(element('path', { class: 'ground', d: `M${x} ${y}l-5 8h10zM${x - 7} ${y + 8}h14` }));
   });
   pins.forEach(([x, y], i) => {
-    if (d.kinds[i] !== 'slide') out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }));
+    const named = [element('title', {}, [d.names[i]])];
+    if (d.kinds[i] !== 'slide') out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }, named));
   });
   if (card.closes && !elsewhere) {
     const [x, y] = pins[d.drive], s = card.closes;
@@ -100,7 +101,8 @@ function gripper(card, title, changed, elsewhere) {
     const [x, y] = pins[i];
     out.push(element('circle', { class: 'changed', cx: x, cy: y, r: 5.5 }));
     const right = x > centre;
-    out.push(element('text', { x: right ? x - 7 : x + 7, y: y - 6, 'text-anchor': right ? 'end' : 'start' }, [word]));
+    const label = (below, words, kind) => element('text', { class: kind, x: right ? x - 7 : x + 7, y: y - 6 + below, 'text-anchor': right ? 'end' : 'start' }, [words]);
+    out.push(label(0, word, ''), label(5.5, name, 'joint'));
   }
   return element('svg', { class: 'gripper', viewBox: box.map((v) => v.toFixed(1)).join(' '), role: 'img' }, out);
 }

@@ -28,6 +28,7 @@ function savedFiles(c, figure) {
   row.className = 'saved';
   row.append('Save ');
   if (c.mechanism) row.append(saving(`${c.id}.toml`, 'application/toml', () => c.mechanism), ', the mechanism file; ');
+  if (c.mjcf) row.append(saving(`${c.id}.xml`, 'application/xml', () => c.mjcf), ', the same for MuJoCo; ');
   row.append(saving(`${c.id}.svg`, 'image/svg+xml', () => alone(figure.querySelector('svg'))), ', the drawing.');
   return row;
 }
