@@ -6,17 +6,20 @@ import { catalogue, fits, open, picture } from "./pages.mjs";
 export function pairTests(test) {
   const known = catalogue("known", "--classics", "--ideas", "2");
   const some = catalogue("pairs", "--pairs", "slide,gear,slot", "--at-most", "2", "--symmetry", "mirror,half-turn", "--links", "4..6", "--ideas", "1");
+  const three = catalogue("three", "--jaws", "3", "--pairs", "slide,gear,slot", "--symmetry", "threefold", "--links", "5..8", "--at-most", "2", "--ideas", "1");
   const cards = (tab) => tab.locator("#cards .card");
 
   test("slides, slots and gears hold all the way from open to closed", async () => {
-    for (const [file, least] of [[known, 30], [some, 100]]) {
+    for (const [file, least] of [[known, 30], [some, 100], [three, 50]]) {
       await open(file, {}, async (tab) => {
         const [count, wrong] = await tab.evaluate(() => {
           const out = [];
           for (const c of data.cards) {
             const frames = framesOf(c), d = c.drawing;
             if (frames.length < 10) { out.push([c.id, frames.length]); continue; }
-            const opening = frames.map(({ tips: [a, b] }) => Math.abs(a[1] - b[1]) / d.scale);
+            // Of three jaws twice their distance from the middle, each along its own line.
+            const along = (t, [x, y]) => (t[0] * x + t[1] * y) / Math.hypot(x, y);
+            const opening = frames.map(({ tips }) => (tips.length === 2 ? Math.abs(tips[0][1] - tips[1][1]) : (2 / 3) * tips.reduce((sum, t, n) => sum + along(t, d.tips[n]), 0)) / d.scale);
             const step = 2 * Math.max(...opening.slice(1).map((w, i) => Math.abs(w - opening[i])));
             if (Math.abs(opening[0] - c.opening_max) > step || Math.abs(opening.at(-1) - c.opening_min) > step) out.push([c.id, opening[0], opening.at(-1)]);
             for (const { pose } of frames) {

@@ -1,8 +1,9 @@
 //! Every structure of a specification, in parallel, each given when it is done.
 
 use crate::catalog::general::{General, InputPair};
-use crate::catalog::row::{PairedRow, RowError, StructureRow, row_of_pair, row_of_paired};
-use crate::catalog::spec::Spec;
+use crate::catalog::paired_row::{PairedRow, ThreefoldRow, row_of_paired, row_of_three};
+use crate::catalog::row::{RowError, StructureRow, row_of_pair};
+use crate::catalog::spec::{MOST_PAIRED, Spec};
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
 use crate::chains::pairs::sharing::Menu;
@@ -10,6 +11,7 @@ use crate::chains::roles::Subject;
 use crate::shard::Shard;
 use crate::synthesis::paired::known::known_schemes;
 use crate::synthesis::paired::structure::{PairedStructure, paired_structures};
+use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::structure::{Structure, structures};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -36,6 +38,8 @@ pub struct Work {
     chains: Vec<ChainWork>,
     /// Structures with slides, gears and slots.
     paired: Vec<PairedStructure>,
+    /// Those with three jaws.
+    threefold: Vec<ThreefoldStructure>,
 }
 
 /// A chain with its automorphisms and the structures that are asked of it.
@@ -53,6 +57,8 @@ pub enum CatalogueRow {
     Hinged(Box<StructureRow>),
     /// Of one with slides, gears or slots.
     Paired(Box<PairedRow>),
+    /// Of one with three jaws.
+    Threefold(Box<ThreefoldRow>),
 }
 
 impl ChainWork {
@@ -75,16 +81,15 @@ impl Work {
     #[must_use]
     pub fn count(&self) -> usize {
         let hinged = self.chains.iter().map(|w| w.structures.len());
-        hinged.sum::<usize>() + self.paired.len()
+        hinged.sum::<usize>() + self.paired.len() + self.threefold.len()
     }
 
     /// The ids of the structures.
     pub fn ids(&self) -> impl Iterator<Item = String> + '_ {
         let hinged = self.chains.iter().flat_map(|w| &w.structures);
-        let paired = self.paired.iter();
-        hinged
-            .map(Structure::id)
-            .chain(paired.map(PairedStructure::id))
+        let paired = self.paired.iter().map(PairedStructure::id);
+        let threefold = self.threefold.iter().map(ThreefoldStructure::id);
+        hinged.map(Structure::id).chain(paired).chain(threefold)
     }
 }
 
@@ -96,6 +101,7 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
     Ok(Work {
         chains: chain_work(spec, shard)?,
         paired: paired_work(spec, shard)?,
+        threefold: threefold_work(spec, shard)?,
     })
 }
 
@@ -120,6 +126,25 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
         std::iter::once(p).chain(other)
     });
     let asked = all.filter(|p| forms.contains(&(p.input(), p.form)) && shard.has(&p.name()));
+    Ok(asked.collect())
+}
+
+/// Those of three jaws whose gripper of two jaws has as many links as is asked.
+fn threefold_work(spec: &Spec, shard: Shard) -> Result<Vec<ThreefoldStructure>, BuildError> {
+    if spec.classics || !spec.threefold_pairs().map_err(RowError::from)? {
+        return Ok(Vec::new());
+    }
+    let kinds = spec.pairs().map_err(RowError::from)?;
+    let menu = Menu {
+        kinds: &kinds,
+        most: spec.at_most,
+    };
+    let links = spec.links().map_err(RowError::from)?;
+    // A side more makes more links of them.
+    let most = MOST_PAIRED.min(*links.end());
+    let two = (3..=most).flat_map(|n| paired_structures(n, menu));
+    let all = two.filter_map(|p| ThreefoldStructure::new(&p));
+    let asked = all.filter(|t| links.contains(&t.links()) && shard.has(&t.name()));
     Ok(asked.collect())
 }
 
@@ -176,6 +201,15 @@ pub fn build<B: Send>(
             give(CatalogueRow::Paired(Box::new(row)))
         })
     };
+    let threefold = || {
+        work.threefold.par_iter().try_for_each(|t| {
+            if skip(&t.id()) {
+                return Ok(());
+            }
+            let row = row_of_three(t, spec).map_err(BuildEnd::failed)?;
+            give(CatalogueRow::Threefold(Box::new(row)))
+        })
+    };
     let one = |w: &ChainWork, structure: &Structure, general: Option<&General>| {
         if skip(&structure.id()) {
             return Ok(());
@@ -198,11 +232,8 @@ pub fn build<B: Send>(
             each.try_for_each(|s| one(w, s, general.as_ref()))
         })
     };
-    match paired().and_then(|()| hinged()) {
-        Ok(()) | Err(BuildEnd::Poisoned) => Ok(None),
-        Err(BuildEnd::Asked(b)) => Ok(Some(b)),
-        Err(BuildEnd::Failed(e)) => Err(e),
-    }
+    let all = paired().and_then(|()| threefold()).and_then(|()| hinged());
+    all.map_or_else(BuildEnd::told, |()| Ok(None))
 }
 
 /// Why building ends before all is built.
@@ -218,5 +249,13 @@ enum BuildEnd<B> {
 impl<B> BuildEnd<B> {
     fn failed(e: RowError) -> BuildEnd<B> {
         BuildEnd::Failed(BuildError::Row(e))
+    }
+
+    fn told(self) -> Result<Option<B>, BuildError> {
+        match self {
+            BuildEnd::Poisoned => Ok(None),
+            BuildEnd::Asked(b) => Ok(Some(b)),
+            BuildEnd::Failed(e) => Err(e),
+        }
     }
 }

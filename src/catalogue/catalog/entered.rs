@@ -2,7 +2,7 @@
 
 use crate::chains::chain::Chain;
 use crate::chains::graph6;
-use crate::chains::layout_symmetry::Input;
+use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::pairs::census::Kinds;
 use crate::chains::pairs::chain::{PairChain, ordered};
 use crate::chains::pairs::classics::{Classic, classics_of};
@@ -13,6 +13,7 @@ use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::point::Point;
 use crate::synthesis::structure::Structure;
 
@@ -129,6 +130,33 @@ impl Entered for PairedStructure {
                 driven_from,
             }),
             classics: classics_of(&self.structure.key()).collect(),
+        }
+    }
+}
+
+impl Entered for ThreefoldStructure {
+    fn columns(&self) -> StructureColumns {
+        let chain = self.chain();
+        let [base, driver] = self.two.drive();
+        let link = |l: usize| self.link(l, 0).unwrap_or(0);
+        StructureColumns {
+            id: self.id(),
+            name: self.name(),
+            chain: self.code(),
+            links: self.links(),
+            joints: chain.joints().len(),
+            frame: link(self.two.structure.roles.frame),
+            driver: link(driver),
+            jaws: self.jaws(),
+            input: self.two.input(),
+            symmetry: Symmetry::Threefold.name().to_owned(),
+            parallel: self.two.form.parallel,
+            pairs: Some(PairColumns {
+                code: chain.code(),
+                kinds: Kinds::of(&chain),
+                driven_from: link(base),
+            }),
+            classics: Vec::new(),
         }
     }
 }

@@ -27,9 +27,6 @@ use crate::synthesis::beside::beside;
 use crate::synthesis::figures::{LayoutFigures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
-use crate::synthesis::paired;
-use crate::synthesis::paired::layout::PairLayout;
-use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::structure::Structure;
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
@@ -208,7 +205,7 @@ impl AsFile {
 }
 
 /// The variants of a layout.
-struct Variants {
+pub(super) struct Variants {
     counts: BTreeMap<(i64, u32), BigUint>,
     symmetric: Symmetric,
     exact: bool,
@@ -248,7 +245,7 @@ fn in_general_position(
 }
 
 /// The variants of a layout in special places, by a search of its own.
-fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
+pub(super) fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
     let symmetric = Symmetric::of(built, &request(spec))?;
     let outcome = run(built.clone(), &request(spec), &|| false, &mut |_| {})?;
     let diagrams = outcome.diagrams.as_ref();
@@ -290,16 +287,16 @@ fn lay(
 }
 
 /// A layout as a file, before it is searched.
-struct LaidFile {
-    name: String,
-    file: MechanismFile,
-    built: Mechanism,
-    figures: Option<LayoutFigures>,
+pub(super) struct LaidFile {
+    pub(super) name: String,
+    pub(super) file: MechanismFile,
+    pub(super) built: Mechanism,
+    pub(super) figures: Option<LayoutFigures>,
 }
 
 impl LaidFile {
     /// The layout with its variants; why it counts as none where its pose is not proven to be a regular one.
-    fn searched<L>(
+    pub(super) fn searched<L>(
         self,
         layout: L,
         variants: impl FnOnce(&Mechanism) -> Result<Variants, RowError>,
@@ -329,42 +326,6 @@ impl LaidFile {
             ideas: variants.ideas,
         }))
     }
-}
-
-/// A row of a structure with slides, gears or slots.
-pub type PairedRow = StructureRow<PairedStructure, PairLayout>;
-
-/// The row of a structure with slides, gears or slots.
-///
-/// # Errors
-/// As [`row`].
-///
-/// # Complexity
-/// A search for places and one of the variants.
-pub fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow, RowError> {
-    let laid = match paired::layout::layout(paired, &spec.limits(), spec.seed) {
-        Err(why) => Err(why),
-        Ok(layout) => {
-            let menu = spec.menu()?;
-            let file = paired::mechanism::mechanism_file(paired, &layout, &menu, &spec.workload);
-            let as_file = LaidFile {
-                name: paired.name(),
-                built: mechanism(&paired.name(), &file)?,
-                figures: paired::figures::figures(paired, &layout),
-                file,
-            };
-            as_file.searched(layout, |built| of_its_own(built, spec))?
-        }
-    };
-    let (chain, roles) = (&paired.structure.chain, &paired.structure.roles);
-    let at_frame = |&&jaw: &&usize| chain.between(roles.frame, jaw).is_some();
-    Ok(StructureRow {
-        jaws_at_frame: roles.jaws.iter().filter(at_frame).count(),
-        truss: false,
-        graph_symmetric: true,
-        structure: paired.clone(),
-        laid,
-    })
 }
 
 /// The first ideas of a search, each with the scores of its first variant.

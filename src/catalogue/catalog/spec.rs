@@ -124,8 +124,8 @@ pub enum SpecError {
     PairedLinks,
     /// Pairs in a form that they are not laid out in.
     #[error(
-        "pairs: structures with pairs have two jaws and are laid out as mirror images or by half a turn; ask for mirror or half-turn \
-         among the symmetries"
+        "pairs: structures with pairs are symmetric: ask for mirror or half-turn among the symmetries, or with three jaws for \
+         threefold and a turning input"
     )]
     PairedForms,
     /// A number out of its range.
@@ -222,7 +222,7 @@ impl Spec {
         let all = range(&self.links).map_err(|_| wrong())?;
         let known = *all.start() >= 4 && *all.end() <= MOST_LINKS;
         let some = known && all.clone().any(|n| n % 2 == 0 || !self.pairs.is_empty());
-        if some && !self.pairs.is_empty() && *all.end() > MOST_PAIRED {
+        if some && self.jaws == 2 && !self.pairs.is_empty() && *all.end() > MOST_PAIRED {
             return Err(SpecError::PairedLinks);
         }
         some.then_some(all).ok_or_else(wrong)
@@ -256,6 +256,17 @@ impl Spec {
         let forms = forms.filter(|f| parallel.is_none_or(|p| p == f.parallel));
         let forms: Vec<PairedForm> = forms.collect();
         Ok(inputs.into_iter().cartesian_product(forms).collect())
+    }
+
+    /// Whether structures of three jaws with pairs are asked for.
+    ///
+    /// # Errors
+    /// Where a word means nothing.
+    pub fn threefold_pairs(&self) -> Result<bool, SpecError> {
+        let (inputs, symmetries) = self.words()?;
+        let threefold = symmetries.contains(&Symmetry::Threefold) && inputs.contains(&Input::Turn);
+        let pairs = !self.pairs()?.is_empty();
+        Ok(pairs && threefold && self.jaws == 3 && self.parallelograms()? != Some(true))
     }
 
     /// Whether layouts with the jaws on parallelograms are asked for, where one of both is.
@@ -292,7 +303,7 @@ impl Spec {
                 && f.suits(self.jaws)
         };
         let forms: Vec<Form> = Form::all().filter(asked).collect();
-        if forms.is_empty() && self.paired_forms()?.is_empty() {
+        if forms.is_empty() && self.paired_forms()?.is_empty() && !self.threefold_pairs()? {
             return Err(SpecError::Nothing);
         }
         Ok(forms)
@@ -366,7 +377,8 @@ impl Spec {
         self.check_task()?;
         self.links()?;
         self.forms()?;
-        if !self.pairs()?.is_empty() && self.paired_forms()?.is_empty() {
+        let none = self.paired_forms()?.is_empty() && !self.threefold_pairs()?;
+        if !self.pairs()?.is_empty() && none {
             return Err(SpecError::PairedForms);
         }
         self.menu().map(|_| ())

@@ -32,7 +32,7 @@ pub(crate) fn link_names(structure: &Structure) -> Vec<String> {
 }
 
 /// Options after so many thirds of a turn: their directions go with it.
-fn options_turned(options: &[OptionEntry], thirds: u8) -> Vec<OptionEntry> {
+pub(super) fn options_turned(options: &[OptionEntry], thirds: u8) -> Vec<OptionEntry> {
     let mut out = options.to_vec();
     for option in &mut out {
         if let OptionEntry::Table(t) = option

@@ -23,6 +23,11 @@ pub trait LayoutSketch {
     /// Where the points are.
     fn points<'p>(&self, at: &'p Self::JointPlaces) -> &'p [Point];
 
+    /// Gives every place where a point stands that is at one of them.
+    fn each_copy(&self, _point: usize, at: Point, take: &mut dyn FnMut(Point)) {
+        take(at);
+    }
+
     /// Places to begin with.
     fn first_places(&self, random: &mut ChaCha8Rng) -> Self::JointPlaces;
 

@@ -42,6 +42,56 @@ fn some() -> &'static str {
     file
 }
 
+/// Every structure of five links with three jaws: a scroll, three racks on a pinion, levers on a disc of cams.
+fn three() -> &'static str {
+    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
+    let (_, file) = FILE.get_or_init(|| {
+        let folder = tempdir().unwrap();
+        let file = at(&folder, "three.db");
+        let words = "catalog build --jaws 3 --pairs slide,gear,slot --symmetry threefold --links 5 --ideas 2 --quiet -o";
+        ok(&words.split(' ').chain([file.as_str()]).collect::<Vec<_>>());
+        (folder, file)
+    });
+    file
+}
+
+/// What a third of a turn carries to each other is searched as such, and its redesigns are as many by the plain command.
+#[test]
+fn sides_of_three_jaws_are_images_of_each_other() {
+    let folder = tempdir().unwrap();
+    for row in rows(
+        three(),
+        "SELECT id, determinate, orbits_w1 FROM structures JOIN layouts ON structure = id",
+    ) {
+        let toml = at(&folder, "chuck.toml");
+        ok(&[
+            "catalog",
+            "export",
+            three(),
+            row["id"].as_str().unwrap(),
+            "-o",
+            &toml,
+        ]);
+        let found = ok(&[
+            "search",
+            &toml,
+            "--max-mobility",
+            "1",
+            "--quiet",
+            "--format",
+            "json",
+        ]);
+        let found: Value = serde_json::from_str(&found).unwrap();
+        assert_eq!(
+            found["determinate"].as_str().unwrap(),
+            row["determinate"].to_string(),
+            "{row}"
+        );
+        let m = ozols::from_toml(&std::fs::read_to_string(&toml).unwrap()).unwrap();
+        assert_eq!(m.search.order(), 3);
+    }
+}
+
 const PAIRED: [&str; 13] = [
     "catalog",
     "build",
@@ -142,7 +192,9 @@ fn pulls_as_its_file_says(file: &str, row: &Value, folder: &TempDir) {
     let metre = if row["input"] == "turn" { 1000.0 } else { 1.0 };
     let (travel, closes) = (number(row, "travel"), number(row, "closes"));
     let (mut gone, mut all) = (0.0, Vec::new());
-    for (way, work) in [(closes, 3000.0), (-closes, 2000.0)] {
+    // Three jaws go as far to the middle each.
+    let jaws = if row["jaw_c"].is_null() { 2.0 } else { 3.0 };
+    for (way, work) in [(closes, 1500.0 * jaws), (-closes, 1000.0 * jaws)] {
         // Beyond the end links may lock: a little less, where that does.
         let found = [0.8, 0.999]
             .into_iter()
@@ -176,7 +228,7 @@ fn pulls_as_its_file_says(file: &str, row: &Value, folder: &TempDir) {
     }
 }
 
-const LAID: &str = "SELECT id, links, input, travel, closes, force_min, force_max, pin_force, gears, finite, certainty, mobility FROM structures \
+const LAID: &str = "SELECT id, links, input, travel, closes, force_min, force_max, pin_force, gears, finite, certainty, mobility, jaw_c FROM structures \
      JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id JOIN pairs p ON p.structure = id WHERE reached = 1 ORDER BY id";
 
 #[test]
@@ -201,6 +253,12 @@ fn strokes_are_those_of_the_files_statics() {
     }
     for &i in &drawn {
         pulls_as_its_file_says(some(), &all[i], &folder);
+    }
+    let three = rows(three(), LAID);
+    assert_eq!(three.len(), 8);
+    for row in &three {
+        assert_eq!(row["finite"], "1, proven");
+        pulls_as_its_file_says(self::three(), row, &folder);
     }
 }
 
@@ -303,7 +361,10 @@ fn what_is_not_laid_out_is_refused() {
     };
     build("--pairs cam", "\"cam\" is none of slide, gear, slot");
     build("--pairs slide --links 6..9", "8 links at most");
-    build("--pairs slide --jaws 3 --links 6", "have two jaws");
+    build(
+        "--pairs slide --jaws 3 --symmetry generic --links 6",
+        "threefold",
+    );
     build("--pairs gear --symmetry generic", "mirror or half-turn");
     build("--pairs gear --at-most 0", "at_most must be from 1 to 12");
     build("--classics --links 4", "cannot be used with");

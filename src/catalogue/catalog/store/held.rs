@@ -73,6 +73,7 @@ impl Store {
                 match row {
                     CatalogueRow::Hinged(row) => insert::row(&t, row)?,
                     CatalogueRow::Paired(row) => insert::row(&t, row)?,
+                    CatalogueRow::Threefold(row) => insert::row(&t, row)?,
                 }
             }
             t.commit()

@@ -5,6 +5,7 @@ use crate::synthesis::paired::forces::PairMotion;
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
 use crate::synthesis::stroke::judge::Judge;
 
 /// Figures of a laid-out gripper; `None` where it is drawn in a singular pose.
@@ -13,6 +14,30 @@ use crate::synthesis::stroke::judge::Judge;
 /// Some dozen poses, each of O(n³) for n links.
 #[must_use]
 pub fn figures(paired: &PairedStructure, layout: &PairLayout) -> Option<LayoutFigures> {
-    let sketch = PairSketch::new(paired, layout.rules.clone(), layout.limits);
+    of_sides(paired, None, layout)
+}
+
+/// Those of a gripper of three jaws: the drive works for three instead of two.
+///
+/// # Complexity
+/// As [`figures`].
+#[must_use]
+pub fn of_three(structure: &ThreefoldStructure, layout: &PairLayout) -> Option<LayoutFigures> {
+    let two = of_sides(&structure.two, Some(structure), layout)?;
+    Some(LayoutFigures {
+        force: two.force.map(|f| f * 2.0 / 3.0),
+        jaws: vec![two.jaws[0]; SIDES],
+        turns: vec![two.turns[0]; SIDES],
+        ..two
+    })
+}
+
+fn of_sides(
+    paired: &PairedStructure,
+    threefold: Option<&ThreefoldStructure>,
+    layout: &PairLayout,
+) -> Option<LayoutFigures> {
+    let rules = layout.rules.clone();
+    let sketch = PairSketch::thrice(paired, threefold, rules, layout.limits);
     of_stroke(&mut Judge::of(PairMotion::new(&sketch)), &layout.at)
 }

@@ -9,6 +9,8 @@ use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rules::{NoRules, PairRules};
 use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::paired::threefold::ThreefoldStructure;
+use crate::synthesis::place::third;
 use crate::synthesis::random::random;
 use crate::synthesis::stroke::judge::Judge;
 
@@ -42,7 +44,17 @@ pub fn layout(
     limits: &Limits,
     seed: u64,
 ) -> Result<PairLayout, NoLayout> {
-    let name = paired.name();
+    layout_as(paired, None, &paired.name(), limits, seed)
+}
+
+/// The same of a structure that may stand for three sides, under its own name.
+fn layout_as(
+    paired: &PairedStructure,
+    threefold: Option<&ThreefoldStructure>,
+    name: &str,
+    limits: &Limits,
+    seed: u64,
+) -> Result<PairLayout, NoLayout> {
     let mut best: Option<(FoundPlaces<PairPlaces>, PairRules)> = None;
     let mut why = NoRules::Still;
     let mut start = 0;
@@ -54,10 +66,10 @@ pub fn layout(
                 continue;
             }
         };
-        let sketch = PairSketch::new(paired, rules, *limits);
+        let sketch = PairSketch::thrice(paired, threefold, rules, *limits);
         let mut judge = Judge::of(PairMotion::new(&sketch));
         for _ in 0..STARTS {
-            let found = search_from(&sketch, &mut judge, random(&name, seed, start), start);
+            let found = search_from(&sketch, &mut judge, random(name, seed, start), start);
             start += 1;
             let Some(found) = found else { continue };
             let good = found.are_good(&sketch);
@@ -84,4 +96,28 @@ pub fn layout(
         rules,
         looks,
     })
+}
+
+/// Lays a structure of three jaws out; the same for the same seed.
+///
+/// # Errors
+/// Why there is none.
+///
+/// # Complexity
+/// As [`layout`].
+pub fn layout_of_three(
+    structure: &ThreefoldStructure,
+    limits: &Limits,
+    seed: u64,
+) -> Result<PairLayout, NoLayout> {
+    let mut out = layout_as(
+        &structure.two,
+        Some(structure),
+        &structure.name(),
+        limits,
+        seed,
+    )?;
+    let tip = out.looks.tips[0];
+    out.looks.tips = vec![tip, third(tip), third(third(tip))];
+    Ok(out)
 }

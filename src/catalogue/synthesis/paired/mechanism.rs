@@ -38,7 +38,7 @@ pub(crate) fn link_names(paired: &PairedStructure) -> Vec<String> {
 
 /// A place of whole millimetres.
 #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
-fn whole(p: Point) -> Place {
+pub(super) fn whole(p: Point) -> Place {
     Place::from(p.map(|x| x.round() as i32))
 }
 
@@ -76,7 +76,13 @@ fn slots() -> Vec<OptionEntry> {
 }
 
 impl PairedStructure {
-    fn joint(&self, layout: &PairLayout, i: usize, names: &[String], menu: &Menu) -> JointEntry {
+    pub(super) fn joint(
+        &self,
+        layout: &PairLayout,
+        i: usize,
+        names: &[String],
+        menu: &Menu,
+    ) -> JointEntry {
         let joint = &layout.rules.joints[i];
         let input = joint.links == self.structure.roles.input;
         let links = if input { self.drive() } else { joint.links };
@@ -114,7 +120,7 @@ impl PairedStructure {
         }
     }
 
-    fn coupling(
+    pub(super) fn coupling(
         &self,
         layout: &PairLayout,
         i: usize,

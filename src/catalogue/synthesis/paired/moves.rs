@@ -14,6 +14,7 @@ use crate::synthesis::point::Point;
 use crate::synthesis::random::{bell, below, unit};
 use crate::synthesis::sketch::LayoutSketch;
 use chacha20::ChaCha8Rng;
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 /// A layout that costs less than this is taken without looking for a better one.
@@ -67,6 +68,14 @@ impl PairSketch<'_> {
         }
     }
 
+    /// All points that are drawn, and whose they are.
+    fn drawn<'p>(&'p self, at: &'p PairPlaces) -> (Cow<'p, [Point]>, &'p Bones) {
+        match &self.around {
+            None => (Cow::Borrowed(&at.points), &self.bones),
+            Some(around) => (Cow::Owned(around.points(&at.points)), &around.bones),
+        }
+    }
+
     /// What pitch circles cost that are large, or too small for teeth.
     fn pitch_penalty(&self, at: &PairPlaces) -> f64 {
         let meshes = self.rules.meshes.iter().enumerate();
@@ -104,6 +113,13 @@ impl LayoutSketch for PairSketch<'_> {
 
     fn limits(&self) -> &Limits {
         &self.limits
+    }
+
+    fn each_copy(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
+        match &self.around {
+            None => take(at),
+            Some(around) => around.each(point, at, take),
+        }
     }
 
     fn good(&self) -> f64 {
@@ -162,7 +178,8 @@ impl LayoutSketch for PairSketch<'_> {
     }
 
     fn penalty(&self, at: &PairPlaces, moving: bool, most: f64) -> Option<f64> {
-        let sum = self.bones.penalty(&at.points, most)? + self.pitch_penalty(at);
+        let (points, bones) = self.drawn(at);
+        let sum = bones.penalty(&points, most)? + self.pitch_penalty(at);
         if !moving {
             return Some(sum);
         }
@@ -172,7 +189,8 @@ impl LayoutSketch for PairSketch<'_> {
 
     fn looks(&self, at: &PairPlaces) -> Option<Looks> {
         let motion = self.bones.motion(&at.points, &velocities(self, at)?);
-        let mut looks = self.bones.looks(&at.points, motion)?;
+        let (points, bones) = self.drawn(at);
+        let mut looks = bones.looks(&points, motion)?;
         looks.penalty += self.pitch_penalty(at);
         Some(looks)
     }

@@ -7,6 +7,7 @@ use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::rules::{PairRule, PairRules};
 use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::paired::threefold::{Around, ThreefoldStructure};
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::pose::LinkPose;
 
@@ -27,6 +28,8 @@ pub struct PairSketch<'a> {
     pub drive: [usize; 2],
     /// What it is to be like and to do.
     pub limits: Limits,
+    /// All sides, where there are three.
+    pub(super) around: Option<Around>,
     /// All links as drawn.
     pub(super) at_rest: Vec<LinkPose>,
 }
@@ -45,6 +48,17 @@ impl<'a> PairSketch<'a> {
     /// Of a structure.
     #[must_use]
     pub fn new(paired: &'a PairedStructure, rules: PairRules, limits: Limits) -> PairSketch<'a> {
+        PairSketch::thrice(paired, None, rules, limits)
+    }
+
+    /// Of a structure that may stand for three sides.
+    #[must_use]
+    pub fn thrice(
+        paired: &'a PairedStructure,
+        threefold: Option<&ThreefoldStructure>,
+        rules: PairRules,
+        limits: Limits,
+    ) -> PairSketch<'a> {
         let (chain, roles) = (&paired.structure.chain, &paired.structure.roles);
         let drive = paired.drive();
         let pinned = |link: usize| {
@@ -66,8 +80,10 @@ impl<'a> PairSketch<'a> {
             round: (paired.form.symmetry == Symmetry::HalfTurn).then_some(0.0),
         };
         let at_input = |j: &Joint| j.links == roles.input;
+        let bones = Bones::new(chain.links(), plan, pinned);
         PairSketch {
-            bones: Bones::new(chain.links(), plan, pinned),
+            around: threefold.map(|t| Around::new(t, &rules, &bones)),
+            bones,
             input: rules.joints.iter().position(at_input).unwrap_or(0),
             at_rest: vec![LinkPose::AT_REST; chain.links()],
             paired,

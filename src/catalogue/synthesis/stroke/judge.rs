@@ -282,13 +282,14 @@ impl<M: StrokeMotion> Judge<M> {
             let open = -dot(velocity, *inward);
             (opens, all, least) = (opens + open, all + length(velocity), least.min(open));
             g.turns[n].take(pose.angle);
-            g.take(tip);
+            sketch.each_copy(bones.joints.len() + n, tip, &mut |p| g.take(p));
         }
         let share = if least > 0.0 { opens / all } else { 0.0 };
         g.straightness = g.straightness.min(share);
-        for (place, ends) in points.iter().zip(&bones.joints) {
+        for (i, (place, ends)) in points.iter().zip(&bones.joints).enumerate() {
             if let Some([link, _]) = *ends {
-                g.take(self.links[link].point(*place));
+                let now = self.links[link].point(*place);
+                sketch.each_copy(i, now, &mut |p| g.take(p));
             }
         }
     }

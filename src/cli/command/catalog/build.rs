@@ -35,8 +35,8 @@ pub(in crate::cli) struct Build {
     /// Layouts with each jaw on a parallelogram: with, without or only.
     #[arg(long, value_name = "WORD")]
     parallel: Option<String>,
-    /// Pairs beside hinges in symmetric structures: slide, gear (or rack), slot (pin in a slot, cam, wedge); the driver alone may
-    /// slide otherwise.
+    /// Pairs beside hinges in symmetric structures of two jaws, or threefold ones of three: slide, gear (or rack), slot (pin in a
+    /// slot, cam, wedge); the driver alone may slide otherwise.
     #[arg(long, value_name = "KINDS", value_delimiter = ',')]
     pairs: Vec<String>,
     /// Pairs that are not hinges at most, a left and a right one being one; 3 by default.

@@ -1,0 +1,96 @@
+//! Rows of structures with slides, gears and slots.
+
+use crate::catalog::row::{Laid, LaidFile, StructureRow, of_its_own};
+use crate::catalog::searched::{RowError, mechanism};
+use crate::catalog::spec::Spec;
+use crate::file::schema::MechanismFile;
+use crate::synthesis::figures::LayoutFigures;
+use crate::synthesis::layout::NoLayout;
+use crate::synthesis::paired::figures::{figures, of_three};
+use crate::synthesis::paired::layout::{PairLayout, layout, layout_of_three};
+use crate::synthesis::paired::mechanism::mechanism_file;
+use crate::synthesis::paired::mechanism_of_three::mechanism_file_of_three;
+use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
+
+/// A row of a structure with slides, gears or slots.
+pub type PairedRow = StructureRow<PairedStructure, PairLayout>;
+
+/// The row of one with three jaws.
+pub type ThreefoldRow = StructureRow<ThreefoldStructure, PairLayout>;
+
+/// The row of a structure with slides, gears or slots.
+///
+/// # Errors
+/// As [`crate::catalog::row::row`].
+///
+/// # Complexity
+/// A search for places and one of the variants.
+pub fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow, RowError> {
+    let menu = spec.menu()?;
+    let laid = match layout(paired, &spec.limits(), spec.seed) {
+        Err(why) => Err(why),
+        Ok(layout) => {
+            let file = mechanism_file(paired, &layout, &menu, &spec.workload);
+            let figures = figures(paired, &layout);
+            lay_pairs(paired.name(), file, figures, layout, spec)?
+        }
+    };
+    let (chain, roles) = (&paired.structure.chain, &paired.structure.roles);
+    let at_frame = |&&jaw: &&usize| chain.between(roles.frame, jaw).is_some();
+    Ok(StructureRow {
+        jaws_at_frame: roles.jaws.iter().filter(at_frame).count(),
+        truss: false,
+        graph_symmetric: true,
+        structure: paired.clone(),
+        laid,
+    })
+}
+
+/// The row of one with three jaws.
+///
+/// # Errors
+/// As [`crate::catalog::row::row`].
+///
+/// # Complexity
+/// As [`row_of_paired`].
+pub fn row_of_three(structure: &ThreefoldStructure, spec: &Spec) -> Result<ThreefoldRow, RowError> {
+    let menu = spec.menu()?;
+    let laid = match layout_of_three(structure, &spec.limits(), spec.seed) {
+        Err(why) => Err(why),
+        Ok(layout) => {
+            let file = mechanism_file_of_three(structure, &layout, &menu, &spec.workload);
+            let figures = of_three(structure, &layout);
+            lay_pairs(structure.name(), file, figures, layout, spec)?
+        }
+    };
+    let roles = &structure.two.structure.roles;
+    let at_frame = structure
+        .two
+        .structure
+        .chain
+        .between(roles.frame, roles.jaws[0]);
+    Ok(StructureRow {
+        jaws_at_frame: if at_frame.is_some() { SIDES } else { 0 },
+        truss: false,
+        graph_symmetric: true,
+        structure: structure.clone(),
+        laid,
+    })
+}
+
+fn lay_pairs(
+    name: String,
+    file: MechanismFile,
+    figures: Option<LayoutFigures>,
+    layout: PairLayout,
+    spec: &Spec,
+) -> Result<Result<Laid<PairLayout>, NoLayout>, RowError> {
+    let as_file = LaidFile {
+        built: mechanism(&name, &file)?,
+        name,
+        figures,
+        file,
+    };
+    as_file.searched(layout, |built| of_its_own(built, spec))
+}

@@ -1,0 +1,197 @@
+//! A layout with three jaws as a mechanism file: what stands on one side stands on the others after thirds of a turn.
+
+use crate::chains::pairs::kind::PairKind;
+use crate::file::schema::{
+    Coordinate, CouplingEntry, JointEntry, MechanismFile, OptionEntry, SearchEntry, Unloading,
+};
+use crate::synthesis::coordinate::{point, turned};
+use crate::synthesis::mechanism::{FileHead, Menu, joint_name, options_turned};
+use crate::synthesis::paired::layout::PairLayout;
+use crate::synthesis::paired::mechanism::{link_names, whole};
+use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
+use crate::synthesis::place::{Place, third};
+use crate::synthesis::point::Point;
+use crate::synthesis::workload::{HeldPart, Workload};
+
+/// What the links of a gripper of three jaws are called: those of a side by the letter of its jaw.
+fn names_of_three(structure: &ThreefoldStructure) -> Vec<String> {
+    let two = link_names(&structure.two);
+    let first = structure.two.structure.roles.jaws[0];
+    let of = |side: usize, l: usize| {
+        let letter = ["a", "b", "c"][side];
+        match l {
+            l if l == first => format!("jaw-{letter}"),
+            l => format!("{}-{letter}", two[l]),
+        }
+    };
+    let own = structure.own.iter().map(|&l| two[l].clone());
+    let sides = (0..SIDES).flat_map(|side| structure.side.iter().map(move |&l| (side, l)));
+    own.chain(sides.map(|(side, l)| of(side, l))).collect()
+}
+
+/// A direction of whole numbers, or an axis square to the plane, after so many thirds of a turn.
+fn turned_direction(direction: &[Coordinate; 3], thirds: u8) -> [Coordinate; 3] {
+    let [x, y, z] = direction.clone();
+    let (Coordinate::Integer(a), Coordinate::Integer(b)) = (&x, &y) else {
+        return [x, y, z];
+    };
+    #[allow(clippy::cast_precision_loss, reason = "sides of small triangles")]
+    let [x, y] = turned([*a as f64, *b as f64], thirds);
+    [x, y, z]
+}
+
+/// A joint on another side.
+fn joint_on(side: u8, joint: &JointEntry, at: Place, menu: &Menu) -> JointEntry {
+    let turn = |d: &[Coordinate; 3]| turned_direction(d, side);
+    let hinge = joint.kind == "revolute";
+    let ahead = [1, 0, 0].map(Coordinate::Integer);
+    let reference = joint.reference.as_ref().or(hinge.then_some(&ahead));
+    // What a third of a turn carries to each other has options that it carries to each other.
+    let options = (hinge && side > 0).then(|| options_turned(&menu.options, side));
+    JointEntry {
+        point: point(Place { thirds: side, ..at }),
+        axis: joint.axis.as_ref().map(turn),
+        reference: if side > 0 {
+            reference.map(turn)
+        } else {
+            joint.reference.clone()
+        },
+        options: joint.options.clone().or(options),
+        unloading: match &joint.unloading {
+            Some(_) if side > 0 => Some(Unloading::List(options_turned(&menu.unloading, side))),
+            other => other.clone(),
+        },
+        ..joint.clone()
+    }
+}
+
+/// Whether an option turns about any axis.
+fn is_ball(option: &OptionEntry) -> bool {
+    let balls = ["spherical", "sphere-in-cylinder"];
+    matches!(option, OptionEntry::Word(word) if balls.contains(&word.as_str()))
+}
+
+/// A layout with three sides, and what its links are called, those of two sides beside them.
+struct ThreeSides<'a> {
+    structure: &'a ThreefoldStructure,
+    layout: &'a PairLayout,
+    names: Vec<String>,
+    of_two: Vec<String>,
+}
+
+impl ThreeSides<'_> {
+    fn is_geared(&self, joint: usize) -> bool {
+        self.layout.rules.joints[joint].pair == PairKind::Gear
+    }
+
+    /// Every joint with the sides on which it stands.
+    fn each(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let joints = self.layout.rules.joints.iter().enumerate();
+        joints.flat_map(|(i, j)| (0..self.structure.copies(j)).map(move |side| (i, side)))
+    }
+
+    fn name(&self, joint: usize, side: usize) -> String {
+        let links = self.layout.rules.joints[joint].links;
+        let [u, v] = links.map(|l| self.structure.link(l, side).unwrap_or(0));
+        joint_name(&self.names, (u, v))
+    }
+
+    fn joint(&self, (i, side): (usize, usize), menu: &Menu) -> JointEntry {
+        let (two, layout) = (&self.structure.two, self.layout);
+        let one = two.joint(layout, i, &self.of_two, menu);
+        let meshes = layout.rules.meshes.iter().flatten();
+        let held = meshes.clone().any(|m| m.held.contains(&i));
+        // A ball's turns are none by which teeth could hold it.
+        let options = menu.options.iter().filter(|o| !held || !is_ball(o));
+        let menu = Menu {
+            options: options.cloned().collect(),
+            unloading: menu.unloading.clone(),
+        };
+        #[allow(clippy::cast_possible_truncation, reason = "at most three")]
+        let here = joint_on(side as u8, &one, whole(layout.at.points[i]), &menu);
+        let renamed = |link: &String| {
+            let l = self.of_two.iter().position(|n| n == link).unwrap_or(0);
+            self.names[self.structure.link(l, side).unwrap_or(0)].clone()
+        };
+        JointEntry {
+            id: self.name(i, side),
+            links: here.links.each_ref().map(renamed),
+            ..here
+        }
+    }
+
+    fn coupling(&self, (i, side): (usize, usize)) -> Option<CouplingEntry> {
+        let mesh = self.layout.rules.meshes[i].as_ref()?;
+        let two = &self.structure.two;
+        Some(CouplingEntry {
+            joints: mesh.held.map(|held| self.name(held, side)),
+            ..two.coupling(self.layout, i, mesh, &self.of_two)
+        })
+    }
+
+    /// The points of a link, its tip last where it is a jaw.
+    fn points(&self, link: usize, tips: &[Place]) -> Vec<Point> {
+        let (rules, at) = (&self.layout.rules, &self.layout.at);
+        let of = |&(i, side): &(usize, usize)| {
+            let ends = rules.joints[i].links.map(|l| self.structure.link(l, side));
+            ends.contains(&Some(link)) && !self.is_geared(i)
+        };
+        let place = |(i, side): (usize, usize)| (0..side).fold(at.points[i], |p, _| third(p));
+        let jaw = self.structure.jaws().iter().position(|&j| j == link);
+        let own = self.each().filter(of).map(place);
+        own.chain(jaw.map(|n| tips[n].real())).collect()
+    }
+}
+
+/// The entries of the file of a gripper of three jaws.
+#[must_use]
+pub fn mechanism_file_of_three(
+    structure: &ThreefoldStructure,
+    layout: &PairLayout,
+    menu: &Menu,
+    workload: &Workload,
+) -> MechanismFile {
+    let sides = ThreeSides {
+        structure,
+        layout,
+        names: names_of_three(structure),
+        of_two: link_names(&structure.two),
+    };
+    let joints = &layout.rules.joints;
+    let turned = |place: Place| [0, 1, 2].map(|thirds| Place { thirds, ..place });
+    let tips = turned(whole(layout.at.points[joints.len()]));
+    let jaws = structure.jaws();
+    let names = sides.names.iter().enumerate();
+    let told = FileHead {
+        id: structure.id(),
+        name: structure.name(),
+        links: names
+            .map(|(l, n)| (n.clone(), sides.points(l, &tips)))
+            .collect(),
+        frame: structure
+            .link(structure.two.structure.roles.frame, 0)
+            .unwrap_or(0),
+        jaws: &jaws,
+        held: HeldPart {
+            tips: &tips,
+            outward: &turned(Place::from([0, 1])),
+            grip: layout.limits.task.grip.sign(),
+        },
+    };
+    let rounds =
+        (0..joints.len()).filter(|&i| structure.copies(&joints[i]) == SIDES && !sides.is_geared(i));
+    let made = sides.each().filter(|of| !sides.is_geared(of.0));
+    MechanismFile {
+        joint: made.map(|of| sides.joint(of, menu)).collect(),
+        coupling: sides.each().filter_map(|of| sides.coupling(of)).collect(),
+        search: SearchEntry {
+            options: menu.options.clone(),
+            unloading: menu.unloading.clone(),
+            turn: rounds
+                .map(|i| (0..SIDES).map(|side| sides.name(i, side)).collect())
+                .collect(),
+            ..SearchEntry::default()
+        },
+        ..told.file(workload)
+    }
+}

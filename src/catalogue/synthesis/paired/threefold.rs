@@ -1,0 +1,211 @@
+//! Grippers of three jaws with slides, gears and slots, carried to each other by thirds of a turn.
+//!
+//! They are made of those that half a turn carries to themselves: what stands between frame and driver on one side stands there
+//! three times. A side moves by frame and driver alone, so that places, stroke and joint forces are those of one side of two.
+
+use crate::chains::chain::Chain;
+use crate::chains::graph6;
+use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::synthesis::bones::{BonePlan, Bones};
+use crate::synthesis::paired::rules::PairRules;
+use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::place::third;
+use crate::synthesis::point::Point;
+use petgraph::unionfind::UnionFind;
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+
+/// Sides.
+pub const SIDES: usize = 3;
+
+/// A gripper of three jaws.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ThreefoldStructure {
+    /// The gripper of two jaws that it is made of.
+    pub two: PairedStructure,
+    /// The links of a side, that of the first jaw, by their numbers there.
+    pub side: Vec<usize>,
+    /// The links that stand once: the frame, the driver and what else the turn carries to itself.
+    pub own: Vec<usize>,
+}
+
+impl ThreefoldStructure {
+    /// Of a gripper of two jaws; `None` where its sides are joined to each other.
+    #[must_use]
+    pub fn new(two: &PairedStructure) -> Option<ThreefoldStructure> {
+        if two.form.symmetry != Symmetry::HalfTurn {
+            return None;
+        }
+        let swap = two.lays().into_iter().next()?.swap;
+        let chain = &two.structure.chain;
+        let own: Vec<usize> = (0..chain.links()).filter(|&l| swap[l] == l).collect();
+        let mut parts = UnionFind::<usize>::new(chain.links());
+        for joint in chain.joints() {
+            let [u, v] = joint.links;
+            if !own.contains(&u) && !own.contains(&v) {
+                parts.union(u, v);
+            }
+        }
+        let first = two.structure.roles.jaws[0];
+        let mut side = Vec::new();
+        for l in (0..chain.links()).filter(|l| !own.contains(l)) {
+            let (here, there) = (parts.find(l), parts.find(swap[l]));
+            if here == there {
+                return None;
+            }
+            // Of two parts that change places the one with the first jaw, or the one that comes first.
+            let jaw = [here, there].iter().position(|&p| p == parts.find(first));
+            let is_side = jaw.map_or(here < there, |at| at == 0);
+            if is_side {
+                side.push(l);
+            }
+        }
+        Some(ThreefoldStructure {
+            two: two.clone(),
+            side,
+            own,
+        })
+    }
+
+    /// Number of links.
+    #[must_use]
+    pub fn links(&self) -> usize {
+        self.own.len() + SIDES * self.side.len()
+    }
+
+    /// The number of a link of the gripper of two jaws, on one of the sides.
+    #[must_use]
+    pub fn link(&self, of: usize, side: usize) -> Option<usize> {
+        let at = |list: &[usize]| list.iter().position(|&l| l == of);
+        let own = at(&self.own);
+        own.or_else(|| Some(self.own.len() + side * self.side.len() + at(&self.side)?))
+    }
+
+    /// Whether a joint stands once, three times, or not at all, since it is of the other side.
+    #[must_use]
+    pub fn copies(&self, joint: &Joint) -> usize {
+        match joint.links.map(|l| self.own.contains(&l)) {
+            [true, true] => 1,
+            _ if joint.links.iter().all(|l| self.link(*l, 0).is_some()) => SIDES,
+            _ => 0,
+        }
+    }
+
+    /// The chain of all its links.
+    #[must_use]
+    pub fn chain(&self) -> PairChain {
+        let joints = self.two.structure.chain.joints().into_iter();
+        let joints = joints.flat_map(|j| (0..self.copies(&j)).map(move |side| (j, side)));
+        let joints = joints.filter_map(|(j, side)| {
+            let [u, v] = j.links.map(|l| self.link(l, side));
+            let (u, v) = (u?, v?);
+            Some(Joint {
+                links: [u.min(v), u.max(v)],
+                pair: j.pair,
+            })
+        });
+        PairChain::new(self.links(), joints)
+    }
+
+    /// The code of the graph of its links and joints, as they are numbered.
+    #[must_use]
+    pub fn code(&self) -> String {
+        let joints = self.chain().joints().into_iter();
+        let graph = joints.map(|j| (j.links[0], j.links[1]));
+        graph6::write(&Chain::new(self.links(), graph))
+    }
+
+    /// The jaws.
+    #[must_use]
+    pub fn jaws(&self) -> Vec<usize> {
+        let first = self.two.structure.roles.jaws[0];
+        (0..SIDES)
+            .filter_map(|side| self.link(first, side))
+            .collect()
+    }
+
+    /// The name that says all of it: that of the gripper of two jaws, with its symmetry.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let parallel = if self.two.form.parallel {
+            " parallel"
+        } else {
+            ""
+        };
+        format!("{} threefold{parallel}", self.two.structure.name())
+    }
+
+    /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
+    #[must_use]
+    pub fn id(&self) -> String {
+        let mut id = format!("{}-", self.links());
+        for byte in &Sha256::digest(self.name())[..6] {
+            // Writing to a string does not fail.
+            let _ = write!(id, "{byte:02x}");
+        }
+        id
+    }
+}
+
+/// All three sides as they are drawn.
+#[derive(Debug, Clone)]
+pub(super) struct Around {
+    pub(super) bones: Bones,
+    /// Of each point: the one of two sides that it is made of, and by how many thirds it is turned.
+    made: Vec<(usize, usize)>,
+    /// Of each point of two sides, how often it stands here.
+    copies: Vec<usize>,
+}
+
+impl Around {
+    pub(super) fn new(structure: &ThreefoldStructure, rules: &PairRules, two: &Bones) -> Around {
+        let mut made = Vec::new();
+        let mut joints = Vec::new();
+        let mut copies: Vec<usize> = rules.joints.iter().map(|j| structure.copies(j)).collect();
+        for (i, joint) in rules.joints.iter().enumerate() {
+            for side in 0..copies[i] {
+                made.push((i, side));
+                let [u, v] = joint.links.map(|l| structure.link(l, side));
+                joints.push(two.joints[i].and_then(|_| Some([u?, v?])));
+            }
+        }
+        let tip = rules.joints.len();
+        made.extend((0..SIDES).map(|side| (tip, side)));
+        copies.extend([SIDES, 0]);
+        let jaws = structure.jaws();
+        let turned = |side: usize| (0..side).fold(two.tips[0], |p, _| third(p));
+        let pushes = |l: usize| two.rods.iter().any(|r| structure.link(r.0, 0) == Some(l));
+        let plan = BonePlan {
+            frame: structure.link(two.frame, 0).unwrap_or(0),
+            driver: structure.link(two.driver, 0).unwrap_or(0),
+            jaws: &jaws,
+            follows: vec![true; joints.len()],
+            joints,
+            tips: (0..SIDES).map(turned).collect(),
+            turns: two.turns,
+            hinged: vec![two.hinged[0]; SIDES],
+            round: two.round,
+        };
+        Around {
+            bones: Bones::new(structure.links(), plan, pushes),
+            made,
+            copies,
+        }
+    }
+
+    /// Where all points are.
+    pub(super) fn points(&self, two: &[Point]) -> Vec<Point> {
+        let turned = |&(of, side): &(usize, usize)| (0..side).fold(two[of], |p, _| third(p));
+        self.made.iter().map(turned).collect()
+    }
+
+    /// Gives every place of a point of two sides.
+    pub(super) fn each(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
+        let mut now = at;
+        for _ in 0..self.copies[point] {
+            take(now);
+            now = third(now);
+        }
+    }
+}
