@@ -117,6 +117,8 @@ fn a_picture_parts_what_is_wrong_from_what_does_not_apply() {
         let counts = [s.right, s.pose, s.wrong(), SURVEY.cases.len() - s.applies];
         let counts = counts.into_iter().filter(|n| *n > 0).map(|n| n as f64);
         assert_eq!(ends(method.name()), counts.collect::<Vec<_>>());
+        // Where a method does not answer it is not right, either.
+        assert_eq!(s.share, s.right as f64 / SURVEY.cases.len() as f64);
     }
     assert!(answers.rows.iter().any(|r| r.0.starts_with("lu32 at ")));
 }
@@ -176,6 +178,18 @@ fn offsets_beyond_what_digits_allow_are_kept(csv: &[Vec<String>]) {
     for row in &csv[1..] {
         let u: f64 = row[units].parse().unwrap();
         assert!((0.5..5.0).contains(&u) || row[wrong] == "0", "{row:?}");
+    }
+}
+
+/// Single precision as it stands does, where the unit of length is far too large or too small.
+fn exact_ranks_do_not_depend_on_the_unit(csv: &[Vec<String>]) {
+    let right = |method: &str, factor: &str| -> usize {
+        let row = csv.iter().find(|r| r[0] == method && r[1] == factor);
+        row.unwrap()[2].parse().unwrap()
+    };
+    for far in ["1e-6", "1e6"] {
+        assert!(right("lu32", far) < right("lu32", "1e-3"), "{csv:?}");
+        assert_eq!(right("modular", far), right("modular", "1e0"));
     }
 }
 
@@ -293,6 +307,7 @@ fn a_quick_run_writes_charts_whose_right_cells_are_right() {
 
     let read = |name: &str| std::fs::read_to_string(at.join(name)).unwrap();
     offsets_beyond_what_digits_allow_are_kept(&rows(&read("stability-offsets.csv")));
+    exact_ranks_do_not_depend_on_the_unit(&rows(&read("stability-scale.csv")));
     // Pairs and toggles: what is said for sure is right.
     for name in ["stability-close.csv", "stability-shaky.csv"] {
         let csv = rows(&read(name));
@@ -310,7 +325,7 @@ fn a_quick_run_writes_charts_whose_right_cells_are_right() {
         column("expected_finite"),
         column("expected_instantaneous"),
     );
-    let (verdict, quantity) = (column("verdict"), column("quantity"));
+    let (verdict, quantity, error) = (column("verdict"), column("quantity"), column("error"));
     let mut right = 0;
     for row in &survey[1..] {
         let expected = if row[answer].is_empty() {
@@ -324,6 +339,10 @@ fn a_quick_run_writes_charts_whose_right_cells_are_right() {
             "wrong"
         };
         assert_eq!(row[verdict], expected, "{row:?}");
+        // By how much what can move for good is missed, answers for the pose alone, too.
+        let number = |of: usize| row[of].parse::<i64>().unwrap();
+        let off = (!row[answer].is_empty()).then(|| (number(answer) - number(finite)).to_string());
+        assert_eq!(row[error], off.unwrap_or_default(), "{row:?}");
     }
     // A tick is drawn for each right answer and for no other.
     let matrix = read("matrix.svg");

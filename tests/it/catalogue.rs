@@ -1,5 +1,6 @@
 //! Structures laid out: exactly symmetric, one motion that closes the jaws, determinate variants as published.
 
+mod by_hand;
 mod carried_on;
 mod chains;
 mod command;

@@ -11,7 +11,8 @@ use ozols::geom::vector::real;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
-use ozols::search::question::conditions::Conditions;
+use ozols::search::answer::orbit_counts::orbit_counts;
+use ozols::search::question::conditions::{Conditions, Symmetry as Asked};
 use std::collections::{BTreeMap, BTreeSet};
 use tempfile::tempdir;
 
@@ -30,6 +31,22 @@ fn images(m: &Mechanism, carry: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<usize> {
                 .unwrap()
         })
         .collect()
+}
+
+/// How many there are by a search that asks for one of each orbit of what moves in one way.
+fn one_per_orbit(m: &Mechanism) -> BigUint {
+    let conditions = Conditions {
+        max_mobility: Some(1),
+        keep_output: false,
+        symmetry: Asked::OnePerOrbit,
+        ..Conditions::default()
+    };
+    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let all = [(&diagrams.determinate, false), (&diagrams.admissible, true)];
+    let [determinate, admissible] = all.map(|(d, all)| search.counts(d, all));
+    let counted = orbit_counts(&search, (determinate, admissible), &|| false);
+    counted.unwrap().0.1.total
 }
 
 #[test]
@@ -115,6 +132,8 @@ fn orbits_are_those_of_a_list_of_all_variants() {
                 "{}",
                 s.name()
             );
+            let all: u64 = orbits.values().map(|of| of.1).sum();
+            assert_eq!(one_per_orbit(&m), all.into(), "{}", s.name());
         });
     }
     assert_eq!(seen, 2 + 2 + 2);

@@ -3,6 +3,11 @@
 use super::carried_on::scattered;
 use super::command::{at, ok};
 use itertools::Itertools;
+use ozols::Request;
+use ozols::geom::vector::real;
+use ozols::model::ranking::ClearanceSum;
+use ozols::score::evaluation::elimination::Scratch;
+use ozols::score::evaluation::evaluate::Evaluator;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use tempfile::{TempDir, tempdir};
@@ -123,4 +128,59 @@ fn the_fronts_are_what_no_other_beats() {
     let best: Vec<&str> = best.iter().map(|(id, ..)| id.as_str()).collect();
     assert_eq!(best, unbeaten(&ideas));
     assert!(best.len() < ideas.len());
+}
+
+fn told(sql: &str) -> Vec<serde_json::Value> {
+    let said = ok(&["catalog", "query", all_of_six(), sql, "--format", "json"]);
+    serde_json::from_str(&said).unwrap()
+}
+
+/// The area is that of the box round all that is drawn, in mm²; what the tips may be off by is in mm, where scores are in metres.
+#[test]
+fn areas_and_errors_are_in_millimetres() {
+    let sql = "SELECT layouts.structure, mechanism, area, output_error FROM layouts JOIN ideas ON ideas.structure = layouts.structure \
+               JOIN structures ON id = layouts.structure WHERE place = 1 AND symmetry = 'mirror' ORDER BY id LIMIT 4";
+    let rows = told(sql);
+    assert!(rows.len() > 1);
+    for row in rows {
+        let m = ozols::from_toml(row["mechanism"].as_str().unwrap()).unwrap();
+        let joints = m.joints.iter().map(|j| real(&j.frame.point));
+        let points = joints.chain(m.points.iter().map(|p| real(&p.point)));
+        let points: Vec<[f64; 3]> = points.collect();
+        let side = |k: usize| {
+            let (least, most) = points.iter().map(|p| p[k]).minmax().into_option().unwrap();
+            most - least
+        };
+        let is = |key: &str, by_hand: f64| {
+            let told = row[key].as_f64().unwrap();
+            assert!(
+                (told / by_hand - 1.0).abs() < 1e-3,
+                "{key} {by_hand}: {row}"
+            );
+        };
+        is("area", side(0) * side(1));
+        let request = Request {
+            max_mobility: Some(1),
+            ..Request::default()
+        };
+        let outcome = ozols::search(&m, &request).unwrap();
+        let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 1);
+        let evaluator = Evaluator::new(&outcome.search, ClearanceSum::Worst).unwrap();
+        let scores = evaluator.scores(&ideas[0].first, &mut Scratch::default());
+        is("output_error", 1000.0 * scores.unwrap().output_error);
+    }
+}
+
+/// The only symmetry of a generic layout is none: every variant is its own image, and an orbit by itself.
+#[test]
+fn variants_of_generic_layouts_are_their_own_images() {
+    let sql = "SELECT variants, orbits, symmetric FROM counts JOIN structures ON id = structure WHERE symmetry = 'generic'";
+    let rows = told(sql);
+    assert!(rows.len() > 20);
+    for row in rows {
+        assert!(
+            row["variants"] == row["orbits"] && row["variants"] == row["symmetric"],
+            "{row}"
+        );
+    }
 }

@@ -9,7 +9,7 @@ use ozols::geom::exact::ExactField;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
-use ozols::redundancy::contour_shares::shares;
+use ozols::redundancy::contour_shares::{ContourShare, shares};
 use ozols::redundancy::measured::Measured;
 
 /// Every closed walk that passes no link twice.
@@ -149,4 +149,39 @@ fn the_range_over_bases_is_that_of_every_basis() {
         }
     }
     assert!(seen >= 20 && wider >= 4, "{seen} {wider}");
+}
+
+/// A parallelogram keeps the ratio of its cranks as their coupling does: one constraint is too many, and the contour may have it as
+/// well as the coupling.
+#[test]
+fn a_coupling_can_take_a_constraint_over_from_a_contour() {
+    let links = "[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[link]]\nid = \"2\"\nrole = \"output\"\n[[link]]\nid = \"3\"\n";
+    let hinge = |id: &str, links: &str, point: &str| {
+        format!(
+            "[[joint]]\nid = \"{id}\"\nlinks = {links}\ntype = \"revolute\"\npoint = {point}\naxis = [0, 0, 1]\n"
+        )
+    };
+    let joints = [
+        hinge("a", r#"["0", "1"]"#, "[0, 0, 0]"),
+        hinge("b", r#"["1", "2"]"#, "[1, 3, 0]"),
+        hinge("c", r#"["2", "3"]"#, "[6, 3, 0]"),
+        hinge("d", r#"["0", "3"]"#, "[5, 0, 0]"),
+    ];
+    let coupling = "[[coupling]]\njoints = [\"a\", \"d\"]\nratio = 1\n";
+    let text = |more: &str| {
+        let joints = joints.concat();
+        format!("name = \"cranks\"\nmode = \"planar\"\n{links}{joints}{more}")
+    };
+    for (more, greatest) in [("", 0), (coupling, 1)] {
+        let m = ozols::from_toml(&text(more)).unwrap();
+        let exact = field_of(&m, StateId::FREE, 0).unwrap();
+        let measured = Measured::new(&m, StateId::FREE, 1e-9).unwrap().shares();
+        for [share] in [shares(&exact, &closure_of(&exact, &m)), measured].map(one) {
+            assert_eq!((share.redundant, share.range), (0, (0, greatest)), "{more}");
+        }
+    }
+}
+
+fn one(of: Vec<ContourShare>) -> [ContourShare; 1] {
+    of.try_into().unwrap()
 }

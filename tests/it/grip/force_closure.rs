@@ -202,33 +202,55 @@ fn a_jaw_that_no_drive_holds_bears_nothing() {
     near(along(&force, 4), 0.0, 1e-6);
 }
 
+/// Three points below, two behind, one aside: the six of a datum; the seventh pushes into the corner.
+fn datum([x, y, z]: [f64; 3]) -> Vec<At> {
+    let points = [
+        ([1.0, 0.5, -1.0], [0.0, 0.0, 1.0]),
+        ([-1.0, 0.5, -1.0], [0.0, 0.0, 1.0]),
+        ([0.0, -1.0, -1.0], [0.0, 0.0, 1.0]),
+        ([0.5, -1.0, 0.2], [0.0, 1.0, 0.0]),
+        ([-0.5, -1.0, 0.2], [0.0, 1.0, 0.0]),
+        ([-1.0, 0.1, 0.1], [1.0, 0.0, 0.0]),
+        ([0.4, 0.3, 0.6], [-1.0, -1.0, -1.0]),
+    ];
+    let at = points.map(|([a, b, c], normal)| At {
+        kind: "sphere-on-plane",
+        point: [a + x, b + y, c + z],
+        normal,
+        face: String::new(),
+    });
+    at.into()
+}
+
 /// By hand: the three, two and one points of a datum with weights 0.25, 0.35, 0.4; 0.7, 0.3; 1 balance a push into the corner. A law
 /// of Somov: six points never hold a body without friction.
 #[test]
 fn seven_points_can_close_a_body_and_six_cannot() {
-    let point = |point: [f64; 3], normal: [f64; 3]| At {
-        kind: "sphere-on-plane",
-        point,
-        normal,
-        face: String::new(),
-    };
-    // Three below, two behind, one aside: the six of a datum; the seventh pushes into the corner.
-    let mut points = vec![
-        point([1.0, 0.5, -1.0], [0.0, 0.0, 1.0]),
-        point([-1.0, 0.5, -1.0], [0.0, 0.0, 1.0]),
-        point([0.0, -1.0, -1.0], [0.0, 0.0, 1.0]),
-        point([0.5, -1.0, 0.2], [0.0, 1.0, 0.0]),
-        point([-0.5, -1.0, 0.2], [0.0, 1.0, 0.0]),
-        point([-1.0, 0.1, 0.1], [1.0, 0.0, 0.0]),
-    ];
-    let six = found(&vice(&points));
+    let points = datum([0.0; 3]);
+    let six = found(&vice(&points[..6]));
     assert!(!six[1].is_closed() && !six[0].is_closed());
-    points.push(point([0.4, 0.3, 0.6], [-1.0, -1.0, -1.0]));
     let [force, form] = found(&vice(&points));
     assert!(form.is_closed(), "{form:?}");
     // Points without stated friction have none.
     near(force.at_most, form.at_most, 1e-9);
     assert!(form.at_least > 0.0 && form.at_least <= form.at_most);
+}
+
+/// Loads are about the part's middle: where a part and its contacts are in the file changes none of its margins, of which the least
+/// is found off the axes.
+#[test]
+fn margins_do_not_depend_on_the_origin() {
+    let at = |place| found(&vice(&datum(place)))[1].clone();
+    let here = at([0.0; 3]);
+    let axes = (0..6)
+        .map(|axis| along(&here, axis))
+        .fold(f64::INFINITY, f64::min);
+    assert!(here.at_most < 0.9 * axes, "{here:?}");
+    for there in [[8.0, -4.0, 0.0], [-2.0, 16.0, 32.0]] {
+        let there = at(there);
+        near(there.at_most, here.at_most, 1e-4);
+        near(there.at_least, here.at_least, 1e-4);
+    }
 }
 
 /// A law of Reuleaux: in a plane four contacts can, three never.

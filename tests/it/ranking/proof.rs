@@ -133,6 +133,39 @@ fn what_is_proven_is_the_best_of_all_scored() {
     );
 }
 
+/// Where cost does not count and links weigh nothing, what bears best is dear: bounds on reactions alone must lead to it.
+#[test]
+fn dear_variants_that_bear_best_are_found() {
+    let mut m = loaded();
+    m.links.iter_mut().for_each(|l| l.mass = None);
+    let scores = every(&m);
+    let mut outside = 0;
+    for terms in [
+        &[(Term::PeakForce, 1.0)][..],
+        &[(Term::PeakMoment, 1.0)],
+        &[(Term::OutputError, 10.0)],
+        &[
+            (Term::PeakForce, 1.0),
+            (Term::PeakMoment, 3.0),
+            (Term::OutputError, 50.0),
+        ],
+    ] {
+        let ranking = Ranking {
+            order: Order::Weighted,
+            terms: terms.to_vec(),
+            ..Ranking::default()
+        };
+        let found = ranked(&m, &ranking, 2).ranking.unwrap();
+        let list = found.list.iter().map(|r| (r.by_cost, r.total.unwrap()));
+        let list: Vec<(usize, f64)> = list.collect();
+        if found.proven {
+            assert_eq!(list, best(&scores, &ranking), "{terms:?}");
+            outside += usize::from(list.iter().any(|(at, _)| *at > found.scored));
+        }
+    }
+    assert!(outside > 0);
+}
+
 /// A list is the same for any number of threads, and so is what is scored.
 #[test]
 fn the_same_for_any_number_of_threads() {

@@ -1,13 +1,14 @@
 //! Lists of searches that end early or do not count: what is proven of them, and how long they are.
 
 use super::beyond_budget::ladder;
-use crate::common::built_in;
+use crate::common::{built_in, json};
 use num_bigint::BigUint;
 use ozols::Request;
 use ozols::file::text::mechanism_from_str;
 use ozols::score::request::{Check, List};
 use ozols::search::answer::counts::Counts;
 use ozols::search::question::conditions::Symmetry;
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A variant is proven to be among the cheapest where its cost is one up to which all are known, and that is so of the last such cost.
@@ -55,6 +56,24 @@ fn lists_of_orbits_are_as_long_as_they_are_asked_to_be() {
     let all = costs(true, 50_000_000);
     assert_eq!(all.len(), 30);
     assert_eq!(costs(false, 50_000_000), all);
+}
+
+/// Where the budget holds the cheapest alone, as many variants are looked for as make up the orbits that are asked for. The cheapest
+/// cost has 180 orbits, and more variants than 190.
+#[test]
+fn as_many_orbits_are_proven_as_are_asked_for() {
+    let search = |more: &[&str]| {
+        let asked = "search gripper-10 --options revolute,spherical,cylindrical --one-per-orbit --no-distinct --top 190 --format json";
+        let words: Vec<&str> = asked.split(' ').chain(more.iter().copied()).collect();
+        json(&words)
+    };
+    let costs = |found: &Value| -> Vec<Value> {
+        let all = found["variants"].as_array().unwrap();
+        all.iter().map(|v| v["cost"].clone()).collect()
+    };
+    let (whole, bounded) = (search(&[]), search(&["--no-count", "--nodes", "80"]));
+    assert_eq!(bounded["variants_proven"], 190);
+    assert_eq!(costs(&bounded), costs(&whole));
 }
 
 /// What is counted by W, by changes, by redundant constraints and by freedoms is the same variants each time.

@@ -6,7 +6,7 @@ use crate::search::twin::less::does_with_less;
 use crate::search::twin::{look, random, suits, variants};
 use num_bigint::BigUint;
 use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::model::mechanism::{JointOption, Mechanism, StateId};
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
 use ozols::search::question::conditions::{Conditions, InState};
@@ -90,6 +90,37 @@ fn minimal_variants_of_built_in_mechanisms() {
         let (counted, seen) = both(&m, conditions);
         assert_eq!(counted, Some(seen.into()), "{name}");
     }
+}
+
+/// Options that have the same freedoms under two names have none less than each other: both stay.
+#[test]
+fn equal_options_do_not_rule_each_other_out() {
+    let with_names = |sleeves: &[&str]| {
+        let mut m = built_in("four-bar");
+        for joint in &mut m.joints {
+            joint
+                .options
+                .retain(|o| ["revolute", "cylindrical", "spherical"].contains(&o.name.as_str()));
+            let sleeve = joint
+                .options
+                .iter()
+                .find(|o| o.name == "cylindrical")
+                .cloned();
+            let more = sleeve.into_iter().flat_map(|sleeve| {
+                sleeves.iter().map(move |&name| JointOption {
+                    name: name.to_owned(),
+                    ..sleeve.clone()
+                })
+            });
+            let more: Vec<JointOption> = more.collect();
+            joint.options.extend(more);
+        }
+        let (counted, seen) = both(&m, Conditions::default());
+        assert_eq!(counted, Some(seen.into()), "{sleeves:?}");
+        seen
+    };
+    let (one, two) = (with_names(&[]), with_names(&["sleeve"]));
+    assert!(one > 0 && two > one, "{one} {two}");
 }
 
 /// Without a redundant constraint a freedom more is a motion more, so that what moves as the present mechanism does, in one way,

@@ -1,6 +1,9 @@
 //! An idea and a variant of the same number are two mechanisms, and each says which it is.
 
-use crate::common::{out, run, text};
+use crate::common::{built_in, out, run, text};
+use ozols::model::mechanism::Mechanism;
+use ozols::score::request::{Inserts, Request};
+use ozols::search::answer::ideas::Idea;
 
 fn named(which: &str, k: &str) -> (String, String) {
     let export = out(&["export", "four-bar", which, k, "--to", "toml"]);
@@ -46,4 +49,111 @@ fn the_page_gives_commands_that_say_which() {
     let ideas = out(&["report", "four-bar", "--distinct"]);
     assert!(ideas.contains("--idea {} -o four-bar-idea-{}.svg"));
     assert!(!ideas.contains("four-bar-variant-{}"));
+}
+
+/// A four-bar has three redundant constraints, and balls alone do not rid it of its slides across: of an idea that moves in one way
+/// the freedoms that are added are three, those of joints put in series among them.
+#[test]
+fn freedoms_of_unloading_joints_are_named_and_counted() {
+    let request = Request {
+        options: vec!["revolute".to_owned(), "spherical".to_owned()],
+        unloading: vec![Inserts {
+            names: vec!["prismatic".to_owned()],
+            joints: ["0-1", "1-2", "2-3", "3-0"].map(str::to_owned).into(),
+        }],
+        max_mobility: Some(1),
+        ..Request::default()
+    };
+    let outcome = ozols::search(&built_in("four-bar"), &request).unwrap();
+    let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 20);
+    assert!(!ideas.is_empty());
+    for idea in &ideas {
+        let added: u32 = idea.added.iter().map(|a| u32::from(a.times)).sum();
+        assert_eq!(added, 3, "{:?}", idea.added);
+        let slides = idea
+            .added
+            .iter()
+            .any(|a| a.freedom.starts_with("slide along"));
+        assert!(slides, "{:?}", idea.added);
+    }
+}
+
+/// Four-bars on the frame, side by side, their hinges along a direction; the first hinge has the motor, or none.
+fn four_bars(places: &[[[i32; 3]; 4]], axis: [i32; 3], driven: bool) -> Mechanism {
+    // Named at the joint, so that one with the motor has them, too.
+    let options = r#"options = ["revolute", "cylindrical", "spherical"]"#;
+    let mut text = "name = \"four\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
+    for (k, at) in places.iter().enumerate() {
+        let links = [
+            "0".to_owned(),
+            format!("a{k}"),
+            format!("b{k}"),
+            format!("c{k}"),
+        ];
+        for (link, role) in links.iter().zip(["", "", "role = \"output\"", ""]).skip(1) {
+            text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
+        }
+        for (i, place) in at.iter().enumerate() {
+            let (from, to) = (&links[i], &links[(i + 1) % 4]);
+            let drive = driven && k == 0 && i == 0;
+            text += &format!(
+                "[[joint]]\nid = \"{from}-{to}\"\nlinks = [\"{from}\", \"{to}\"]\ntype = \"revolute\"\npoint = {place:?}\naxis = {axis:?}\ndrive = {drive}\n{options}\n",
+            );
+        }
+    }
+    ozols::from_toml(&text).unwrap()
+}
+
+fn ideas(m: &Mechanism) -> Vec<Idea> {
+    let outcome = ozols::search(m, &Request::default()).unwrap();
+    let diagrams = outcome.diagrams.as_ref().unwrap();
+    outcome.search.ideas(diagrams, 1000)
+}
+
+/// A direction and its opposite are one, and its first part that is not 0 is told as positive.
+#[test]
+fn oblique_directions_are_told_one_way() {
+    let across = [[0, 0, 0], [1, 9, 12], [7, 12, 16], [9, 3, 4]];
+    for axis in [[0, -4, 3], [0, 4, -3]] {
+        let ideas = ideas(&four_bars(&[across], axis, false));
+        let added: Vec<_> = ideas.iter().flat_map(|i| &i.added).collect();
+        let slide = "slide along (0.000 0.800 -0.600)";
+        assert!(added.iter().any(|a| a.freedom == slide), "{added:?}");
+        assert!(added.iter().all(|a| !a.freedom.contains("(0.000 -0.800")));
+    }
+}
+
+const RIGHT: [[i32; 3]; 4] = [[1, 0, 0], [3, 4, 0], [9, 5, 0], [11, 1, 0]];
+
+/// Of two four-bars that are each other's image each has a ideas of its own, and both together a (a + 1) / 2 without the images. A
+/// motor in one of them tells the sides apart: a² then.
+#[test]
+fn a_motor_tells_the_sides_apart() {
+    let left = RIGHT.map(|[x, y, z]| [-x, y, z]);
+    let one = ideas(&four_bars(&[RIGHT], [0, 0, 1], false)).len();
+    let both = |driven| ideas(&four_bars(&[RIGHT, left], [0, 0, 1], driven)).len();
+    assert!(one > 1);
+    assert_eq!((both(false), both(true)), (one * (one + 1) / 2, one * one));
+}
+
+/// Two of three joints are to be changed, for as much whichever they are, where the motor's costs nothing more: it stays.
+#[test]
+fn the_motor_stays_where_it_can() {
+    for driven in ["0-a0", "c0-0"] {
+        let mut m = four_bars(&[RIGHT], [0, 0, 1], false);
+        let [motor, left_out] = [driven, "b0-c0"].map(|id| m.joint(id).unwrap());
+        m.joints[left_out].options.truncate(1);
+        m.joints[motor].drive = true;
+        m.search.costs.driven_milli = Some(0);
+        let outcome = ozols::search(&m, &Request::default()).unwrap();
+        let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 1);
+        let variables = outcome.search.space.variables.iter();
+        let chosen = variables.zip(&ideas[0].first.choices);
+        let changed: Vec<_> = chosen.filter(|(_, choice)| **choice != 0).collect();
+        assert_eq!(changed.len(), 2);
+        assert!(
+            changed.iter().all(|(v, _)| !v.joints.contains(&motor)),
+            "{driven}"
+        );
+    }
 }

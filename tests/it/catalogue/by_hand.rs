@@ -1,0 +1,319 @@
+//! Figures of strokes and places that are put down by hand, and what follows from them.
+
+use super::{each, form};
+use ozols::catalog::spec::Spec;
+use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::synthesis::figures::figures;
+use ozols::synthesis::layout::{Layout, NoLayout, layout};
+use ozols::synthesis::layout_quality::Looks;
+use ozols::synthesis::limits::Limits;
+use ozols::synthesis::mechanism::mechanism_file;
+use ozols::synthesis::rules::Rules;
+use ozols::synthesis::skeleton::Skeleton;
+use ozols::synthesis::stroke::forces::ForceFigures;
+use ozols::synthesis::stroke::judge::StrokeFigures;
+use ozols::synthesis::stroke::shortfall::Shortfall;
+use ozols::synthesis::structure::{Form, Structure};
+use ozols::synthesis::task::{AskedMotion, Task};
+use ozols::synthesis::workload::Workload;
+
+/// The slider-crank of four links: driver, jaw, jaw that is hinged in the frame.
+fn slider_crank() -> Structure {
+    let mut found = Vec::new();
+    each(
+        4,
+        &[form(Input::Slide, Symmetry::Generic, false)],
+        |_, s| found.push(s),
+    );
+    assert_eq!(found.len(), 1);
+    found.remove(0)
+}
+
+fn for_task(task: Task) -> Limits {
+    Limits {
+        task,
+        ..Limits::default()
+    }
+}
+
+/// A stroke that does what is asked of it by default.
+fn good() -> StrokeFigures {
+    StrokeFigures {
+        reached: [0.0, 50.0],
+        ends: [None; 2],
+        rates: [0.5, 1.0],
+        drive: [0.0, 40.0],
+        transmission: 60.0,
+        straightness: 0.9,
+        turns: vec![0.0, 0.2],
+        size: [100.0, 80.0],
+        forces: ForceFigures::BEST,
+    }
+}
+
+/// What a stroke lacks of a task.
+fn lacks(task: Task, stroke: &StrokeFigures) -> Option<Shortfall> {
+    let s = slider_crank();
+    let skeleton = Skeleton::new(&s, Rules::free(&s).unwrap(), for_task(task));
+    skeleton.shortfall(stroke)
+}
+
+#[test]
+fn the_force_ratio_is_the_greatest_rate_over_the_least() {
+    assert_eq!(lacks(Task::default(), &good()), None);
+    let uneven = StrokeFigures {
+        rates: [0.5, 1.75],
+        ..good()
+    };
+    assert_eq!(uneven.force_ratio(), 3.5);
+    let said = Shortfall::ForceRatio {
+        ratio: 3.5,
+        most: 3.0,
+    };
+    assert_eq!(lacks(Task::default(), &uneven), Some(said));
+}
+
+/// The first jaw keeps its attitude, the second does not.
+#[test]
+fn parallel_is_what_all_jaws_are() {
+    let parallel = Task {
+        motion: AskedMotion::Parallel,
+        ..Task::default()
+    };
+    for turns in [vec![0.001, 0.2], vec![0.2, 0.001]] {
+        let stroke = StrokeFigures { turns, ..good() };
+        // Of radians.
+        let turn = 36.0 / std::f64::consts::PI;
+        assert!((stroke.turn() - turn).abs() < 1e-12);
+        let said = lacks(parallel, &stroke);
+        assert!(matches!(said, Some(Shortfall::Turn { .. })), "{said:?}");
+    }
+}
+
+#[test]
+fn room_is_asked_both_ways() {
+    let in_a_room = |room| {
+        let task = Task {
+            room,
+            ..Task::default()
+        };
+        lacks(task, &good())
+    };
+    // It takes 100 by 80; nothing is asked where there stands 0.
+    assert_eq!(in_a_room([110.0, 90.0]), None);
+    assert_eq!(in_a_room([0.0, 90.0]), None);
+    for room in [[90.0, 90.0], [110.0, 70.0], [0.0, 70.0]] {
+        let size = [100.0, 80.0];
+        assert_eq!(in_a_room(room), Some(Shortfall::Room { size, room }));
+    }
+}
+
+/// Pins of the slider-crank from the frame round to the frame, then the tips of the jaws in that order.
+type Places = [[f64; 2]; 6];
+
+/// Short links first: the driver's pins are 20 apart; the jaws' triangles have but a corner in common, at (50, 10).
+const CLEAR: Places = [
+    [0.0, 0.0],
+    [20.0, 0.0],
+    [50.0, 10.0],
+    [40.0, 50.0],
+    [60.0, -40.0],
+    [90.0, 40.0],
+];
+
+fn looks(places: Places) -> Looks {
+    let s = slider_crank();
+    let skeleton = Skeleton::new(&s, Rules::free(&s).unwrap(), Limits::default());
+    let r = &s.roles;
+    let next = |&jaw: &&usize| s.chain.joined(r.driver, *jaw);
+    let near = *r.jaws.iter().find(next).unwrap();
+    let far = *r.jaws.iter().find(|&&jaw| jaw != near).unwrap();
+    let round = [
+        (r.frame, r.driver),
+        (r.driver, near),
+        (near, far),
+        (far, r.frame),
+    ];
+    let of_pin = |&(u, v): &(usize, usize)| {
+        let here = |&(a, b): &(usize, usize)| (u, v) == (a, b) || (v, u) == (a, b);
+        places[round.iter().position(here).unwrap()]
+    };
+    let pins = skeleton.rules.pins.iter().map(of_pin);
+    let tips = r
+        .jaws
+        .iter()
+        .map(|&jaw| places[if jaw == near { 4 } else { 5 }]);
+    let at: Vec<[f64; 2]> = pins.chain(tips).collect();
+    skeleton.looks(&at).unwrap()
+}
+
+fn with(changes: &[(usize, [f64; 2])]) -> Places {
+    let mut out = CLEAR;
+    changes.iter().for_each(|&(i, place)| out[i] = place);
+    out
+}
+
+#[test]
+fn the_longest_link_is_told_by_the_shortest() {
+    // From (20, 0) to (60, -40), by 20; pins in the frame are as far apart as they like.
+    let ratio = looks(CLEAR).ratio;
+    assert!((ratio - 8_f64.sqrt()).abs() < 1e-12, "{ratio}");
+}
+
+#[test]
+fn what_crosses_is_counted_by_hand() {
+    // With the tip at (30, -30) the far jaw's side from (50, 10) crosses the near jaw's from (20, 0) to (60, -40), and its side
+    // from (40, 50) that and the one from (20, 0) to (50, 10).
+    let through = with(&[(5, [30.0, -30.0])]);
+    // The near jaw's tip comes near to the line of its own pins, which crosses nothing.
+    let splinter = with(&[(4, [35.0, 2.0])]);
+    // The drive's pin lies there, which is none of the jaw's.
+    let covered = with(&[(0, [35.0, 2.0])]);
+    for (places, count) in [(CLEAR, 0), (through, 3), (splinter, 0), (covered, 1)] {
+        assert_eq!(looks(places).crossings, count, "{places:?}");
+        // Sides that go round the other way.
+        let mirrored = places.map(|[x, y]| [x, -y]);
+        assert_eq!(looks(mirrored).crossings, count, "{mirrored:?}");
+    }
+}
+
+/// A jaw that turns swings about a hinge in the frame, if it has one, and floats on other links without.
+#[test]
+fn jaws_that_swing_have_a_hinge_in_the_frame() {
+    let mut told = [0; 2];
+    let floating = |name: &str| usize::from(name == "floating");
+    let mut n = 0;
+    each(
+        6,
+        &[form(Input::Turn, Symmetry::Generic, false)],
+        |subject, s| {
+            n += 1;
+            if n % 6 != 0 {
+                return;
+            }
+            let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+            let f = figures(&s, &l).unwrap();
+            for ((jaw, motion), turn) in s.roles.jaws.iter().zip(&f.jaws).zip(&f.turns) {
+                let hinged = s.chain.joined(s.roles.frame, *jaw);
+                let name = motion.name();
+                if *turn > 0.02 {
+                    assert_eq!(name, if hinged { "swinging" } else { "floating" });
+                    told[floating(name)] += 1;
+                }
+            }
+        },
+    );
+    assert!(told[0] > 0 && told[1] > 0, "{told:?}");
+}
+
+/// The same gripper asked for less than it does has the rest as its margin, up to a fifth of the stroke.
+#[test]
+fn what_is_not_asked_is_margin() {
+    let s = slider_crank();
+    let mut laid = None;
+    each(4, &[s.form], |subject, s| {
+        laid = Some(layout(subject, &s, &Limits::default(), 1).unwrap());
+    });
+    let mut laid = laid.unwrap();
+    let whole = figures(&s, &laid).unwrap();
+    assert_eq!(whole.openings, [0.0, 50.0]);
+    laid.limits.task = Task {
+        narrowest: 5.0,
+        widest: 44.0,
+        ..Task::default()
+    };
+    let most = 0.2 * 39.0 + 1e-9;
+    let [closing, opening] = figures(&s, &laid).unwrap().margin;
+    assert!((5.0..=most).contains(&closing), "{closing}");
+    assert!((6.0..=most).contains(&opening), "{opening}");
+}
+
+/// Layouts of some structures of six links with a driver that turns.
+fn laid(limits: &Limits) -> Vec<Result<Layout, NoLayout>> {
+    let (mut n, mut out) = (0, Vec::new());
+    each(
+        6,
+        &[form(Input::Turn, Symmetry::Generic, false)],
+        |subject, s| {
+            n += 1;
+            if n % 3 == 0 {
+                out.push(layout(subject, &s, limits, 1));
+            }
+        },
+    );
+    out
+}
+
+#[test]
+fn no_more_crosses_than_may() {
+    let limits = Limits {
+        crossings: 0,
+        ..Limits::default()
+    };
+    let found = laid(&limits);
+    let kept = found.iter().flatten().count();
+    assert!(2 * kept > found.len(), "{kept} of {}", found.len());
+    for l in found.iter().flatten() {
+        assert_eq!(l.looks.crossings, 0);
+    }
+}
+
+/// Of what the starts come to, places within the limits are taken before cheaper ones: of these structures a third at least have
+/// some, while the cheapest alone are so in two of thirteen.
+#[test]
+fn limits_come_before_costs() {
+    let strict = Limits {
+        ratio: 3.0,
+        transmission: 40.0,
+        crossings: 0,
+        ..Limits::default()
+    };
+    let found = laid(&strict);
+    let kept = found.iter().flatten().count();
+    assert!(3 * kept > found.len(), "{kept} of {}", found.len());
+}
+
+/// Of the whole motion, so that a share of it is never more than 1.
+#[test]
+fn shares_are_told_by_the_hundred() {
+    let strict = Limits {
+        transmission: 89.9,
+        ..Limits::default()
+    };
+    let mut told = 0;
+    for refused in laid(&strict) {
+        if let Err(NoLayout::Limits { straightness, .. }) = refused {
+            assert!((0.0..=100.0).contains(&straightness), "{straightness}");
+            told += usize::from(straightness > 1.0);
+        }
+    }
+    assert!(told > 3, "{told}");
+}
+
+/// Parallelograms for three jaws need more links than there are.
+#[test]
+fn three_jaws_have_no_parallel_form() {
+    let suit = |jaws| Form::all().filter(move |f| f.suits(jaws));
+    assert!(suit(2).any(|f| f.parallel));
+    assert!(suit(3).count() > 0 && suit(3).all(|f| !f.parallel));
+}
+
+/// Where nothing pulls, masses are nothing that a file is told of.
+#[test]
+fn links_weigh_where_there_is_gravity() {
+    let s = slider_crank();
+    each(4, &[s.form], |subject, s| {
+        let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+        for (gravity, weighs) in [([0.0; 3], false), ([0.0, -9.81, 0.0], true)] {
+            let workload = Workload {
+                link_mass: 2.0,
+                gravity,
+                ..Workload::default()
+            };
+            let file = mechanism_file(&s, &l, &Spec::default().menu().unwrap(), &workload);
+            assert_eq!(file.workload.gravity.is_some(), weighs);
+            let masses = file.link.iter().filter(|l| l.mass.is_some()).count();
+            assert_eq!(masses, if weighs { 3 } else { 0 });
+        }
+    });
+}
