@@ -10,6 +10,7 @@ use ozols::synthesis::limits::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::rules::Rules;
 use ozols::synthesis::skeleton::Skeleton;
+use ozols::synthesis::sketch::LayoutSketch;
 use ozols::synthesis::stroke::forces::ForceFigures;
 use ozols::synthesis::stroke::judge::StrokeFigures;
 use ozols::synthesis::stroke::shortfall::Shortfall;
@@ -55,7 +56,7 @@ fn good() -> StrokeFigures {
 fn lacks(task: Task, stroke: &StrokeFigures) -> Option<Shortfall> {
     let s = slider_crank();
     let skeleton = Skeleton::new(&s, Rules::free(&s).unwrap(), for_task(task));
-    skeleton.shortfall(stroke)
+    skeleton.limits.shortfall(stroke, skeleton.bones.swings())
 }
 
 #[test]

@@ -96,7 +96,7 @@ impl ThreeSides<'_> {
         joint_name(&self.names, (u, v))
     }
 
-    fn joint(&self, (i, side): (usize, usize), menu: &Menu) -> JointEntry {
+    fn joint(&self, i: usize, side: usize, menu: &Menu) -> JointEntry {
         let (two, layout) = (&self.structure.two, self.layout);
         let one = two.joint(layout, i, &self.of_two, menu);
         let meshes = layout.rules.meshes.iter().flatten();
@@ -120,7 +120,7 @@ impl ThreeSides<'_> {
         }
     }
 
-    fn coupling(&self, (i, side): (usize, usize)) -> Option<CouplingEntry> {
+    fn coupling(&self, i: usize, side: usize) -> Option<CouplingEntry> {
         let mesh = self.layout.rules.meshes[i].as_ref()?;
         let two = &self.structure.two;
         Some(CouplingEntry {
@@ -180,10 +180,11 @@ pub fn mechanism_file_of_three(
     };
     let rounds =
         (0..joints.len()).filter(|&i| structure.copies(&joints[i]) == SIDES && !sides.is_geared(i));
+    let couplings = sides.each().filter_map(|(i, side)| sides.coupling(i, side));
     let made = sides.each().filter(|of| !sides.is_geared(of.0));
     MechanismFile {
-        joint: made.map(|of| sides.joint(of, menu)).collect(),
-        coupling: sides.each().filter_map(|of| sides.coupling(of)).collect(),
+        joint: made.map(|(i, side)| sides.joint(i, side, menu)).collect(),
+        coupling: couplings.collect(),
         search: SearchEntry {
             options: menu.options.clone(),
             unloading: menu.unloading.clone(),
