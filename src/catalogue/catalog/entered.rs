@@ -161,32 +161,33 @@ impl Entered for ThreefoldStructure {
     }
 }
 
+/// What a layout was taken for.
+pub(super) struct Taken<'a> {
+    /// The figures.
+    pub(super) looks: &'a Looks,
+    /// What it was made for.
+    pub(super) limits: &'a Limits,
+    /// The start it was found from.
+    pub(super) start: u32,
+}
+
 /// Places of a structure, whatever joins its links.
 pub(super) trait LaidOut {
-    /// The figures it was taken for.
-    fn looks(&self) -> &Looks;
-
-    /// What it was made for.
-    fn limits(&self) -> &Limits;
-
-    /// The start it was found from.
-    fn start(&self) -> u32;
+    /// What it was taken for.
+    fn taken(&self) -> Taken<'_>;
 
     /// Where its joints and tips are.
     fn points(&self) -> Vec<Point>;
 }
 
 impl LaidOut for Layout {
-    fn looks(&self) -> &Looks {
-        &self.looks
-    }
-
-    fn limits(&self) -> &Limits {
-        &self.limits
-    }
-
-    fn start(&self) -> u32 {
-        self.start
+    fn taken(&self) -> Taken<'_> {
+        let (looks, limits, start) = (&self.looks, &self.limits, self.start);
+        Taken {
+            looks,
+            limits,
+            start,
+        }
     }
 
     fn points(&self) -> Vec<Point> {
@@ -196,16 +197,13 @@ impl LaidOut for Layout {
 }
 
 impl LaidOut for PairLayout {
-    fn looks(&self) -> &Looks {
-        &self.looks
-    }
-
-    fn limits(&self) -> &Limits {
-        &self.limits
-    }
-
-    fn start(&self) -> u32 {
-        self.start
+    fn taken(&self) -> Taken<'_> {
+        let (looks, limits, start) = (&self.looks, &self.limits, self.start);
+        Taken {
+            looks,
+            limits,
+            start,
+        }
     }
 
     fn points(&self) -> Vec<Point> {

@@ -113,10 +113,10 @@ fn rounded(x: f64) -> f64 {
 }
 
 fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
-    let (l, f) = (laid.layout.looks(), &laid.figures);
+    let (l, f) = (laid.layout.taken().looks, &laid.figures);
     let end = |w: Option<StrokeEnd>| w.map(StrokeEnd::word);
     // Tips and drive as they grip: as they open, in a hole.
-    let grips = laid.layout.limits().task.grip.sign();
+    let grips = laid.layout.taken().limits.task.grip.sign();
     let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded(grips * t[k]));
     let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
     put(
@@ -125,7 +125,7 @@ fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite
         &[
             ("structure", &id),
             ("mechanism", &laid.file),
-            ("start", &laid.layout.start()),
+            ("start", &laid.layout.taken().start),
             ("crossings", &number(l.crossings)),
             ("link_ratio", &rounded(l.ratio)),
             ("transmission", &rounded(l.transmission)),
@@ -168,7 +168,7 @@ fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite
 
 /// Enters what a layout does of its task.
 fn stroke<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
-    let (task, f) = (&laid.layout.limits().task, &laid.figures);
+    let (task, f) = (&laid.layout.taken().limits.task, &laid.figures);
     let reached = !f.shortfall.is_some_and(|s| s.is_of_reach());
     put(
         t,

@@ -50,6 +50,16 @@ impl Form {
     }
 }
 
+/// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
+pub(super) fn short_id(links: usize, name: &str) -> String {
+    let mut id = format!("{links}-");
+    for byte in &Sha256::digest(name)[..6] {
+        // Writing to a string does not fail.
+        let _ = write!(id, "{byte:02x}");
+    }
+    id
+}
+
 /// A gripper without places.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Structure {
@@ -80,12 +90,7 @@ impl Structure {
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
     #[must_use]
     pub fn id(&self) -> String {
-        let mut id = format!("{}-", self.chain.links());
-        for byte in &Sha256::digest(self.name())[..6] {
-            // Writing to a string does not fail.
-            let _ = write!(id, "{byte:02x}");
-        }
-        id
+        short_id(self.chain.links(), &self.name())
     }
 }
 

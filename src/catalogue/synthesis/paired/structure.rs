@@ -7,9 +7,8 @@ use crate::chains::pairs::motion::{Image, Swap, motion, symmetric_ways};
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::pairs::structure::PairStructure;
 use crate::chains::pairs::symmetric_census::symmetric_grippers;
+use crate::synthesis::structure::short_id;
 use itertools::Itertools;
-use sha2::{Digest, Sha256};
-use std::fmt::Write as _;
 
 /// A gripper of pairs without places.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -71,12 +70,7 @@ impl PairedStructure {
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
     #[must_use]
     pub fn id(&self) -> String {
-        let mut id = format!("{}-", self.structure.chain.links());
-        for byte in &Sha256::digest(self.name())[..6] {
-            // Writing to a string does not fail.
-            let _ = write!(id, "{byte:02x}");
-        }
-        id
+        short_id(self.structure.chain.links(), &self.name())
     }
 
     /// How it is driven.

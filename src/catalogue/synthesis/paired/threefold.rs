@@ -12,9 +12,8 @@ use crate::synthesis::paired::rules::PairRules;
 use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::place::third;
 use crate::synthesis::point::Point;
+use crate::synthesis::structure::short_id;
 use petgraph::unionfind::UnionFind;
-use sha2::{Digest, Sha256};
-use std::fmt::Write as _;
 
 /// Sides.
 pub const SIDES: usize = 3;
@@ -139,12 +138,7 @@ impl ThreefoldStructure {
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
     #[must_use]
     pub fn id(&self) -> String {
-        let mut id = format!("{}-", self.links());
-        for byte in &Sha256::digest(self.name())[..6] {
-            // Writing to a string does not fail.
-            let _ = write!(id, "{byte:02x}");
-        }
-        id
+        short_id(self.links(), &self.name())
     }
 }
 
