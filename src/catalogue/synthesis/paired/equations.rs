@@ -68,7 +68,7 @@ pub(super) fn velocities(sketch: &PairSketch<'_>, at: &PairPlaces) -> Option<Vec
     Some((0..links.len()).map(velocity).collect())
 }
 
-/// The equations of a stroke: shift and turn of every moving link, the turn as millimetres at the arm [`RADIAN`], and the drive.
+/// The equations of a stroke: shift and turn of every moving link, the turn as millimetres at an arm of 50, and the drive.
 #[derive(Debug, Clone)]
 pub struct PairEquations<'a> {
     sketch: &'a PairSketch<'a>,
