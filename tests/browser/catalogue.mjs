@@ -16,7 +16,7 @@ export function catalogueTests(test) {
     ]) {
       await open(file, options, async (tab) => {
         assert.ok((await cards(tab).count()) >= 60);
-        assert.equal(await cards(tab).first().locator("svg title").count(), 1);
+        assert.equal(await cards(tab).first().locator("svg > title").count(), 1);
         // The way the drive goes to close, straight or round.
         const ways = await tab.locator("#cards .card").evaluateAll((all) => {
           const of = new Map(data.cards.map((c) => [c.id, c]));

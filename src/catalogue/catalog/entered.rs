@@ -162,7 +162,7 @@ impl Entered for ThreefoldStructure {
 }
 
 /// What a layout was taken for.
-pub(super) struct Taken<'a> {
+pub(super) struct LayoutBasis<'a> {
     /// The figures.
     pub(super) looks: &'a Looks,
     /// What it was made for.
@@ -174,16 +174,16 @@ pub(super) struct Taken<'a> {
 /// Places of a structure, whatever joins its links.
 pub(super) trait LaidOut {
     /// What it was taken for.
-    fn taken(&self) -> Taken<'_>;
+    fn taken(&self) -> LayoutBasis<'_>;
 
     /// Where its joints and tips are.
     fn points(&self) -> Vec<Point>;
 }
 
 impl LaidOut for Layout {
-    fn taken(&self) -> Taken<'_> {
+    fn taken(&self) -> LayoutBasis<'_> {
         let (looks, limits, start) = (&self.looks, &self.limits, self.start);
-        Taken {
+        LayoutBasis {
             looks,
             limits,
             start,
@@ -197,9 +197,9 @@ impl LaidOut for Layout {
 }
 
 impl LaidOut for PairLayout {
-    fn taken(&self) -> Taken<'_> {
+    fn taken(&self) -> LayoutBasis<'_> {
         let (looks, limits, start) = (&self.looks, &self.limits, self.start);
-        Taken {
+        LayoutBasis {
             looks,
             limits,
             start,
