@@ -61,6 +61,16 @@ const source = (tab) => tab.locator("#text").inputValue();
 const verdict = (tab) => tab.locator("#verdict-panel").innerText();
 const told = (tab, words) => tab.waitForFunction((w) => document.body.innerText.includes(w), words);
 
+/** Waits for what was asked last. A promise that is awaited from outside may be collected, so that the page notes when it is kept. */
+const settledOn = async (tab) => {
+  await tab.evaluate(() => {
+    const asked = { kept: false }, keep = () => { asked.kept = true; };
+    globalThis.asked = asked;
+    last.then(keep, keep);
+  });
+  await tab.waitForFunction(() => globalThis.asked.kept);
+};
+
 /** A hand that counts: clicks on places of the file's coordinates, on buttons, and keys. */
 function handOn(tab, zoom = 4) {
   const count = { clicks: 0 };
@@ -68,7 +78,7 @@ function handOn(tab, zoom = 4) {
     const b = await tab.locator("#sheet").boundingBox();
     return [b.x + b.width / 2 + zoom * x, b.y + b.height / 2 - zoom * y];
   };
-  const settled = () => tab.evaluate(() => last);
+  const settled = () => settledOn(tab);
   return {
     count,
     at,
@@ -271,7 +281,7 @@ export function studioTests(test) {
       const keys = async (...all) => {
         for (const key of all) {
           await tab.keyboard.press(key);
-          await tab.evaluate(() => last);
+          await settledOn(tab);
         }
       };
       const far = (key, n) => Array.from({ length: n }, () => `Shift+${key}`);
