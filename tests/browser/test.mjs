@@ -178,10 +178,9 @@ test("ten thousand variants, on a small screen", async () => {
     console.log(`  10,000 variants loaded in ${took} ms`);
     await fits(tab);
     await variants(tab);
-    // By keyboard: a press of the mouse may meet what has just moved here.
-    await tab.locator("#last").press("Enter");
-    // What is seen is drawn with the next picture.
-    await tab.waitForFunction(() => [...document.querySelectorAll("#variants tbody tr[data-variant]")].at(-1).dataset.variant === "9999");
+    await tab.locator("#last").click();
+    // It stays there: nothing that was put off turns back.
+    await tab.waitForTimeout(150);
     const shown = await rows(tab).evaluateAll((all) => all.map((r) => r.dataset.variant));
     assert.equal(shown.at(-1), "9999");
     assert.ok(shown.length <= 50, "few rows are drawn");

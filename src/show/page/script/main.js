@@ -15,7 +15,9 @@ function listenToFilters() {
     refresh();
   };
   let waiting = 0;
-  form.addEventListener("input", () => {
+  form.addEventListener("input", (event) => {
+    // Another list is drawn at once; drawn again later, it would turn back to its first page.
+    if (event.target.id === "list") return;
     clearTimeout(waiting);
     waiting = setTimeout(anew, 60);
   });
