@@ -15,7 +15,7 @@ use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::structure::{Structure, structures};
 use itertools::Itertools;
 use rayon::prelude::*;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, RangeInclusive};
 use std::sync::Mutex;
 use thiserror::Error;
 
@@ -111,17 +111,11 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
         return Ok(all.filter(|p| shard.has(&p.name())).collect());
     }
     let forms = spec.paired_forms().map_err(RowError::from)?;
-    let kinds = spec.pairs().map_err(RowError::from)?;
     if forms.is_empty() {
         return Ok(Vec::new());
     }
-    let menu = Menu {
-        kinds: &kinds,
-        most: spec.at_most,
-    };
     let links = spec.links().map_err(RowError::from)?;
-    let all = links.flat_map(|n| paired_structures(n, menu));
-    let all = all.flat_map(|p| {
+    let all = two_jawed(spec, links)?.into_iter().flat_map(|p| {
         let other = p.on_parallelograms();
         std::iter::once(p).chain(other)
     });
@@ -129,21 +123,28 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
     Ok(asked.collect())
 }
 
-/// Those of three jaws whose gripper of two jaws has as many links as is asked.
-fn threefold_work(spec: &Spec, shard: Shard) -> Result<Vec<ThreefoldStructure>, BuildError> {
-    if spec.classics || !spec.threefold_pairs().map_err(RowError::from)? {
-        return Ok(Vec::new());
-    }
+/// The structures with the pairs that are asked for, of so many links.
+fn two_jawed(
+    spec: &Spec,
+    links: RangeInclusive<usize>,
+) -> Result<Vec<PairedStructure>, BuildError> {
     let kinds = spec.pairs().map_err(RowError::from)?;
     let menu = Menu {
         kinds: &kinds,
         most: spec.at_most,
     };
+    Ok(links.flat_map(|n| paired_structures(n, menu)).collect())
+}
+
+/// Those of three jaws that have as many links as is asked.
+fn threefold_work(spec: &Spec, shard: Shard) -> Result<Vec<ThreefoldStructure>, BuildError> {
+    if spec.classics || !spec.threefold_pairs().map_err(RowError::from)? {
+        return Ok(Vec::new());
+    }
     let links = spec.links().map_err(RowError::from)?;
     // A side more makes more links of them.
-    let most = MOST_PAIRED.min(*links.end());
-    let two = (3..=most).flat_map(|n| paired_structures(n, menu));
-    let all = two.filter_map(|p| ThreefoldStructure::new(&p));
+    let two = two_jawed(spec, 3..=MOST_PAIRED.min(*links.end()))?;
+    let all = two.iter().filter_map(ThreefoldStructure::new);
     let asked = all.filter(|t| links.contains(&t.links()) && shard.has(&t.name()));
     Ok(asked.collect())
 }

@@ -1,6 +1,5 @@
 //! What structures and layouts of every kind say of themselves in the tables.
 
-use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::pairs::census::Kinds;
@@ -109,15 +108,13 @@ impl Structure {
 impl Entered for PairedStructure {
     fn columns(&self) -> StructureColumns {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
-        let joints = chain.joints();
-        let graph = joints.iter().map(|j| (j.links[0], j.links[1]));
         let [driven_from, driver] = self.drive();
         StructureColumns {
             id: self.id(),
             name: self.name(),
-            chain: graph6::write(&Chain::new(chain.links(), graph)),
+            chain: graph6::write(&chain.graph()),
             links: chain.links(),
-            joints: joints.len(),
+            joints: chain.joints().len(),
             frame: roles.frame,
             driver,
             jaws: roles.jaws.to_vec(),
@@ -142,7 +139,7 @@ impl Entered for ThreefoldStructure {
         StructureColumns {
             id: self.id(),
             name: self.name(),
-            chain: self.code(),
+            chain: graph6::write(&chain.graph()),
             links: self.links(),
             joints: chain.joints().len(),
             frame: link(self.two.structure.roles.frame),

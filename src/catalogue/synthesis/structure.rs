@@ -140,7 +140,7 @@ pub struct Ring {
 }
 
 /// How far ahead the tips of jaws in front are, in millimetres.
-const REACH: i32 = 120;
+pub(super) const REACH: i32 = 120;
 
 impl Structure {
     /// Whether the jaws close on a part over the centre, all of the gripper round it, instead of in front.

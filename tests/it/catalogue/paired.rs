@@ -14,45 +14,36 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use tempfile::{TempDir, tempdir};
 
-/// The well-known schemes, built once.
-fn known() -> &'static str {
-    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
-    let (_, file) = FILE.get_or_init(|| {
+/// A catalogue, built once.
+type Built = OnceLock<(TempDir, String)>;
+
+fn built(once: &'static Built, words: &[&str]) -> &'static str {
+    let (_, file) = once.get_or_init(|| {
         let folder = tempdir().unwrap();
-        let file = at(&folder, "known.db");
-        ok(&["catalog", "build", "--classics", "--quiet", "-o", &file]);
+        let file = at(&folder, "grippers.db");
+        ok(&[words, &[file.as_str()]].concat());
         (folder, file)
     });
     file
+}
+
+/// The well-known schemes.
+fn known() -> &'static str {
+    static FILE: Built = OnceLock::new();
+    built(&FILE, &["catalog", "build", "--classics", "--quiet", "-o"])
 }
 
 /// Every structure of up to five links, and of six with a left and a right pair that is no hinge.
 fn some() -> &'static str {
-    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
-    let (_, file) = FILE.get_or_init(|| {
-        let folder = tempdir().unwrap();
-        let file = at(&folder, "some.db");
-        ok(&PAIRED
-            .iter()
-            .copied()
-            .chain([file.as_str()])
-            .collect::<Vec<_>>());
-        (folder, file)
-    });
-    file
+    static FILE: Built = OnceLock::new();
+    built(&FILE, &PAIRED)
 }
 
 /// Every structure of five links with three jaws: a scroll, three racks on a pinion, levers on a disc of cams.
 fn three() -> &'static str {
-    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
-    let (_, file) = FILE.get_or_init(|| {
-        let folder = tempdir().unwrap();
-        let file = at(&folder, "three.db");
-        let words = "catalog build --jaws 3 --pairs slide,gear,slot --symmetry threefold --links 5 --ideas 2 --quiet -o";
-        ok(&words.split(' ').chain([file.as_str()]).collect::<Vec<_>>());
-        (folder, file)
-    });
-    file
+    static FILE: Built = OnceLock::new();
+    let words = "catalog build --jaws 3 --pairs slide,gear,slot --symmetry threefold --links 5 --ideas 2 --quiet -o";
+    built(&FILE, &words.split(' ').collect::<Vec<_>>())
 }
 
 /// What a third of a turn carries to each other is searched as such, and its redesigns are as many by the plain command.

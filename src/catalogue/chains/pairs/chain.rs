@@ -91,6 +91,13 @@ impl PairChain {
         joints.map(|(links, pair)| Joint { links, pair }).collect()
     }
 
+    /// Which links are joined, by whatever.
+    #[must_use]
+    pub fn graph(&self) -> Chain {
+        let joints = self.joints().into_iter();
+        Chain::new(self.links(), joints.map(|j| (j.links[0], j.links[1])))
+    }
+
     /// A letter for what joins each two links, (0, 1), (0, 2), (1, 2) and so on, and - where nothing does.
     #[must_use]
     pub fn code(&self) -> String {

@@ -1,6 +1,6 @@
 //! The rows of a paired gripper as equations for the poses of its links.
 
-use crate::geom::vector::{cross_plane, dot, sub};
+use crate::geom::vector::{dot, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rows::{PoseRows, TeethSeen, Term};
@@ -28,10 +28,9 @@ pub(super) fn put(
         let Some(column) = place_of(term.link, frame) else {
             continue;
         };
-        let moment = cross_plane(sub(term.at, about(term.link)), term.force);
-        system.add(row, column, term.force[0]);
-        system.add(row, column + 1, term.force[1]);
-        system.add(row, column + 2, moment / RADIAN + term.moment);
+        for (k, x) in term.about(about(term.link)).into_iter().enumerate() {
+            system.add(row, column + k, x);
+        }
     }
 }
 

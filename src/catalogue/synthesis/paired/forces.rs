@@ -2,7 +2,7 @@
 //! friction, and what they say of it.
 
 use crate::chains::pairs::kind::PairKind;
-use crate::geom::vector::{add_scaled, cross_plane, dot, length, quarter, sub};
+use crate::geom::vector::{add_scaled, dot, length, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::paired::equations::{PairEquations, place_of};
 use crate::synthesis::paired::places::PairPlaces;
@@ -17,34 +17,21 @@ use crate::synthesis::velocities::Velocity;
 
 /// What a joint does: the force on its second link, where that acts, and a moment beside it, in N and N mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PairForce {
+struct PairForce {
     /// On the second link of the joint.
-    pub force: Point,
+    force: Point,
     /// Where.
-    pub at: Point,
+    at: Point,
     /// About that point, of a slide.
-    pub moment: f64,
+    moment: f64,
 }
 
-/// The forces of all joints, and of the drive.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PairForces {
-    /// Of each joint.
-    pub joints: Vec<PairForce>,
-    /// What the drive does: N, or N mm, the way its coordinate grows.
-    pub drive: f64,
-}
-
-/// The equilibrium of every moving link, with the links at these poses; `None` where there is no one solution.
+/// What each joint does by the equilibrium of every moving link, with the links at these poses; `None` where there is no one
+/// solution.
 ///
 /// # Complexity
 /// O(n³) for n links.
-#[must_use]
-pub(super) fn forces(
-    sketch: &PairSketch<'_>,
-    at: &PairPlaces,
-    links: &[LinkPose],
-) -> Option<PairForces> {
+fn forces(sketch: &PairSketch<'_>, at: &PairPlaces, links: &[LinkPose]) -> Option<Vec<PairForce>> {
     let (bones, rules) = (&sketch.bones, &sketch.rules);
     let rows = PoseRows { rules, at, links };
     let size = 3 * (links.len() - 1);
@@ -80,8 +67,7 @@ pub(super) fn forces(
         sum.moment += size * unit.moment;
         sum.force = add_scaled(sum.force, size, unit.force);
     }
-    let drive = system.get(column, 0);
-    Some(PairForces { joints, drive })
+    Some(joints)
 }
 
 /// Forces and moments on every moving link, a column for each that is unknown, and one for those that are not.
@@ -97,10 +83,9 @@ impl Equilibrium {
             let Some(row) = place_of(term.link, self.frame) else {
                 continue;
             };
-            let moment = cross_plane(term.at, term.force) / RADIAN + term.moment;
-            self.system.add(row, column, term.force[0]);
-            self.system.add(row + 1, column, term.force[1]);
-            self.system.add(row + 2, column, moment);
+            for (k, x) in term.about([0.0; 2]).into_iter().enumerate() {
+                self.system.add(row + k, column, x);
+            }
         }
     }
 }
@@ -120,14 +105,14 @@ fn figures(
     sketch: &PairSketch<'_>,
     at: &PairPlaces,
     links: &[LinkPose],
-    forces: &PairForces,
+    forces: &[PairForce],
 ) -> ForceFigures {
     let (bones, friction) = (&sketch.bones, &sketch.limits.task.friction);
     let rules = &sketch.rules;
     let rows = PoseRows { rules, at, links };
     let mut out = ForceFigures::BEST;
     let (mut lost, mut given) = (0.0, 0.0);
-    for (i, (joint, f)) in rules.joints.iter().zip(&forces.joints).enumerate() {
+    for (i, (joint, f)) in rules.joints.iter().zip(forces).enumerate() {
         let [u, v] = joint.links.map(|l| links[l].velocity);
         let force = length(f.force);
         out.peak = out.peak.max(force);
@@ -160,11 +145,11 @@ fn figures(
 fn passed(
     sketch: &PairSketch<'_>,
     links: &[LinkPose],
-    forces: &PairForces,
+    forces: &[PairForce],
     link: usize,
     work: f64,
 ) -> f64 {
-    let joints = sketch.rules.joints.iter().zip(&forces.joints).enumerate();
+    let joints = sketch.rules.joints.iter().zip(forces).enumerate();
     let own = joints.filter(|(i, (joint, _))| {
         joint.is_at(link) && !joint.is_at(sketch.bones.frame) && *i != sketch.input
     });
@@ -176,9 +161,7 @@ fn passed(
 impl PoseRows<'_> {
     /// How fast a pin goes along its slot.
     fn sliding(&self, joint: usize) -> f64 {
-        let pinned = self.at.pinned[joint];
-        let [u, v] = self.rules.joints[joint].links;
-        let slotted = if pinned == u { v } else { u };
+        let [pinned, slotted] = self.pin_and_slot(joint);
         let pin = self.links[pinned].point(self.at.points[joint]);
         let along = self.along(slotted, joint);
         let speed = |l: usize| self.links[l].velocity.at(pin);

@@ -8,7 +8,7 @@ use crate::synthesis::paired::forces::PairMotion;
 use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rules::{NoRules, PairRules};
 use crate::synthesis::paired::sketch::PairSketch;
-use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::paired::structure::{Lay, PairedStructure};
 use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::place::third;
 use crate::synthesis::random::random;
@@ -58,7 +58,9 @@ fn layout_as(
     let mut best: Option<(FoundPlaces<PairPlaces>, PairRules)> = None;
     let mut why = NoRules::Still;
     let mut start = 0;
-    for lay in paired.lays() {
+    // Three sides are those that one way of lying has.
+    let suits = |lay: &Lay| threefold.is_none_or(|t| t.swap == lay.swap);
+    for lay in paired.lays().into_iter().filter(suits) {
         let rules = match PairRules::new(paired, &lay) {
             Ok(rules) => rules,
             Err(e) => {

@@ -1,5 +1,6 @@
 //! Where the joints of a paired gripper are.
 
+use crate::geom::vector::{add_scaled, quarter, sub};
 use crate::synthesis::paired::direction::WholeDirection;
 use crate::synthesis::point::Point;
 
@@ -33,6 +34,14 @@ impl Teeth {
         match self {
             Teeth::Gears([a, b]) => -f64::from(a) / f64::from(b),
             Teeth::Rack(diameter) => f64::from(diameter) / 2.0,
+        }
+    }
+
+    /// Where pitch circles about these centres touch; of a rack, whose guide goes that way, about the first.
+    pub(super) fn pitch(self, [a, b]: [Point; 2], along: Point) -> Point {
+        match self {
+            Teeth::Gears([r, s]) => add_scaled(a, f64::from(r) / f64::from(r + s), sub(b, a)),
+            Teeth::Rack(_) => add_scaled(a, -self.ratio(), quarter(along)),
         }
     }
 }

@@ -4,8 +4,8 @@
 //! joint acts. A hinge has two, a slide two, a slot and a gear pair one, and the drive one.
 
 use crate::chains::pairs::kind::PairKind;
-use crate::geom::vector::{add_scaled, dot, quarter, scale, sub, unit};
-use crate::synthesis::paired::places::{PairPlaces, Teeth};
+use crate::geom::vector::{cross_plane, dot, quarter, scale, sub, unit};
+use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rules::{Mesh, PairRules};
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::pose::LinkPose;
@@ -30,6 +30,12 @@ impl Term {
             at,
             moment: 0.0,
         }
+    }
+
+    /// Its force, and its moment about a point, a force at the arm of [`RADIAN`].
+    pub(super) fn about(&self, point: Point) -> [f64; 3] {
+        let moment = cross_plane(sub(self.at, point), self.force);
+        [self.force[0], self.force[1], moment / RADIAN + self.moment]
     }
 
     fn moment(link: usize, moment: f64) -> Term {
@@ -62,10 +68,6 @@ pub(super) struct PoseRows<'a> {
 /// A row: by how much it misses, in millimetres, and its terms.
 type Visit<'v> = &'v mut dyn FnMut(f64, &[Term]);
 
-fn ends(rows: &PoseRows<'_>, joint: usize) -> [usize; 2] {
-    rows.rules.joints[joint].links
-}
-
 impl PoseRows<'_> {
     fn on(&self, link: usize, joint: usize) -> Point {
         self.links[link].point(self.at.points[joint])
@@ -90,7 +92,7 @@ impl PoseRows<'_> {
 
     /// The rows of a joint.
     pub(super) fn joint(&self, joint: usize, seen: TeethSeen, visit: Visit<'_>) {
-        let [u, v] = ends(self, joint);
+        let [u, v] = self.rules.joints[joint].links;
         match (self.rules.joints[joint].pair, self.rules.meshes[joint]) {
             (PairKind::Hinge, _) => {
                 let [a, b] = [u, v].map(|l| self.on(l, joint));
@@ -108,17 +110,20 @@ impl PoseRows<'_> {
                 visit(turn, &[Term::moment(v, 1.0), Term::moment(u, -1.0)]);
                 self.line([v, u], joint, visit);
             }
-            (PairKind::Slot, _) => {
-                let pinned = self.at.pinned[joint];
-                let slotted = if pinned == u { v } else { u };
-                self.line([pinned, slotted], joint, visit);
-            }
+            (PairKind::Slot, _) => self.line(self.pin_and_slot(joint), joint, visit),
             (PairKind::Gear, Some(mesh)) => match seen {
                 TeethSeen::Ratio => self.ratio(joint, &mesh, visit),
                 TeethSeen::Force => self.teeth(joint, &mesh, visit),
             },
             (PairKind::Gear, None) => {}
         }
+    }
+
+    /// The link that has the pin of a slot, and the one that has the slot.
+    pub(super) fn pin_and_slot(&self, joint: usize) -> [usize; 2] {
+        let [u, v] = self.rules.joints[joint].links;
+        let pinned = self.at.pinned[joint];
+        [pinned, if pinned == u { v } else { u }]
     }
 
     /// A point of the first link stays on a line of the second.
@@ -169,19 +174,15 @@ impl PoseRows<'_> {
     }
 
     /// Where the pitch circles of a gear pair touch, and which way their teeth press.
-    pub(super) fn pitch(&self, joint: usize, mesh: &Mesh) -> [Point; 2] {
-        let [a, b] = [0, 1].map(|k| self.on(mesh.carrier, mesh.held[k]));
-        match self.at.teeth[joint] {
-            Teeth::Gears([r, s]) => {
-                let apart = sub(b, a);
-                let at = add_scaled(a, f64::from(r) / f64::from(r + s), apart);
-                [at, quarter(unit(apart))]
-            }
-            teeth @ Teeth::Rack(_) => {
-                let along = self.along(mesh.carrier, mesh.held[1]);
-                [add_scaled(a, -teeth.ratio(), quarter(along)), along]
-            }
-        }
+    fn pitch(&self, joint: usize, mesh: &Mesh) -> [Point; 2] {
+        let centres @ [a, b] = mesh.held.map(|j| self.on(mesh.carrier, j));
+        let along = self.along(mesh.carrier, mesh.held[1]);
+        let presses = if mesh.rack {
+            along
+        } else {
+            quarter(unit(sub(b, a)))
+        };
+        [self.at.teeth[joint].pitch(centres, along), presses]
     }
 
     fn teeth(&self, joint: usize, mesh: &Mesh, visit: Visit<'_>) {

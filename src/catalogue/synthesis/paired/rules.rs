@@ -244,14 +244,9 @@ impl PairRules {
     /// Where the pitch circles of a gear pair touch.
     fn pitch_point(&self, at: &PairPlaces, i: usize) -> Option<Point> {
         let mesh = self.meshes[i]?;
-        let [a, b] = mesh.held.map(|j| at.points[j]);
-        Some(match at.teeth[i] {
-            Teeth::Gears([r, s]) => add_scaled(a, f64::from(r) / f64::from(r + s), sub(b, a)),
-            teeth @ Teeth::Rack(_) => {
-                let [x, y] = at.along[mesh.held[1]].real();
-                add_scaled(a, teeth.ratio(), [y, -x])
-            }
-        })
+        let centres = mesh.held.map(|j| at.points[j]);
+        let along = at.along[mesh.held[1]].real();
+        Some(at.teeth[i].pitch(centres, along))
     }
 }
 

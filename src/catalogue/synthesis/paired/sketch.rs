@@ -10,9 +10,8 @@ use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::paired::threefold::{Around, ThreefoldStructure};
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::pose::LinkPose;
+use crate::synthesis::structure::REACH;
 
-/// How far ahead the tips of jaws in front are, in millimetres.
-const REACH: f64 = 120.0;
 /// A paired structure with the rules of its joints.
 #[derive(Debug)]
 pub struct PairSketch<'a> {
@@ -35,11 +34,11 @@ pub struct PairSketch<'a> {
 }
 
 /// Where the tips of the jaws are drawn, in millimetres: ahead, or on both sides of the middle.
-pub(super) fn tips(symmetry: Symmetry, limits: &Limits) -> [Point; 2] {
+fn tips(symmetry: Symmetry, limits: &Limits) -> [Point; 2] {
     let half = f64::from(limits.task.half_opening());
     let ahead = match symmetry {
         Symmetry::HalfTurn => 0.0,
-        _ => REACH,
+        _ => f64::from(REACH),
     };
     [[ahead, half], [ahead, -half]]
 }

@@ -3,10 +3,8 @@
 //! They are made of those that half a turn carries to themselves: what stands between frame and driver on one side stands there
 //! three times. A side moves by frame and driver alone, so that places, stroke and joint forces are those of one side of two.
 
-use crate::chains::chain::Chain;
-use crate::chains::graph6;
 use crate::chains::layout_symmetry::Symmetry;
-use crate::chains::pairs::chain::{Joint, PairChain};
+use crate::chains::pairs::chain::{Joint, PairChain, ordered};
 use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::paired::rules::PairRules;
 use crate::synthesis::paired::structure::PairedStructure;
@@ -27,6 +25,8 @@ pub struct ThreefoldStructure {
     pub side: Vec<usize>,
     /// The links that stand once: the frame, the driver and what else the turn carries to itself.
     pub own: Vec<usize>,
+    /// Where half a turn carries the links of the gripper of two jaws.
+    pub(super) swap: Vec<usize>,
 }
 
 impl ThreefoldStructure {
@@ -64,6 +64,7 @@ impl ThreefoldStructure {
             two: two.clone(),
             side,
             own,
+            swap,
         })
     }
 
@@ -98,21 +99,12 @@ impl ThreefoldStructure {
         let joints = joints.flat_map(|j| (0..self.copies(&j)).map(move |side| (j, side)));
         let joints = joints.filter_map(|(j, side)| {
             let [u, v] = j.links.map(|l| self.link(l, side));
-            let (u, v) = (u?, v?);
             Some(Joint {
-                links: [u.min(v), u.max(v)],
+                links: ordered([u?, v?]),
                 pair: j.pair,
             })
         });
         PairChain::new(self.links(), joints)
-    }
-
-    /// The code of the graph of its links and joints, as they are numbered.
-    #[must_use]
-    pub fn code(&self) -> String {
-        let joints = self.chain().joints().into_iter();
-        let graph = joints.map(|j| (j.links[0], j.links[1]));
-        graph6::write(&Chain::new(self.links(), graph))
     }
 
     /// The jaws.
