@@ -138,7 +138,7 @@ pub(super) fn fill_in(db: &Connection, found: i64) -> rusqlite::Result<()> {
     for (_, view) in VIEWS.iter().filter(|(version, _)| found < *version) {
         db.execute_batch(view)?;
     }
-    if found < 6 {
+    if found < 7 {
         let view = statement("CREATE VIEW grippers").replacen("CREATE VIEW", "CREATE TEMP VIEW", 1);
         db.execute_batch(&view)?;
     }
@@ -157,14 +157,38 @@ mod tests {
         rows.map(Result::unwrap).collect()
     }
 
-    fn fourth() -> Connection {
+    /// What each version lacks of the one after it, the latest first. A `front` older than the tables it looks at stands for
+    /// that of its version, which had other words.
+    const WITHOUT: [(i64, &str); 6] = [
+        (
+            6,
+            "DROP VIEW front; DROP VIEW grippers; DROP TABLE pairs; DROP TABLE classics; CREATE VIEW front AS SELECT 1 AS id; \
+             CREATE VIEW grippers AS SELECT 1 AS id;",
+        ),
+        (5, "DROP VIEW grippers; DROP TABLE strokes;"),
+        (4, "DROP TABLE parts;"),
+        (
+            3,
+            "DROP VIEW idea_front; ALTER TABLE layouts DROP COLUMN closes; ALTER TABLE layouts DROP COLUMN orbits_w1; \
+             ALTER TABLE counts DROP COLUMN orbits; ALTER TABLE counts DROP COLUMN symmetric;",
+        ),
+        (
+            2,
+            "ALTER TABLE structures DROP COLUMN jaw_c; ALTER TABLE layouts DROP COLUMN jaw_c_motion; \
+             ALTER TABLE layouts DROP COLUMN tip_c_dx; ALTER TABLE layouts DROP COLUMN tip_c_dy; \
+             ALTER TABLE drawn DROP COLUMN ideas_asked;",
+        ),
+        (1, "DROP TABLE drawn;"),
+    ];
+
+    /// A catalogue without a row whose tables are of this version.
+    fn of_version(version: i64) -> Connection {
         let db = Connection::open_in_memory().unwrap();
         make(&db).unwrap();
-        db.execute_batch(
-            "DROP TABLE parts; DROP VIEW front; DROP VIEW grippers; DROP TABLE strokes; CREATE VIEW front AS SELECT 1 AS id; \
-             PRAGMA user_version = 4;",
-        )
-        .unwrap();
+        for (_, taken) in WITHOUT.iter().filter(|(without, _)| version <= *without) {
+            db.execute_batch(taken).unwrap();
+        }
+        db.pragma_update(None, "user_version", version).unwrap();
         db
     }
 
@@ -174,60 +198,42 @@ mod tests {
         assert_eq!(kind(&new).unwrap(), FileKind::Fresh);
         make(&new).unwrap();
         assert_eq!(kind(&new).unwrap(), FileKind::Catalogue(VERSION));
-        let old = fourth();
-        assert_eq!(kind(&old).unwrap(), FileKind::Catalogue(4));
-        migrate(&old, 4).unwrap();
-        assert_eq!(kind(&old).unwrap(), FileKind::Catalogue(VERSION));
-        assert_eq!(schema(&old), schema(&new));
+        for version in OLDEST..VERSION {
+            let old = of_version(version);
+            assert_eq!(kind(&old).unwrap(), FileKind::Catalogue(version));
+            migrate(&old, version).unwrap();
+            assert_eq!(kind(&old).unwrap(), FileKind::Catalogue(VERSION));
+            assert_eq!(schema(&old), schema(&new), "{version}");
+        }
     }
 
     /// Each version's tables, as far back as there are any, with the columns it lacked taken away.
     #[test]
     fn every_column_can_be_asked_of_every_version() {
-        let without = [
-            (
-                5,
-                "DROP VIEW front; DROP VIEW grippers; DROP TABLE strokes;",
-            ),
-            (4, "DROP TABLE parts;"),
-            (
-                3,
-                "DROP VIEW idea_front; ALTER TABLE layouts DROP COLUMN closes; ALTER TABLE layouts DROP COLUMN orbits_w1; \
-                 ALTER TABLE counts DROP COLUMN orbits; ALTER TABLE counts DROP COLUMN symmetric;",
-            ),
-            (
-                2,
-                "ALTER TABLE structures DROP COLUMN jaw_c; ALTER TABLE layouts DROP COLUMN jaw_c_motion; \
-                 ALTER TABLE layouts DROP COLUMN tip_c_dx; ALTER TABLE layouts DROP COLUMN tip_c_dy; \
-                 ALTER TABLE drawn DROP COLUMN ideas_asked;",
-            ),
-            (1, "DROP TABLE drawn;"),
+        let tables = [
+            "structures",
+            "layouts",
+            "drawn",
+            "counts",
+            "ideas",
+            "parts",
+            "strokes",
+            "pairs",
+            "classics",
+            "grippers",
         ];
-        for n in 0..=without.len() {
-            let db = Connection::open_in_memory().unwrap();
-            make(&db).unwrap();
-            let wanted = [
-                "structures",
-                "layouts",
-                "drawn",
-                "counts",
-                "ideas",
-                "parts",
-                "strokes",
-                "grippers",
-            ];
-            let columns = |table: &str| -> std::collections::BTreeSet<String> {
+        let columns = |db: &Connection| {
+            tables.map(|table| {
                 let all = db.prepare(&format!("SELECT * FROM {table}")).unwrap();
-                all.column_names().into_iter().map(str::to_owned).collect()
-            };
-            let now = wanted.map(columns);
-            let mut version = VERSION;
-            for (found, taken) in &without[..n] {
-                db.execute_batch(taken).unwrap();
-                version = *found;
-            }
+                let names = all.column_names().into_iter().map(str::to_owned);
+                names.collect::<std::collections::BTreeSet<String>>()
+            })
+        };
+        let now = columns(&of_version(VERSION));
+        for version in 1..VERSION {
+            let db = of_version(version);
             fill_in(&db, version).unwrap();
-            assert_eq!(wanted.map(columns), now, "{version}");
+            assert_eq!(columns(&db), now, "{version}");
         }
     }
 }
