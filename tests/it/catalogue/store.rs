@@ -256,6 +256,10 @@ fn a_question_writes_nothing_and_opens_nothing_else() {
         "INSERT INTO meta VALUES ('a', 'b')",
         "SELECT load_extension('x')",
         "SELECT writefile('x', 'y')",
+        // No questions.
+        "BEGIN",
+        "-- nothing",
+        "",
     ] {
         let o = run(&["catalog", "query", &file, sql]);
         assert_eq!(o.status.code(), Some(2), "{sql}: {}", text(&o.stdout));
@@ -270,6 +274,21 @@ fn a_question_writes_nothing_and_opens_nothing_else() {
         ok(&["catalog", "query", &file, columns, "--format", "csv"]),
         "many\n1\n"
     );
+}
+
+/// A value of a megabyte is given, and three hundred of them fill no memory.
+#[test]
+fn an_answer_is_bounded() {
+    let folder = tempdir().unwrap();
+    let file = tiny(&folder, "g.db", &[]);
+    let values = |n: usize| {
+        let numbers = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)";
+        format!("{numbers} SELECT printf('%.*c', 1000000, 'x') AS x FROM n LIMIT {n}")
+    };
+    let two = ok(&["catalog", "query", &file, &values(2), "--format", "csv"]);
+    assert_eq!(two.len(), 2_000_004);
+    let all = ["catalog", "query", &file, &values(300), "--format", "csv"];
+    fails(&all, "larger than 256 MiB");
 }
 
 /// Names stand for files, whatever SQLite makes of them.

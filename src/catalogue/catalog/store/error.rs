@@ -65,6 +65,9 @@ pub enum StoreError {
         "{}: a catalogue is only read here: no ATTACH, no VACUUM INTO, no settings; ask with SELECT, and -o FILE keeps the answer", .0.display()
     )]
     ReadOnly(PathBuf),
+    /// A question with an answer that would fill the memory.
+    #[error("{}: the answer is larger than 256 MiB; ask for fewer columns, or for a part of the rows with LIMIT and OFFSET", .0.display())]
+    Much(PathBuf),
     /// No such structure.
     #[error("{} has no structure {id}; `ozols catalog query` lists them", path.display())]
     Unknown {

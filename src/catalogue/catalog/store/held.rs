@@ -165,7 +165,7 @@ impl Store {
     /// The answer to a question in SQL, with `?1` in it for `id`: names of columns, and rows.
     ///
     /// # Errors
-    /// Where the question is wrong.
+    /// Where the question is wrong, is none, or has an answer larger than 256 MiB.
     pub fn query(&self, sql: &str, id: Option<&str>) -> Stored<(Vec<String>, Vec<Vec<Value>>)> {
         let all = || -> rusqlite::Result<_> {
             let mut query = self.db.prepare(sql)?;
@@ -174,19 +174,29 @@ impl Store {
                 .into_iter()
                 .map(str::to_owned)
                 .collect();
-            let width = names.len();
-            let row =
-                |r: &rusqlite::Row<'_>| (0..width).map(|i| Ok(plain(r.get_ref(i)?))).collect();
-            let rows = query.query_map(rusqlite::params_from_iter(id), row)?;
-            Ok((names, rows.collect::<rusqlite::Result<Vec<Vec<Value>>>>()?))
+            let (mut rows, mut bytes) = (Vec::new(), 0);
+            let mut found = query.query(rusqlite::params_from_iter(id))?;
+            while let Some(r) = found.next()? {
+                let row = (0..names.len()).map(|i| Ok(plain(r.get_ref(i)?)));
+                let row: Vec<Value> = row.collect::<rusqlite::Result<_>>()?;
+                bytes += row.iter().map(held_by).sum::<usize>();
+                if bytes > ANSWER {
+                    return Ok(Err(StoreError::Much(self.path.clone())));
+                }
+                rows.push(row);
+            }
+            Ok(Ok((names, rows)))
         };
+        let only_read = || StoreError::ReadOnly(self.path.clone());
         match all() {
+            // BEGIN and the like are no questions.
+            Ok(Ok((names, _))) if names.is_empty() => Err(only_read()),
             Err(why)
                 if why.sqlite_error_code() == Some(ErrorCode::AuthorizationForStatementDenied) =>
             {
-                Err(StoreError::ReadOnly(self.path.clone()))
+                Err(only_read())
             }
-            done => self.ok(done),
+            done => self.ok(done)?,
         }
     }
 
@@ -215,6 +225,14 @@ impl Store {
         let number = |t: &str| t.parse().ok();
         Ok(found.and_then(|t| t.split(' ').map(number).collect()))
     }
+}
+
+/// Bytes of an answer at most: it is held whole, since columns are as wide as their widest value.
+const ANSWER: usize = 256 << 20;
+
+/// About the bytes that a value takes.
+fn held_by(value: &Value) -> usize {
+    size_of::<Value>() + value.as_str().map_or(0, str::len)
 }
 
 /// A value of the database as one of JSON.
