@@ -75,6 +75,23 @@ fn module(root: &Path, name: &str) -> Option<String> {
     Some(own + &all.concat())
 }
 
+/// Whether a test is there: in `tests/it`, or beside the code of a crate, in the file of its place or one of its own.
+fn is_there(root: &Path, m: &Mutant, test: &str) -> bool {
+    let last = test.rsplit("::").next().unwrap();
+    let text = match test.split_once(": ") {
+        None => module(root, test),
+        Some((of, name)) => {
+            let source = root.join(&m.file);
+            let own = source.with_extension("").join("tests.rs");
+            let (rooms, _) = name.split_once("::tests::").unwrap_or_default();
+            let file = format!("src/{of}/{}.rs", rooms.replace("::", "/"));
+            let text = fs::read_to_string(own).or_else(|_| fs::read_to_string(source));
+            (file == m.file).then(|| text.unwrap_or_default())
+        }
+    };
+    text.is_some_and(|t| t.contains(&format!("fn {last}(")))
+}
+
 /// The name of the switch, as `tests/mutants/run` gives it.
 fn name(m: &Mutant) -> String {
     let path = Path::new(&m.file).with_extension("");
@@ -92,9 +109,7 @@ fn every_place_stands_in_its_file_once_and_its_tests_are_there() {
             wrong.push(format!("{}: {:?} is no mutant of its own", m.file, m.what));
         }
         for test in &m.tests {
-            let last = test.rsplit("::").next().unwrap();
-            let there = module(root, test).is_some_and(|t| t.contains(&format!("fn {last}(")));
-            if !there {
+            if !is_there(root, m, test) {
                 wrong.push(format!("{}: there is no test {test}", m.file));
             }
         }

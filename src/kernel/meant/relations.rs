@@ -395,3 +395,6 @@ fn sort(out: &mut [Relation]) {
             .then(a.off.total_cmp(&b.off))
     });
 }
+
+#[cfg(test)]
+mod tests;

@@ -135,13 +135,7 @@ impl Truth {
 
     /// How many of all counts, those there are in truth and those a way has, are equal.
     pub(super) fn counts_right(&self, found: &Cells) -> Option<Share> {
-        let truth = self.cells.as_ref()?;
-        let only = found.keys().filter(|k| !truth.contains_key(k)).count();
-        let right = truth.iter().filter(|(k, n)| found.get(k) == Some(n));
-        Some(Share {
-            right: right.count(),
-            of: truth.len() + only,
-        })
+        Some(equal_counts(self.cells.as_ref()?, found))
     }
 
     /// How many of the best a list has. A variant that is not admissible in truth is none of them.
@@ -208,4 +202,35 @@ fn over(search: &Search, nth: usize) -> Result<Search, RunError> {
     let field = exact_field(&search.mechanism, nth)?;
     let conditions = search.conditions.clone();
     Ok(Search::new(field, search.mechanism.clone(), conditions)?)
+}
+
+/// How many of all counts, those there are in truth and those found, are equal.
+fn equal_counts(truth: &Cells, found: &Cells) -> Share {
+    let only = found.keys().filter(|k| !truth.contains_key(k)).count();
+    let right = truth.iter().filter(|(k, n)| found.get(k) == Some(n));
+    Share {
+        right: right.count(),
+        of: truth.len() + only,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_missed_and_counts_invented_are_wrong() {
+        let cells = |all: &[(u32, u32)]| -> Cells {
+            let one = |&(changes, n)| ((true, 1, changes), BigUint::from(n));
+            all.iter().map(one).collect()
+        };
+        let truth = cells(&[(0, 1), (1, 5), (2, 7)]);
+        let share = |found: &[(u32, u32)]| {
+            let share = equal_counts(&truth, &cells(found));
+            (share.right, share.of)
+        };
+        assert_eq!(share(&[(0, 1), (1, 5), (2, 7)]), (3, 3));
+        assert_eq!(share(&[(0, 1), (1, 6)]), (1, 3));
+        assert_eq!(share(&[(0, 1), (1, 5), (2, 7), (3, 2)]), (3, 4));
+    }
 }

@@ -435,3 +435,6 @@ impl Begun<'_> {
         worst
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -420,3 +420,23 @@ fn alike(a: &[f64], b: &[f64]) -> bool {
     let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     dot > 0.9 * norm(a) * norm(b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::alike;
+
+    #[test]
+    fn branches_join_where_they_go_nearly_the_same_way() {
+        let along = [1.0, 0.0];
+        let cases = [
+            ([0.1, 0.0], true),
+            ([1.0, 0.4], true),
+            ([1.0, 0.6], false),
+            ([0.0, 1.0], false),
+            ([-1.0, 0.0], false),
+        ];
+        for (other, joins) in cases {
+            assert_eq!(alike(&along, &other), joins, "{other:?}");
+        }
+    }
+}

@@ -63,3 +63,20 @@ impl Values {
         (1..rank).find(|&r| self.gap(r, ROUND_OFF) >= GAP && self.at(r).dropped < LEFT_OVER)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Values;
+
+    /// Rounding by 1e-5 leaves a zero of second order at 1e-10; a value of 1e-6 above it is one that is meant.
+    #[test]
+    fn values_below_the_tolerance_are_told_apart() {
+        let values = Values {
+            largest: 1.0,
+            relative: vec![1.0, 1e-3, 1e-6, 1e-10],
+        };
+        assert_eq!(values.widest_gap(2, 4, 1e-5), 3);
+        // Where rounding may have made it, the gap above it is the wider one.
+        assert_eq!(values.widest_gap(2, 4, 1e-3), 2);
+    }
+}

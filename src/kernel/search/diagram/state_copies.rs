@@ -165,3 +165,55 @@ pub(in crate::search) fn ways(
         held,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::question::space::Face;
+
+    /// In the lane of a face's friction a joint that is no face stands as it is, but for the lane's own: what has no face has no
+    /// friction there.
+    #[test]
+    fn a_lane_of_friction_is_for_faces() {
+        let span = |rows: usize| vec![vec![1]; rows];
+        let choice = |face: Option<Face>| Choice {
+            option: 0,
+            unloading: None,
+            spans: vec![span(1)],
+            faces: vec![face],
+            freedoms: 1,
+            changes: 0,
+            cost_milli: 0,
+        };
+        let face = Face {
+            parts: span(2),
+            slides: span(3),
+        };
+        let step = Step {
+            joint: JointId::new(0),
+            closing: false,
+            coupled: 0,
+            blocks: Vec::new(),
+            twist: Vec::new(),
+            rates: Vec::new(),
+            old_width: 0,
+            width: 0,
+            live: Vec::new(),
+            pending: Vec::new(),
+        };
+        let rows = |lane, own, face| {
+            let one = Move {
+                own,
+                lane,
+                ..Move::common(0, step.clone())
+            };
+            one.span(&choice(face)).map(<[_]>::len)
+        };
+        let friction = Lane::Friction(0);
+        assert_eq!(rows(Lane::State, false, Some(face.clone())), Some(1));
+        assert_eq!(rows(friction, false, Some(face.clone())), Some(2));
+        assert_eq!(rows(friction, true, Some(face)), Some(3));
+        assert_eq!(rows(friction, false, None), Some(1));
+        assert_eq!(rows(friction, true, None), None);
+    }
+}

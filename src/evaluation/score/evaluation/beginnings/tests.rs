@@ -1,0 +1,83 @@
+//! One unknown and one place, by hand.
+
+use super::*;
+
+/// A reaction x of one place under one load, with 2 x = 6 for all variants where `known`; the one variable there is adds the
+/// equation `further` by its first choice, and nothing by its second.
+fn of_one_unknown(known: bool, further: [f64; 2]) -> Beginnings {
+    let limits = |force, clearance| LoadLimits {
+        force,
+        moment: 0.0,
+        clearance,
+    };
+    let (strong, loose) = (limits(0.1, 0.5), limits(0.4, 0.2));
+    Beginnings {
+        unknowns: 1,
+        sides: 1,
+        width: 2,
+        work: 1e-9,
+        clearance: ClearanceSum::Worst,
+        common: if known {
+            vec![vec![2.0, 6.0]]
+        } else {
+            Vec::new()
+        },
+        further: vec![vec![vec![further.to_vec()], Vec::new()]],
+        places: vec![LoadedPlace {
+            variable: 0,
+            slot: 0,
+            contours: vec![(0, 1.0)],
+            fixed: vec![[0.0; 6]],
+            across: vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
+        }],
+        of_variable: vec![vec![0]],
+        limits: vec![vec![vec![strong], vec![loose]]],
+        least: vec![vec![strong.least(loose)]],
+    }
+}
+
+#[test]
+fn the_least_of_two_is_so_in_each() {
+    let one = of_one_unknown(true, [1.0, 3.0]);
+    let least = one.least[0][0];
+    assert_eq!(
+        [least.force, least.moment, least.clearance],
+        [0.1, 0.0, 0.2]
+    );
+}
+
+/// Once x = 3 is known, a motion on which it and the loads do work has no equilibrium.
+#[test]
+fn a_motion_is_held_by_the_reactions_that_are_known() {
+    for (further, held) in [
+        ([1.0, 3.0], true),
+        ([2.0, 6.0], true),
+        ([1.0, -3.0], false),
+        ([1.0, 2.0], false),
+    ] {
+        let of = of_one_unknown(true, further);
+        let mut begun = of.begin();
+        // By the second choice the reactions become known; the first is then looked at by them.
+        let (taken, free) = begun.take(0, 1);
+        assert!(free && taken.tells);
+        let peaks = begun.peaks(&taken).unwrap();
+        assert!((peaks.force - 3.0 * 0.4).abs() < 1e-12);
+        assert_eq!(begun.take(0, 0).1, held, "{further:?}");
+    }
+}
+
+/// Where nothing is known of all variants, a choice's own equation tells the reactions, and giving it back forgets them.
+#[test]
+fn a_choice_that_determines_the_reactions_tells_them() {
+    let of = of_one_unknown(false, [4.0, 2.0]);
+    let mut begun = of.begin();
+    let (undecided, _) = begun.take(0, 1);
+    assert!(begun.peaks(&undecided).is_none());
+    begun.give_back(undecided);
+    let (taken, held) = begun.take(0, 0);
+    assert!(held);
+    assert!((begun.peaks(&taken).unwrap().force - 0.5 * 0.1).abs() < 1e-12);
+    begun.give_back(taken);
+    let (again, _) = begun.take(0, 1);
+    assert!(begun.peaks(&again).is_none());
+}

@@ -1,0 +1,55 @@
+//! What is taken for a relation, and what is not: points a little too far apart, planes that chance makes, pairs askew.
+
+use super::*;
+
+/// All relations of points that are known to this error, along the frame's x.
+fn relations(points: &[Vector], error: f64) -> Vec<Relation> {
+    let [x, ..] = axes();
+    let errors = vec![error; points.len()];
+    Finder::new(points, &errors, vec![(Exact::of_axis(x), Use::Both)]).all()
+}
+
+fn of_kind(all: &[Relation], kind: RelationKind) -> Vec<&Relation> {
+    all.iter().filter(|r| r.kind == kind).collect()
+}
+
+#[test]
+fn points_are_one_within_their_errors_alone() {
+    let apart = |d: f64| {
+        let all = relations(&[[0.3, 0.7, 0.1], [0.3 + d, 0.7, 0.1]], 1e-6);
+        of_kind(&all, RelationKind::Coincident).len()
+    };
+    // Two errors of a millionth each, half as much again.
+    assert_eq!([0.0, 1e-6, 2.9e-6].map(apart), [1; 3]);
+    assert_eq!([3.1e-6, 1e-5, 1e-4, 1e-3].map(apart), [0; 4]);
+}
+
+/// Two of three points in a plane by six digits are meant to be; two of three hundred are so by chance.
+#[test]
+fn a_plane_that_chance_makes_is_weak() {
+    let weak = |n: usize| {
+        let mut points = vec![[0.0, 0.0, 0.0], [0.0, 0.31, 0.72]];
+        // The others stand at distances along x that are nowhere equal.
+        points.extend((2..n).map(|i| {
+            let i = as_f64(i);
+            [i / as_f64(n), (i * 0.618).fract(), (i * 0.414).fract()]
+        }));
+        let all = relations(&points, 1e-6);
+        let planes = of_kind(&all, RelationKind::InPlane);
+        assert_eq!(planes.len(), 1, "{n}");
+        planes[0].weak
+    };
+    assert!(!weak(3));
+    assert!(weak(300));
+}
+
+/// A pair is mirrored where the one lies square to the plane from the other, and not where it is beside that.
+#[test]
+fn images_lie_across_the_plane() {
+    let mirrored = |beside: f64| {
+        let points = [[1.0, 0.2, 0.0], [-1.0, 0.2 + beside, 0.0], [0.0, 3.0, 1.0]];
+        of_kind(&relations(&points, 1e-6), RelationKind::Mirrored).len()
+    };
+    assert_eq!(mirrored(0.0), 1);
+    assert_eq!(mirrored(0.5), 0);
+}
