@@ -46,6 +46,31 @@ fn the_least_of_two_is_so_in_each() {
     );
 }
 
+/// Joints in series bear as much as the weakest of them; what bears no moment limits none.
+#[test]
+fn the_weakest_of_a_series_limits() {
+    let cell = |bears: &[(f64, Option<f64>)]| Cell {
+        rows: Vec::new(),
+        gram: Vec::new(),
+        bears: bears.to_vec(),
+        clearance: 0.3,
+        coupled: Vec::new(),
+    };
+    let limits = |bears| {
+        let one = LoadLimits::of(&cell(bears));
+        [one.force, one.moment, one.clearance]
+    };
+    assert_eq!(
+        limits(&[(10.0, Some(2.0)), (5.0, Some(4.0))]),
+        [0.2, 0.5, 0.3]
+    );
+    assert_eq!(
+        limits(&[(10.0, Some(8.0)), (20.0, None)]),
+        [0.1, 0.125, 0.3]
+    );
+    assert_eq!(limits(&[(4.0, None)]), [0.25, 0.0, 0.3]);
+}
+
 /// Once x = 3 is known, a motion on which it and the loads do work has no equilibrium.
 #[test]
 fn a_motion_is_held_by_the_reactions_that_are_known() {
