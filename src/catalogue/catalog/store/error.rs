@@ -4,6 +4,9 @@ use super::version::{OLDEST, VERSION};
 use std::path::PathBuf;
 use thiserror::Error;
 
+/// Size of an answer at most `[MiB]`: it is held whole, since columns are as wide as their widest value.
+pub(super) const LARGEST_ANSWER: usize = 256;
+
 /// What is wrong with a catalogue.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -66,8 +69,8 @@ pub enum StoreError {
     )]
     ReadOnly(PathBuf),
     /// A question with an answer that would fill the memory.
-    #[error("{}: the answer is larger than 256 MiB; ask for fewer columns, or for a part of the rows with LIMIT and OFFSET", .0.display())]
-    Much(PathBuf),
+    #[error("{}: the answer is larger than {LARGEST_ANSWER} MiB; ask for fewer columns, or for a part of the rows with LIMIT and OFFSET", .0.display())]
+    LargeAnswer(PathBuf),
     /// No such structure.
     #[error("{} has no structure {id}; `ozols catalog query` lists them", path.display())]
     Unknown {

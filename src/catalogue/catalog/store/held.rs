@@ -1,6 +1,6 @@
 //! An open catalogue: what it holds, and what is added.
 
-use super::error::StoreError;
+use super::error::{LARGEST_ANSWER, StoreError};
 use crate::catalog::build::CatalogueRow;
 use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;
@@ -165,7 +165,7 @@ impl Store {
     /// The answer to a question in SQL, with `?1` in it for `id`: names of columns, and rows.
     ///
     /// # Errors
-    /// Where the question is wrong, is none, or has an answer larger than 256 MiB.
+    /// Where the question is wrong, is none, or has too large an answer.
     pub fn query(&self, sql: &str, id: Option<&str>) -> Stored<(Vec<String>, Vec<Vec<Value>>)> {
         let all = || -> rusqlite::Result<_> {
             let mut query = self.db.prepare(sql)?;
@@ -180,8 +180,8 @@ impl Store {
                 let row = (0..names.len()).map(|i| Ok(plain(r.get_ref(i)?)));
                 let row: Vec<Value> = row.collect::<rusqlite::Result<_>>()?;
                 bytes += row.iter().map(held_by).sum::<usize>();
-                if bytes > ANSWER {
-                    return Ok(Err(StoreError::Much(self.path.clone())));
+                if bytes > LARGEST_ANSWER << 20 {
+                    return Ok(Err(StoreError::LargeAnswer(self.path.clone())));
                 }
                 rows.push(row);
             }
@@ -226,9 +226,6 @@ impl Store {
         Ok(found.and_then(|t| t.split(' ').map(number).collect()))
     }
 }
-
-/// Bytes of an answer at most: it is held whole, since columns are as wide as their widest value.
-const ANSWER: usize = 256 << 20;
 
 /// About the bytes that a value takes.
 fn held_by(value: &Value) -> usize {

@@ -138,7 +138,8 @@ pub(super) fn fill_in(db: &Connection, found: i64) -> rusqlite::Result<()> {
     for (_, view) in VIEWS.iter().filter(|(version, _)| found < *version) {
         db.execute_batch(view)?;
     }
-    if found < 7 {
+    // It is of what the others hold: that of an older version lacks columns.
+    if found < VERSION {
         let view = statement("CREATE VIEW grippers").replacen("CREATE VIEW", "CREATE TEMP VIEW", 1);
         db.execute_batch(&view)?;
     }
