@@ -2,30 +2,199 @@
 
 use super::number::Rational3;
 use super::row::PointEquation;
+use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
 /// A pivot is at least this part of the largest.
 const LARGE: f64 = 0.2;
-/// Multiplications of words after which it is given up: about a second. Numbers grow long where many relations of no pattern
-/// lean on each other.
-const WORK: u64 = 200_000_000;
+/// Operations on words after which it is given up: a second or two. Numbers grow long where many relations of no pattern lean on
+/// each other.
+const WORK: u64 = 2_500_000_000;
 
 fn bits(x: &BigRational) -> u64 {
     x.numer().bits() + x.denom().bits()
 }
 
-/// Word multiplications of a product of two numbers, and of its reduction.
-fn work(a: &BigRational, b: &BigRational) -> u64 {
-    let words = (bits(a) + bits(b)) / 64 + 1;
-    words * words
+fn words(x: &BigInt) -> u64 {
+    x.bits() / 64 + 1
 }
 
-/// Points that fulfil rows exactly; none where rows contradict each other, or numbers grow too long. `value` gives what a coordinate is where it is free, `fixed` whether it must stay.
+/// Σ coefficient · coordinate + constant = 0 in whole numbers: a fraction for each would be reduced at every step, which is most
+/// of the time.
+#[derive(Debug, Clone)]
+struct Equation {
+    of: BTreeMap<usize, BigInt>,
+    constant: BigInt,
+}
+
+impl Equation {
+    fn numbers(&self) -> impl Iterator<Item = &BigInt> {
+        self.of.values().chain([&self.constant])
+    }
+
+    fn each(&mut self, change: impl Fn(&mut BigInt)) {
+        self.of
+            .values_mut()
+            .chain([&mut self.constant])
+            .for_each(change);
+    }
+
+    /// Adds a multiple of another equation; operations on words that it took.
+    fn add(&mut self, by: &BigInt, other: &Equation) -> u64 {
+        let mut spent = 0;
+        for (&v, x) in &other.of {
+            spent += words(by) * words(x) + 1;
+            *self.of.entry(v).or_default() += by * x;
+        }
+        self.constant += by * &other.constant;
+        self.of.retain(|_, x| !x.is_zero());
+        spent
+    }
+
+    /// Divides by what all numbers share; operations on words that it took.
+    fn shorten(&mut self) -> u64 {
+        let mut spent = 0;
+        let mut shared = BigInt::zero();
+        for x in self.numbers().filter(|x| !x.is_zero()) {
+            if shared.is_one() {
+                break;
+            }
+            // The rest is no longer than what is shared, which is soon short: one long divisor is sought, not one for each number.
+            let rest = if shared.is_zero() {
+                x.abs()
+            } else {
+                x % &shared
+            };
+            spent += 64 * words(&rest) * words(&rest);
+            shared = shared.gcd(&rest);
+        }
+        if !shared.is_zero() && !shared.is_one() {
+            self.each(|x| *x /= &shared);
+        }
+        spent
+    }
+}
+
+/// An equation that says what a coordinate is; no other solved one has that coordinate.
+struct Solved {
+    pivot: usize,
+    equation: Equation,
+}
+
+impl Solved {
+    /// What the coordinate is counted.
+    fn unit(&self) -> &BigInt {
+        &self.equation.of[&self.pivot]
+    }
+}
+
+/// What rows say of coordinates, solved one after another.
+#[derive(Default)]
+struct Solution {
+    solved: Vec<Solved>,
+    /// Which solved equation has a coordinate for its pivot.
+    by_pivot: BTreeMap<usize, usize>,
+    /// Operations on words.
+    spent: u64,
+}
+
+impl Solution {
+    /// Puts in what is solved; what one whole number stands for before is counted so often afterwards.
+    fn put_in(&mut self, row: &mut Equation) -> BigInt {
+        let by_pivot = &self.by_pivot;
+        let known = row.of.keys().filter_map(|v| by_pivot.get(v));
+        let known: Vec<&Solved> = known.map(|&i| &self.solved[i]).collect();
+        let times = known.iter().fold(BigInt::one(), |t, s| t.lcm(s.unit()));
+        if !times.is_one() {
+            row.each(|x| *x *= &times);
+        }
+        for s in known {
+            let by = -(&row.of[&s.pivot] / s.unit());
+            self.spent += row.add(&by, &s.equation);
+        }
+        times
+    }
+
+    /// Solves a row for one of its coordinates; `count` is how often each of its numbers is counted.
+    fn take(&mut self, mut row: Equation, mut count: BigInt) -> Option<()> {
+        count *= self.put_in(&mut row);
+        let Some(pivot) = pivot(&row, &count) else {
+            return row.constant.is_zero().then_some(());
+        };
+        self.spent += row.shorten();
+        let unit = &row.of[&pivot];
+        for s in &mut self.solved {
+            if self.spent > WORK {
+                return None;
+            }
+            let Some(by) = s.equation.of.get(&pivot) else {
+                continue;
+            };
+            let shared = unit.gcd(by);
+            let (times, by) = (unit / &shared, -(by / &shared));
+            s.equation.each(|x| *x *= &times);
+            self.spent += s.equation.add(&by, &row) + s.equation.shorten();
+        }
+        self.by_pivot.insert(pivot, self.solved.len());
+        self.solved.push(Solved {
+            pivot,
+            equation: row,
+        });
+        Some(())
+    }
+}
+
+/// Of coordinates large enough the one of the shortest number, so that numbers stay short.
+fn pivot(row: &Equation, count: &BigInt) -> Option<usize> {
+    let longest = row.of.values().map(BigInt::bits).max()?;
+    // Doubles hold a thousand bits; only the sizes beside the largest matter.
+    let beyond = longest.saturating_sub(512);
+    let size = |x: &BigInt| (x.abs() >> beyond).to_f64().unwrap_or(0.0);
+    let largest = row.of.values().map(size).fold(0.0, f64::max);
+    let large = row.of.iter().filter(|x| size(x.1) >= LARGE * largest);
+    let length = |x: &BigInt| bits(&BigRational::new(x.clone(), count.clone()));
+    large.min_by_key(|x| length(x.1)).map(|(v, _)| *v)
+}
+
+/// A row without the coordinates that are `fixed`, and how often its numbers are counted.
+fn equation(
+    row: &PointEquation,
+    normals: &[Rational3],
+    value: impl Fn(usize, usize) -> BigRational,
+    fixed: impl Fn(usize, usize) -> bool,
+) -> (Equation, BigInt) {
+    let mut of: BTreeMap<usize, BigRational> = BTreeMap::new();
+    let mut constant = BigRational::zero();
+    for &(p, c) in &row.terms {
+        for (k, n) in normals[row.normal].iter().enumerate() {
+            if n.is_zero() {
+                continue;
+            }
+            let by = n * BigRational::from_integer(c.into());
+            if fixed(p, k) {
+                constant += by * value(p, k);
+            } else {
+                *of.entry(3 * p + k).or_insert_with(BigRational::zero) += by;
+            }
+        }
+    }
+    let all = of.values().chain([&constant]);
+    let count = all.fold(BigInt::one(), |d, x| d.lcm(x.denom()));
+    let whole = |x: &BigRational| x.numer() * (&count / x.denom());
+    let constant = whole(&constant);
+    let of = of.iter().filter(|x| !x.1.is_zero());
+    let of = of.map(|(&v, x)| (v, whole(x))).collect();
+    (Equation { of, constant }, count)
+}
+
+/// Points that fulfil rows exactly; none where rows contradict each other, or numbers grow too long. `value` gives what a
+/// coordinate is where it is free, `fixed` whether it must stay.
 ///
 /// # Complexity
-/// O(r² w) operations on rationals for r rows of w coordinates.
+/// O(r² w) operations on whole numbers for r rows of w coordinates.
 pub(super) fn solve(
     rows: &[PointEquation],
     normals: &[Rational3],
@@ -33,9 +202,6 @@ pub(super) fn solve(
     value: impl Fn(usize, usize) -> BigRational,
     fixed: impl Fn(usize, usize) -> bool,
 ) -> Option<Vec<Rational3>> {
-    // Each equation: coordinate -> coefficient, with a constant, solved for its pivot.
-    let mut solved: Vec<(usize, BTreeMap<usize, BigRational>, BigRational)> = Vec::new();
-    let mut pivot_of: BTreeMap<usize, usize> = BTreeMap::new();
     // Short normals first: what is along an axis of the frame takes one coordinate for another.
     let width = |r: &&PointEquation| -> u64 {
         let n = &normals[r.normal];
@@ -45,87 +211,31 @@ pub(super) fn solve(
     };
     let mut rows: Vec<&PointEquation> = rows.iter().collect();
     rows.sort_by_key(width);
-    let mut spent = 0;
+    let mut solution = Solution::default();
     for row in rows {
-        if spent > WORK {
-            return None;
-        }
-        let mut of: BTreeMap<usize, BigRational> = BTreeMap::new();
-        let mut constant = BigRational::zero();
-        for &(p, c) in &row.terms {
-            for (k, n) in normals[row.normal].iter().enumerate() {
-                if n.is_zero() {
-                    continue;
-                }
-                let by = n * BigRational::from_integer(c.into());
-                if fixed(p, k) {
-                    constant += by * value(p, k);
-                } else {
-                    *of.entry(3 * p + k).or_insert_with(BigRational::zero) += by;
-                }
-            }
-        }
-        // Put in what is solved: no solved equation has another's pivot.
-        let known: Vec<usize> = of
-            .keys()
-            .copied()
-            .filter(|v| pivot_of.contains_key(v))
-            .collect();
-        for v in known {
-            let Some(by) = of.remove(&v) else { continue };
-            let (_, eq, c) = &solved[pivot_of[&v]];
-            for (w, x) in eq {
-                spent += work(&by, x);
-                let entry = of.entry(*w).or_insert_with(BigRational::zero);
-                *entry -= &by * x;
-            }
-            constant -= &by * c;
-        }
-        of.retain(|_, x| !x.is_zero());
-        let size = |x: &BigRational| x.abs().to_f64().unwrap_or(0.0);
-        // Of those large enough the shortest, so that numbers stay short.
-        let largest = of.values().map(size).fold(0.0, f64::max);
-        let short = of
-            .iter()
-            .filter(|x| size(x.1) >= LARGE * largest)
-            .min_by_key(|x| bits(x.1));
-        let Some(pivot) = short.map(|(v, _)| *v) else {
-            if constant.is_zero() {
-                continue;
-            }
-            return None;
-        };
-        let by = of.remove(&pivot)?;
-        // pivot + Σ of + constant = 0
-        of.values_mut().for_each(|x| *x /= &by);
-        constant /= &by;
-        for (_, eq, c) in &mut solved {
-            if spent > WORK {
-                return None;
-            }
-            let Some(by) = eq.remove(&pivot) else {
-                continue;
-            };
-            for (w, x) in &of {
-                spent += work(&by, x);
-                let entry = eq.entry(*w).or_insert_with(BigRational::zero);
-                *entry -= &by * x;
-            }
-            *c -= &by * &constant;
-            eq.retain(|_, x| !x.is_zero());
-        }
-        pivot_of.insert(pivot, solved.len());
-        solved.push((pivot, of, constant));
+        let (row, count) = equation(row, normals, &value, &fixed);
+        solution.take(row, count)?;
     }
     let mut out: Vec<Rational3> = (0..points)
         .map(|p| [0, 1, 2].map(|k| value(p, k)))
         .collect();
-    for (pivot, eq, constant) in &solved {
-        let mut x = -constant.clone();
-        for (v, by) in eq {
-            x -= by * value(v / 3, v % 3);
-        }
-        out[pivot / 3][pivot % 3] = x;
+    for s in &solution.solved {
+        let others = s.equation.of.iter().filter(|x| *x.0 != s.pivot);
+        // All over one denominator: reduced once.
+        let terms: Vec<(&BigInt, &BigRational)> =
+            others.map(|(v, by)| (by, &out[v / 3][v % 3])).collect();
+        let denom = terms
+            .iter()
+            .fold(BigInt::one(), |d, (_, x)| d.lcm(x.denom()));
+        let sum: BigInt = terms
+            .iter()
+            .map(|(by, x)| *by * x.numer() * (&denom / x.denom()))
+            .sum();
+        let sum = sum + &s.equation.constant * &denom;
+        out[s.pivot / 3][s.pivot % 3] = BigRational::new(-sum, denom * s.unit());
     }
     Some(out)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,107 @@
+//! Rows solved in whole numbers, against elimination of the same rows in rational ones that shares nothing with it.
+
+use super::*;
+use proptest::prelude::*;
+
+type Q = BigRational;
+
+fn ratio(n: i64, d: i64) -> Q {
+    Q::new(n.into(), d.into())
+}
+
+/// Coefficients of a row at all coordinates.
+fn dense(row: &PointEquation, normals: &[Rational3], points: usize) -> Vec<Q> {
+    let mut out = vec![Q::zero(); 3 * points];
+    for &(p, c) in &row.terms {
+        for k in 0..3 {
+            out[3 * p + k] += &normals[row.normal][k] * ratio(c.into(), 1);
+        }
+    }
+    out
+}
+
+/// The rank of a matrix, by plain elimination.
+fn rank(mut rows: Vec<Vec<Q>>) -> usize {
+    let mut rank = 0;
+    for c in 0..rows.first().map_or(0, Vec::len) {
+        let Some(at) = (rank..rows.len()).find(|&r| !rows[r][c].is_zero()) else {
+            continue;
+        };
+        rows.swap(rank, at);
+        let own = rows[rank].clone();
+        for row in &mut rows[rank + 1..] {
+            let by = &row[c] / &own[c];
+            row.iter_mut().zip(&own).for_each(|(x, y)| *x -= &by * y);
+        }
+        rank += 1;
+    }
+    rank
+}
+
+fn number() -> impl Strategy<Value = Q> {
+    let short = (-6i64..7).prop_map(|n| ratio(n, 1));
+    let long = (-999_983i64..999_983).prop_map(|n| ratio(n, 1_000_000));
+    prop_oneof![3 => short, 1 => long]
+}
+
+const POINTS: usize = 5;
+
+/// Normals, rows, what coordinates are written as, and which must stay.
+fn scenes() -> impl Strategy<Value = (Vec<Rational3>, Vec<PointEquation>, Vec<Q>, Vec<bool>)> {
+    let normals = prop::collection::vec([number(), number(), number()], 4);
+    let terms = prop::collection::vec((0..POINTS, -2i32..3), 2..5);
+    let rows = prop::collection::vec((terms, 0..4usize), 1..14);
+    let rows = rows.prop_map(|all| all.iter().map(|(t, n)| PointEquation::sum(t, *n)).collect());
+    let values = prop::collection::vec(number(), 3 * POINTS);
+    let stay = prop::collection::vec(prop::bool::weighted(0.2), 3 * POINTS);
+    (normals, rows, values, stay)
+}
+
+proptest! {
+    #[test]
+    fn rows_hold_and_as_many_coordinates_follow_as_must((normals, rows, values, stay) in scenes()) {
+        let value = |p: usize, k: usize| values[3 * p + k].clone();
+        let found = solve(&rows, &normals, POINTS, value, |p, k| stay[3 * p + k]);
+        let dense: Vec<Vec<Q>> = rows.iter().map(|r| dense(r, &normals, POINTS)).collect();
+        // Coordinates that stay are known: the rest of a row, and what the row then asks of it.
+        let of_free = |r: &Vec<Q>| -> Vec<Q> {
+            (0..r.len()).filter(|&v| !stay[v]).map(|v| r[v].clone()).collect()
+        };
+        let asked = |r: &Vec<Q>| (0..r.len()).filter(|&v| stay[v]).fold(Q::zero(), |s, v| s + &r[v] * &values[v]);
+        let free = rank(dense.iter().map(of_free).collect());
+        let with = |r: &Vec<Q>| of_free(r).into_iter().chain([asked(r)]).collect();
+        let contradict = rank(dense.iter().map(with).collect()) > free;
+        prop_assert_eq!(found.is_none(), contradict);
+        let Some(found) = found else { return Ok(()) };
+        let found: Vec<Q> = found.into_iter().flatten().collect();
+        for row in &dense {
+            let sum = row.iter().zip(&found).fold(Q::zero(), |s, (a, x)| s + a * x);
+            prop_assert!(sum.is_zero());
+        }
+        let moved = (0..3 * POINTS).filter(|&v| found[v] != values[v]);
+        prop_assert!(moved.clone().all(|v| !stay[v]));
+        prop_assert!(moved.count() <= free);
+    }
+}
+
+/// Numbers grow by the digits of a normal at every row where nothing cancels.
+#[test]
+fn what_grows_too_long_is_given_up() {
+    let mut state = 1u64;
+    let mut next = |below: u64| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) % below
+    };
+    let mut component = |_: usize| ratio(next(999_983) as i64 - 500_000, 999_979);
+    let normals: Vec<Rational3> = (0..200).map(|_| [0, 1, 2].map(&mut component)).collect();
+    let mut row = |normal: usize| PointEquation {
+        terms: (0..6).map(|i| (next(80) as usize, i - 2)).collect(),
+        normal,
+    };
+    let rows: Vec<PointEquation> = (0..200).map(&mut row).collect();
+    let value = |p: usize, k: usize| ratio((p * 31 + k) as i64, 1000);
+    assert!(solve(&rows, &normals, 80, value, |_, _| false).is_none());
+    assert!(solve(&rows[..40], &normals, 80, value, |_, _| false).is_some());
+}
