@@ -104,13 +104,12 @@ pub(super) fn reduce(mut rows: Vec<Vec<Q>>) -> (Vec<Vec<Q>>, Vec<usize>) {
         rows.swap(r, i);
         let inverse = Q::one() / &rows[r][c];
         rows[r].iter_mut().for_each(|x| *x *= &inverse);
+        let own = rows[r].clone();
         for j in (0..rows.len()).filter(|&j| j != r) {
             let a = rows[j][c].clone();
             if !a.is_zero() {
-                let pivot = rows[r].clone();
-                rows[j]
-                    .iter_mut()
-                    .zip(&pivot)
+                let both = rows[j].iter_mut().zip(&own);
+                both.filter(|(_, y)| !y.is_zero())
                     .for_each(|(x, y)| *x -= &a * y);
             }
         }
