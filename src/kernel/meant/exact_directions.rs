@@ -3,7 +3,7 @@
 
 use super::directions::Direction;
 use super::number::{Rational3, axes, cross, decimal, is_zero, scaled, to_f64};
-use crate::geom::vector::{Vector, dot, length, unit};
+use crate::geom::vector::{Vector, cross as cross_f64, dot, length, unit};
 use num_traits::Zero;
 
 /// A direction, exact in the scene's frame.
@@ -70,7 +70,7 @@ pub(super) fn exact(
         let found = placed(v, TOGETHER, &fixed, digits);
         if !fixed
             .iter()
-            .any(|f| length(crate::geom::vector::cross(f.unit, found.unit)) == 0.0)
+            .any(|f| length(cross_f64(f.unit, found.unit)) == 0.0)
         {
             fixed.push(found.clone());
         }
@@ -81,7 +81,6 @@ pub(super) fn exact(
 
 /// A direction near one, in the planes that fixed ones make.
 pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exact {
-    use crate::geom::vector::cross as cross_f64;
     if let Some(same) = fixed
         .iter()
         .find(|f| length(cross_f64(f.unit, v)) <= 1.1 * (error + f.error))
@@ -94,48 +93,79 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
         };
         return Exact::new(exact, same.error);
     }
-    // Normals of planes it may lie in, those it fits best first.
-    let mut planes: Vec<(f64, Rational3, Vector, f64)> = Vec::new();
-    // Exact normals grow long: only those of planes that are near are made.
-    let mut offer = |n: Vector, slack: f64, normal: &dyn Fn() -> Rational3| {
-        let off = dot(n, v).abs();
-        if off <= 1.1 * (error + slack) {
-            planes.push((off, normal(), n, error + slack));
-        }
-    };
-    for (i, a) in fixed.iter().enumerate() {
-        offer(a.unit, a.error, &|| a.exact.clone());
-        for b in &fixed[..i] {
-            let normal = cross_f64(a.unit, b.unit);
-            let sine = length(normal);
-            if sine > 0.01 {
-                let slack = (a.error + b.error) / sine + ROUND_OFF;
-                offer(unit(normal), slack, &|| cross(&a.exact, &b.exact));
-            }
-        }
-    }
-    // Square to two frame axes is an axis, told above; squares before spans, then by how well it fits.
-    planes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let planes = offered(v, error, fixed);
     let first = planes.first();
     let second = first.and_then(|f| {
         planes
             .iter()
-            .find(|p| length(cross_f64(f.2, p.2)) > APART.max(3.0 * error))
+            .find(|p| length(cross_f64(f.normal, p.normal)) > APART.max(3.0 * error))
     });
     match (first, second) {
         (Some(a), Some(b)) => {
-            let meet = scaled(cross(&a.1, &b.1));
+            let first = a.exact(fixed);
+            let meet = scaled(cross(&first, &b.exact(fixed)));
             let along = dot(to_f64(&meet), v);
             let meet = if along < 0.0 { meet.map(|x| -x) } else { meet };
             let of = Exact::new(meet, error.min(1e-15));
-            let sine = length(cross_f64(a.2, b.2));
-            if length(cross_f64(of.unit, v)) <= 2.0 * a.3.max(b.3) / sine {
+            let sine = length(cross_f64(a.normal, b.normal));
+            if length(cross_f64(of.unit, v)) <= 2.0 * a.within.max(b.within) / sine {
                 return of;
             }
-            in_plane(v, &a.1, error, digits)
+            in_plane(v, &first, error, digits)
         }
-        (Some(a), None) => in_plane(v, &a.1, error, digits),
+        (Some(a), None) => in_plane(v, &a.exact(fixed), error, digits),
         _ => free(v, error, digits),
+    }
+}
+
+/// Planes that a direction may lie in, those it fits best first.
+fn offered(v: Vector, error: f64, fixed: &[Exact]) -> Vec<OfferedPlane> {
+    let mut planes: Vec<OfferedPlane> = Vec::new();
+    let mut offer = |of: [usize; 2], normal: Vector, slack: f64| {
+        let off = dot(normal, v).abs();
+        let within = error + slack;
+        if off <= 1.1 * within {
+            planes.push(OfferedPlane {
+                of,
+                normal,
+                off,
+                within,
+            });
+        }
+    };
+    for (i, a) in fixed.iter().enumerate() {
+        offer([i, i], a.unit, a.error);
+        for (j, b) in fixed[..i].iter().enumerate() {
+            let normal = cross_f64(a.unit, b.unit);
+            let sine = length(normal);
+            if sine > 0.01 {
+                offer([i, j], unit(normal), (a.error + b.error) / sine + ROUND_OFF);
+            }
+        }
+    }
+    // Square to two frame axes is an axis, told above; squares before spans, then by how well it fits.
+    planes.sort_by(|a, b| a.off.total_cmp(&b.off));
+    planes
+}
+
+/// A plane that a direction may lie in.
+struct OfferedPlane {
+    /// The two directions that span it; one twice is its normal.
+    of: [usize; 2],
+    normal: Vector,
+    off: f64,
+    /// What it may be off by.
+    within: f64,
+}
+
+impl OfferedPlane {
+    /// The normal, exact. Its numbers are long, so that it is made of those alone that are taken.
+    fn exact(&self, fixed: &[Exact]) -> Rational3 {
+        let [i, j] = self.of;
+        match i == j {
+            true => fixed[i].exact.clone(),
+            false => cross(&fixed[i].exact, &fixed[j].exact),
+        }
     }
 }
 

@@ -72,7 +72,12 @@ pub(super) fn to_f64(v: &Rational3) -> Vector {
 }
 
 pub(super) fn cross(a: &Rational3, b: &Rational3) -> Rational3 {
-    let minor = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
+    let Whole {
+        numer: [a, b],
+        denom,
+    } = Whole::of([a, b]);
+    let denom = &denom * &denom;
+    let minor = |i: usize, j: usize| BigRational::new(&a[i] * &b[j] - &a[j] * &b[i], denom.clone());
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 

@@ -81,8 +81,10 @@ pub(super) fn determinate(chain: &Chain, input: (usize, usize)) -> u64 {
                 let mut column = joint[freedom].clone();
                 for (pivot, row) in held.iter() {
                     let factor = P - column[*pivot];
-                    let reduced = column.iter().zip(row).map(|(x, r)| (x + factor * r) % P);
-                    column = reduced.collect();
+                    if factor < P {
+                        let both = column.iter_mut().zip(row);
+                        both.for_each(|(x, r)| *x = (*x + factor * r) % P);
+                    }
                 }
                 let pivot = column.iter().position(|&x| x != 0);
                 if let Some(pivot) = pivot {
