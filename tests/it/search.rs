@@ -10,6 +10,7 @@ pub(crate) mod ideas;
 mod inside;
 mod least_model;
 mod listed;
+mod none_at_once;
 mod order;
 mod self_stresses;
 mod suggest;

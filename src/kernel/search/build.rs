@@ -97,6 +97,31 @@ pub fn build_in(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagrams {
+    let best = &budget::best;
+    build_with(question, orders, best, cancelled, progress)
+}
+
+/// Both diagrams, where they fit the limits; where they do not, nothing is made of what does.
+pub(in crate::search) fn build_whole(
+    question: &Question,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Diagrams> {
+    let as_it_is: CutDown<'_> = &|_, cut, _, _| cut;
+    let orders = orders(question);
+    let out = build_with(question, &orders, as_it_is, cancelled, &mut |_| {});
+    (out.stop() == Stop::Exhausted).then_some(out)
+}
+
+/// What is made of a diagram that does not fit its limits.
+type CutDown<'a> = &'a dyn Fn(&Limits, Diagram, budget::Build<'_>, budget::Worth<'_>) -> Diagram;
+
+fn build_with(
+    question: &Question,
+    orders: &Orders,
+    cut_down: CutDown<'_>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagrams {
     if let Some(out) = build_parts(question, orders, cancelled, progress) {
         return out;
     }
@@ -120,7 +145,7 @@ pub fn build_in(
             )
         };
         let worth = |d: &Diagram| total(question, d, admissible);
-        budget::best(&staged.limits, whole, build, &worth)
+        cut_down(&staged.limits, whole, build, &worth)
     };
     let determinate = whole(&first, false);
     let admissible = match &second {
@@ -281,6 +306,9 @@ fn built(
     };
     if question.conditions.state.is_some() {
         return within(limits);
+    }
+    if limits.already > limits.internal {
+        return nothing(model, &staged.order);
     }
     let few = Limits {
         nodes: limits.nodes.min(AT_ONCE),

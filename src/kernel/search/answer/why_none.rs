@@ -6,9 +6,8 @@ use crate::model::mechanism::{JointId, StateId};
 use crate::redundancy::motion::motions;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::counts::counts;
-use crate::search::build::build;
+use crate::search::build::build_whole;
 use crate::search::check::brute::Matrices;
-use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, InState, SearchError};
 use num_bigint::BigUint;
@@ -88,30 +87,34 @@ pub fn relaxations(
 ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
     let conditions = &question.conditions;
     let most = nodes.saturating_mul(MORE).max(NODES);
+    // None where it takes too many nodes.
     let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
         let mut eased = conditions.clone();
         eased.nodes = eased.nodes.min(most);
         (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
         change(&mut eased);
         let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
-        let diagrams = build(&other, cancelled, &mut |_| {});
-        let whole = diagrams.stop() == Stop::Exhausted;
-        let counts = whole.then(|| counts(&other, &diagrams.admissible, true));
-        Ok(counts.filter(|c| !c.total.is_zero()))
+        let built = build_whole(&other, cancelled);
+        Ok(built.map(|d| counts(&other, &d.admissible, true)))
+    };
+    let some = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
+        Ok(counted(change)?.filter(|c| !c.total.is_zero()))
     };
     let mut out = Vec::new();
     // No variant has more redundant constraints than rows.
     let rows = u32::try_from(6 * question.mechanism.joints.len()).unwrap_or(u32::MAX);
-    // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time.
+    // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time, until it takes too many nodes.
     let further = |allowed: u32| {
         let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
         let bounds = more.map(move |m| allowed.saturating_add(m));
         bounds.take_while(move |b| *b < 2 * rows)
     };
     for bound in further(conditions.max_redundant) {
-        if let Some(c) = counted(&|r| r.max_redundant = bound)? {
-            let least = c.by_redundant.iter().next();
-            out.extend(least.map(|(least, n)| (Relaxation::Redundant(*least), n.clone())));
+        let Some(c) = counted(&|r| r.max_redundant = bound)? else {
+            break;
+        };
+        if let Some((least, n)) = c.by_redundant.iter().next() {
+            out.push((Relaxation::Redundant(*least), n.clone()));
             break;
         }
     }
@@ -127,13 +130,16 @@ pub fn relaxations(
         let mut few = allowed;
         for bound in further(allowed) {
             let Some(mut found) = with(bound)? else {
+                break;
+            };
+            if found.total.is_zero() {
                 few = bound;
                 continue;
-            };
+            }
             let mut enough = bound;
             while enough - few > 1 {
                 let middle = few + (enough - few) / 2;
-                match with(middle)? {
+                match with(middle)?.filter(|c| !c.total.is_zero()) {
                     Some(c) => (enough, found) = (middle, c),
                     None => few = middle,
                 }
@@ -157,25 +163,25 @@ pub fn relaxations(
             }
         };
         if state.hold_objects
-            && let Some(c) = counted(&loose)?
+            && let Some(c) = some(&loose)?
         {
             out.push((Relaxation::LooseObject, c.total));
         }
     }
     if conditions.max_mobility.is_some()
-        && let Some(c) = counted(&|r| r.max_mobility = None)?
+        && let Some(c) = some(&|r| r.max_mobility = None)?
         && let Some((least, n)) = c.by_mobility.iter().next()
     {
         out.push((Relaxation::Mobility(*least), n.clone()));
     }
     if conditions.max_changes.is_some()
-        && let Some(c) = counted(&|r| r.max_changes = None)?
+        && let Some(c) = some(&|r| r.max_changes = None)?
         && let Some((least, n)) = c.by_changes.iter().next()
     {
         out.push((Relaxation::Changes(*least), n.clone()));
     }
     if conditions.keep_output
-        && let Some(c) = counted(&|r| r.keep_output = false)?
+        && let Some(c) = some(&|r| r.keep_output = false)?
     {
         out.push((Relaxation::OutputChange, c.total));
     }

@@ -14,6 +14,12 @@ fn rungs() -> impl Iterator<Item = usize> {
     tens.flat_map(|n| [1, 2, 5].into_iter().filter_map(move |k| n.checked_mul(k)))
 }
 
+/// Builds a diagram within limits.
+pub(in crate::search) type Build<'a> = &'a mut dyn FnMut(&Limits) -> Diagram;
+
+/// What a diagram is worth.
+pub(in crate::search) type Worth<'a> = &'a dyn Fn(&Diagram) -> BigUint;
+
 /// The best, by what it is `worth`, of a diagram cut down to its limits and of those within round budgets.
 ///
 /// # Complexity
@@ -21,8 +27,8 @@ fn rungs() -> impl Iterator<Item = usize> {
 pub(in crate::search) fn best(
     limits: &Limits,
     whole: Diagram,
-    build: &mut dyn FnMut(&Limits) -> Diagram,
-    worth: &dyn Fn(&Diagram) -> BigUint,
+    build: Build<'_>,
+    worth: Worth<'_>,
 ) -> Diagram {
     let why = whole.stop;
     let mut best: Option<(BigUint, Diagram)> = None;
@@ -56,7 +62,7 @@ pub(in crate::search) fn best(
 fn better(
     best: Option<(BigUint, Diagram)>,
     diagram: Diagram,
-    worth: &dyn Fn(&Diagram) -> BigUint,
+    worth: Worth<'_>,
 ) -> Option<(BigUint, Diagram)> {
     let worth = worth(&diagram);
     match best {

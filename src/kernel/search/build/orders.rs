@@ -16,7 +16,11 @@ pub struct Orders {
 /// Finds the orders of both diagrams; they do not depend on the prime, and a twin over another may be given them.
 #[must_use]
 pub fn orders(question: &Question) -> Orders {
+    let nothing_is_built = is_none_possible(question);
     let order = |blocks: &[Block]| {
+        if nothing_is_built {
+            return blocks.iter().flat_map(|b| b.variables.clone()).collect();
+        }
         variable_order(
             &question.exact,
             &question.mechanism,
@@ -36,6 +40,11 @@ pub fn orders(question: &Question) -> Orders {
         determinate,
         common,
     }
+}
+
+/// Whether every variant has more redundant constraints than are allowed, in rows that no choice changes.
+pub(in crate::search) fn is_none_possible(question: &Question) -> bool {
+    question.least.whole.already > question.conditions.max_redundant
 }
 
 /// Whether nothing is asked of variants but what makes them determinate.

@@ -60,7 +60,7 @@ pub(in crate::search) fn laid<'a>(
         &[],
     );
     let limits = Limits {
-        already: model.already(&question.exact, &order, &whole),
+        already: model.already,
         internal: question.conditions.max_redundant,
         external: None,
         harmful: None,

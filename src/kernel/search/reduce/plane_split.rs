@@ -10,16 +10,14 @@
 //!
 //! What a variant is, its freedoms, W and certificate are those of the whole mechanism.
 
+use crate::closure::contour::contour_basis;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::reduce::plane::{Rows, planes, seen};
-use crate::search::diagram;
-use crate::search::diagram::frontier::Plan;
-use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::stage::stages;
 use crate::search::question::space::{Choice, Space};
+use crate::search::reduce::self_stress_space::ClosingRows;
 
 /// Some rows of the closure equations.
 #[derive(Debug)]
@@ -28,10 +26,8 @@ pub(in crate::search) struct Model {
     pub(in crate::search) space: Space,
     /// The present motions of the kept links in these rows.
     pub(in crate::search) kept: Vec<Vec<Residue>>,
-    /// The present joints in other rows, which choices are alike in; none where there are no such rows.
-    settled: Option<Space>,
-    /// Further rows of each contour, in which nothing moves.
-    idle: usize,
+    /// Redundant constraints that every variant has in rows that the diagrams leave out.
+    pub(in crate::search) already: u32,
 }
 
 /// What the diagrams of a search are built of.
@@ -64,8 +60,7 @@ impl LeastModel {
             whole: Model {
                 space: space.clone(),
                 kept: kept.to_vec(),
-                settled: None,
-                idle: 0,
+                already: 0,
             },
             parts,
         };
@@ -94,54 +89,32 @@ impl LeastModel {
                 [true, _] => (outside, inside),
                 [false, true] => (inside, outside),
                 [false, false] => {
-                    let parts = [inside, outside].map(|part| part.model(f, space, kept, None));
+                    let parts =
+                        [inside, outside].map(|part| part.model(exact, mechanism, space, kept));
                     return Ok(whole(Some(parts)));
                 }
             };
-            let settled = Some(settled.present(space));
-            return Ok(LeastModel {
-                whole: differing.model(f, space, kept, settled),
-                parts: None,
-            });
+            let mut whole = differing.model(exact, mechanism, space, kept);
+            whole.already += redundant(f, mechanism, &settled.present(space));
+            return Ok(LeastModel { whole, parts: None });
         }
         Ok(whole(None))
     }
 }
 
-impl Model {
-    /// Redundant constraints that every variant has in rows that the diagrams leave out; a plan of the variables in an order.
-    pub(in crate::search) fn already(
-        &self,
-        exact: &ExactField,
-        order: &[usize],
-        plan: &Plan,
-    ) -> u32 {
-        let contours = plan.steps.iter().filter(|s| s.closing).count();
-        let idle = u32::try_from(self.idle * contours).unwrap_or(u32::MAX);
-        let Some(space) = &self.settled else {
-            return idle;
-        };
-        let stages = stages(space, order, plan);
-        let limits = Limits {
-            already: idle,
-            internal: u32::MAX,
-            external: None,
-            harmful: None,
-            nodes: usize::MAX,
-            bytes: usize::MAX,
-        };
-        // One choice a joint: one node a layer.
-        let path = diagram::of_live_links(
-            exact.field(),
-            space,
-            &stages,
-            &limits,
-            None,
-            &|| false,
-            &mut |_| {},
-        );
-        path.terminals[0].internal
+/// Redundant constraints among the present joints in some rows of the closure equations.
+fn redundant(f: Field, mechanism: &Mechanism, present: &Space) -> u32 {
+    let rows = ClosingRows::new(mechanism, present.dim, &[]);
+    let mut span = Echelon::new(f);
+    for variable in &present.variables {
+        let joints = variable.joints.iter().zip(&variable.choices[0].spans);
+        for (&j, twists) in joints {
+            for twist in twists {
+                span.insert(&rows.column(f, j, twist));
+            }
+        }
     }
+    u32::try_from(rows.closing() - span.rank()).unwrap_or(u32::MAX)
 }
 
 /// Independent twists.
@@ -207,17 +180,19 @@ impl Seen {
     /// The model of the rows that are used.
     fn model(
         self,
-        f: Field,
+        exact: &ExactField,
+        mechanism: &Mechanism,
         whole: &Space,
         kept: &[Vec<Residue>],
-        settled: Option<Space>,
     ) -> Model {
+        let f = exact.field();
         let used = self.used(f);
+        // In further rows of each contour nothing moves.
+        let idle = (3 - used.len()) * contour_basis(mechanism, StateId::FREE).len();
         Model {
-            idle: 3 - used.len(),
+            already: u32::try_from(idle).unwrap_or(u32::MAX),
             kept: self.of_links(f, kept, &used),
             space: self.space(whole, &used),
-            settled,
         }
     }
 

@@ -36,7 +36,7 @@ pub(in crate::search) struct SelfStressSpace {
 }
 
 /// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
-struct Rows<'m> {
+pub(super) struct ClosingRows<'m> {
     mechanism: &'m Mechanism,
     dim: usize,
     contours: Vec<Contour>,
@@ -45,15 +45,15 @@ struct Rows<'m> {
     paths: Vec<Vec<(JointId, bool)>>,
 }
 
-impl<'m> Rows<'m> {
-    fn new(mechanism: &'m Mechanism, dim: usize, kept: &[LinkId]) -> Self {
+impl<'m> ClosingRows<'m> {
+    pub(super) fn new(mechanism: &'m Mechanism, dim: usize, kept: &[LinkId]) -> Self {
         let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
         let couplings = (0..mechanism.couplings.len()).filter(|&q| {
             let mut ends = mechanism.couplings[q].ends.iter();
             ends.all(|e| free.binary_search(&e.joint).is_ok())
         });
         let path = |&l: &LinkId| path_from_frame(mechanism, StateId::FREE, l);
-        Rows {
+        ClosingRows {
             mechanism,
             dim,
             contours: contour_basis(mechanism, StateId::FREE),
@@ -62,13 +62,13 @@ impl<'m> Rows<'m> {
         }
     }
 
-    /// Rows of contours and couplings.
-    fn closing(&self) -> usize {
+    /// ClosingRows of contours and couplings.
+    pub(super) fn closing(&self) -> usize {
         self.contours.len() * self.dim + self.couplings.len()
     }
 
     /// The column of a joint's twist, with its entries for couplings behind it.
-    fn column(&self, f: Field, joint: JointId, twist: &[Residue]) -> Vec<Residue> {
+    pub(super) fn column(&self, f: Field, joint: JointId, twist: &[Residue]) -> Vec<Residue> {
         let (d, closing) = (self.dim, self.closing());
         let mut out = vec![0; closing + self.paths.len() * d];
         let mut put = |at: usize, forward: bool| {
@@ -165,7 +165,7 @@ impl SelfStressSpace {
         order: &[usize],
         kept: &[LinkId],
     ) -> Option<SelfStressSpace> {
-        let rows = Rows::new(mechanism, space.dim, kept);
+        let rows = ClosingRows::new(mechanism, space.dim, kept);
         let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
             let variable = &space.variables[v];
             let joints = variable.joints.iter().zip(&variable.choices[c].spans);

@@ -1,0 +1,83 @@
+//! Where a count of freedoms in a plane leaves too few, nothing is built, and what easing would leave is not sought for long.
+
+use num_traits::Zero;
+use ozols::file::text::mechanism_from_str;
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
+use ozols::search::answer::why_none::{Relaxation, hopeless, relaxations};
+use ozols::search::diagram::Stop;
+use ozols::search::question::conditions::Conditions;
+use std::fmt::Write;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Plates in a plane, in rows and columns, each on hinges with its neighbours at places drawn from a seed; and how many
+/// hinges there are.
+fn mesh(rows: usize, columns: usize, seed: u64) -> (String, usize) {
+    let mut out = "name = \"mesh\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n".to_owned();
+    let last = rows * columns - 1;
+    for i in 0..=last {
+        let role = match i {
+            0 => "role = \"frame\"\n",
+            _ if i == last => "role = \"output\"\n",
+            _ => "",
+        };
+        write!(out, "[[link]]\nid = \"{i}\"\n{role}").unwrap();
+    }
+    let mut state = seed | 1;
+    let mut place = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 33) % 997
+    };
+    let mut joints = 0;
+    for (r, c) in (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))) {
+        let here = r * columns + c;
+        let right = (c + 1 < columns).then_some(here + 1);
+        let below = (r + 1 < rows).then_some(here + columns);
+        for there in [right, below].into_iter().flatten() {
+            let (x, y) = (place(), place());
+            write!(
+                out,
+                "[[joint]]\nid = \"j{joints}\"\nlinks = [\"{here}\", \"{there}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n"
+            )
+            .unwrap();
+            joints += 1;
+        }
+    }
+    (out, joints)
+}
+
+/// Tilts and slides along the hinges do nothing in the plane, where 2·joints constraints meet 3 freedoms a moving plate.
+#[test]
+fn what_the_plane_decides_takes_no_step() {
+    for (rows, columns) in [(3, 4), (4, 4), (4, 5)] {
+        let (text, joints) = mesh(rows, columns, crate::common::fresh());
+        let short = 2 * joints - 3 * (rows * columns - 1);
+        let m = mechanism_from_str("mesh.toml", &text).unwrap();
+        let search = Search::new(exact_field(&m, 0).unwrap(), m, Conditions::default()).unwrap();
+        let asked = AtomicUsize::new(0);
+        let count = || {
+            asked.fetch_add(1, Ordering::Relaxed);
+            false
+        };
+        let found = search.build(&count, &mut |p| panic!("built {p:?}"));
+        assert_eq!(found.stop(), Stop::Exhausted);
+        for d in [&found.determinate, &found.admissible] {
+            assert!(search.counts(d, false).total.is_zero());
+        }
+        assert_eq!(asked.load(Ordering::Relaxed), 0, "{text}");
+        assert_eq!(
+            hopeless(&search).unwrap().least_redundant,
+            Some(short),
+            "{text}"
+        );
+        let eased = relaxations(&search, 0, &count).unwrap();
+        println!(
+            "POLLS {rows} {columns} {} {eased:?}",
+            asked.load(Ordering::Relaxed)
+        );
+        let few = |r: &Relaxation| matches!(r, Relaxation::Redundant(n) if *n as usize >= short);
+        assert!(eased.iter().all(|(r, _)| few(r)), "{eased:?}");
+    }
+}
