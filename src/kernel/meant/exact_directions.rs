@@ -162,9 +162,10 @@ impl OfferedPlane {
     /// The normal, exact. Its numbers are long, so that it is made of those alone that are taken.
     fn exact(&self, fixed: &[Exact]) -> Rational3 {
         let [i, j] = self.of;
-        match i == j {
-            true => fixed[i].exact.clone(),
-            false => cross(&fixed[i].exact, &fixed[j].exact),
+        if i == j {
+            fixed[i].exact.clone()
+        } else {
+            cross(&fixed[i].exact, &fixed[j].exact)
         }
     }
 }
