@@ -377,3 +377,6 @@ fn option_twists(
     }
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests;
