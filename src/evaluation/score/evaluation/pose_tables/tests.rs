@@ -155,3 +155,8 @@ fn as_built(stroke: &str) {
 fn variants_score_in_the_pose_of_the_file_as_they_do_built() {
     as_built("");
 }
+
+#[test]
+fn a_slot_turns_with_the_link_that_has_it_when_built() {
+    as_built("[workload.stroke]\nfrom = 0.0\nto = 0.9\nsteps = 1\n");
+}
