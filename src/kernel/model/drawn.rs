@@ -44,7 +44,7 @@ pub(crate) fn drawn(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
         },
         mode: Mode::Spatial,
         links: (0..=last).map(link).collect(),
-        joints: joints.iter().enumerate().map(joint).collect(),
+        joints: (0..).zip(joints).map(|(n, j)| joint(n, j)).collect(),
         couplings: Vec::new(),
         states: vec!["free".to_owned()],
         contours: Vec::new(),
@@ -58,7 +58,8 @@ pub(crate) fn drawn(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
     }
 }
 
-fn joint((number, (joint_type, links, point, axis)): (usize, &Drawn)) -> Joint {
+fn joint(number: usize, drawn: &Drawn) -> Joint {
+    let (joint_type, links, point, axis) = drawn;
     let frame = Frame {
         point: exactly(*point),
         axis: exactly(*axis),
