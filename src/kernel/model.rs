@@ -5,6 +5,8 @@
 
 pub mod claim;
 pub mod coupling;
+#[cfg(test)]
+pub(crate) mod drawn;
 pub mod drive;
 pub mod grip;
 pub mod id;

@@ -113,3 +113,52 @@ fn in_space(m: &Mechanism, found: &Cycle) -> (Option<Peak>, usize, bool) {
     let unique = solved().all(|(_, s)| s.choice == Uniqueness::Unique);
     (greatest(forces), solved().count(), unique)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file::text::mechanism_from_str;
+    use crate::statics::reactions::Solution;
+
+    fn solution(choice: Uniqueness) -> Solution {
+        Solution {
+            reactions: Vec::new(),
+            couplings: Vec::new(),
+            choice,
+            self_stresses: Vec::new(),
+            coupling_stresses: Vec::new(),
+            couplings_open: Vec::new(),
+            open: Vec::new(),
+            elastic: None,
+            elastic_couplings: None,
+            contacts: Vec::new(),
+            undriven: 0,
+            condition: 1.0,
+            residual: 0.0,
+            size: 1.0,
+        }
+    }
+
+    /// Forces over a stroke are the only ones where they are at every position.
+    #[test]
+    fn one_position_that_is_open_leaves_the_stroke_open() {
+        use Uniqueness::{MinimumNorm, Unique};
+        let text = "name = \"it\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[joint]]\nid = \"a\"\n\
+                    links = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n";
+        let m = mechanism_from_str("it.toml", text).unwrap();
+        for (choices, unique) in [
+            ([Unique, Unique], true),
+            ([Unique, MinimumNorm], false),
+            ([MinimumNorm, Unique], false),
+            ([MinimumNorm, MinimumNorm], false),
+        ] {
+            let found = Cycle {
+                drives: Vec::new(),
+                positions: choices.map(|c| (0.0, Ok(solution(c)))).to_vec(),
+                stopped: None,
+            };
+            let (_, solved, only) = in_space(&m, &found);
+            assert_eq!((solved, only), (2, unique), "{choices:?}");
+        }
+    }
+}

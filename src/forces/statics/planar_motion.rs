@@ -363,3 +363,58 @@ impl<'a> Motion<'a> {
             .position(|u| u.bodies.iter().any(|&b| far(b)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::mechanism::JointId;
+    use crate::statics::assur::decompose;
+    use crate::statics::planar::{Body, Pair, PlanarMechanism};
+
+    /// A four-bar whose coupler and rocker are a line but for how far their pin is beside it.
+    fn four_bar(beside: f64) -> Linkage {
+        let body = |name: &str| Body {
+            link: None,
+            name: name.to_owned(),
+        };
+        let pair = |(i, bodies, point): (usize, [BodyId; 2], [f64; 2])| Pair {
+            joint: JointId::new(i),
+            name: i.to_string(),
+            bodies,
+            kind: PairKind::Turning,
+            point,
+            along: [1.0, 0.0],
+            drive: i == 0,
+        };
+        let pairs = [
+            (0, [0, 1], [0.0, -1.0]),
+            (1, [1, 2], [0.0, 0.0]),
+            (2, [2, 3], [1.0, beside]),
+            (3, [3, 0], [2.0, 0.0]),
+        ];
+        Linkage::new(PlanarMechanism {
+            bodies: ["frame", "crank", "coupler", "rocker"].map(body).to_vec(),
+            pairs: pairs.map(pair).to_vec(),
+            frame: 0,
+            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            metres: 1.0,
+            unit: "m",
+        })
+    }
+
+    /// With coupler and rocker in a line the crank goes no further; so near to it that speeds have no digit left, neither.
+    #[test]
+    fn at_a_dead_point_to_working_precision_there_are_no_speeds() {
+        for (beside, dead) in [(0.0, true), (1e-14, true), (1e-9, false), (0.5, false)] {
+            let linkage = four_bar(beside);
+            let parts = decompose(&linkage.mechanism, &[0]).unwrap();
+            let (found, stopped) = Motion::new(&linkage, &parts, &[1.0]).follow(&[0.0]);
+            assert_eq!(
+                (found.is_empty(), stopped.is_some()),
+                (dead, dead),
+                "{beside}"
+            );
+            assert!(stopped.is_none_or(|d| d.group == Some(0)), "{beside}");
+        }
+    }
+}

@@ -363,3 +363,28 @@ fn without_spins(
     }
     followed(mechanism, state, instantaneous, accuracy)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{drawn, hinges};
+
+    /// Two motions of a ring of five hinges are there; but digits that would hide what stops a shaky pose do not tell that one.
+    #[test]
+    fn of_coarse_digits_two_motions_are_not_told_from_shaky_ones() {
+        let ring = [
+            [0.0, 0.0, 0.0],
+            [1.0, 4.0, 0.0],
+            [5.0, 7.0, 0.0],
+            [9.0, 5.0, 0.0],
+            [8.0, 1.0, 0.0],
+        ];
+        let at = |i: usize| ([i, (i + 1) % 5], ring[i]);
+        let m = drawn(&hinges(&(0..5).map(at).collect::<Vec<_>>()), &[]);
+        let found = |accuracy| within(&m, StateId::FREE, 2, accuracy).unwrap();
+        let fine = found(1e-12);
+        assert_eq!((fine.mobility, fine.at_most()), (2, 2));
+        let coarse = found(1e-6);
+        assert_eq!((coarse.how, coarse.at_most()), (How::Rounded { to: 2 }, 2));
+    }
+}

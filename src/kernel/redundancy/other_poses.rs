@@ -163,3 +163,27 @@ pub(crate) fn redundant_where(
         (poses, (_, None)) => (Where::Seen { poses }, None),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{drawn, four_bar};
+
+    /// Where limits leave no room but the pose of the file, nothing is known of others; without any, a four-bar has its three
+    /// redundant constraints elsewhere, too.
+    #[test]
+    fn poses_outside_the_limits_do_not_count() {
+        let m = drawn(&four_bar(0, 1, 0.0), &[]);
+        let finite = Finite {
+            mobility: 0,
+            how: How::Undecided { from: 0, to: 1 },
+            numeric: true,
+        };
+        let found = |inside: &dyn Fn(&Pose) -> bool| {
+            redundant_where(&m, StateId::FREE, &finite, 3, 1e-9, inside).unwrap()
+        };
+        let held = |p: &Pose| p.columns.iter().all(|c| c.moved.abs() < 1e-9);
+        assert!(matches!(found(&held), (Where::Unknown, None)));
+        assert!(matches!(found(&|_| true), (Where::Seen { .. }, None)));
+    }
+}

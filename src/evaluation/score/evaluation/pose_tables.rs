@@ -319,8 +319,8 @@ fn coupled(
     place.couplings.iter().map(one).collect()
 }
 
-/// Unit twists of an option at a pose of the present mechanism: freedoms before the present turn (slides) go with the
-/// joint's first link, those after it with the second.
+/// Unit twists of an option at a pose of the present mechanism: freedoms that are passed before the present turn (slides, but
+/// not that of a slot) go with the joint's first link, those after it with the second.
 fn option_twists(
     m: &Mechanism,
     geometry: &Geometry,
@@ -339,9 +339,10 @@ fn option_twists(
     let present = joint.joint_type.freedoms();
     let mut second = false;
     let mut out = Vec::new();
-    let slides = |f: &Freedom| matches!(f, Freedom::Tx | Freedom::Ty | Freedom::Tz);
+    // As the joint built has them: the slide of a slot comes after its pin.
+    let order = option.joint_type.passed();
     let mut freedoms: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
-    freedoms.sort_by_key(|f| !slides(f));
+    freedoms.sort_by_key(|f| order.iter().position(|g| g == f));
     for freedom in freedoms {
         let link = joint.links[usize::from(second)];
         second |= present.contains(&freedom);
@@ -377,3 +378,6 @@ fn option_twists(
     }
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests;

@@ -263,3 +263,28 @@ pub(in crate::rank) fn common(exact: &ExactField, a: &[Twist], b: &[Twist]) -> V
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{drawn, hinges};
+    use crate::model::mechanism::StateId;
+    use crate::rank::exact::field::field_of;
+
+    /// Three bodies on one axis, each two joined by two hinges: two turn against the first, whichever link a hinge names first.
+    #[test]
+    fn hinges_side_by_side_are_one_whichever_link_they_name_first() {
+        for turned in 0..8 {
+            let pair = |i: usize| {
+                let (a, b) = (i / 2, (i / 2 + 1) % 3);
+                let swapped = i % 2 == 1 && turned >> (i / 2) & 1 == 1;
+                let high = f64::from(u8::try_from(i).unwrap());
+                (if swapped { [b, a] } else { [a, b] }, [0.0, 0.0, high])
+            };
+            let m = drawn(&hinges(&(0..6).map(pair).collect::<Vec<_>>()), &[]);
+            let exact = field_of(&m, StateId::FREE, 0).unwrap();
+            let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
+            assert_eq!(mobility(&exact, &m, &closure).unwrap(), Some(2), "{turned}");
+        }
+    }
+}

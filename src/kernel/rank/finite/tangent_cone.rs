@@ -330,3 +330,37 @@ pub(in crate::rank) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{drawn, hinges};
+    use crate::model::mechanism::StateId;
+
+    /// A flat parallelogram, hinges at 0, 2, 5 and 3 on a line, goes on as one, or crossed. By hand, of the speeds a, b and c of
+    /// crank, coupler and rocker: 2a + 3b = 2c, and 2a² + 3b² = 2c² to second order, so b = 0 or b = -4a.
+    #[test]
+    fn a_flat_parallelogram_goes_on_both_ways_and_no_other() {
+        let at = |x: f64| [x, 0.0, 0.0];
+        let joints = [
+            ([0, 1], at(0.0)),
+            ([1, 2], at(2.0)),
+            ([2, 3], at(5.0)),
+            ([3, 0], at(3.0)),
+        ];
+        let pose = Pose::of_file(&drawn(&hinges(&joints), &[]), StateId::FREE).unwrap();
+        let flat = Flat::new(&pose, Some(2));
+        let quadrics = Quadrics::new(&pose, &flat);
+        let values = |a: f64, b: f64, c: f64| {
+            // Each link against the one before it.
+            let q = [a, b - a, c - b, -c];
+            let x = flat.kernel.transpose_times(&Matrix::column(&q));
+            let gap = norm(&q).powi(2) - norm(x.col(0)).powi(2);
+            assert!(gap.abs() < 1e-9, "no motion at all");
+            norm(&quadrics.values(x.col(0)))
+        };
+        assert_eq!(quadrics.forms.len(), 1);
+        assert!(values(1.0, 0.0, 1.0) < 1e-6 && values(1.0, -4.0, -5.0) < 1e-6);
+        assert!(values(0.0, 2.0, 3.0) > 1e-2 && values(1.0, 4.0, 7.0) > 1e-2);
+    }
+}

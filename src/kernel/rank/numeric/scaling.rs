@@ -174,3 +174,30 @@ pub fn rank_of_values(mut values: Vec<f64>, tolerance: f64) -> NumericRank {
         dropped: relative(rank).filter(|_| largest > 0.0).unwrap_or(0.0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::vector::cross;
+
+    /// A turn about an axis through c has v = c × ω at the origin, and at c none, whichever way the axis points.
+    #[test]
+    fn a_turn_about_the_middle_leaves_it_where_it_is() {
+        let c = [2.0, 3.0, 5.0];
+        let scaling = Scaling {
+            middle: Some(c),
+            components: 6,
+            length: 1.0,
+            columns: Vec::new(),
+        };
+        for w in [
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [1.0, -2.0, 4.0],
+        ] {
+            let found = scaling.about(&[w, cross(c, w)].concat());
+            assert_eq!(found, [w, [0.0; 3]].concat());
+        }
+    }
+}

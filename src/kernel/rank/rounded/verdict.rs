@@ -394,3 +394,31 @@ fn meant(
         None => Meant::Undecided { near: rank },
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{X, drawn, hinges};
+
+    /// Two hinges of a door half a last digit apart are meant to be on one line, unless digits are so few that any two would be.
+    #[test]
+    fn of_few_digits_a_geometry_that_is_near_says_nothing() {
+        for (unit, near) in [(1e-6, true), (1e-3, false)] {
+            let apart = [0.345_678 * unit, 0.0, 0.0];
+            let door = hinges(&[([0, 1], [0.0; 3]), ([0, 1], apart), ([0, 2], X)]);
+            let m = drawn(&door, &[]);
+            let units = Units {
+                length: unit,
+                direction: unit,
+            };
+            let reach = Reach::of_units(units, size(&m));
+            let found = meant(&m, StateId::FREE, 2, (units, reach), false).unwrap();
+            assert_eq!(
+                matches!(found, Meant::Near { .. }),
+                near,
+                "{unit} {found:?}"
+            );
+            assert_eq!(matches!(found, Meant::Undecided { .. }), !near, "{unit}");
+        }
+    }
+}

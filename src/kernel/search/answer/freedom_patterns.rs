@@ -247,3 +247,31 @@ fn images_of_variables(question: &Question, to: &[JointId]) -> Option<Vec<usize>
     };
     variables.iter().map(image).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{drawn, four_bar, hinges};
+
+    /// The joints of a ring are in series; those in no contour are not, not even with one another.
+    #[test]
+    fn a_joint_in_no_contour_is_in_series_with_none() {
+        let mut joints = four_bar(0, 1, 0.0);
+        joints.extend(hinges(&[
+            ([2, 4], [3.0, 3.0, 9.0]),
+            ([4, 5], [4.0, 8.0, 9.0]),
+        ]));
+        let found = series(&drawn(&joints, &[5]), StateId::FREE);
+        let ids =
+            |all: &[usize]| -> Vec<JointId> { all.iter().map(|&j| JointId::new(j)).collect() };
+        for (j, with) in &found {
+            let wanted: &[usize] = match j.index() {
+                4 => &[4],
+                5 => &[5],
+                _ => &[0, 1, 2, 3],
+            };
+            assert_eq!(with, &ids(wanted), "{j:?}");
+        }
+        assert_eq!(found.len(), 6);
+    }
+}

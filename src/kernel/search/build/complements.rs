@@ -276,3 +276,36 @@ impl Quotient {
         rank
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::modp::is_prime;
+    use crate::search::diagram::redundancy_so_far::Spent;
+
+    /// Two halves that let a link slide one way, and what a coupling passes with it, by so much. Their rates are to add up to
+    /// nothing: where they always do, the coupling is redundant, and else it stops the link.
+    #[test]
+    fn a_coupling_is_redundant_where_the_rates_of_both_halves_always_add_up_to_nothing() {
+        let p = (1u64 << 61..).find(|&n| is_prime(n)).unwrap();
+        let f = Field::new(p);
+        let frame = LinkId::new(0);
+        let live = [(frame, LinkId::new(1))];
+        for (a, b, redundant) in [(2, -2, true), (2, 2, false), (-5, 5, true), (3, -2, false)] {
+            let node = |rate: i64| {
+                let mut out = Nodes::empty();
+                out.push(Spent::default(), &[f.one(), f.from_i64(rate)], 0);
+                out
+            };
+            let (one, two) = (node(a), node(b));
+            let half = |nodes| Half {
+                nodes,
+                live: &live,
+                pending: &[0],
+            };
+            let halves = [&half(&one), &half(&two)];
+            let found = join((f, 1), halves, frame, None, &|| false).unwrap();
+            assert_eq!(has(&found[0], 0), !redundant, "{a} {b}");
+        }
+    }
+}

@@ -218,3 +218,38 @@ fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures
 fn rank(matrix: &Matrix) -> Option<usize> {
     Some(rank_of_values(singular_values(matrix)?, FLAT).rank)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{Y, Z, drawn};
+    use crate::model::joint_type::JointType;
+    use crate::rank::exact::field::exact_field;
+    use crate::search::question::conditions::Conditions;
+
+    /// A screw between two hinges that are h apart along it climbs h in a turn: then the hinges lie on one line, and of the four
+    /// motions of what turns and slides in its place three are left. What is between says nothing.
+    #[test]
+    fn what_turns_and_slides_for_a_screw_climbs_with_it() {
+        let (high, turn) = (3.0, std::f64::consts::TAU);
+        let mut m = drawn(
+            &[
+                (JointType::Revolute, [0, 1], [0.0, 0.0, high], Y),
+                (JointType::Helical, [1, 2], [0.0; 3], Z),
+                (JointType::Revolute, [2, 3], [0.0; 3], Y),
+            ],
+            &[3],
+        );
+        m.joints[1].frame.pitch = crate::geom::expr::Expr::from_f64(high / turn).unwrap();
+        m.joints[1].options[0].frame = m.joints[1].frame.clone();
+        let exact = exact_field(&m, 0).unwrap();
+        let question = Question::new(exact, m.clone(), Conditions::default()).unwrap();
+        m.joints[1].joint_type = JointType::Cylindrical;
+        let pose = Pose::of_file(&m, StateId::FREE).unwrap();
+        let output = |turns: f64| {
+            let at = [(JointId::new(1), Freedom::Screw, turns * turn)];
+            figures(&question, &m, &pose, &at).unwrap().output
+        };
+        assert_eq!([0.0, 1.0, 2.0].map(output), [Some(4), Some(3), Some(4)]);
+    }
+}

@@ -189,3 +189,63 @@ pub(crate) fn lookahead(
         allowed,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::model::coupling::{CoupledFreedom, Coupling};
+    use crate::model::drawn::{drawn, hinges};
+    use crate::model::joint_type::Freedom;
+    use crate::model::mechanism::{JointId, Mechanism};
+    use crate::rank::exact::field::exact_field;
+    use crate::search::question::Question;
+    use crate::search::question::conditions::Conditions;
+    use crate::search::testing::in_both_spaces;
+    use itertools::Itertools;
+
+    /// How many ends the diagrams of determinate and of admissible variants have that are made of motions of links.
+    fn ends(m: &Mechanism, max_redundant: u32) -> Vec<usize> {
+        let conditions = Conditions {
+            max_redundant,
+            ..Conditions::default()
+        };
+        let question = Question::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
+        let found = in_both_spaces(&question).into_iter();
+        found
+            .map(|[live, _]| live.map_or(0, |d| d.terminals.len()))
+            .collect()
+    }
+
+    /// Cranks of a parallelogram turn alike: gears that make them do so are redundant, and others stop them. Either way it keeps the
+    /// motion that it has, whichever crank a coupling names first and whichever link a hinge does.
+    #[test]
+    fn coupled_cranks_keep_the_motion_that_they_have() {
+        let at = |x: f64, y: f64| [x, y, 0.0];
+        let joints = [
+            ([0, 1], at(0.0, 0.0)),
+            ([1, 2], at(1.0, 4.0)),
+            ([2, 3], at(7.0, 4.0)),
+            ([0, 3], at(6.0, 0.0)),
+        ];
+        for ((ratio, redundant), order) in [(1, 4), (-1, 3)]
+            .into_iter()
+            .cartesian_product([0, 1, 2, 3].into_iter().permutations(4))
+        {
+            let taken = order.iter().map(|&i: &usize| joints[i]).collect_vec();
+            let mut m = drawn(&hinges(&taken), &[2]);
+            let place = |j: usize| order.iter().position(|&i| i == j).unwrap();
+            for first in [[0, 3], [3, 0]] {
+                let end = |j: usize| CoupledFreedom {
+                    joint: JointId::new(place(j)),
+                    freedom: Freedom::Rz,
+                };
+                m.couplings = vec![Coupling {
+                    ends: first.map(end),
+                    ratio: ratio.into(),
+                    gear: true,
+                }];
+                let found = [redundant, redundant - 1].map(|most| ends(&m, most));
+                assert_eq!(found, [[1, 1], [0, 0]], "{ratio} {order:?} {first:?}");
+            }
+        }
+    }
+}

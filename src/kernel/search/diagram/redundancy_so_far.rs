@@ -129,3 +129,24 @@ impl Spent {
         std::iter::once(two).chain(lanes)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a lane would count that does not apply tells no two parts of a mechanism apart: they are one node.
+    #[test]
+    fn a_lane_that_does_not_apply_counts_no_more() {
+        let after = |redundant: u32| {
+            let mut spent = Spent::default();
+            spent.rule_out(0);
+            spent.add(Lane::Friction(0), redundant);
+            spent.words().collect::<Vec<_>>()
+        };
+        assert_eq!(after(0), after(3));
+        // One that applies does count.
+        let mut spent = Spent::default();
+        spent.add(Lane::Friction(0), 3);
+        assert_ne!(spent.lanes, Spent::default().lanes);
+    }
+}

@@ -100,3 +100,49 @@ pub(in crate::search) fn blocks(
     );
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closure::contour::contour_basis;
+    use crate::model::drawn::{Drawn, drawn, four_bar};
+    use crate::model::mechanism::StateId;
+    use crate::rank::exact::field::exact_field;
+    use crate::search::question::cost::CostTable;
+
+    /// The variables of each block and its lane, where the motion of the frame and of these links is asked for.
+    fn found(joints: &[Drawn], pinned: &[usize]) -> Vec<(Vec<usize>, usize)> {
+        let m = drawn(joints, &[]);
+        let exact = exact_field(&m, 0).unwrap();
+        let costs = CostTable::new(&m.search.costs);
+        let space = Space::new(&exact, &m, None, false, &costs).unwrap();
+        let all: Vec<usize> = (0..joints.len()).collect();
+        let pinned: Vec<LinkId> = pinned.iter().map(|&l| LinkId::new(l)).collect();
+        let contours = contour_basis(&m, StateId::FREE);
+        let found = blocks(&m, &space, &all, &pinned, &contours);
+        found.into_iter().map(|b| (b.variables, b.lane)).collect()
+    }
+
+    /// Two four-bars in a row share a link: each is a block, and has that link for itself.
+    #[test]
+    fn four_bars_in_a_row_are_blocks_of_their_own() {
+        let joints = [four_bar(0, 1, 0.0), four_bar(2, 4, 40.0)].concat();
+        let mut found = found(&joints, &[]);
+        found.sort();
+        let of: Vec<&Vec<usize>> = found.iter().map(|b| &b.0).collect();
+        assert_eq!(of, [&vec![0, 1, 2, 3], &vec![4, 5, 6, 7]]);
+        let lanes = [found[0].1, found[1].1];
+        assert!(lanes[0] != lanes[1] && !lanes.contains(&0), "{lanes:?}");
+    }
+
+    /// Side by side on the frame, both on the way to a link that is asked for, they share the frame alone, and one is taken after
+    /// the other; in a row they hang together.
+    #[test]
+    fn what_hangs_side_by_side_on_the_frame_is_taken_one_after_another() {
+        let beside = [four_bar(0, 1, 0.0), four_bar(0, 4, 40.0)].concat();
+        let each = [(vec![0, 1, 2, 3], 0), (vec![4, 5, 6, 7], 0)];
+        assert_eq!(found(&beside, &[0, 2, 5]), each);
+        let in_a_row = [four_bar(0, 1, 0.0), four_bar(2, 4, 40.0)].concat();
+        assert_eq!(found(&in_a_row, &[0, 5]), [((0..8).collect(), 0)]);
+    }
+}

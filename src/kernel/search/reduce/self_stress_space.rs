@@ -285,3 +285,37 @@ fn is_contained(field: Field, space: &Space, variable: usize) -> bool {
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::drawn::{Z, drawn};
+    use crate::model::joint_type::{Freedom, JointType};
+    use crate::rank::exact::field::exact_field;
+    use crate::search::question::cost::CostTable;
+
+    /// What slides along a hinge's axis has as many freedoms, and not the hinge's; what turns and slides has it.
+    #[test]
+    fn a_choice_must_have_the_motion_of_the_present_joint() {
+        for (option, contained) in [
+            (JointType::Prismatic, false),
+            (JointType::Planar, true),
+            (JointType::Cylindrical, true),
+            (JointType::Custom(vec![Freedom::Rx, Freedom::Tz]), false),
+        ] {
+            let mut m = drawn(&[(JointType::Revolute, [0, 1], [1.0, 2.0, 0.0], Z)], &[]);
+            let mut other = m.joints[0].options[0].clone();
+            other.joint_type = option.clone();
+            m.joints[0].options.push(other);
+            let exact = exact_field(&m, 0).unwrap();
+            let costs = CostTable::new(&m.search.costs);
+            let space = Space::new(&exact, &m, None, false, &costs).unwrap();
+            assert_eq!(space.variables[0].choices.len(), 2);
+            assert_eq!(
+                is_contained(exact.field(), &space, 0),
+                contained,
+                "{option:?}"
+            );
+        }
+    }
+}

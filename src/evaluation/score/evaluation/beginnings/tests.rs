@@ -106,3 +106,19 @@ fn a_choice_that_determines_the_reactions_tells_them() {
     let (again, _) = begun.take(0, 1);
     assert!(begun.peaks(&again).is_none());
 }
+
+/// Of two outputs the one that is farther off counts, whichever comes first.
+#[test]
+fn the_error_is_that_of_the_output_that_is_farthest_off() {
+    let of = of_one_unknown(true, [1.0, 3.0]);
+    for forces in [[3.0, 4.0], [4.0, 3.0]] {
+        let mut begun = of.begin();
+        let taken = begun.take(0, 1).0;
+        // What a unit force along x on each output brings on the one place, and no force along y and z does.
+        begun.passed = forces.iter().flat_map(|&f| [f, 0.0, 0.0]).collect();
+        begun.errors = true;
+        // The play of the second choice.
+        assert!((begun.output_error() - 4.0 * 0.2).abs() < 1e-12);
+        begun.give_back(taken);
+    }
+}

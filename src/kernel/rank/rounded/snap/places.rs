@@ -225,3 +225,31 @@ fn meet(of: &mut [AlignedJoints], x: &ExactVector, near: f64, met: &mut Vec<(Joi
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(point: [f64; 3], along: [f64; 3]) -> AlignedJoints {
+        let exact = |v: [f64; 3]| v.map(|x| Expr::from_f64(x).unwrap());
+        AlignedJoints {
+            joints: Vec::new(),
+            point: exact(point),
+            along: Some(exact(along)),
+            fixed: false,
+        }
+    }
+
+    /// Two lines, one `apart` above the other, are as far from each other as that, whatever the angle between them.
+    #[test]
+    fn lines_cross_by_their_distance_whatever_their_angle() {
+        let near = 1e-3;
+        for across in [0.02, 0.3, 1.0, 40.0] {
+            for (apart, meet) in [(0.5 * near, true), (1.5 * near, false), (9.0 * near, false)] {
+                let a = line([0.0; 3], [1.0, 0.0, 0.0]);
+                let b = line([0.0, 0.0, apart], [1.0, across, 0.0]);
+                assert_eq!(crossing(&a, &b, near).is_some(), meet, "{across} {apart}");
+            }
+        }
+    }
+}

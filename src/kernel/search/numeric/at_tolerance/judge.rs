@@ -195,3 +195,6 @@ fn motion(free: RankRange, kept: RankRange) -> [usize; 2] {
 fn int32(x: usize) -> i32 {
     i32::try_from(x).unwrap_or(i32::MAX / 4)
 }
+
+#[cfg(test)]
+mod tests;
