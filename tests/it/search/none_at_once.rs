@@ -73,10 +73,8 @@ fn what_the_plane_decides_takes_no_step() {
             "{text}"
         );
         let eased = relaxations(&search, 0, &count).unwrap();
-        println!(
-            "POLLS {rows} {columns} {} {eased:?}",
-            asked.load(Ordering::Relaxed)
-        );
+        // What takes too many nodes with few redundant constraints takes more with many: it is tried once.
+        assert!(asked.load(Ordering::Relaxed) < 12 * joints, "{text}");
         let few = |r: &Relaxation| matches!(r, Relaxation::Redundant(n) if *n as usize >= short);
         assert!(eased.iter().all(|(r, _)| few(r)), "{eased:?}");
     }
