@@ -26,6 +26,16 @@ pub(super) fn is_same(a: &BigRational, b: &BigRational) -> bool {
     a.numer() == b.numer() && a.denom() == b.denom()
 }
 
+/// The least denominator that numbers have in common.
+pub(super) fn denominator<'a>(all: impl Iterator<Item = &'a BigRational>) -> BigInt {
+    all.fold(BigInt::one(), |d, x| d.lcm(x.denom()))
+}
+
+/// How often a denominator that a number's own divides goes into the number.
+pub(super) fn whole(x: &BigRational, denom: &BigInt) -> BigInt {
+    x.numer() * (denom / x.denom())
+}
+
 /// Vectors as whole numbers over one denominator.
 #[derive(Debug, Clone)]
 pub(super) struct Whole<const N: usize> {
@@ -35,11 +45,9 @@ pub(super) struct Whole<const N: usize> {
 
 impl<const N: usize> Whole<N> {
     pub(super) fn of(all: [&Rational3; N]) -> Whole<N> {
-        let each = all.iter().flat_map(|v| v.iter());
-        let denom = each.fold(BigInt::one(), |d, x| d.lcm(x.denom()));
-        let part = |x: &BigRational| x.numer() * (&denom / x.denom());
+        let denom = denominator(all.iter().flat_map(|v| v.iter()));
         Whole {
-            numer: all.map(|v| v.each_ref().map(part)),
+            numer: all.map(|v| v.each_ref().map(|x| whole(x, &denom))),
             denom,
         }
     }

@@ -1,6 +1,6 @@
 //! Linear relations solved exactly: free coordinates keep decimals, the others follow.
 
-use super::number::Rational3;
+use super::number::{Rational3, denominator, whole};
 use super::row::PointEquation;
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -24,7 +24,6 @@ fn words(x: &BigInt) -> u64 {
 
 /// Σ coefficient · coordinate + constant = 0 in whole numbers: a fraction for each would be reduced at every step, which is most
 /// of the time.
-#[derive(Debug, Clone)]
 struct Equation {
     of: BTreeMap<usize, BigInt>,
     constant: BigInt,
@@ -181,12 +180,10 @@ fn equation(
             }
         }
     }
-    let all = of.values().chain([&constant]);
-    let count = all.fold(BigInt::one(), |d, x| d.lcm(x.denom()));
-    let whole = |x: &BigRational| x.numer() * (&count / x.denom());
-    let constant = whole(&constant);
+    let count = denominator(of.values().chain([&constant]));
+    let constant = whole(&constant, &count);
     let of = of.iter().filter(|x| !x.1.is_zero());
-    let of = of.map(|(&v, x)| (v, whole(x))).collect();
+    let of = of.map(|(&v, x)| (v, whole(x, &count))).collect();
     (Equation { of, constant }, count)
 }
 
@@ -224,13 +221,8 @@ pub(super) fn solve(
         // All over one denominator: reduced once.
         let terms: Vec<(&BigInt, &BigRational)> =
             others.map(|(v, by)| (by, &out[v / 3][v % 3])).collect();
-        let denom = terms
-            .iter()
-            .fold(BigInt::one(), |d, (_, x)| d.lcm(x.denom()));
-        let sum: BigInt = terms
-            .iter()
-            .map(|(by, x)| *by * x.numer() * (&denom / x.denom()))
-            .sum();
+        let denom = denominator(terms.iter().map(|t| t.1));
+        let sum: BigInt = terms.iter().map(|t| t.0 * whole(t.1, &denom)).sum();
         let sum = sum + &s.equation.constant * &denom;
         out[s.pivot / 3][s.pivot % 3] = BigRational::new(-sum, denom * s.unit());
     }

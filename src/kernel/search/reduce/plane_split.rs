@@ -84,17 +84,17 @@ impl LeastModel {
             if !falls_apart(space, [&inside, &outside]) {
                 continue;
             }
+            let contours = contour_basis(mechanism, StateId::FREE).len();
             let settled = [&inside, &outside].map(Seen::is_settled);
             let (differing, settled) = match settled {
                 [true, _] => (outside, inside),
                 [false, true] => (inside, outside),
                 [false, false] => {
-                    let parts =
-                        [inside, outside].map(|part| part.model(exact, mechanism, space, kept));
+                    let parts = [inside, outside].map(|part| part.model(f, contours, space, kept));
                     return Ok(whole(Some(parts)));
                 }
             };
-            let mut whole = differing.model(exact, mechanism, space, kept);
+            let mut whole = differing.model(f, contours, space, kept);
             whole.already += redundant(f, mechanism, &settled.present(space));
             return Ok(LeastModel { whole, parts: None });
         }
@@ -107,11 +107,8 @@ fn redundant(f: Field, mechanism: &Mechanism, present: &Space) -> u32 {
     let rows = ClosingRows::new(mechanism, present.dim, &[]);
     let mut span = Echelon::new(f);
     for variable in &present.variables {
-        let joints = variable.joints.iter().zip(&variable.choices[0].spans);
-        for (&j, twists) in joints {
-            for twist in twists {
-                span.insert(&rows.column(f, j, twist));
-            }
+        for column in rows.columns(f, variable, 0) {
+            span.insert(&column);
         }
     }
     u32::try_from(rows.closing() - span.rank()).unwrap_or(u32::MAX)
@@ -178,17 +175,10 @@ impl Seen {
     }
 
     /// The model of the rows that are used.
-    fn model(
-        self,
-        exact: &ExactField,
-        mechanism: &Mechanism,
-        whole: &Space,
-        kept: &[Vec<Residue>],
-    ) -> Model {
-        let f = exact.field();
+    fn model(self, f: Field, contours: usize, whole: &Space, kept: &[Vec<Residue>]) -> Model {
         let used = self.used(f);
         // In further rows of each contour nothing moves.
-        let idle = (3 - used.len()) * contour_basis(mechanism, StateId::FREE).len();
+        let idle = (3 - used.len()) * contours;
         Model {
             already: u32::try_from(idle).unwrap_or(u32::MAX),
             kept: self.of_links(f, kept, &used),

@@ -14,7 +14,7 @@ use crate::closure::tree::path_from_frame;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use crate::search::question::space::Space;
+use crate::search::question::space::{Space, Variable};
 
 /// A vector of the added motions of a choice.
 type Added = Vec<Residue>;
@@ -62,13 +62,26 @@ impl<'m> ClosingRows<'m> {
         }
     }
 
-    /// ClosingRows of contours and couplings.
+    /// Rows of contours and couplings.
     pub(super) fn closing(&self) -> usize {
         self.contours.len() * self.dim + self.couplings.len()
     }
 
+    /// The columns of a choice at all joints of its variable.
+    pub(super) fn columns(
+        &self,
+        f: Field,
+        variable: &Variable,
+        choice: usize,
+    ) -> Vec<Vec<Residue>> {
+        let joints = variable.joints.iter().zip(&variable.choices[choice].spans);
+        joints
+            .flat_map(|(&j, span)| span.iter().map(move |t| self.column(f, j, t)))
+            .collect()
+    }
+
     /// The column of a joint's twist, with its entries for couplings behind it.
-    pub(super) fn column(&self, f: Field, joint: JointId, twist: &[Residue]) -> Vec<Residue> {
+    fn column(&self, f: Field, joint: JointId, twist: &[Residue]) -> Vec<Residue> {
         let (d, closing) = (self.dim, self.closing());
         let mut out = vec![0; closing + self.paths.len() * d];
         let mut put = |at: usize, forward: bool| {
@@ -166,14 +179,7 @@ impl SelfStressSpace {
         kept: &[LinkId],
     ) -> Option<SelfStressSpace> {
         let rows = ClosingRows::new(mechanism, space.dim, kept);
-        let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
-            let variable = &space.variables[v];
-            let joints = variable.joints.iter().zip(&variable.choices[c].spans);
-            joints
-                .flat_map(|(&j, span)| span.iter().map(move |t| (j, t)))
-                .map(|(j, t)| rows.column(field, j, t))
-                .collect()
-        };
+        let of_choice = |v: usize, c: usize| rows.columns(field, &space.variables[v], c);
         if !order.iter().all(|&v| is_contained(field, space, v)) {
             return None;
         }
