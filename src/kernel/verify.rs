@@ -14,8 +14,12 @@ mod modular;
 
 pub use flaw::Flaw;
 
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Zero};
+
 use crate::linalg::number_ring::Element;
-use certificate::Certificate;
+use certificate::{Certificate, KernelVector};
 use matrix::MatrixOverRing;
 use modular::Homomorphism;
 
@@ -96,6 +100,7 @@ fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fla
     let mut free = vec![false; matrix.columns()];
     kernel.iter().for_each(|v| free[v.free] = true);
     let (ring, one) = (matrix.ring(), Element::integer(1));
+    let integral = matrix.integral_rows();
     for (i, vector) in kernel.iter().enumerate() {
         let support: Vec<usize> = vector.entries.iter().map(|(c, _)| *c).collect();
         if !distinct(&support, matrix.columns()) {
@@ -115,15 +120,31 @@ fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fla
         if !reduced || !support.contains(&vector.free) {
             return Err(Flaw::NotReduced { vector: i });
         }
-        let mut sums = vec![Element::default(); matrix.rows()];
-        for (column, x) in &vector.entries {
-            for (row, entry) in matrix.column(*column) {
-                sums[*row] = ring.add(&sums[*row], &ring.mul(entry, x));
-            }
-        }
-        if let Some(row) = sums.iter().position(|s| !s.is_zero()) {
+        if let Some(row) = not_annihilated(matrix, &integral, vector) {
             return Err(Flaw::NotInKernel { vector: i, row });
         }
     }
     Ok(())
+}
+
+/// The first row that does not give 0 with a vector: of integers, since a multiple of either changes nothing, and no fraction has to be
+/// reduced on the way.
+fn not_annihilated(
+    matrix: &MatrixOverRing,
+    integral: &[Vec<Vec<BigInt>>],
+    vector: &KernelVector,
+) -> Option<usize> {
+    let entries = vector.entries.iter();
+    let below = entries.fold(BigInt::one(), |m, (_, x)| m.lcm(&x.denominator()));
+    let mut sums: Vec<Vec<BigInt>> = vec![Vec::new(); matrix.rows()];
+    for (column, x) in &vector.entries {
+        let x = x.times(&below);
+        for ((row, _), entry) in matrix.column(*column).iter().zip(&integral[*column]) {
+            let product = matrix.ring().integral_product(entry, &x);
+            let sum = &mut sums[*row];
+            sum.resize(sum.len().max(product.len()), BigInt::zero());
+            sum.iter_mut().zip(product).for_each(|(s, p)| *s += p);
+        }
+    }
+    sums.iter().position(|s| !s.iter().all(Zero::is_zero))
 }

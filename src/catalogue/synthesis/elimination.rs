@@ -1,9 +1,14 @@
 //! Small systems of equations solved in place, without a new matrix for each.
 
+/// Entries that are worked on at once.
+const LANES: usize = 4;
+
 /// A square matrix and, beside it, right sides.
 #[derive(Debug, Clone, Default)]
 pub struct SmallSystem {
     size: usize,
+    sides: usize,
+    /// From row to row: a multiple of the entries that are worked on at once, the rest zero.
     width: usize,
     entries: Vec<f64>,
 }
@@ -12,9 +17,10 @@ impl SmallSystem {
     /// All zero: `size` unknown, and so many right sides.
     #[must_use]
     pub fn new(size: usize, sides: usize) -> SmallSystem {
-        let width = size + sides;
+        let width = (size + sides).next_multiple_of(LANES);
         SmallSystem {
             size,
+            sides,
             width,
             entries: vec![0.0; size * width],
         }
@@ -54,29 +60,34 @@ impl SmallSystem {
             }
             if pivot != c {
                 sign = -sign;
-                for k in c..w {
-                    self.entries.swap(pivot * w + k, c * w + k);
-                }
+                let (before, from) = self.entries.split_at_mut(pivot * w);
+                before[c * w..][..w].swap_with_slice(&mut from[..w]);
             }
             let (above, below) = self.entries.split_at_mut((c + 1) * w);
             let own = &above[c * w..];
             sign *= own[c].signum();
+            // What stands before the next column is not looked at again, and may change with its neighbours.
+            let begin = (c + 1) / LANES * LANES;
+            let (lanes, _) = own[begin..].as_chunks::<LANES>();
             for row in below.chunks_exact_mut(w) {
-                let factor = row[c] / own[c];
-                if factor != 0.0 {
-                    for (x, o) in row[c + 1..].iter_mut().zip(&own[c + 1..]) {
-                        *x -= factor * o;
+                if row[c] != 0.0 {
+                    let factor = row[c] / own[c];
+                    let (row, _) = row[begin..].as_chunks_mut::<LANES>();
+                    for (x, o) in row.iter_mut().zip(lanes) {
+                        for k in 0..LANES {
+                            x[k] -= factor * o[k];
+                        }
                     }
                 }
             }
         }
         for c in (0..n).rev() {
             let (above, own) = self.entries.split_at_mut(c * w);
-            for side in n..w {
+            for side in n..n + self.sides {
                 own[side] /= own[c];
             }
             for row in above.chunks_exact_mut(w) {
-                for side in n..w {
+                for side in n..n + self.sides {
                     row[side] -= row[c] * own[side];
                 }
             }

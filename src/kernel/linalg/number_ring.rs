@@ -141,12 +141,8 @@ impl NumberRing {
             (_, [q]) => return a.scaled(q),
             _ => {}
         }
-        let longest = a.0.len().max(b.0.len());
-        // Up to the last generator that occurs in a factor.
-        let last = self.steps.iter().rposition(|s| s.width < longest);
-        let (x, below) = a.over_common_denominator();
-        let (y, other) = b.over_common_denominator();
-        let below = below * other;
+        let [x, y] = [a, b].map(Element::denominator);
+        let below = &x * &y;
         let fraction = |n: BigInt| {
             if n.is_zero() {
                 BigRational::zero()
@@ -154,8 +150,27 @@ impl NumberRing {
                 BigRational::new(n, below.clone())
             }
         };
-        let product = self.product(last.map_or(0, |i| i + 1), &x, &y);
+        let product = self.integral_product(&a.times(&x), &b.times(&y));
         Element::new(product.into_iter().map(fraction).collect())
+    }
+
+    /// Product of integral combinations of the monomials, whose coordinates are given: those of the product, perhaps with zeros
+    /// at the end. O(dimension² · generators) operations on integers at most; an integer costs O(dimension).
+    ///
+    /// # Panics
+    /// Where a factor has more coordinates than the ring.
+    #[must_use]
+    pub fn integral_product(&self, a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
+        match (a, b) {
+            ([], _) | (_, []) => Vec::new(),
+            ([n], others) | (others, [n]) => others.iter().map(|x| x * n).collect(),
+            _ => {
+                let longest = a.len().max(b.len());
+                // Up to the last generator that occurs in a factor.
+                let last = self.steps.iter().rposition(|s| s.width < longest);
+                self.product(last.map_or(0, |i| i + 1), a, b)
+            }
+        }
     }
 
     /// Product of integral combinations of the monomials in the first few generators.

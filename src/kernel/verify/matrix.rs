@@ -1,5 +1,9 @@
 //! The matrix a certificate is about.
 
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::One;
+
 use crate::linalg::number_ring::{Element, NumberRing};
 
 /// A sparse matrix over a number ring.
@@ -79,6 +83,19 @@ impl MatrixOverRing {
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &Element)> {
         let columns = self.columns.iter().enumerate();
         columns.flat_map(|(c, column)| column.iter().map(move |(r, x)| (*r, c, x)))
+    }
+
+    /// The nonzero entries, column by column, each times the common denominator of its row: the matrix of a multiple of each row, of
+    /// integral combinations of the monomials. O(entries) greatest common divisors.
+    #[must_use]
+    pub fn integral_rows(&self) -> Vec<Vec<Vec<BigInt>>> {
+        let mut below = vec![BigInt::one(); self.rows];
+        for (row, _, x) in self.entries() {
+            below[row] = below[row].lcm(&x.denominator());
+        }
+        let integral = |(row, x): &(usize, Element)| x.times(&below[*row]);
+        let columns = self.columns.iter();
+        columns.map(|c| c.iter().map(integral).collect()).collect()
     }
 
     /// A nonzero entry. O(log entries of the column).

@@ -88,10 +88,16 @@ impl Element {
         Element(self.0.iter().map(times).collect())
     }
 
-    /// Integers and their common denominator.
-    pub(super) fn over_common_denominator(&self) -> (Vec<BigInt>, BigInt) {
-        let below = self.0.iter().fold(BigInt::one(), |m, q| m.lcm(q.denom()));
-        let above = |q: &BigRational| q.numer() * (&below / q.denom());
-        (self.0.iter().map(above).collect(), below)
+    /// The least common denominator of the coordinates. O(length) greatest common divisors.
+    #[must_use]
+    pub fn denominator(&self) -> BigInt {
+        self.0.iter().fold(BigInt::one(), |m, q| m.lcm(q.denom()))
+    }
+
+    /// The coordinates times a common multiple of their denominators. O(length).
+    #[must_use]
+    pub fn times(&self, multiple: &BigInt) -> Vec<BigInt> {
+        let whole = |q: &BigRational| q.numer() * (multiple / q.denom());
+        self.0.iter().map(whole).collect()
     }
 }
