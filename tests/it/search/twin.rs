@@ -1,13 +1,14 @@
 //! The search against a slow twin in rational arithmetic that shares no code with it, on random mechanisms.
 
+mod figures;
 pub(crate) mod less;
 mod random;
 mod rational;
 
+use self::figures::figures;
 pub(crate) use self::random::random;
 use self::random::random_coupled;
-use self::rational::{Q, allowed_twists, length, reduce, twists};
-use num_traits::{One, Zero};
+use self::rational::{Q, allowed_twists, length, twists};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::coupling::CoupledFreedom;
 use ozols::model::joint_type::{Freedom, JointType};
@@ -19,88 +20,6 @@ use ozols::search::check::brute::brute;
 use ozols::search::question::conditions::{Conditions, InState, Symmetry};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-
-/// Joint motion written out with a twist for every link: unknowns are link twists and joint speeds; each joint demands
-/// t_b - t_a = Σ speeds · twists, and the frame rests; `coupled` are sums of two speeds with factors that must vanish. No
-/// contours, no spanning tree.
-struct Figures {
-    mobility: usize,
-    freedoms: usize,
-    motion: usize,
-    /// Whether each of some pairs of links moves as one.
-    together: Vec<bool>,
-}
-
-fn figures(
-    links: usize,
-    frame: LinkId,
-    joints: &[([LinkId; 2], Vec<Vec<Q>>)],
-    coupled: &[[(usize, Q); 2]],
-    outputs: &[LinkId],
-    pairs: &[(LinkId, LinkId)],
-) -> Figures {
-    let freedoms: usize = joints.iter().map(|(_, t)| t.len()).sum();
-    let width = links * 6 + freedoms;
-    let mut rows = Vec::new();
-    let mut at = links * 6;
-    for ([a, b], columns) in joints {
-        for c in 0..6 {
-            let mut row = vec![Q::zero(); width];
-            row[b.index() * 6 + c] += Q::one();
-            row[a.index() * 6 + c] -= Q::one();
-            for (i, t) in columns.iter().enumerate() {
-                row[at + i] -= &t[c];
-            }
-            rows.push(row);
-        }
-        at += columns.len();
-    }
-    for entries in coupled {
-        let mut row = vec![Q::zero(); width];
-        for (column, factor) in entries {
-            row[links * 6 + column] += factor;
-        }
-        rows.push(row);
-    }
-    let rest = |l: LinkId, c: usize| {
-        let mut row = vec![Q::zero(); width];
-        row[l.index() * 6 + c] = Q::one();
-        row
-    };
-    rows.extend((0..6).map(|c| rest(frame, c)));
-    // Links that no joint holds in this state rest too.
-    let held = |l: LinkId| joints.iter().any(|(ends, _)| ends.contains(&l));
-    rows.extend(
-        LinkId::first(links)
-            .filter(|&l| l != frame && !held(l))
-            .flat_map(|l| (0..6).map(move |c| (l, c)))
-            .map(|(l, c)| rest(l, c)),
-    );
-    let all = reduce(rows.clone()).1.len();
-    let together = |&(a, b): &(LinkId, LinkId)| {
-        let mut more = rows.clone();
-        more.extend((0..6).map(|c| {
-            let mut row = rest(a, c);
-            row[b.index() * 6 + c] -= Q::one();
-            row
-        }));
-        reduce(more).1.len() == all
-    };
-    let together = pairs.iter().map(together).collect();
-    rows.extend(
-        outputs
-            .iter()
-            .flat_map(|&l| (0..6).map(move |c| (l, c)))
-            .map(|(l, c)| rest(l, c)),
-    );
-    let resting = reduce(rows).1.len();
-    Figures {
-        mobility: width - all,
-        freedoms,
-        motion: resting - all,
-        together,
-    }
-}
 
 /// What the contacts of the clamped state transmit.
 #[derive(Clone, Copy, PartialEq)]

@@ -20,7 +20,7 @@ pub(crate) fn does_with_less(
         }
         out
     };
-    let rank = |rows: Vec<Vec<Q>>| reduce(rows).1.len();
+    let rank = |rows: Vec<Vec<Q>>| reduce(rows).len();
     let mut smaller = false;
     for (j, (&a, &b)) in less.iter().zip(more).enumerate() {
         let (a, b) = (motion(j, a), motion(j, b));

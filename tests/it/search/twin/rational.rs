@@ -2,7 +2,7 @@
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, Mode};
 
@@ -93,38 +93,35 @@ pub(super) fn allowed_twists(mode: &Mode, frame: &Frame, kind: &JointType) -> Ve
         .collect()
 }
 
-/// Reduced row echelon form of rows, with its pivots.
-pub(super) fn reduce(mut rows: Vec<Vec<Q>>) -> (Vec<Vec<Q>>, Vec<usize>) {
-    let (width, mut pivots) = (rows.first().map_or(0, Vec::len), Vec::new());
+/// Rows that say the same, each with its first entry further to the right than those before.
+pub(super) fn reduce(mut rows: Vec<Vec<Q>>) -> Vec<Vec<Q>> {
+    let (width, mut done) = (rows.first().map_or(0, Vec::len), 0);
     for c in 0..width {
-        let r = pivots.len();
-        let Some(i) = (r..rows.len()).find(|&i| !rows[i][c].is_zero()) else {
+        let Some(i) = (done..rows.len()).find(|&i| !rows[i][c].is_zero()) else {
             continue;
         };
-        rows.swap(r, i);
-        let inverse = Q::one() / &rows[r][c];
-        rows[r].iter_mut().for_each(|x| *x *= &inverse);
-        let own = rows[r].clone();
-        for j in (0..rows.len()).filter(|&j| j != r) {
-            let a = rows[j][c].clone();
-            if !a.is_zero() {
-                let both = rows[j].iter_mut().zip(&own);
-                both.filter(|(_, y)| !y.is_zero())
-                    .for_each(|(x, y)| *x -= &a * y);
-            }
+        rows.swap(done, i);
+        let (above, below) = rows.split_at_mut(done + 1);
+        let own = &above[done];
+        for row in below.iter_mut().filter(|row| !row[c].is_zero()) {
+            let a = &row[c] / &own[c];
+            let both = row.iter_mut().zip(own);
+            both.filter(|(_, y)| !y.is_zero())
+                .for_each(|(x, y)| *x -= &a * y);
         }
-        pivots.push(c);
+        done += 1;
     }
-    (rows, pivots)
+    rows.truncate(done);
+    rows
 }
 
 #[test]
 fn the_rational_elimination_is_right_on_a_known_matrix() {
     let q = |n: i64| Q::from_integer(BigInt::from(n));
-    let (_, pivots) = reduce(vec![
+    let reduced = reduce(vec![
         vec![q(1), q(2), q(3)],
         vec![q(2), q(4), q(7)],
         vec![q(3), q(6), q(10)],
     ]);
-    assert_eq!(pivots, vec![0, 2]);
+    assert_eq!(reduced, [[q(1), q(2), q(3)], [q(0), q(0), q(1)]]);
 }
