@@ -89,6 +89,21 @@ impl Field {
         if u >= self.p { u - self.p } else { u }
     }
 
+    /// Σ a·b with one reduction.
+    #[inline]
+    #[must_use]
+    pub fn sum_of_products(self, pairs: impl IntoIterator<Item = (Residue, Residue)>) -> Residue {
+        // Kept below p·2^64, to which a product, below p², is added: below 2^126 and 2^124.
+        let least = u128::from(self.p) << 64;
+        let t = pairs.into_iter().fold(0, |t: u128, (a, b)| {
+            let t = t + u128::from(a) * u128::from(b);
+            if t >= least { t - least } else { t }
+        });
+        let m = (t as u64).wrapping_mul(self.neg_inv);
+        let u = ((t + u128::from(m) * u128::from(self.p)) >> 64) as u64;
+        if u >= self.p { u - self.p } else { u }
+    }
+
     /// Sum of two residues.
     #[inline(always)]
     #[must_use]

@@ -34,6 +34,8 @@ struct FreedomPassed {
     square: Residue,
     /// θ(t), sin θ, 1 - cos θ and θ - sin θ, for an axis that is no unit vector.
     angle: Vec<Residue>,
+    /// θ'(t).
+    speed: Vec<Residue>,
     sine: Vec<Residue>,
     cosine: Vec<Residue>,
     rest: Vec<Residue>,
@@ -63,6 +65,7 @@ impl FreedomPassed {
             twist: [w, v, once, cross(f, w, once)],
             square: dot(f, w, w),
             angle: vec![0],
+            speed: Vec::new(),
             sine: vec![0],
             cosine: vec![0],
             rest: vec![0],
@@ -85,28 +88,22 @@ impl FreedomPassed {
     /// Adds to the displacement before it what this freedom does to it at order `d`, its angle's coefficient being `x`.
     fn pass(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
         let x = if self.forward { x } else { f.neg(x) };
-        self.angle.push(x);
         let turns = self.twist[0] != [0; 3];
         // From the derivatives: (sin θ)' = cos θ θ', (1 - cos θ)' = sin θ θ', (θ - sin θ)' = (1 - cos θ) θ'.
         let part = f.inv(f.from_i64(d as i64));
-        let rates = |of: &[Residue]| {
-            let terms = (1..d).map(|k| {
-                let rate = f.mul(f.from_i64(k as i64), self.angle[k]);
-                f.mul(rate, of[d - k])
-            });
-            f.mul(part, terms.fold(0, |s, t| f.add(s, t)))
-        };
+        let rates = |of: &[Residue]| f.mul(part, convolved(f, &self.speed, &of[1..d]));
         let (sine, cosine, rest) = if turns {
             let bent = f.mul(self.square, rates(&self.cosine));
             (f.sub(x, bent), rates(&self.sine), rates(&self.cosine))
         } else {
             (x, 0, 0)
         };
+        self.angle.push(x);
+        self.speed.push(f.mul(f.from_i64(d as i64), x));
         self.sine.push(sine);
         self.cosine.push(cosine);
         self.rest.push(rest);
-        let of =
-            |a: &[Residue], b: &[Residue]| (1..=d).fold(0, |s, k| f.add(s, f.mul(a[k], b[d - k])));
+        let of = |a: &[Residue], b: &[Residue]| convolved(f, &a[1..], &b[..d]);
         let [w, _, once, _] = self.twist;
         for i in 0..3 {
             let mut moved = of(&self.angle, &self.along[0][i]);
@@ -138,6 +135,7 @@ impl FreedomPassed {
             }
         }
         self.angle[d] = f.add(self.angle[d], x);
+        self.speed[d - 1] = f.add(self.speed[d - 1], f.mul(f.from_i64(d as i64), x));
         self.sine[d] = f.add(self.sine[d], x);
         let [w, v, ..] = self.twist;
         for i in 0..3 {
@@ -221,7 +219,7 @@ pub(super) fn line(
         for (i, row) in of.solve.iter().enumerate() {
             // Couplings are linear: they have no gap of higher order.
             let terms = row.iter().zip(&gaps);
-            let sum = terms.fold(0, |s, (&a, &g)| f.add(s, f.mul(a, g)));
+            let sum = f.sum_of_products(terms.map(|(&a, &g)| (a, g)));
             match of.pivots.get(i) {
                 Some(&p) => more[p] = f.neg(sum),
                 None if sum != 0 => {
@@ -257,7 +255,7 @@ pub(super) fn second(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
     let left = of.solve[of.pivots.len()..].iter();
     left.map(|row| {
         let terms = row.iter().zip(&gaps);
-        terms.fold(0, |s, (&a, &g)| f.add(s, f.mul(a, g)))
+        f.sum_of_products(terms.map(|(&a, &g)| (a, g)))
     })
     .collect()
 }
@@ -302,5 +300,10 @@ pub(super) fn cross(f: Field, a: Three, b: Three) -> Three {
 }
 
 fn dot(f: Field, a: Three, b: Three) -> Residue {
-    a.iter().zip(b).fold(0, |s, (&x, y)| f.add(s, f.mul(x, y)))
+    f.sum_of_products(a.into_iter().zip(b))
+}
+
+/// The last coefficient of a product of two series of equal length: each of one with that of the other which is as far from its end.
+fn convolved(f: Field, a: &[Residue], b: &[Residue]) -> Residue {
+    f.sum_of_products(a.iter().copied().zip(b.iter().rev().copied()))
 }

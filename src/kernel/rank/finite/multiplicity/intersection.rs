@@ -1,7 +1,5 @@
 //! Intersection numbers on a product of lines, one for each freedom: sums of products of classes h with h² = 0.
 
-use std::collections::BTreeMap;
-
 /// Most freedoms.
 pub(super) const MOST: usize = 64;
 /// Most terms of a class.
@@ -30,25 +28,36 @@ impl Arcs {
     }
 }
 
-/// A class: how often each product of different h is in it.
+/// A class: how often each product of different h is in it, by their sets.
 #[derive(Debug, Clone)]
-pub(super) struct Class(BTreeMap<u64, usize>);
+pub(super) struct Class(Vec<(u64, usize)>);
 
 impl Class {
     pub(super) fn one() -> Class {
-        Class(BTreeMap::from([(0, 1)]))
+        Class(vec![(0, 1)])
+    }
+
+    /// Each product once, with how often it is there in all.
+    fn collected(mut terms: Vec<(u64, usize)>) -> Class {
+        terms.sort_unstable_by_key(|t| t.0);
+        terms.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 = kept.1.saturating_add(next.1);
+            }
+            same
+        });
+        Class(terms)
     }
 
     /// Times a sum of h.
     fn times(&self, sum: &[usize]) -> Class {
-        let mut out: BTreeMap<u64, usize> = BTreeMap::new();
-        for (&set, &often) in &self.0 {
-            for &v in sum.iter().filter(|&&v| set >> v & 1 == 0) {
-                let count = out.entry(set | 1 << v).or_insert(0);
-                *count = count.saturating_add(often);
-            }
+        let mut terms = Vec::with_capacity(self.0.len() * sum.len());
+        for &(set, often) in &self.0 {
+            let others = sum.iter().filter(|&&v| set >> v & 1 == 0);
+            terms.extend(others.map(|&v| (set | 1 << v, often)));
         }
-        Class(out)
+        Class::collected(terms)
     }
 
     /// Times Σ S^i T^j over i + j = n, S and T the sums over two arcs; none where that has too many terms.
@@ -58,11 +67,7 @@ impl Class {
         let mut all = self;
         for _ in 0..n {
             other = other.times(&arcs.other);
-            all = all.times(&arcs.one);
-            for (&set, &often) in &other.0 {
-                let count = all.0.entry(set).or_insert(0);
-                *count = count.saturating_add(often);
-            }
+            all = Class::collected([all.times(&arcs.one).0, other.0.clone()].concat());
             if all.0.len() > TERMS {
                 return None;
             }
@@ -80,15 +85,15 @@ impl Class {
         let open = later.fold(0, |set, arcs| set | arcs.set());
         let gone = everything(freedoms) & !open;
         self.0
-            .retain(|set, _| (gone & !set).count_ones() as usize <= cut);
+            .retain(|(set, _)| (gone & !set).count_ones() as usize <= cut);
         self
     }
 
     /// The number of points that it has in common with `cut` general classes of all h; none where it is too large to tell.
     pub(super) fn number(&self, freedoms: usize, cut: usize) -> Option<usize> {
         let missing = |set: u64| (everything(freedoms) & !set).count_ones() as usize;
-        let terms = self.0.iter().filter(|(set, _)| missing(**set) == cut);
-        let sum = terms.fold(0usize, |sum, (_, &often)| sum.saturating_add(often));
+        let terms = self.0.iter().filter(|(set, _)| missing(*set) == cut);
+        let sum = terms.fold(0usize, |sum, (_, often)| sum.saturating_add(*often));
         let ways = (1..=cut).fold(sum, usize::saturating_mul);
         (ways < usize::MAX).then_some(ways)
     }
