@@ -7,6 +7,7 @@ pub mod evaluate;
 pub mod floor;
 pub mod joint_loads;
 pub mod load_cases;
+mod load_limits;
 pub mod lower_bound;
 mod meshing;
 pub mod pose_tables;

@@ -10,8 +10,9 @@ use crate::model::ranking::{ClearanceSum, Ranking};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::floor::Floor;
+use crate::score::evaluation::load_limits::LoadLimits;
 use crate::score::evaluation::lower_bound::within;
-use crate::score::evaluation::pose_tables::{Cell, PlacedJoint, PoseTable};
+use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::ErrorSum;
 use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::geometry::Six;
@@ -23,39 +24,6 @@ const SURE: f64 = 1e-5;
 /// Work of the loads on undriven motions above this fraction of them has no equilibrium: far above what is none where whole
 /// variants are scored, which decides what is between.
 const WORK: f64 = 1e-6;
-
-/// How much of what a place bears counts.
-#[derive(Debug, Clone, Copy)]
-struct LoadLimits {
-    /// One over the least capacity of the joints in series. `[1/N]`
-    force: f64,
-    /// The same for moments `[1/(N·m)]`; 0 where none is borne.
-    moment: f64,
-    /// `[m]`
-    clearance: f64,
-}
-
-impl LoadLimits {
-    /// Of the joints that a choice puts at a place.
-    fn of(cell: &Cell) -> LoadLimits {
-        let forces = cell.bears.iter().map(|b| 1.0 / b.0);
-        let moments = cell.bears.iter().filter_map(|b| b.1);
-        LoadLimits {
-            force: forces.fold(0.0, f64::max),
-            moment: moments.map(|m| 1.0 / m).fold(0.0, f64::max),
-            clearance: cell.clearance,
-        }
-    }
-
-    /// The least of each.
-    fn least(self, other: LoadLimits) -> LoadLimits {
-        LoadLimits {
-            force: self.force.min(other.force),
-            moment: self.moment.min(other.moment),
-            clearance: self.clearance.min(other.clearance),
-        }
-    }
-}
 
 /// A joint's place, and what it bears by the unknowns.
 #[derive(Debug)]
@@ -206,6 +174,7 @@ impl Beginnings {
             weakest: Vec::new(),
             chosen: self.least.clone(),
             known: false,
+            order: (0..self.places.len()).collect(),
             errors: false,
             solution: vec![0.0; self.unknowns * self.sides],
             forces: vec![0.0; self.places.len()],
@@ -234,6 +203,8 @@ pub(in crate::score) struct Begun<'b> {
     chosen: Vec<Vec<LoadLimits>>,
     /// Whether the reactions are known.
     known: bool,
+    /// The places in the order in which they are looked at: the last one that ended a branch first.
+    order: Vec<usize>,
     /// Whether what unit forces on the outputs pass is known, too.
     errors: bool,
     /// Unknowns × load cases.
@@ -260,7 +231,8 @@ impl Begun<'_> {
     /// Takes a choice; false where the loads have no equilibrium then, whatever else is chosen. Give it back all the same.
     ///
     /// # Complexity
-    /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on.
+    /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on. Where the
+    /// reactions become known by it, [`Begun::peaks`] has to be asked before what follows.
     pub(in crate::score) fn take(&mut self, variable: usize, choice: usize) -> (TakenChoice, bool) {
         let of = self.of;
         let mut taken = TakenChoice {
@@ -278,7 +250,6 @@ impl Begun<'_> {
             (self.known, taken.tells) = (true, true);
             self.errors = false;
             self.solve(0..1);
-            self.load();
         }
         (taken, held)
     }
@@ -368,12 +339,10 @@ impl Begun<'_> {
         out
     }
 
-    fn load(&mut self) {
-        for (p, place) in self.of.places.iter().enumerate() {
-            let [fx, fy, fz, mx, my, mz] = self.borne(place, 0);
-            self.forces[p] = length([fx, fy, fz]);
-            self.moments[p] = length([mx, my, mz]);
-        }
+    fn load(&mut self, p: usize) {
+        let [fx, fy, fz, mx, my, mz] = self.borne(&self.of.places[p], 0);
+        self.forces[p] = length([fx, fy, fz]);
+        self.moments[p] = length([mx, my, mz]);
     }
 
     fn pass(&mut self) {
@@ -390,27 +359,42 @@ impl Begun<'_> {
         self.chosen[place.variable][place.slot]
     }
 
-    /// Bounds on the greatest force and moment over capacity, from what a choice that was just taken makes known; `None` where
-    /// reactions are not known yet.
-    pub(in crate::score) fn peaks(&self, taken: &TakenChoice) -> Option<Floor> {
+    /// Bounds on the greatest force and moment over capacity, from what a choice that was just taken makes known, or those of some
+    /// places that are `enough` to end the branch; `None` where reactions are not known yet.
+    pub(in crate::score) fn peaks(
+        &mut self,
+        taken: &TakenChoice,
+        enough: impl Fn(Floor) -> bool,
+    ) -> Option<Floor> {
         if !self.known {
             return None;
         }
+        let of = self.of;
         let mut out = Floor::default();
-        let mut raise = |p: usize| {
-            let limits = self.limits(&self.of.places[p]);
-            out.force = out.force.max(self.forces[p] * limits.force);
-            out.moment = out.moment.max(self.moments[p] * limits.moment);
-        };
-        if taken.tells {
-            (0..self.of.places.len()).for_each(raise);
-        } else {
-            self.of.of_variable[taken.variable]
-                .iter()
-                .copied()
-                .for_each(&mut raise);
+        if !taken.tells {
+            for &p in &of.of_variable[taken.variable] {
+                self.raise(p, &mut out);
+            }
+            return Some(out);
+        }
+        for at in 0..self.order.len() {
+            let p = self.order[at];
+            self.load(p);
+            self.raise(p, &mut out);
+            if enough(out) {
+                // It will mostly be enough for the next branch, too.
+                self.order[..=at].rotate_right(1);
+                break;
+            }
         }
         Some(out)
+    }
+
+    /// Raises bounds to what a place bears.
+    fn raise(&self, p: usize, bounds: &mut Floor) {
+        let limits = self.limits(&self.of.places[p]);
+        bounds.force = bounds.force.max(self.forces[p] * limits.force);
+        bounds.moment = bounds.moment.max(self.moments[p] * limits.moment);
     }
 
     /// A bound on the error of the outputs `[m]`, where the reactions are known.

@@ -237,6 +237,31 @@ impl<'w> BranchAndBound<'w> {
         walker.walk(here);
         walker
     }
+
+    /// Whether a variant behind a node could have a sum that is allowed.
+    fn may_win(&self, next: &Here, allowed: f64) -> bool {
+        let left = self.left[next.layer][next.node];
+        left.is_some_and(|left| {
+            let cost = next.key.cost().saturating_add(left);
+            self.sum(next.key, cost, next.floor) <= allowed
+        })
+    }
+
+    /// The least sum of terms.
+    #[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
+    fn sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
+        let terms = self.ranking.terms.iter().map(|&(term, weight)| {
+            let least = match term {
+                Term::Cost => self.search.steps.milli(cost) as f64 / 1000.0,
+                Term::Changes => f64::from(key.changes()),
+                // No variant moves less than not at all.
+                Term::Idle => -(self.evaluator.working() as f64),
+                _ => floor.of(term),
+            };
+            weight * least
+        });
+        terms.sum()
+    }
 }
 
 impl Walker<'_> {
@@ -281,7 +306,7 @@ impl Walker<'_> {
             key: Key(here.key.0 + walk.search.steps.keys[variable][choice].0),
             floor: here.floor,
         };
-        if !self.may_win(&next) {
+        if !walk.may_win(&next, self.allowed) {
             return (None, None);
         }
         self.choices[variable] = choice;
@@ -289,26 +314,24 @@ impl Walker<'_> {
         if !held {
             return (Some(taken), None);
         }
-        if let Some(peaks) = self.begun.peaks(&taken) {
+        let (began, allowed) = (next, self.allowed);
+        let raised = |peaks: Floor| {
+            let mut next = began;
             next.floor.force = next.floor.force.max(peaks.force);
             next.floor.moment = next.floor.moment.max(peaks.moment);
-            if !self.may_win(&next) {
+            next
+        };
+        let ends = |peaks| !walk.may_win(&raised(peaks), allowed);
+        if let Some(peaks) = self.begun.peaks(&taken, ends) {
+            next = raised(peaks);
+            if !walk.may_win(&next, allowed) {
                 return (Some(taken), None);
             }
             let error = self.begun.output_error();
             next.floor.output_error = next.floor.output_error.max(error);
         }
-        let wins = self.may_win(&next);
+        let wins = walk.may_win(&next, allowed);
         (Some(taken), wins.then_some(next))
-    }
-
-    /// Whether a variant behind a node could come before the last of the list.
-    fn may_win(&self, next: &Here) -> bool {
-        let left = self.walk.left[next.layer][next.node];
-        left.is_some_and(|left| {
-            let cost = next.key.cost().saturating_add(left);
-            self.sum(next.key, cost, next.floor) <= self.allowed
-        })
     }
 
     /// What a variant has to keep to, the list being what it is.
@@ -316,23 +339,6 @@ impl Walker<'_> {
         let last = self.list.get(self.walk.top - 1);
         let sum = last.map_or(f64::INFINITY, |r| r.scores.weighted(self.walk.ranking));
         self.allowed = sum + MARGIN * (1.0 + sum.abs());
-    }
-
-    /// The least sum of terms.
-    #[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
-    fn sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
-        let walk = self.walk;
-        let terms = walk.ranking.terms.iter().map(|&(term, weight)| {
-            let least = match term {
-                Term::Cost => walk.search.steps.milli(cost) as f64 / 1000.0,
-                Term::Changes => f64::from(key.changes()),
-                // No variant moves less than not at all.
-                Term::Idle => -(walk.evaluator.working() as f64),
-                _ => floor.of(term),
-            };
-            weight * least
-        });
-        terms.sum()
     }
 
     /// Scores a variant whole.

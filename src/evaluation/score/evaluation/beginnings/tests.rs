@@ -36,41 +36,6 @@ fn of_one_unknown(known: bool, further: [f64; 2]) -> Beginnings {
     }
 }
 
-#[test]
-fn the_least_of_two_is_so_in_each() {
-    let one = of_one_unknown(true, [1.0, 3.0]);
-    let least = one.least[0][0];
-    assert_eq!(
-        [least.force, least.moment, least.clearance],
-        [0.1, 0.0, 0.2]
-    );
-}
-
-/// Joints in series bear as much as the weakest of them; what bears no moment limits none.
-#[test]
-fn the_weakest_of_a_series_limits() {
-    let cell = |bears: &[(f64, Option<f64>)]| Cell {
-        rows: Vec::new(),
-        gram: Vec::new(),
-        bears: bears.to_vec(),
-        clearance: 0.3,
-        coupled: Vec::new(),
-    };
-    let limits = |bears| {
-        let one = LoadLimits::of(&cell(bears));
-        [one.force, one.moment, one.clearance]
-    };
-    assert_eq!(
-        limits(&[(10.0, Some(2.0)), (5.0, Some(4.0))]),
-        [0.2, 0.5, 0.3]
-    );
-    assert_eq!(
-        limits(&[(10.0, Some(8.0)), (20.0, None)]),
-        [0.1, 0.125, 0.3]
-    );
-    assert_eq!(limits(&[(4.0, None)]), [0.25, 0.0, 0.3]);
-}
-
 /// Once x = 3 is known, a motion on which it and the loads do work has no equilibrium.
 #[test]
 fn a_motion_is_held_by_the_reactions_that_are_known() {
@@ -85,7 +50,7 @@ fn a_motion_is_held_by_the_reactions_that_are_known() {
         // By the second choice the reactions become known; the first is then looked at by them.
         let (taken, free) = begun.take(0, 1);
         assert!(free && taken.tells);
-        let peaks = begun.peaks(&taken).unwrap();
+        let peaks = begun.peaks(&taken, |_| false).unwrap();
         assert!((peaks.force - 3.0 * 0.4).abs() < 1e-12);
         assert_eq!(begun.take(0, 0).1, held, "{further:?}");
     }
@@ -97,14 +62,46 @@ fn a_choice_that_determines_the_reactions_tells_them() {
     let of = of_one_unknown(false, [4.0, 2.0]);
     let mut begun = of.begin();
     let (undecided, _) = begun.take(0, 1);
-    assert!(begun.peaks(&undecided).is_none());
+    assert!(begun.peaks(&undecided, |_| false).is_none());
     begun.give_back(undecided);
     let (taken, held) = begun.take(0, 0);
     assert!(held);
-    assert!((begun.peaks(&taken).unwrap().force - 0.5 * 0.1).abs() < 1e-12);
+    assert!((begun.peaks(&taken, |_| false).unwrap().force - 0.5 * 0.1).abs() < 1e-12);
     begun.give_back(taken);
     let (again, _) = begun.take(0, 1);
-    assert!(begun.peaks(&again).is_none());
+    assert!(begun.peaks(&again, |_| false).is_none());
+}
+
+/// The place that ends a branch is looked at first in the next, and then the others need not be.
+#[test]
+fn a_place_that_ended_a_branch_is_looked_at_first() {
+    let mut of = of_one_unknown(true, [1.0, 3.0]);
+    of.places.push(LoadedPlace {
+        variable: 0,
+        slot: 0,
+        contours: vec![(0, 1.0)],
+        fixed: vec![[0.0; 6]],
+        across: vec![[2.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
+    });
+    of.of_variable[0].push(1);
+    let mut begun = of.begin();
+    let mut looked_at = |enough: f64| {
+        let taken = begun.take(0, 1).0;
+        let counted = std::cell::Cell::new(0);
+        let ends = |floor: Floor| {
+            counted.set(counted.get() + 1);
+            floor.force >= enough
+        };
+        let force = begun.peaks(&taken, ends).unwrap().force;
+        begun.give_back(taken);
+        (counted.get(), force)
+    };
+    // 3 and 6, each with a limit of 0.4.
+    let [first, second] = [3.0 * 0.4, 6.0 * 0.4];
+    assert_eq!(looked_at(f64::INFINITY), (2, second));
+    assert_eq!(looked_at(first), (1, first));
+    assert_eq!(looked_at(second), (2, second));
+    assert_eq!(looked_at(first), (1, second));
 }
 
 /// Of two outputs the one that is farther off counts, whichever comes first.
