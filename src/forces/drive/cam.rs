@@ -166,9 +166,10 @@ impl Cam {
             }
         }
         // Where the roller's path has a corner outwards, flanks beyond their crossing would be cut away.
+        let least = (self.roller * (1.0 - 1e-6)).powi(2);
         let clear = |q: &[f64; 2]| {
-            let far = |p: &ProfilePoint| (p.pitch[0] - q[0]).hypot(p.pitch[1] - q[1]);
-            points.iter().all(|p| far(p) >= self.roller * (1.0 - 1e-6))
+            let far = |p: &ProfilePoint| (p.pitch[0] - q[0]).powi(2) + (p.pitch[1] - q[1]).powi(2);
+            points.iter().all(|p| far(p) >= least)
         };
         let mut outline: Vec<[f64; 2]> = touched.into_iter().filter(clear).collect();
         let angle = |q: &[f64; 2]| q[1].atan2(q[0]);
