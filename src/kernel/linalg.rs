@@ -1,5 +1,6 @@
 //! Linear algebra over a prime field: exact zero tests at machine speed; and exact arithmetic in number rings.
 
+pub mod common_denominator;
 pub mod echelon;
 pub mod modp;
 pub mod number_ring;

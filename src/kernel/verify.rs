@@ -15,9 +15,9 @@ mod modular;
 pub use flaw::Flaw;
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_traits::{One, Zero};
 
+use crate::linalg::common_denominator::common_multiple;
 use crate::linalg::number_ring::Element;
 use certificate::{Certificate, KernelVector};
 use matrix::MatrixOverRing;
@@ -135,7 +135,9 @@ fn not_annihilated(
     vector: &KernelVector,
 ) -> Option<usize> {
     let entries = vector.entries.iter();
-    let below = entries.fold(BigInt::one(), |m, (_, x)| m.lcm(&x.denominator()));
+    let below = entries.fold(BigInt::one(), |m, (_, x)| {
+        common_multiple(m, &x.denominator())
+    });
     let mut sums: Vec<Vec<BigInt>> = vec![Vec::new(); matrix.rows()];
     for (column, x) in &vector.entries {
         let x = x.times(&below);

@@ -15,6 +15,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+use crate::linalg::common_denominator::common_denominator;
 use crate::linalg::modp::{Field, Residue};
 pub use element::Element;
 
@@ -142,16 +143,27 @@ impl NumberRing {
             _ => {}
         }
         let [x, y] = [a, b].map(Element::denominator);
-        let below = &x * &y;
-        let fraction = |n: BigInt| {
-            if n.is_zero() {
-                BigRational::zero()
-            } else {
-                BigRational::new(n, below.clone())
-            }
-        };
         let product = self.integral_product(&a.times(&x), &b.times(&y));
-        Element::new(product.into_iter().map(fraction).collect())
+        Element::over(product, &(x * y))
+    }
+
+    /// Scalar product: fractions are reduced once, not after each sum. O(1) products.
+    #[must_use]
+    pub fn dot(&self, a: &[Element; 3], b: &[Element; 3]) -> Element {
+        let ((a, x), (b, y)) = (over_one(a), over_one(b));
+        let products = a.iter().zip(&b).map(|(a, b)| self.integral_product(a, b));
+        let sum = products.reduce(|sum, p| combined(sum, p, |s, p| *s += p));
+        Element::over(sum.unwrap_or_default(), &(x * y))
+    }
+
+    /// Vector product, reduced like [`NumberRing::dot`]. O(1) products.
+    #[must_use]
+    pub fn cross(&self, a: &[Element; 3], b: &[Element; 3]) -> [Element; 3] {
+        let ((a, x), (b, y)) = (over_one(a), over_one(b));
+        let below = x * y;
+        let product = |i: usize, j: usize| self.integral_product(&a[i], &b[j]);
+        let minor = |i, j| combined(product(i, j), product(j, i), |s, p| *s -= p);
+        [minor(1, 2), minor(2, 0), minor(0, 1)].map(|n| Element::over(n, &below))
     }
 
     /// Product of integral combinations of the monomials, whose coordinates are given: those of the product, perhaps with zeros
@@ -304,6 +316,19 @@ impl NumberRing {
     }
 }
 
+/// Elements as integral coordinates over one denominator.
+fn over_one(all: &[Element; 3]) -> ([Vec<BigInt>; 3], BigInt) {
+    let below = common_denominator(all.iter().flat_map(|x| &x.0));
+    (all.each_ref().map(|x| x.times(&below)), below)
+}
+
+/// Coordinates combined one by one, of which either may be fewer.
+fn combined(mut a: Vec<BigInt>, b: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) -> Vec<BigInt> {
+    a.resize(a.len().max(b.len()), BigInt::zero());
+    a.iter_mut().zip(b).for_each(|(x, y)| with(x, y));
+    a
+}
+
 /// The coefficients of an element as a polynomial in a generator whose powers are `width` coordinates apart.
 fn blocks(a: &Element, width: usize) -> Vec<Element> {
     a.0.chunks(width)
@@ -380,6 +405,11 @@ mod tests {
             prop_assert!((value(&r.mul(&a, &b)) - value(&a) * value(&b)).abs() < 1e-6);
             prop_assert!((value(&r.sub(&a, &b)) - value(&a) + value(&b)).abs() < 1e-9);
             prop_assert_eq!(r.sub(&a, &a), Element::default());
+            let (left, right) = ([a.clone(), b.clone(), c.clone()], [c.clone(), a.clone(), r.mul(&a, &b)]);
+            let times = |i: usize, j: usize| r.mul(&left[i], &right[j]);
+            prop_assert_eq!(r.dot(&left, &right), r.add(&times(0, 0), &r.add(&times(1, 1), &times(2, 2))));
+            let minor = |i, j| r.sub(&times(i, j), &times(j, i));
+            prop_assert_eq!(r.cross(&left, &right), [minor(1, 2), minor(2, 0), minor(0, 1)]);
             match r.inverse(&a) {
                 Some(i) => prop_assert_eq!(r.mul(&a, &i), Element::integer(1)),
                 None => prop_assert!(a.is_zero()),

@@ -1,10 +1,10 @@
 //! Rational numbers near doubles, and vectors of them.
 
 use crate::geom::vector::Vector;
+use crate::linalg::common_denominator::{common_denominator, whole};
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{ToPrimitive, Zero};
 
 /// A vector of rational numbers.
 pub type Rational3 = [BigRational; 3];
@@ -26,16 +26,6 @@ pub(super) fn is_same(a: &BigRational, b: &BigRational) -> bool {
     a.numer() == b.numer() && a.denom() == b.denom()
 }
 
-/// The least denominator that numbers have in common.
-pub(super) fn denominator<'a>(all: impl Iterator<Item = &'a BigRational>) -> BigInt {
-    all.fold(BigInt::one(), |d, x| d.lcm(x.denom()))
-}
-
-/// How often a denominator that a number's own divides goes into the number.
-pub(super) fn whole(x: &BigRational, denom: &BigInt) -> BigInt {
-    x.numer() * (denom / x.denom())
-}
-
 /// Vectors as whole numbers over one denominator.
 #[derive(Debug, Clone)]
 pub(super) struct Whole<const N: usize> {
@@ -45,7 +35,7 @@ pub(super) struct Whole<const N: usize> {
 
 impl<const N: usize> Whole<N> {
     pub(super) fn of(all: [&Rational3; N]) -> Whole<N> {
-        let denom = denominator(all.iter().flat_map(|v| v.iter()));
+        let denom = common_denominator(all.iter().flat_map(|v| v.iter()));
         Whole {
             numer: all.map(|v| v.each_ref().map(|x| whole(x, &denom))),
             denom,

@@ -1,7 +1,8 @@
 //! Linear relations solved exactly: free coordinates keep decimals, the others follow.
 
-use super::number::{Rational3, denominator, whole};
+use super::number::Rational3;
 use super::row::PointEquation;
+use crate::linalg::common_denominator::{common_denominator, common_multiple, whole};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -57,7 +58,10 @@ impl Equation {
     fn shorten(&mut self) -> u64 {
         let mut spent = 0;
         let mut shared = BigInt::zero();
-        for x in self.numbers().filter(|x| !x.is_zero()) {
+        let mut all: Vec<&BigInt> = self.numbers().filter(|x| !x.is_zero()).collect();
+        // What is shared is no longer than the shortest.
+        all.sort_by_key(|x| x.bits());
+        for x in all {
             if shared.is_one() {
                 break;
             }
@@ -106,7 +110,9 @@ impl Solution {
         let by_pivot = &self.by_pivot;
         let known = row.of.keys().filter_map(|v| by_pivot.get(v));
         let known: Vec<&Solved> = known.map(|&i| &self.solved[i]).collect();
-        let times = known.iter().fold(BigInt::one(), |t, s| t.lcm(s.unit()));
+        let times = known
+            .iter()
+            .fold(BigInt::one(), |t, s| common_multiple(t, &s.unit().abs()));
         if !times.is_one() {
             row.each(|x| *x *= &times);
         }
@@ -180,7 +186,7 @@ fn equation(
             }
         }
     }
-    let count = denominator(of.values().chain([&constant]));
+    let count = common_denominator(of.values().chain([&constant]));
     let constant = whole(&constant, &count);
     let of = of.iter().filter(|x| !x.1.is_zero());
     let of = of.map(|(&v, x)| (v, whole(x, &count))).collect();
@@ -221,7 +227,7 @@ pub(super) fn solve(
         // All over one denominator: reduced once.
         let terms: Vec<(&BigInt, &BigRational)> =
             others.map(|(v, by)| (by, &out[v / 3][v % 3])).collect();
-        let denom = denominator(terms.iter().map(|t| t.1));
+        let denom = common_denominator(terms.iter().map(|t| t.1));
         let sum: BigInt = terms.iter().map(|t| t.0 * whole(t.1, &denom)).sum();
         let sum = sum + &s.equation.constant * &denom;
         out[s.pivot / 3][s.pivot % 3] = BigRational::new(-sum, denom * s.unit());

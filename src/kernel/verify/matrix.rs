@@ -1,9 +1,9 @@
 //! The matrix a certificate is about.
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_traits::One;
 
+use crate::linalg::common_denominator::common_multiple;
 use crate::linalg::number_ring::{Element, NumberRing};
 
 /// A sparse matrix over a number ring.
@@ -91,7 +91,7 @@ impl MatrixOverRing {
     pub fn integral_rows(&self) -> Vec<Vec<Vec<BigInt>>> {
         let mut below = vec![BigInt::one(); self.rows];
         for (row, _, x) in self.entries() {
-            below[row] = below[row].lcm(&x.denominator());
+            below[row] = common_multiple(std::mem::take(&mut below[row]), &x.denominator());
         }
         let integral = |(row, x): &(usize, Element)| x.times(&below[*row]);
         let columns = self.columns.iter();

@@ -1,8 +1,8 @@
 //! Elements of number rings: coordinates in the basis of monomials.
 
+use crate::linalg::common_denominator::{common_denominator, whole};
 use crate::linalg::modp::{Field, Residue};
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -88,16 +88,27 @@ impl Element {
         Element(self.0.iter().map(times).collect())
     }
 
-    /// The least common denominator of the coordinates. O(length) greatest common divisors.
+    /// The least common denominator of the coordinates. See [`common_denominator`].
     #[must_use]
     pub fn denominator(&self) -> BigInt {
-        self.0.iter().fold(BigInt::one(), |m, q| m.lcm(q.denom()))
+        common_denominator(&self.0)
     }
 
     /// The coordinates times a common multiple of their denominators. O(length).
     #[must_use]
     pub fn times(&self, multiple: &BigInt) -> Vec<BigInt> {
-        let whole = |q: &BigRational| q.numer() * (multiple / q.denom());
-        self.0.iter().map(whole).collect()
+        self.0.iter().map(|q| whole(q, multiple)).collect()
+    }
+
+    /// The element of integral coordinates over a denominator. O(length) greatest common divisors.
+    pub(super) fn over(numerators: Vec<BigInt>, denominator: &BigInt) -> Element {
+        let fraction = |n: BigInt| {
+            if n.is_zero() {
+                BigRational::zero()
+            } else {
+                BigRational::new(n, denominator.clone())
+            }
+        };
+        Element::new(numerators.into_iter().map(fraction).collect())
     }
 }

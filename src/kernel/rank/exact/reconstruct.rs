@@ -30,7 +30,12 @@ pub fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
     if t1.is_zero() || t1.abs() > bound || !r1.gcd(&t1).is_one() {
         return None;
     }
-    Some(BigRational::new(r1, t1))
+    // In lowest terms; the sign is the numerator's.
+    Some(if t1.is_negative() {
+        BigRational::new_raw(-r1, -t1)
+    } else {
+        BigRational::new_raw(r1, t1)
+    })
 }
 
 /// The primes so far and their product.
