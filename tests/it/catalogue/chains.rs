@@ -116,8 +116,12 @@ fn by_trying(links: usize, mobility: usize) -> BTreeSet<Vec<(usize, usize)>> {
     let pairs: Vec<(usize, usize)> = (0..links).tuple_combinations().collect();
     let count = (3 * (links - 1) - mobility) / 2;
     let numberings = (0..links).permutations(links).collect_vec();
-    let mut found = BTreeSet::new();
+    let (mut found, mut numbered) = (BTreeSet::new(), BTreeSet::new());
     for joints in pairs.into_iter().combinations(count) {
+        // Under another numbering it was there before.
+        if numbered.contains(&joints) {
+            continue;
+        }
         let at = |l: usize| joints.iter().filter(|j| j.0 == l || j.1 == l).count();
         if (0..links).any(|l| at(l) < 2) {
             continue;
@@ -155,7 +159,9 @@ fn by_trying(links: usize, mobility: usize) -> BTreeSet<Vec<(usize, usize)>> {
             let pair = |&(u, v): &(usize, usize)| (n[u].min(n[v]), n[u].max(n[v]));
             joints.iter().map(pair).sorted().collect_vec()
         };
-        found.insert(numberings.iter().map(image).min().unwrap());
+        let images: BTreeSet<_> = numberings.iter().map(image).collect();
+        found.insert(images.first().unwrap().clone());
+        numbered.extend(images);
     }
     found
 }
