@@ -15,10 +15,10 @@ mod modular;
 pub use flaw::Flaw;
 
 use num_bigint::BigInt;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
-use crate::linalg::common_denominator::common_multiple;
-use crate::linalg::number_ring::Element;
+use crate::linalg::common_denominator::common_denominator;
+use crate::linalg::number_ring::{Element, combine};
 use certificate::{Certificate, KernelVector};
 use matrix::MatrixOverRing;
 use modular::Homomorphism;
@@ -135,17 +135,13 @@ fn not_annihilated(
     vector: &KernelVector,
 ) -> Option<usize> {
     let entries = vector.entries.iter();
-    let below = entries.fold(BigInt::one(), |m, (_, x)| {
-        common_multiple(m, &x.denominator())
-    });
+    let below = common_denominator(entries.flat_map(|(_, x)| x.coordinates()));
     let mut sums: Vec<Vec<BigInt>> = vec![Vec::new(); matrix.rows()];
     for (column, x) in &vector.entries {
         let x = x.times(&below);
         for ((row, _), entry) in matrix.column(*column).iter().zip(&integral[*column]) {
             let product = matrix.ring().integral_product(entry, &x);
-            let sum = &mut sums[*row];
-            sum.resize(sum.len().max(product.len()), BigInt::zero());
-            sum.iter_mut().zip(product).for_each(|(s, p)| *s += p);
+            combine(&mut sums[*row], product, |s, p| *s += p);
         }
     }
     sums.iter().position(|s| !s.iter().all(Zero::is_zero))

@@ -147,7 +147,7 @@ impl Map {
     fn direction(&self, f: Field, v: [Residue; 3]) -> [Residue; 3] {
         [0, 1, 2].map(|i| {
             let columns = self.linear.iter().zip(v);
-            columns.fold(f.zero(), |sum, (c, x)| f.add(sum, f.mul(c[i], x)))
+            f.sum_of_products(columns.map(|(c, x)| (c[i], x)))
         })
     }
 

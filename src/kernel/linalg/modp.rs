@@ -340,5 +340,20 @@ mod tests {
             let r = f.sqrt(s).unwrap();
             prop_assert_eq!(f.mul(r, r), s);
         }
+
+        /// Also where all are as large as can be, in the largest field.
+        #[test]
+        fn sums_of_products_are_those_taken_one_by_one(
+            pairs in prop::collection::vec((any::<u64>(), any::<u64>(), any::<bool>()), 0..60),
+        ) {
+            let largest = (1u64 << 61..1 << 62).rev().find(|&n| is_prime(n)).unwrap();
+            for f in [field(), Field::new(largest)] {
+                let most = f.modulus() - 1;
+                let of = |x: u64, whole: bool| if whole { most } else { x % f.modulus() };
+                let pairs = pairs.iter().map(|&(a, b, whole)| (of(a, whole), of(b, whole)));
+                let slow = pairs.clone().fold(0, |sum, (a, b)| f.add(sum, f.mul(a, b)));
+                prop_assert_eq!(f.sum_of_products(pairs), slow);
+            }
+        }
     }
 }

@@ -151,9 +151,11 @@ impl NumberRing {
     #[must_use]
     pub fn dot(&self, a: &[Element; 3], b: &[Element; 3]) -> Element {
         let ((a, x), (b, y)) = (over_one(a), over_one(b));
-        let products = a.iter().zip(&b).map(|(a, b)| self.integral_product(a, b));
-        let sum = products.reduce(|sum, p| combined(sum, p, |s, p| *s += p));
-        Element::over(sum.unwrap_or_default(), &(x * y))
+        let mut sum = Vec::new();
+        for (a, b) in a.iter().zip(&b) {
+            combine(&mut sum, self.integral_product(a, b), |s, p| *s += p);
+        }
+        Element::over(sum, &(x * y))
     }
 
     /// Vector product, reduced like [`NumberRing::dot`]. O(1) products.
@@ -162,8 +164,12 @@ impl NumberRing {
         let ((a, x), (b, y)) = (over_one(a), over_one(b));
         let below = x * y;
         let product = |i: usize, j: usize| self.integral_product(&a[i], &b[j]);
-        let minor = |i, j| combined(product(i, j), product(j, i), |s, p| *s -= p);
-        [minor(1, 2), minor(2, 0), minor(0, 1)].map(|n| Element::over(n, &below))
+        let minor = |i, j| {
+            let mut difference = product(i, j);
+            combine(&mut difference, product(j, i), |s, p| *s -= p);
+            Element::over(difference, &below)
+        };
+        [minor(1, 2), minor(2, 0), minor(0, 1)]
     }
 
     /// Product of integral combinations of the monomials, whose coordinates are given: those of the product, perhaps with zeros
@@ -322,11 +328,10 @@ fn over_one(all: &[Element; 3]) -> ([Vec<BigInt>; 3], BigInt) {
     (all.each_ref().map(|x| x.times(&below)), below)
 }
 
-/// Coordinates combined one by one, of which either may be fewer.
-fn combined(mut a: Vec<BigInt>, b: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) -> Vec<BigInt> {
-    a.resize(a.len().max(b.len()), BigInt::zero());
-    a.iter_mut().zip(b).for_each(|(x, y)| with(x, y));
-    a
+/// Changes coordinates by others, one by one; either may be fewer. O(length).
+pub fn combine(of: &mut Vec<BigInt>, by: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) {
+    of.resize(of.len().max(by.len()), BigInt::zero());
+    of.iter_mut().zip(by).for_each(|(x, y)| with(x, y));
 }
 
 /// The coefficients of an element as a polynomial in a generator whose powers are `width` coordinates apart.

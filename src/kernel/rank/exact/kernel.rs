@@ -310,9 +310,8 @@ impl<'a> Kernel<'a> {
                 continue;
             }
             for (o, row) in out.iter_mut().zip(&inverse) {
-                *o = images.iter().zip(row).fold(f.zero(), |sum, (image, &c)| {
-                    f.add(sum, f.mul(c, image.entries[i]))
-                });
+                let terms = images.iter().zip(row);
+                *o = f.sum_of_products(terms.map(|(image, &c)| (c, image.entries[i])));
             }
         }
         let (rank, columns) = (images[0].pivots.columns.len(), self.matrix.columns());

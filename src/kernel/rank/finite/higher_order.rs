@@ -169,9 +169,10 @@ impl HigherOrder {
             for t in monomials.of_degree(degree) {
                 for (i, row) in self.solve.iter().enumerate() {
                     // Couplings are linear: they have no gap of higher order.
-                    let sum = row.iter().zip(&gaps).fold(0, |sum, (&a, gap)| {
-                        self.field.add(sum, self.field.mul(a, gap[t]))
-                    });
+                    let terms = row.iter().zip(&gaps);
+                    let sum = self
+                        .field
+                        .sum_of_products(terms.map(|(&a, gap)| (a, gap[t])));
                     match self.pivots.get(i) {
                         Some(&p) => q[p][t] = self.field.neg(sum),
                         None => g[i - self.pivots.len()][t] = sum,
@@ -296,7 +297,7 @@ impl HigherOrder {
             let mut steps: Vec<(Vec<Residue>, [Residue; 3])> = vec![(angle.clone(), v)];
             let mut turned = None;
             if w != [0; 3] {
-                let square = w.iter().fold(0, |s, &x| f.add(s, f.mul(x, x)));
+                let square = f.sum_of_products(w.map(|x| (x, x)));
                 // sin, 1 - cos and angle - sin of an axis that is no unit vector.
                 let mut series = [angle.clone(), zero(), zero()];
                 let (mut power, mut factor) = (angle.clone(), f.one());

@@ -87,8 +87,5 @@ impl Plane {
 
 /// A twist in three rows.
 pub(crate) fn seen(f: Field, rows: &Rows, twist: &[Residue]) -> [Residue; 3] {
-    rows.map(|row| {
-        let terms = row.iter().zip(twist);
-        terms.fold(0, |sum, (&a, &b)| f.add(sum, f.mul(a, b)))
-    })
+    rows.map(|row| f.sum_of_products(row.into_iter().zip(twist.iter().copied())))
 }

@@ -191,10 +191,7 @@ fn gain(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) 
     let f = exact.field();
     let mut span = Echelon::new(f);
     for t in twists {
-        let power = |w: &Vec<Residue>| {
-            let products = w.iter().zip(t).map(|(&a, &b)| f.mul(a, b));
-            products.fold(0, |sum, x| f.add(sum, x))
-        };
+        let power = |w: &Vec<Residue>| f.sum_of_products(w.iter().copied().zip(t.iter().copied()));
         let powers: Vec<Residue> = wrenches.iter().map(power).collect();
         span.insert(&powers);
     }
