@@ -1,6 +1,7 @@
 //! What is read off finished diagrams: counts, the cheapest in order, samples, ideas, single changes, and why there is nothing.
 
 pub(in crate::search) mod completions;
+pub mod count;
 pub mod count_tables;
 pub mod counts;
 pub(in crate::search) mod drawn;

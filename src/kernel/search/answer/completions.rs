@@ -1,6 +1,7 @@
 //! The edges that lead from a node of a diagram to variants with a given key, looked up once and kept.
 
-use crate::search::answer::count_tables::{Count, Tally};
+use crate::search::answer::count::Count;
+use crate::search::answer::count_tables::Tally;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
 use std::collections::HashMap;

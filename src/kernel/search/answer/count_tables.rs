@@ -1,43 +1,8 @@
 //! Exact counts on a diagram: for every node, how many completions there are of each kind.
 
+use crate::search::answer::count::Count;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
-use num_bigint::BigUint;
-use std::ops::AddAssign;
-
-/// A number of variants.
-pub trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
-    /// One variant.
-    fn one() -> Self;
-    /// As a number of any size.
-    fn big(&self) -> BigUint;
-    /// Bytes held besides the number itself.
-    fn beside(&self) -> usize {
-        0
-    }
-}
-
-impl Count for u128 {
-    fn one() -> Self {
-        1
-    }
-    fn big(&self) -> BigUint {
-        BigUint::from(*self)
-    }
-}
-
-impl Count for BigUint {
-    fn one() -> Self {
-        BigUint::from(1u8)
-    }
-    fn big(&self) -> BigUint {
-        self.clone()
-    }
-    fn beside(&self) -> usize {
-        // Digits, and what an allocation takes.
-        usize::try_from(self.bits() / 8).unwrap_or(usize::MAX / 4) + 32
-    }
-}
 
 /// Completions of a node by key, keys ascending.
 type Table<C> = Vec<(Key, C)>;
@@ -214,7 +179,10 @@ fn layer<C: Count>(
     let (mut here, mut places) = (Vec::with_capacity(layer.nodes), Vec::new());
     let mut used = 0;
     for node in 0..layer.nodes {
-        let limit = bound.map_or(u64::MAX, |b| b[node]);
+        // Keys ascend by cost: those beyond the limit are the last.
+        let within = bound.map_or(shifts.keys.len(), |b| {
+            shifts.keys.partition_point(|k| k.cost() <= b[node])
+        });
         let edges = &layer.edges[node * layer.choices..(node + 1) * layer.choices];
         for (shift, &to) in shifts.of_choice.iter().zip(edges) {
             if to == DEAD {
@@ -224,11 +192,7 @@ fn layer<C: Count>(
             let entries = below[to as usize].iter().zip(&numbers.places[to as usize]);
             for ((_, count), &from) in entries {
                 let to = shift[from as usize];
-                if shifts
-                    .keys
-                    .get(to as usize)
-                    .is_none_or(|k| k.cost() > limit)
-                {
+                if to as usize >= within {
                     break;
                 }
                 match &mut sums[to as usize] {
@@ -266,7 +230,8 @@ fn layer<C: Count>(
 #[cfg(test)]
 mod tests {
     use super::{layer, terminals};
-    use crate::search::answer::keys::{Key, Steps};
+    use crate::search::answer::count::Count;
+use crate::search::answer::keys::{Key, Steps};
     use crate::search::diagram::redundancy_so_far::Redundancy;
     use crate::search::diagram::{DEAD, Diagram, Layer};
 

@@ -1,6 +1,7 @@
 //! How many variants there are of each kind.
 
-use crate::search::answer::count_tables::{Count, totals};
+use crate::search::answer::count::{Count, Digits};
+use crate::search::answer::count_tables::totals;
 use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
@@ -109,11 +110,22 @@ impl Counts {
 /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
 #[must_use]
 pub fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
-    if fits(question) {
-        count_with::<u128>(question, diagram, filter)
-    } else {
-        count_with::<BigUint>(question, diagram, filter)
+    let all = Kinds {
+        freedoms: true,
+        changes: true,
+        cost: false,
+    };
+    let mut counts = Counts::default();
+    let Some(totals) = totals_by(question, diagram, all) else {
+        counts.only_total = true;
+        counts.total = total(question, diagram, filter);
+        return counts;
+    };
+    let wanted = |key: &Key| !filter || question.wanted(*key);
+    for (key, count) in totals.iter().filter(|(k, _)| wanted(k)) {
+        counts.add(question.mobility(*key), *key, count);
     }
+    counts
 }
 
 /// Whether every count fits 128 bits.
@@ -121,24 +133,25 @@ pub(in crate::search) fn fits(question: &Question) -> bool {
     question.space.size().bits() <= 127
 }
 
-fn count_with<C: Count>(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
-    let all = Kinds {
-        freedoms: true,
-        changes: true,
-        cost: false,
-    };
-    let room = question.conditions.memory / 4;
-    let wanted = |key: &Key| !filter || question.wanted(*key);
-    let mut counts = Counts::default();
-    if let Some(totals) = totals::<C>(diagram, &question.steps.only(all), room) {
-        for (key, count) in totals.iter().filter(|(k, _)| wanted(k)) {
-            counts.add(question.mobility(*key), *key, &count.big());
-        }
-        return counts;
+/// How many variants a diagram has of each kind; `None` where this would take more than a quarter of the memory there is. The
+/// numbers are as wide as that of all variants needs.
+fn totals_by(
+    question: &Question,
+    diagram: &Diagram,
+    kinds: Kinds,
+) -> Option<Vec<(Key, BigUint)>> {
+    fn with<C: Count>(s: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec<(Key, BigUint)>> {
+        let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
+        Some(totals.iter().map(|(k, n)| (*k, n.big())).collect())
     }
-    counts.only_total = true;
-    counts.total = total(question, diagram, filter);
-    counts
+    let count = match question.space.size().bits() {
+        0..=128 => with::<u128>,
+        129..=256 => with::<Digits<4>>,
+        257..=512 => with::<Digits<8>>,
+        513..=1024 => with::<Digits<16>>,
+        _ => with::<BigUint>,
+    };
+    count(question, diagram, kinds)
 }
 
 /// What must be told apart to know whether a variant meets the conditions on mobility and changes.
@@ -153,43 +166,33 @@ pub(in crate::search) fn limited(question: &Question) -> Kinds {
 /// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
 /// is does not suffice to count.
 pub(in crate::search) fn total(question: &Question, diagram: &Diagram, filter: bool) -> BigUint {
-    fn with<C: Count>(s: &Question, diagram: &Diagram, filter: bool) -> BigUint {
-        let needed = if filter { limited(s) } else { Kinds::default() };
-        let steps = s.steps.only(needed);
-        let totals = totals::<C>(diagram, &steps, s.conditions.memory / 4);
-        let wanted = |key: &Key| !filter || s.wanted(*key);
-        let all = totals.iter().flatten().filter(|(k, _)| wanted(k));
-        all.map(|(_, c)| c.big()).sum()
-    }
-    if fits(question) {
-        with::<u128>(question, diagram, filter)
+    let needed = if filter {
+        limited(question)
     } else {
-        with::<BigUint>(question, diagram, filter)
-    }
+        Kinds::default()
+    };
+    let totals = totals_by(question, diagram, needed);
+    let all = totals.into_iter().flatten();
+    let wanted = all.filter(|(k, _)| !filter || question.wanted(*k));
+    wanted.map(|(_, n)| n).sum()
 }
 
 /// Counts by cost in thousandths of the variants of a diagram that meet every condition; `None` where they would take
 /// more than the memory there is.
 #[must_use]
 pub fn counts_by_cost(question: &Question, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
-    fn with<C: Count>(s: &Question, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
-        let kinds = Kinds {
-            cost: true,
-            ..limited(s)
-        };
-        let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
-        let mut out = BTreeMap::new();
-        for (key, count) in totals.iter().filter(|(k, _)| s.wanted(*k)) {
-            *out.entry(s.steps.milli(key.cost()))
-                .or_insert_with(BigUint::zero) += count.big();
+    let kinds = Kinds {
+        cost: true,
+        ..limited(question)
+    };
+    let mut out = BTreeMap::new();
+    for (key, count) in totals_by(question, diagram, kinds)? {
+        if question.wanted(key) {
+            *out.entry(question.steps.milli(key.cost()))
+                .or_insert_with(BigUint::zero) += count;
         }
-        Some(out)
     }
-    if fits(question) {
-        with::<u128>(question, diagram)
-    } else {
-        with::<BigUint>(question, diagram)
-    }
+    Some(out)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Variants of a diagram drawn at random.
 
-use crate::search::answer::count_tables::{Count, Tally};
+use crate::search::answer::count::Count;
+use crate::search::answer::count_tables::Tally;
 use crate::search::answer::counts::{fits, limited};
 use crate::search::answer::k_best::{Assignment, Sample};
 use crate::search::answer::keys::{Key, Kinds};

@@ -4,7 +4,8 @@
 //! node it leads to has a completion with the key that is left.
 
 use crate::search::answer::completions::{Span, Ways};
-use crate::search::answer::count_tables::{Count, Tally};
+use crate::search::answer::count::Count;
+use crate::search::answer::count_tables::Tally;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
 use chacha20::ChaCha8Rng;

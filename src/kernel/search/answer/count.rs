@@ -1,0 +1,92 @@
+//! Numbers of variants, as wide as they need to be.
+
+use num_bigint::BigUint;
+use std::ops::AddAssign;
+
+/// A number of variants.
+pub trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
+    /// One variant.
+    fn one() -> Self;
+    /// As a number of any size.
+    fn big(&self) -> BigUint;
+    /// Bytes held besides the number itself.
+    fn beside(&self) -> usize {
+        0
+    }
+}
+
+impl Count for u128 {
+    fn one() -> Self {
+        1
+    }
+    fn big(&self) -> BigUint {
+        BigUint::from(*self)
+    }
+}
+
+impl Count for BigUint {
+    fn one() -> Self {
+        BigUint::from(1u8)
+    }
+    fn big(&self) -> BigUint {
+        self.clone()
+    }
+    fn beside(&self) -> usize {
+        // Digits, and what an allocation takes.
+        usize::try_from(self.bits() / 8).unwrap_or(usize::MAX / 4) + 32
+    }
+}
+
+/// A number below 2^(64 N), held in place: tables of counts that are added a million times allocate nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Digits<const N: usize>([u64; N]);
+
+impl<const N: usize> AddAssign<&Digits<N>> for Digits<N> {
+    fn add_assign(&mut self, other: &Digits<N>) {
+        let mut carried = false;
+        for (own, &digit) in self.0.iter_mut().zip(&other.0) {
+            let (sum, over) = own.overflowing_add(digit);
+            let (sum, again) = sum.overflowing_add(u64::from(carried));
+            (*own, carried) = (sum, over | again);
+        }
+        debug_assert!(!carried, "no count exceeds that of all variants");
+    }
+}
+
+impl<const N: usize> Count for Digits<N> {
+    fn one() -> Self {
+        let mut digits = [0; N];
+        digits[0] = 1;
+        Digits(digits)
+    }
+    fn big(&self) -> BigUint {
+        let halves = self.0.iter().flat_map(|&d| [d as u32, (d >> 32) as u32]);
+        BigUint::new(halves.collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Count, Digits};
+    use num_bigint::BigUint;
+
+    /// Doubled and added to itself shifted, 2^k and 3^k, up to the last digit, as numbers of any size have them.
+    #[test]
+    fn digits_add_as_numbers_of_any_size_do() {
+        let (mut digits, mut big) = (Digits::<4>::one(), BigUint::one());
+        for _ in 0..160 {
+            let once = digits.clone();
+            digits += &once;
+            digits += &once;
+            big *= 3u8;
+            assert_eq!(digits.big(), big);
+        }
+        assert!(big.bits() > 250, "all four digits are in use");
+        while big.bits() < 256 {
+            let once = digits.clone();
+            digits += &once;
+            big *= 2u8;
+        }
+        assert_eq!(digits.big(), big);
+    }
+}
