@@ -8,7 +8,7 @@ use crate::score::outcome::Outcome;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{List, Request};
 use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
-use crate::search::diagram::Progress;
+use crate::search::diagram::{Doing, Progress};
 use crate::search::question::conditions::Conditions;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -110,11 +110,16 @@ impl Bar {
             let bar =
                 ProgressBar::with_draw_target(Some(p.of as u64), ProgressDrawTarget::stderr());
             let style = ProgressStyle::with_template(
-                "{elapsed_precise} [{bar:30}] joint {pos}/{len} {msg} (about {eta} left)",
+                "{elapsed_precise} [{bar:30}] {prefix} {pos}/{len} {msg} (about {eta} left)",
             );
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });
+        bar.set_prefix(match p.doing {
+            Doing::Choosing => "joint",
+            Doing::Meeting => "half",
+        });
+        bar.set_length(p.of as u64);
         bar.set_position(p.done as u64);
         bar.set_message(format!("{} nodes, {} in this layer", p.nodes, p.layer));
     }

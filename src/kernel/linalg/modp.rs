@@ -173,16 +173,33 @@ impl Field {
     #[must_use]
     pub fn inv(self, a: Residue) -> Residue {
         assert!(a != 0, "zero has no inverse");
-        // Extended Euclid on plain integers is about three times faster than Fermat's power.
-        let (mut r0, mut r1) = (self.p, self.to_u64(a));
-        let (mut t0, mut t1) = (0i128, 1i128);
-        while r1 != 0 {
-            let q = r0 / r1;
-            (r0, r1) = (r1, r0 - q * r1);
-            (t0, t1) = (t1, t0 - i128::from(q) * t1);
+        // Of p and a, the smaller is taken from the larger, which is then halved while it is even, until both are 1 (Kaliski, "The
+        // Montgomery inverse and its applications", IEEE Trans. Computers 44, 1995). Without a division, that takes less than half as
+        // long as Euclid's algorithm. Throughout, a·y = v·2^k and a·x = -u·2^k modulo p, and u·y + v·x = p, so that nothing overflows.
+        let (mut u, mut v) = (self.p, a);
+        let (mut x, mut y) = (0u64, 1u64);
+        let mut k = v.trailing_zeros();
+        v >>= k;
+        while u != v {
+            if u > v {
+                u -= v;
+                x += y;
+                let s = u.trailing_zeros();
+                (u, y, k) = (u >> s, y << s, k + s);
+            } else {
+                v -= u;
+                y += x;
+                let s = v.trailing_zeros();
+                (v, x, k) = (v >> s, x << s, k + s);
+            }
         }
-        let t = t0.rem_euclid(i128::from(self.p)) as u64;
-        self.mul(t, self.r2)
+        // The form of the inverse is y·2^(128 - k), as a is that of a·2^-64; k is at least 32, since p is at most 2·2^k.
+        let y = self.mul(y, self.r2);
+        if k > 64 {
+            self.mul(y, 1 << (128 - k))
+        } else {
+            self.mul(self.mul(y, self.r2), 1 << (64 - k))
+        }
     }
 
     /// The residue of a small integer.
@@ -318,6 +335,24 @@ mod tests {
             .find(|&n| is_prime(n))
             .unwrap();
         Field::new(p)
+    }
+
+    #[test]
+    fn inverses_are_right_in_the_smallest_and_the_largest_field() {
+        let of = |mut all: Box<dyn Iterator<Item = u64>>| all.find(|&n| is_prime(n)).unwrap();
+        let [least, most] = [of(Box::new(1 << 32..)), of(Box::new((0..1 << 62).rev()))];
+        for f in [least, most].map(Field::new) {
+            let half = f.modulus() / 2;
+            for x in (1..500)
+                .chain(half - 500..half + 500)
+                .chain(f.modulus() - 500..f.modulus())
+            {
+                // As they stand and as residues: each is a residue of some integer.
+                for x in [x, f.mul(x, f.r2)] {
+                    assert_eq!(f.mul(x, f.inv(x)), f.one(), "{x} modulo {}", f.modulus());
+                }
+            }
+        }
     }
 
     proptest! {

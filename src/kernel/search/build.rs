@@ -2,9 +2,10 @@
 
 pub(in crate::search) mod at_most;
 pub(in crate::search) mod budget;
-pub(in crate::search) mod complements;
+pub(in crate::search) mod completing_sets;
 pub mod orders;
 pub(in crate::search) mod self_stress;
+pub(in crate::search) mod spanning_halves;
 pub(in crate::search) mod staging;
 pub(in crate::search) mod two_sided;
 
@@ -17,7 +18,8 @@ use crate::search::answer::{random_cuts, samples};
 use crate::search::build::at_most::at_most;
 use crate::search::build::orders::{Orders, orders};
 use crate::search::build::self_stress::{in_self_stress_space, nothing};
-use crate::search::build::staging::{Laid, Staged, both_ends, laid};
+use crate::search::build::spanning_halves::Halves;
+use crate::search::build::staging::{Laid, Staged, laid};
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::{Ceiling, Missing};
 use crate::search::diagram::layer::CUT;
@@ -285,11 +287,11 @@ pub(in crate::search) fn one_end(
     diagram::of_live_links(field, space, stages, limits, ceiling, cancelled, progress)
 }
 
-/// Nodes of a diagram before it is asked whether there is any variant at all.
+/// Nodes of a diagram before it is asked whether there is any variant at all, and built from both ends.
 const AT_ONCE: usize = 20_000;
 
-/// The diagram of a question: where it does not fit the limits and no state is searched, from both ends; where that does not fit either,
-/// cut down.
+/// The diagram of a question: where it is not small and no state is searched, from both ends; where that does not fit the limits, or
+/// more redundant constraints are allowed than all variants have, from one; where that does not fit either, cut down.
 fn built(
     question: &Question,
     model: &Model,
@@ -299,13 +301,13 @@ fn built(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let limits = &staged.limits;
-    let mut within = |limits| {
+    let within = |limits, progress: &mut (dyn FnMut(Progress) + Send)| {
         within_limits(
             question, model, staged, limits, admissible, cancelled, progress,
         )
     };
     if question.conditions.state.is_some() {
-        return within(limits);
+        return within(limits, progress);
     }
     if limits.already > limits.internal {
         return nothing(model, &staged.order);
@@ -314,7 +316,7 @@ fn built(
         nodes: limits.nodes.min(AT_ONCE),
         ..limits.clone()
     };
-    let mut built = within(&few);
+    let mut built = within(&few, progress);
     if !is_cut(built.stop) {
         return built;
     }
@@ -324,15 +326,15 @@ fn built(
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
         return nothing(model, order);
     }
+    let halves = Halves::new(question, model, order, limits, keep_output);
+    let whole = halves.and_then(|h| two_sided(&h, &model.space, cancelled, progress));
+    if let Some(whole) = whole {
+        return whole;
+    }
     if few.nodes < limits.nodes {
-        built = within(limits);
+        built = within(limits, progress);
     }
-    if limits.already < limits.internal || !is_cut(built.stop) {
-        return built;
-    }
-    let parts = both_ends(question, model, staged.stages(), keep_output);
-    let within = (limits, keep_output);
-    two_sided(question, model, &parts, within, cancelled, progress).unwrap_or(built)
+    built
 }
 
 /// The diagram of a question, cut down where it does not fit the limits: in the space dual to self-stresses where there is no searched

@@ -33,12 +33,23 @@ use crate::search::diagram::transition::{Children, Worker};
 use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
+/// What a diagram that is being built has come to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Doing {
+    /// Layers, variable by variable.
+    Choosing,
+    /// Nodes of the front where halves meet, each with all of the back.
+    Meeting,
+}
+
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Progress {
-    /// Variables done.
+    /// What is counted in `done` and `of`.
+    pub doing: Doing,
+    /// Variables or nodes done.
     pub done: usize,
-    /// Variables in all.
+    /// Variables or nodes in all.
     pub of: usize,
     /// Nodes so far.
     pub nodes: usize,
@@ -140,6 +151,7 @@ pub(super) fn build(
             cancelled,
             &mut |layer| {
                 progress(Progress {
+                    doing: Doing::Choosing,
                     done,
                     of: stages.len(),
                     nodes: total + layer,

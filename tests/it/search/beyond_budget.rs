@@ -176,7 +176,7 @@ fn estimates_are_near_the_count_and_right_on_average() {
 fn every_output_says_what_is_proven_and_what_is_estimated() {
     let file = ladder(6, 1, false);
     let told = |more: &[&str]| {
-        let args = [&["search", "-", "--nodes", "3000", "--top", "3"], more].concat();
+        let args = [&["search", "-", "--nodes", "500", "--top", "3"], more].concat();
         let o = ozols(&args).write_stdin(file.clone()).output().unwrap();
         assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
         text(&o.stdout)
@@ -185,7 +185,7 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
     for words in [
         "Stopped early (node-budget): counts are lower bounds\n",
         "Estimated, not counted, with 95 % confidence: ",
-        "With --nodes 30000 more is counted, in about ten times the time and memory\n",
+        "With --nodes 5000 more is counted, in about ten times the time and memory\n",
         "Proven the cheapest: all 3",
     ] {
         assert!(said.contains(words), "{words}: {said}");

@@ -134,6 +134,15 @@ fn four_coupled_contours_in_space_are_counted() {
     assert_eq!(counted, BigUint::from(49_513_456u32));
 }
 
+/// From one end five contours take more than five million nodes.
+#[test]
+fn five_coupled_contours_in_space_are_counted() {
+    let (s, d) = search(&ladder(5, 1, true), within(1_000_000, false));
+    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 97));
+    let counted = s.counts(&d.determinate, false).total;
+    assert_eq!(counted, BigUint::from(2_831_284_426u64));
+}
+
 /// The joints of a ladder once more, between links of their own and the same frame.
 fn doubled(text: &str) -> String {
     let mut out = text.to_owned();

@@ -230,8 +230,7 @@ fn layer<C: Count>(
 #[cfg(test)]
 mod tests {
     use super::{layer, terminals};
-    use crate::search::answer::count::Count;
-use crate::search::answer::keys::{Key, Steps};
+    use crate::search::answer::keys::{Key, Steps};
     use crate::search::diagram::redundancy_so_far::Redundancy;
     use crate::search::diagram::{DEAD, Diagram, Layer};
 

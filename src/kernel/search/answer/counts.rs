@@ -135,12 +135,12 @@ pub(in crate::search) fn fits(question: &Question) -> bool {
 
 /// How many variants a diagram has of each kind; `None` where this would take more than a quarter of the memory there is. The
 /// numbers are as wide as that of all variants needs.
-fn totals_by(
-    question: &Question,
-    diagram: &Diagram,
-    kinds: Kinds,
-) -> Option<Vec<(Key, BigUint)>> {
-    fn with<C: Count>(s: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec<(Key, BigUint)>> {
+fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec<(Key, BigUint)>> {
+    fn with<C: Count>(
+        s: &Question,
+        diagram: &Diagram,
+        kinds: Kinds,
+    ) -> Option<Vec<(Key, BigUint)>> {
         let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
         Some(totals.iter().map(|(k, n)| (*k, n.big())).collect())
     }

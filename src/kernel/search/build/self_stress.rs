@@ -15,10 +15,20 @@ use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
 
 /// A stage, within limits.
-struct Added<'a> {
+pub(in crate::search) struct Added<'a> {
     field: Field,
-    stage: &'a Adding,
+    stage: Adding,
     limits: &'a Limits,
+}
+
+impl<'a> Added<'a> {
+    pub(in crate::search) fn new(field: Field, stage: Adding, limits: &'a Limits) -> Self {
+        Added {
+            field,
+            stage,
+            limits,
+        }
+    }
 }
 
 impl Carries for Added<'_> {
@@ -35,7 +45,7 @@ impl Carries for Added<'_> {
     }
 
     fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        worker.children_added(self.stage, matrix, spent, self.limits, out);
+        worker.children_added(&self.stage, matrix, spent, self.limits, out);
     }
 }
 
@@ -76,12 +86,8 @@ pub(in crate::search) fn in_self_stress_space(
         return Some(nothing(model, order));
     }
     let stages = adding(field, order, &added);
-    let over = |stage| Added {
-        field,
-        stage,
-        limits,
-    };
-    let stages: Vec<Added<'_>> = stages.iter().map(over).collect();
+    let over = |stage| Added::new(field, stage, limits);
+    let stages: Vec<Added<'_>> = stages.into_iter().map(over).collect();
     let within = (limits, already, None);
     let built = diagram::build(&model.space, &stages, within, cancelled, progress);
     let stop = built.stop;

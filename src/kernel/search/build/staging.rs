@@ -175,35 +175,6 @@ fn joined(question: &Question, order: &[usize], blocks: &[Block]) -> Vec<At> {
     order.iter().flat_map(joints).collect()
 }
 
-/// The stages of a diagram without a searched state, as they are and from the end, for each of the parts between which no
-/// link is live; what is kept is in the last.
-pub(in crate::search) fn both_ends(
-    question: &Question,
-    model: &Model,
-    stages: &[Stage],
-    keep_output: bool,
-) -> Vec<[Vec<Stage>; 2]> {
-    let blocks = &question.blocks[usize::from(keep_output)];
-    let is_end = |s: &Stage| s.moves.last().is_some_and(|m| m.step.is_alone());
-    let parts: Vec<&[Stage]> = stages.split_inclusive(is_end).collect();
-    let both = |(i, part): (usize, &&[Stage])| {
-        let is_kept = keep_output && i + 1 == parts.len();
-        let order: Vec<usize> = part.iter().rev().map(|s| s.variable).collect();
-        let joined = joined(question, &order, blocks);
-        let pinned = if is_kept { &question.pinned[..] } else { &[] };
-        let back = plan(&question.mechanism, &joined, pinned, &[]);
-        let mut back = stage::stages(&model.space, &order, &back);
-        if is_kept && joined.iter().all(|at| at.lane == 0) {
-            look_ahead(question, model, &mut back, true);
-        }
-        // Halves meet in what the kept links do, however wrong.
-        let mut both = [part.to_vec(), back];
-        both.iter_mut().flatten().for_each(|s| s.collapse = None);
-        both
-    };
-    parts.iter().enumerate().map(both).collect()
-}
-
 /// Gives each stage of the free state the test that its nodes must pass. `same_joints` says that all of them are in the
 /// searched state, too: then a node that passes the last test has kept links that move as they do now, and the
 /// searched state needs no more of them.

@@ -1,8 +1,8 @@
 //! Diagrams built from both ends, where equal motion spaces are too many.
 //!
-//! Nodes with the same futures may have different motion spaces, and in coupled contours most do. Here one half of the
-//! variables is taken from the front and the other from the back, until they meet; which nodes of the one complete which of the
-//! other is tested for every pair. What a node of the front is completed by says all of its future, so those with the same set
+//! Nodes with the same futures may differ in what they add to the present joints, and in coupled contours most do. Here one half of
+//! the variables is taken from the front and the other from the back, until they meet; which nodes of the one complete which of
+//! the other is tested for every pair. What a node of the front is completed by says all of its future, so those with the same set
 //! are one, and the sets lead on: a variable's choice turns the set of completions by what is left, read off the edges of the
 //! half that came from the back. The outcome is the smallest diagram there is, and exact.
 //!
@@ -10,29 +10,29 @@
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
-use crate::search::build::complements::{Half, Kept, Set, has, join, set};
+use crate::search::build::completing_sets::{Set, has, set};
+use crate::search::build::self_stress::Added;
+use crate::search::build::spanning_halves::{Half, Halves};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
-use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::stage::Stage;
-use crate::search::diagram::{DEAD, Diagram, Layer, Over, Progress, Stop, next, passing, retain};
-use crate::search::question::Question;
-use crate::search::reduce::plane_split::Model;
+use crate::search::diagram::redundancy_so_far::Spent;
+use crate::search::diagram::{Carries, DEAD, Diagram, Doing, Layer, Progress, Stop, next};
+use crate::search::question::space::Space;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// Pairs of nodes tried at most, for each node of the budget.
-const PAIRS: usize = 100;
+const PAIRS: usize = 500;
 
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
-    stages: &'a [Stage],
+    stages: &'a [Added<'a>],
     layers: Vec<Layer>,
     nodes: Nodes,
 }
 
 impl<'a> Side<'a> {
-    fn new(stages: &'a [Stage], already: u32) -> Self {
+    fn new(stages: &'a [Added<'a>], already: u32) -> Self {
         Side {
             stages,
             layers: Vec::new(),
@@ -41,19 +41,19 @@ impl<'a> Side<'a> {
     }
 
     /// The stage that comes next.
-    fn ahead(&self) -> &'a Stage {
+    fn ahead(&self) -> &'a Added<'a> {
         &self.stages[self.layers.len()]
     }
 
+    /// Children that the next stage makes.
+    fn effort(&self, space: &Space) -> usize {
+        self.nodes.len() * space.variables[self.ahead().variable()].choices.len()
+    }
+
     fn half(&self) -> Half<'_> {
-        let step = self.layers.len().checked_sub(1);
-        let step = step
-            .and_then(|i| self.stages[i].moves.last())
-            .map(|m| &m.step);
         Half {
             nodes: &self.nodes,
-            live: step.map_or(&[], |s| &s.live),
-            pending: step.map_or(&[], |s| &s.pending),
+            taken: self.layers.len(),
         }
     }
 
@@ -63,83 +63,79 @@ impl<'a> Side<'a> {
     }
 }
 
-/// The whole diagram of a question whose variants have no redundant constraints but those that all have, from the stages
-/// of both directions, part by part; none where it does not fit the limits either, or where it is cancelled.
+/// The whole diagram of a question whose variants have no redundant constraints but those that all have, part by part; none where
+/// it does not fit the limits either, or where it is cancelled.
 ///
 /// # Complexity
 /// O(n·m) joins for n and m nodes where the halves meet, which are about as many as half of the joints need.
 pub(in crate::search) fn two_sided(
-    question: &Question,
-    model: &Model,
-    parts: &[[Vec<Stage>; 2]],
-    (limits, keep_output): (&Limits, bool),
+    question: &Halves<'_>,
+    space: &Space,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Option<Diagram> {
-    let kept = Kept {
-        links: &question.kept.0,
-        dimension: model.kept.len(),
-    };
-    let of = parts.iter().map(|[front, _]| front.len()).sum();
+    let of = question.parts.iter().map(|[front, _]| front.len()).sum();
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
-    for (i, part) in parts.iter().enumerate() {
-        let kept = Some(&kept).filter(|_| keep_output && i + 1 == parts.len());
+    for part in 0..question.parts.len() {
         let done = layers.len();
-        let mut told = |more: usize, layer: usize| {
-            progress(Progress {
-                done: done + more,
-                of,
-                nodes: total + layer,
-                layer,
+        let mut told = |now: Progress| {
+            progress(match now.doing {
+                Doing::Choosing => Progress {
+                    done: done + now.done,
+                    of,
+                    nodes: total + now.nodes,
+                    ..now
+                },
+                Doing::Meeting => now,
             });
         };
-        let found = halves(question, model, part, (limits, kept), cancelled, &mut told)?;
+        let found = halves(question, space, part, cancelled, &mut told)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
-        if total > limits.nodes {
+        if total > question.limits.nodes {
             return None;
         }
         layers.extend(found);
     }
-    let end = Spent::within_mechanism(limits.already).redundancy();
+    let end = Spent::within_mechanism(question.already).redundancy();
     let last = layers.last().into_iter().flat_map(|l| &l.edges);
     let terminals = usize::from(last.into_iter().any(|&e| e != DEAD));
     Some(minimal(layers, vec![end; terminals]))
 }
 
-/// The layers of a part, to one node at the end; `told` hears how many are done and how large the present one is.
+/// The layers of a part, to one node at the end; `told` hears how far it has come.
 fn halves(
-    question: &Question,
-    model: &Model,
-    directions: &[Vec<Stage>; 2],
-    (limits, kept): (&Limits, Option<&Kept<'_>>),
+    question: &Halves<'_>,
+    space: &Space,
+    part: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize, usize),
+    told: &mut dyn FnMut(Progress),
 ) -> Option<Vec<Layer>> {
-    let sides = directions.each_ref();
-    let [mut front, mut back] = sides.map(|stages| Side::new(stages, limits.already));
+    let limits = question.limits;
+    let ends = &question.parts[part];
+    let [mut front, mut back] = ends
+        .each_ref()
+        .map(|stages| Side::new(stages, question.already));
     let mut total = 2;
-    for done in 0..directions[0].len() {
-        let effort = |side: &Side<'_>| {
-            let choices = &model.space.variables[side.ahead().variable].choices;
-            side.nodes.len() * choices.len()
-        };
-        let (side, other) = if effort(&front) <= effort(&back) {
+    let of = ends[0].len();
+    for done in 0..of {
+        let (side, other) = if front.effort(space) <= back.effort(space) {
             (&mut front, &back)
         } else {
             (&mut back, &front)
         };
         let room = limits.nodes.checked_sub(total)?;
         let bytes = limits.bytes.checked_sub(side.bytes() + other.bytes())?;
-        let told = &mut |layer: usize| told(done, layer);
-        advance(
-            question,
-            model,
-            side,
-            (limits, room, bytes),
-            cancelled,
-            told,
-        )?;
+        let told = &mut |layer: usize| {
+            told(Progress {
+                doing: Doing::Choosing,
+                done,
+                of,
+                nodes: total + layer,
+                layer,
+            });
+        };
+        advance(space, side, (room, bytes), cancelled, told)?;
         total += side.nodes.len();
     }
     let pairs = front.nodes.len().checked_mul(back.nodes.len())?;
@@ -147,34 +143,37 @@ fn halves(
     if pairs / PAIRS > limits.nodes || pairs / 8 > left / 4 {
         return None;
     }
-    let sets = join(
-        (question.exact.field(), model.space.dim),
-        [&front.half(), &back.half()],
-        question.mechanism.frame(),
-        kept,
-        cancelled,
-    )?;
+    let layer = front.nodes.len();
+    let told = &mut |done: usize| {
+        told(Progress {
+            doing: Doing::Meeting,
+            done,
+            of: layer,
+            nodes: total,
+            layer,
+        });
+    };
+    let sets = question.join(part, [front.half(), back.half()], cancelled, told)?;
     put_together(front.layers, &back.layers, sets, limits.nodes)
 }
 
-/// Carries a side over its next stage.
+/// Carries a side over its next stage, within so many nodes and bytes.
 fn advance(
-    question: &Question,
-    model: &Model,
+    space: &Space,
     side: &mut Side<'_>,
-    (limits, room, bytes): (&Limits, usize, usize),
+    within: (usize, usize),
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Option<()> {
     let stage = side.ahead();
-    let choices = &model.space.variables[stage.variable].choices;
+    let choices = &space.variables[stage.variable()].choices;
     let edges = side.nodes.len() * choices.len();
     let merge = next(
-        &Over::new(question.exact.field(), &model.space, stage, limits),
+        stage,
         choices,
-        bytes,
+        within.1,
         &side.nodes,
-        Merge::new((room, bytes), Stop::Exhausted, edges),
+        Merge::new(within, Stop::Exhausted, edges),
         |_, _, _| false,
         cancelled,
         told,
@@ -182,18 +181,13 @@ fn advance(
     if merge.stop != Stop::Exhausted {
         return None;
     }
-    let (mut nodes, mut edges) = (merge.next, merge.edges);
-    if let Some(test) = &stage.lookahead {
-        let passed = passing(question.exact.field(), model.space.dim, test, &nodes);
-        retain(&mut nodes, &passed, &mut edges);
-    }
     side.layers.push(Layer {
-        variable: stage.variable,
+        variable: stage.variable(),
         nodes: side.nodes.len(),
         choices: choices.len(),
-        edges,
+        edges: merge.edges,
     });
-    side.nodes = nodes;
+    side.nodes = merge.next;
     Some(())
 }
 

@@ -6,7 +6,7 @@ use crate::search::diagram::stage::Collapse;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
 
 /// A variable of the diagram in the space dual to self-stresses.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(in crate::search) struct Adding {
     /// Index of the variable in the space.
     pub(in crate::search) variable: usize,
@@ -20,6 +20,16 @@ pub(in crate::search) struct Adding {
     pub(in crate::search) gap: usize,
     /// Simplification of motions of kept links that no variable after this one reaches.
     pub(in crate::search) collapse: Option<Collapse>,
+}
+
+impl Adding {
+    /// Without what simplifies the motions of kept links.
+    pub(in crate::search) fn uncollapsed(self) -> Self {
+        Adding {
+            collapse: None,
+            ..self
+        }
+    }
 }
 
 /// The stages of a space for the variables in its order.

@@ -50,11 +50,6 @@ pub struct Step {
 }
 
 impl Step {
-    /// Whether nothing that was chosen matters to what comes.
-    pub(in crate::search) fn is_alone(&self) -> bool {
-        self.live.is_empty() && self.pending.is_empty()
-    }
-
     /// Writes the row that a twist of the joint, with its entries for couplings behind it, becomes.
     pub(in crate::search) fn image(
         &self,

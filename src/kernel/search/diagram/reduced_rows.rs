@@ -51,7 +51,7 @@ impl Rows {
     }
 
     /// The rows that were packed; none where nothing was.
-    pub(super) fn unpack(&mut self, f: Field, width: usize, packed: &[Residue]) {
+    pub(in crate::search) fn unpack(&mut self, f: Field, width: usize, packed: &[Residue]) {
         self.clear(width);
         let (bits, mut numbers) = packed.split_at(width.div_ceil(64).min(packed.len()));
         let is_pivot = |i: usize| bits.get(i / 64).is_some_and(|b| b >> (i % 64) & 1 == 1);
@@ -81,7 +81,7 @@ impl Rows {
     }
 
     /// The rows, one after another.
-    pub(super) fn rows(&self) -> impl Iterator<Item = &[Residue]> {
+    pub(in crate::search) fn rows(&self) -> impl Iterator<Item = &[Residue]> {
         self.data.chunks_exact(self.width.max(1))
     }
 

@@ -33,6 +33,13 @@ pub(in crate::search) struct SelfStressSpace {
     pub(in crate::search) kept: usize,
     /// Self-stresses that every variant has.
     pub(in crate::search) lasting: u32,
+    field: Field,
+    /// Vectors of the coordinates of contours and then of kept links, in coordinates that are the same for all orders.
+    vectors: Vec<Added>,
+    /// Those of contours, and all motions of kept links.
+    basis: Basis,
+    /// Those of kept links among all their motions.
+    of_links: Basis,
 }
 
 /// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
@@ -108,6 +115,7 @@ impl<'m> ClosingRows<'m> {
 }
 
 /// Vectors as combinations of given ones.
+#[derive(Debug)]
 struct Basis {
     size: usize,
     rows: Echelon,
@@ -223,12 +231,8 @@ impl SelfStressSpace {
         }
         let contours = contours.turned();
         let count = contours.vectors.len();
-        let both: Vec<_> = contours
-            .vectors
-            .iter()
-            .cloned()
-            .chain(links.reduced())
-            .collect();
+        let mut both = contours.vectors.clone();
+        both.extend(links.reduced());
         let basis = Basis::new(field, &both);
         let in_basis = |choices: &Vec<Vec<Added>>| -> Vec<Vec<Added>> {
             choices
@@ -250,20 +254,18 @@ impl SelfStressSpace {
         let of_links = Basis::new(field, &kept.vectors);
         let stage = |(t, choices): (usize, &Vec<Vec<Added>>)| -> Vec<Vec<Added>> {
             let first = contours.by.partition_point(|&by| by < t);
-            let vector = |v: &Added| -> Added {
-                let contours = v[first..count].iter().copied();
-                contours.chain(of_links.factors(&v[count..])).collect()
-            };
             let choice = |c: &Vec<Added>| {
                 let mut span = Echelon::new(field);
                 c.iter().for_each(|v| {
-                    span.insert(&vector(v));
+                    span.insert(&from(first, count, v, &of_links));
                 });
                 span.reduced()
             };
             choices.iter().map(choice).collect()
         };
         let added: Vec<_> = added.iter().enumerate().map(stage).collect();
+        let motion = |of: &Vec<Residue>| combined(field, of, &both[count..], open.len());
+        let motions: Vec<Added> = kept.vectors.iter().map(motion).collect();
         let before = |t: usize| count - contours.by.partition_point(|&by| by < t);
         Some(SelfStressSpace {
             contours: (0..=order.len()).map(before).collect(),
@@ -271,8 +273,47 @@ impl SelfStressSpace {
             kept: kept.vectors.len(),
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
             added,
+            field,
+            vectors: [contours.vectors, motions].concat(),
+            basis,
+            of_links,
         })
     }
+
+    /// Coordinates of contours, before all variables.
+    fn count(&self) -> usize {
+        self.contours[0]
+    }
+
+    /// A vector in the coordinates before a variable, in those that are the same for all orders.
+    pub(in crate::search) fn shared(&self, variable: usize, vector: &[Residue]) -> Added {
+        let first = self.count() - self.contours[variable];
+        let width = self.vectors.first().map_or(0, Vec::len);
+        combined(self.field, vector, &self.vectors[first..], width)
+    }
+
+    /// A vector that the variables from one on reach, in the coordinates before it, from those that are the same for all orders.
+    pub(in crate::search) fn own(&self, variable: usize, shared: &[Residue]) -> Added {
+        let first = self.count() - self.contours[variable];
+        from(
+            first,
+            self.count(),
+            &self.basis.factors(shared),
+            &self.of_links,
+        )
+    }
+}
+
+/// The coordinates of contours from the `first` on, and of kept links among those that are moved, of a vector with all of both.
+fn from(first: usize, contours: usize, vector: &[Residue], of_links: &Basis) -> Added {
+    let links = of_links.factors(&vector[contours..]);
+    [&vector[first..contours], &links].concat()
+}
+
+/// Some vectors, each of a width, so many times.
+fn combined(f: Field, factors: &[Residue], vectors: &[Added], width: usize) -> Added {
+    let at = |i: usize| f.sum_of_products(factors.iter().zip(vectors).map(|(&x, v)| (x, v[i])));
+    (0..width).map(at).collect()
 }
 
 /// Whether every choice of a variable has the motions of the present joints.
