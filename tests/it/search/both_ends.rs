@@ -188,10 +188,15 @@ fn a_search_of_halves_stops_when_it_is_told_to() {
     let m = ozols::file::text::mechanism_from_str("ladder.toml", &ladder(4, 1, true)).unwrap();
     let exact = ozols::redundancy::analysis::exact_field(&m, 0).unwrap();
     let search = Search::new(exact, m, within(20_000, true)).unwrap();
-    for after in [40, 60, 100] {
+    let within = |most: usize| {
         let asked = std::sync::atomic::AtomicUsize::new(0);
-        let cancelled = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) > after;
+        let cancelled = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= most;
         let d = search.build(&cancelled, &mut |_| {});
-        assert_eq!(d.stop(), Stop::Interrupted);
+        (d.stop(), asked.into_inner())
+    };
+    let (whole, all) = within(usize::MAX);
+    assert!(whole == Stop::Exhausted && all > 100, "{all}");
+    for part in 1..8 {
+        assert_eq!(within(all * part / 8).0, Stop::Interrupted, "{part} of 8");
     }
 }
