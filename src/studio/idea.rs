@@ -20,7 +20,8 @@ use std::collections::BTreeSet;
 pub(super) fn marks(
     m: &Mechanism,
     states: &[StateAnalysis],
-    (found, list): (&Outcome, &Value),
+    found: &Outcome,
+    list: &Value,
 ) -> Vec<Value> {
     let variants = list.as_array().into_iter().flatten();
     let changes = variants.filter_map(|v| v["changes"].as_array()).flatten();

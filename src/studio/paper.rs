@@ -41,17 +41,20 @@ const STYLES: [(&str, &str); 2] = [LOOK, part!("studio.css")];
 /// The picture of the window's tab.
 pub(super) const ICON: &str = include_str!("icon.svg");
 
-fn now((path, built_in): (&str, &'static str)) -> Cow<'static, str> {
+/// A part of what is served: as the file at `path` has it in a debug build.
+fn now(path: &str, built_in: &'static str) -> Cow<'static, str> {
     let newer = cfg!(debug_assertions).then(|| std::fs::read_to_string(path).ok());
     newer.flatten().map_or(Cow::Borrowed(built_in), Cow::Owned)
 }
 
 pub(super) fn script() -> String {
-    SHARED.into_iter().chain(SCRIPTS).map(now).collect()
+    let all = SHARED.into_iter().chain(SCRIPTS);
+    all.map(|(path, built_in)| now(path, built_in)).collect()
 }
 
 pub(super) fn style() -> String {
-    let own: String = STYLES.into_iter().map(now).collect();
+    let all = STYLES.into_iter();
+    let own: String = all.map(|(path, built_in)| now(path, built_in)).collect();
     format!("{SHEET_STYLE}\n{own}")
 }
 

@@ -134,7 +134,7 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
     let told = match (found, room.is_old(revision)) {
         (_, true) => Ok(None),
         (Err(why), _) => Err(why.to_string()),
-        (Ok(outcome), _) => given(room, revision, (m, states), outcome).map(Some),
+        (Ok(outcome), _) => given(room, revision, m, states, outcome).map(Some),
     };
     room.searches[1].fetch_add(1, Ordering::SeqCst);
     match told {
@@ -155,7 +155,8 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
 fn given(
     room: &Room,
     revision: u64,
-    (m, states): (&Mechanism, &[StateAnalysis]),
+    m: &Mechanism,
+    states: &[StateAnalysis],
     outcome: Outcome,
 ) -> Result<Value, String> {
     let words = |e: &dyn std::fmt::Display| e.to_string();
@@ -165,7 +166,7 @@ fn given(
     let variants = outcome.variants_unless(&is_old);
     json::write(&mut text, &outcome, variants, &none, None).map_err(|e| words(&e))?;
     let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
-    let marks = idea::marks(m, states, (&outcome, &found["variants"]));
+    let marks = idea::marks(m, states, &outcome, &found["variants"]);
     let told = json!({ "revision": revision, "found": found, "marks": marks });
     room.keep(revision, Arc::new(outcome));
     Ok(told)

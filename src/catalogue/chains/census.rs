@@ -96,9 +96,11 @@ impl Grippers {
             out.truss += u64::from(subject.is_truss(&roles));
             if subject.swaps(&roles).next().is_some() {
                 out.symmetric += 1;
-                let works = |of| u64::from(working_swap(subject, &roles, of).is_ok());
-                out.mirror += works((Symmetry::Mirror, Input::Slide));
-                out.half_turn += works((Symmetry::HalfTurn, Input::Turn));
+                let works = |symmetry, input| {
+                    u64::from(working_swap(subject, &roles, symmetry, input).is_ok())
+                };
+                out.mirror += works(Symmetry::Mirror, Input::Slide);
+                out.half_turn += works(Symmetry::HalfTurn, Input::Turn);
             }
         }
         for roles in subject.grippers(3) {
@@ -109,8 +111,8 @@ impl Grippers {
             out.three_essential += 1;
             if subject.swaps(&roles).next().is_some() {
                 out.three_symmetric += 1;
-                let of = (Symmetry::Threefold, Input::Turn);
-                out.threefold += u64::from(working_swap(subject, &roles, of).is_ok());
+                let swap = working_swap(subject, &roles, Symmetry::Threefold, Input::Turn);
+                out.threefold += u64::from(swap.is_ok());
             }
         }
         out

@@ -68,8 +68,8 @@ fn with_edge_between(graph: &Weighted, edges: [(usize, usize); 2], same: bool) -
     out
 }
 
-/// The graph with the ends of an edge drawn together.
-fn contracted(graph: &Weighted, (into, gone): (usize, usize)) -> Weighted {
+/// The graph with the ends of an edge drawn together, the second into the first.
+fn contracted(graph: &Weighted, into: usize, gone: usize) -> Weighted {
     let kept: Vec<usize> = (0..graph.vertices()).filter(|&v| v != gone).collect();
     let mut out = graph.renumbered(&kept);
     let place = |v: usize| v - usize::from(v > gone);
@@ -112,7 +112,7 @@ pub(crate) fn contracted_graphs(loops: usize) -> Vec<Weighted> {
         let smaller = list.into_par_iter().flat_map_iter(|g| {
             let pairs = (0..g.vertices()).tuple_combinations();
             let single = pairs.filter(|&(u, v)| g.weight(u, v) == 1).collect_vec();
-            let drawn = single.into_iter().map(|e| contracted(g, e));
+            let drawn = single.into_iter().map(|(u, v)| contracted(g, u, v));
             drawn.filter(|g| g.vertices() > 1 && is_biconnected(g))
         });
         let next = distinct(smaller);

@@ -111,7 +111,8 @@ pub enum NoGripper {
 pub fn moves(
     subject: &Subject<'_>,
     roles: &Roles,
-    (symmetry, input): (Symmetry, Input),
+    symmetry: Symmetry,
+    input: Input,
     swap: &[usize],
 ) -> Result<(), NoGripper> {
     let slide = (input == Input::Slide).then(|| ordered([roles.frame, roles.driver]));
@@ -153,18 +154,19 @@ pub fn moves(
 pub fn working_swap(
     subject: &Subject<'_>,
     roles: &Roles,
-    of: (Symmetry, Input),
+    symmetry: Symmetry,
+    input: Input,
 ) -> Result<Vec<usize>, NoGripper> {
     let identity: Vec<usize> = (0..subject.chain.links()).collect();
-    let Some(jaws) = of.0.jaws() else {
-        return moves(subject, roles, of, &identity).map(|()| identity);
+    let Some(jaws) = symmetry.jaws() else {
+        return moves(subject, roles, symmetry, input, &identity).map(|()| identity);
     };
     let mut why = NoGripper::Unsymmetric;
     if roles.jaws.len() != jaws {
         return Err(why);
     }
     for swap in subject.swaps(roles) {
-        match moves(subject, roles, of, swap) {
+        match moves(subject, roles, symmetry, input, swap) {
             Ok(()) => return Ok(swap.clone()),
             Err(e) => why = e,
         }

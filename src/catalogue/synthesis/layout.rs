@@ -117,8 +117,8 @@ pub fn layout(
     limits: &Limits,
     seed: u64,
 ) -> Result<Layout, NoLayout> {
-    let of = (structure.form.symmetry, structure.form.input);
-    let swap = working_swap(subject, &structure.roles, of)?;
+    let (symmetry, input) = (structure.form.symmetry, structure.form.input);
+    let swap = working_swap(subject, &structure.roles, symmetry, input)?;
     let rules = Rules::new(structure, &swap).ok_or(NoLayout::Parallelograms)?;
     let skeleton = Skeleton::new(structure, rules, *limits);
     let found = best_of_starts(&skeleton, seed);

@@ -21,7 +21,7 @@ use crate::view::analysis::suggestions;
 use crate::view::analysis::{Analysis, State};
 use crate::view::stroke::StrokeData;
 use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands;
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -79,28 +79,8 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     if a.planar {
         load::put_in_plane(&mut mechanism);
     }
-    let states: Vec<StateId> = match (a.state.as_str(), mechanism.state(&a.state)) {
-        (_, Some(s)) => vec![s],
-        ("all", None) if a.stroke.is_some() => vec![StateId::FREE],
-        ("all", None) => mechanism.state_ids().collect(),
-        (other, None) => bail!(
-            "{} has no state {other}; it has: {}",
-            mechanism.name,
-            mechanism.states.join(", ")
-        ),
-    };
-    if let Some(t) = a.tolerance
-        && !(t > 0.0 && t < 1.0)
-    {
-        bail!("--tolerance, or --snap, must be between 0 and 1");
-    }
-    if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
-    {
-        bail!(
-            "--tolerance has no effect with --method {}, which does not round; leave it out, or use auto or svd",
-            a.method.name()
-        );
-    }
+    let states = states_asked(&mechanism, a)?;
+    check_tolerance(a)?;
     let over = mechanism.state(&a.state).unwrap_or(StateId::FREE);
     let asked = a
         .stroke
@@ -139,10 +119,46 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
         ..Analysis::new(&mechanism, &found, &advice)
     };
     let next = steps(&mechanism, &analysis.states, &a.file.file, a.tolerance);
+    write(a, &analysis, &next)
+}
+
+/// The states that are analysed: the one named, or all; over a stroke the free one unless another is named.
+fn states_asked(mechanism: &Mechanism, a: &Analyze) -> anyhow::Result<Vec<StateId>> {
+    Ok(match (a.state.as_str(), mechanism.state(&a.state)) {
+        (_, Some(s)) => vec![s],
+        ("all", None) if a.stroke.is_some() => vec![StateId::FREE],
+        ("all", None) => mechanism.state_ids().collect(),
+        (other, None) => bail!(
+            "{} has no state {other}; it has: {}",
+            mechanism.name,
+            mechanism.states.join(", ")
+        ),
+    })
+}
+
+/// Refuses a tolerance that is none, or that the method has no use for.
+fn check_tolerance(a: &Analyze) -> anyhow::Result<()> {
+    if let Some(t) = a.tolerance
+        && !(t > 0.0 && t < 1.0)
+    {
+        bail!("--tolerance, or --snap, must be between 0 and 1");
+    }
+    if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
+    {
+        bail!(
+            "--tolerance has no effect with --method {}, which does not round; leave it out, or use auto or svd",
+            a.method.name()
+        );
+    }
+    Ok(())
+}
+
+/// Writes what was found in the format asked for; text says what to do next.
+fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::Result<Done> {
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            TextOrJson::Json => output::json(out, &analysis)?,
+            TextOrJson::Json => output::json(out, analysis)?,
             TextOrJson::Text => {
                 let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
                 let text = toned(analysis.text(width), a.output.as_deref(), verdicts);
@@ -150,11 +166,11 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
                 if let Some(s) = &analysis.stroke {
                     write!(out, "\n{}", fit(&s.text(width), width))?;
                 }
-                write!(out, "{}", next_commands::text(&next, width))?;
+                write!(out, "{}", next_commands::text(next, width))?;
             }
         }
         // A stroke that could not be finished is no success.
-        let stopped = analysis.stroke.is_some_and(|s| s.stop.is_some());
+        let stopped = analysis.stroke.as_ref().is_some_and(|s| s.stop.is_some());
         Ok(if stopped { Done::Nothing } else { Done::Found })
     })
 }

@@ -1,5 +1,6 @@
 //! `ozols bench`.
 
+use crate::accuracy::searching::record::Trial;
 use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, table, trial};
 use crate::accuracy::timing::Stopwatch;
@@ -11,6 +12,7 @@ use crate::cli::option::request::Which;
 use crate::cli::terminal::machine;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
+use crate::model::mechanism::Mechanism;
 use crate::score::request::{List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::view::accuracy::bench::{BenchData, text};
@@ -53,20 +55,54 @@ pub(in crate::cli) struct Bench {
     which: Which,
 }
 
+/// What is tried on every mechanism, and how often it is timed.
+struct Trials {
+    request: Request,
+    effort: TrialEffort,
+    watch: Stopwatch,
+}
+
+impl Trials {
+    /// What the options ask for.
+    fn asked(args: &Global, a: &Bench) -> anyhow::Result<Trials> {
+        let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 15 });
+        let looked = a.looked.unwrap_or(if a.quick { 1_000 } else { 20_000 });
+        ensure!(repeat > 0, "--repeat must be at least 1");
+        ensure!(looked > 0, "--looked must be at least 1");
+        let request = Request {
+            list: List::Top(a.top),
+            seed: args.seed,
+            ..a.which.request(None)?
+        };
+        ensure!(
+            request.symmetry != Symmetry::OnePerOrbit,
+            "--one-per-orbit counts pairs, and brute force looks at each variant: leave it out, or take --symmetric"
+        );
+        let effort = TrialEffort {
+            looked,
+            pool: request.pool.or(a.quick.then_some(2_000)),
+        };
+        let clock = machine::processor_time;
+        let watch = Stopwatch { clock, repeat };
+        Ok(Trials {
+            request,
+            effort,
+            watch,
+        })
+    }
+
+    /// Runs them, and shows how far they are.
+    fn run(&self, m: &Mechanism, bar: &mut Bar) -> anyhow::Result<Trial> {
+        let progress = &mut |way: Way, done, of| {
+            bar.step(&format!("{}: {way}", m.name), done, of);
+        };
+        let found = trial(m, &self.request, self.effort, self.watch, progress);
+        found.with_context(|| format!("cannot search {}", m.name))
+    }
+}
+
 pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
-    let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 15 });
-    let looked = a.looked.unwrap_or(if a.quick { 1_000 } else { 20_000 });
-    ensure!(repeat > 0, "--repeat must be at least 1");
-    ensure!(looked > 0, "--looked must be at least 1");
-    let request = Request {
-        list: List::Top(a.top),
-        seed: args.seed,
-        ..a.which.request(None)?
-    };
-    ensure!(
-        request.symmetry != Symmetry::OnePerOrbit,
-        "--one-per-orbit counts pairs, and brute force looks at each variant: leave it out, or take --symmetric"
-    );
+    let asked = Trials::asked(args, a)?;
     // The folder and the files before the work: a bad path should not cost a minute.
     if let Some(folder) = &a.output {
         std::fs::create_dir_all(folder)
@@ -79,20 +115,10 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
         &a.files[..]
     };
     let (mechanisms, mut well) = load::each(files);
-    let effort = TrialEffort {
-        looked,
-        pool: request.pool.or(a.quick.then_some(2_000)),
-    };
-    let clock = machine::processor_time;
-    let watch = Stopwatch { clock, repeat };
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();
     for (_, m) in &mechanisms {
-        let progress = &mut |way: Way, done, of| {
-            bar.step(&format!("{}: {way}", m.name), done, of);
-        };
-        let found = trial(m, &request, effort, watch, progress);
-        match found.with_context(|| format!("cannot search {}", m.name)) {
+        match asked.run(m, &mut bar) {
             Ok(found) => trials.push(found),
             Err(e) => {
                 well = false;

@@ -13,8 +13,8 @@ use crate::file::read::workload::tables_alone;
 use crate::file::warning::{WarningKind, Warnings};
 use crate::format::phrase::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
-use crate::model::mechanism::Mechanism;
-use crate::redundancy::analysis::{Method, analyse};
+use crate::model::mechanism::{Expected, Mechanism};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::mechanism::describe;
 use crate::view::search::costs;
 use crate::view::terminal::layout::fit;
@@ -78,6 +78,42 @@ pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
     })
 }
 
+/// A figure that the file states, and what the analysis finds.
+struct StatedFigure {
+    key: &'static str,
+    stated: Option<i64>,
+    found: Option<i64>,
+}
+
+/// The figures that a file can state of a state, in the order they are warned of.
+fn figures(e: &Expected, found: &StateAnalysis) -> [StatedFigure; 6] {
+    let int = |n: usize| i64::try_from(n).ok();
+    // A range is at odds with a figure only outside it.
+    let finite = e.finite_mobility.filter(|&w| found.finite.could_be(w));
+    let external = found.external.map(|x| x.by_rank);
+    let figure = |key, stated, found| StatedFigure { key, stated, found };
+    [
+        figure("mobility", e.mobility, int(found.mobility)),
+        figure(
+            "finite_mobility",
+            e.finite_mobility,
+            finite.or(int(found.finite.mobility)),
+        ),
+        figure(
+            "working_mobility",
+            e.working_mobility,
+            int(found.working_mobility),
+        ),
+        figure(
+            "local_mobility",
+            e.local_mobility,
+            int(found.local_mobility),
+        ),
+        figure("redundant", e.redundant, int(found.redundant)),
+        figure("external_redundant", e.external_redundant, external),
+    ]
+}
+
 /// Warns of the figures that the file states where the analysis finds others.
 fn stale(m: &Mechanism, warnings: &mut Warnings) {
     for (i, e) in m.expected.iter().enumerate() {
@@ -92,35 +128,7 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
         let Some(found) = found.first().filter(|f| f.at_most().is_none()) else {
             continue;
         };
-        let int = |n: usize| i64::try_from(n).ok();
-        let figures = [
-            ("mobility", e.mobility, int(found.mobility)),
-            (
-                "finite_mobility",
-                // A range is at odds with a figure only outside it.
-                e.finite_mobility,
-                e.finite_mobility
-                    .filter(|&w| found.finite.could_be(w))
-                    .or(int(found.finite.mobility)),
-            ),
-            (
-                "working_mobility",
-                e.working_mobility,
-                int(found.working_mobility),
-            ),
-            (
-                "local_mobility",
-                e.local_mobility,
-                int(found.local_mobility),
-            ),
-            ("redundant", e.redundant, int(found.redundant)),
-            (
-                "external_redundant",
-                e.external_redundant,
-                found.external.map(|x| x.by_rank),
-            ),
-        ];
-        for (key, stated, found) in figures {
+        for StatedFigure { key, stated, found } in figures(e, found) {
             let (Some(stated), Some(found)) = (stated, found) else {
                 continue;
             };

@@ -8,11 +8,11 @@ use crate::grip::clamped::{ClampingReactions, clamped};
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
 use crate::statics::contour_group::solutions::GroupMethod;
-use crate::view;
 use crate::view::grip::clamped::{Clamped, Gripped, NotHeld, pose};
 use crate::view::reactions::{Reactions, text::reactions};
-use crate::view::statics::{csv::csv, text::statics};
+use crate::view::statics::{StaticsData, csv::csv, text::statics};
 use anyhow::{Context, ensure};
+use std::io::Write;
 
 /// The diameter asked for, or the hardest; none where it is not held.
 fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
@@ -38,7 +38,8 @@ fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g Diamete
     Ok(Some(row).filter(|r| r.holds()))
 }
 
-pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+/// Refuses what makes no sense round a part.
+fn check_options(a: &Statics) -> anyhow::Result<()> {
     for (given, flag) in [
         (a.stroke.is_some(), "--stroke"),
         (a.svg.is_some(), "--svg"),
@@ -53,6 +54,11 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
         !matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective),
         "joints round a part are solved by equilibrium alone; use --method equilibrium"
     );
+    Ok(())
+}
+
+pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+    check_options(a)?;
     let Some(row) = chosen(g, a)? else {
         return not_held(g, a);
     };
@@ -60,54 +66,64 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
         return not_held(g, a);
     };
     let (m, grip) = (&found.mechanism, Clamped::new(g, row, &found));
-    let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match &found.found {
             ClampingReactions::Planar(s) => {
-                let shown = view::statics::StaticsData::new(&m.name, s, &GroupMethod::ALL);
-                match a.format {
-                    StaticsFormat::Json => {
-                        let state = Some(m.states[g.state].as_str());
-                        let reactions = shown;
-                        output::json(
-                            out,
-                            &Gripped {
-                                reactions,
-                                state,
-                                grip,
-                            },
-                        )?;
-                    }
-                    StaticsFormat::Csv => write!(out, "{}", csv(&shown))?,
-                    StaticsFormat::Text => {
-                        write!(out, "{}{}", grip.text(true, width), statics(&shown, width))?;
-                    }
-                }
+                let gripped = Gripped {
+                    reactions: StaticsData::new(&m.name, s, &GroupMethod::ALL),
+                    state: Some(m.states[g.state].as_str()),
+                    grip,
+                };
+                planar(out, &gripped, a)?;
             }
             ClampingReactions::Spatial(s) => {
-                let shown = Reactions::new(m, g.state, s);
-                match a.format {
-                    StaticsFormat::Json => {
-                        let reactions = shown;
-                        output::json(
-                            out,
-                            &Gripped {
-                                reactions,
-                                state: None,
-                                grip,
-                            },
-                        )?;
-                    }
-                    StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-                    StaticsFormat::Text => {
-                        let text = reactions(&shown, &pose(g, row), width);
-                        write!(out, "{}{text}", grip.text(false, width))?;
-                    }
-                }
+                let gripped = Gripped {
+                    reactions: Reactions::new(m, g.state, s),
+                    state: None,
+                    grip,
+                };
+                spatial(out, &gripped, &pose(g, row), a)?;
             }
         }
         Ok(Done::Found)
     })
+}
+
+/// Writes the reactions in the plane.
+fn planar(
+    out: &mut dyn Write,
+    gripped: &Gripped<'_, StaticsData<'_>>,
+    a: &Statics,
+) -> anyhow::Result<()> {
+    let (shown, width) = (&gripped.reactions, output::width(a.output.as_deref()));
+    match a.format {
+        StaticsFormat::Json => output::json(out, gripped)?,
+        StaticsFormat::Csv => write!(out, "{}", csv(shown))?,
+        StaticsFormat::Text => {
+            let grip = gripped.grip.text(true, width);
+            write!(out, "{grip}{}", statics(shown, width))?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the reactions in space.
+fn spatial(
+    out: &mut dyn Write,
+    gripped: &Gripped<'_, Reactions<'_>>,
+    pose: &str,
+    a: &Statics,
+) -> anyhow::Result<()> {
+    let (shown, width) = (&gripped.reactions, output::width(a.output.as_deref()));
+    match a.format {
+        StaticsFormat::Json => output::json(out, gripped)?,
+        StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+        StaticsFormat::Text => {
+            let text = reactions(shown, pose, width);
+            write!(out, "{}{text}", gripped.grip.text(false, width))?;
+        }
+    }
+    Ok(())
 }
 
 /// Says why there are no forces: exit code 1.

@@ -73,10 +73,7 @@ pub(in crate::cli) fn run(a: &Convert) -> anyhow::Result<Done> {
         target: word,
     };
     if let Some(path) = &beside {
-        apart(&a.file, path)?;
-        if let Some((loops, _)) = &options.loops {
-            apart(Path::new(loops), path)?;
-        }
+        beside_apart(a, &options, path)?;
     }
     let asked = wanted.all == Some(None) || wanted.each.iter().any(|e| e.1.is_none());
     let left = converted.figures.is_none_or(|f| f.1 > 0);
@@ -88,28 +85,56 @@ pub(in crate::cli) fn run(a: &Convert) -> anyhow::Result<Done> {
         }
         put(&a.output, &converted.text)?;
     }
-    let width = output::width(None);
-    output::to(None, |out| {
-        match a.format {
-            ReportFormat::Json => {
-                let mut report = view::json(&converted, files);
-                report["written"] = written.into();
-                output::json(out, &report)?;
-            }
-            ReportFormat::Text => {
-                if written {
-                    write!(out, "{}", fit(&view::text(&converted, files, width), width))?;
-                } else {
-                    let what = "no closure of its loops holds nothing twice and lets nothing else move; nothing is written (--closure NAME=WORD takes one of these)";
-                    write!(out, "{}", fit(&format!("{}: {what}\n", files.from), width))?;
+    let conversion = Conversion {
+        converted: &converted,
+        files,
+        written,
+        asked,
+    };
+    conversion.write(a.format)
+}
+
+/// What is told on standard output.
+struct Conversion<'a> {
+    converted: &'a Converted,
+    files: Files<'a>,
+    /// Whether the file was written.
+    written: bool,
+    /// Whether the closures were left to choose.
+    asked: bool,
+}
+
+impl Conversion<'_> {
+    fn write(&self, format: ReportFormat) -> anyhow::Result<Done> {
+        let width = output::width(None);
+        let Conversion {
+            converted,
+            files,
+            written,
+            asked,
+        } = *self;
+        output::to(None, |out| {
+            match format {
+                ReportFormat::Json => {
+                    let mut report = view::json(converted, files);
+                    report["written"] = written.into();
+                    output::json(out, &report)?;
                 }
-                if asked {
-                    write!(out, "{}", view::closures(&converted.closures, width))?;
+                ReportFormat::Text => {
+                    if written {
+                        write!(out, "{}", fit(&view::text(converted, files, width), width))?;
+                    } else {
+                        let what = "no closure of its loops holds nothing twice and lets nothing else move; nothing is written (--closure NAME=WORD takes one of these)";
+                        write!(out, "{}", fit(&format!("{}: {what}\n", files.from), width))?;
+                    }
+                    if asked {
+                        write!(out, "{}", view::closures(&converted.closures, width))?;
+                    }
                 }
             }
-        }
-        Ok(if written { Done::Found } else { Done::Nothing })
-    })
+            Ok(if written { Done::Found } else { Done::Nothing })
+        })
+    }
 }
 
 fn put(path: &Path, text: &str) -> anyhow::Result<()> {
@@ -182,6 +207,15 @@ fn apart(read: &Path, written: &Path) -> anyhow::Result<()> {
         "{} is what is read; name another file to write",
         written.display()
     );
+    Ok(())
+}
+
+/// Refuses to write the file of loops over what is read.
+fn beside_apart(a: &Convert, options: &Options, beside: &Path) -> anyhow::Result<()> {
+    apart(&a.file, beside)?;
+    if let Some((loops, _)) = &options.loops {
+        apart(Path::new(loops), beside)?;
+    }
     Ok(())
 }
 

@@ -9,10 +9,10 @@ use crate::cli::option::request::Which;
 use crate::cli::option::variant;
 use crate::cli::option::variant::Chosen;
 use crate::cli::terminal::output;
-use crate::draw::{self, Sight, Size, Subject};
+use crate::draw::{self, Drawing, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
 use crate::page::moving::Moving;
-use crate::redundancy::analysis::{Method, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::Analysis;
 use anyhow::{Context, bail, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
@@ -162,47 +162,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
         analysis: found.first(),
         marks,
     };
-    let sight = Sight {
-        toward: a.view,
-        up: a.up,
-    };
-    let first = found.first().context("no state was analysed")?;
-    let drawing = if let Some(k) = a.self_stress {
-        let told = Analysis::new(&mechanism, &found, &[]);
-        let told = told.states.first().map_or(&[][..], |s| &s.self_stresses);
-        let k = k.wrapping_sub(1);
-        let (Some(stress), Some(words)) = (first.self_stresses.get(k), told.get(k)) else {
-            bail!(
-                "state {} has {}",
-                a.state,
-                match first.self_stresses.len() {
-                    0 => "no self-stress: nothing in it is redundant".to_owned(),
-                    n => format!("self-stresses 1 to {n}, in the order of `ozols analyze`"),
-                }
-            );
-        };
-        ensure!(
-            stress.joints.iter().any(|w| w.borne.is_some()),
-            "self-stress {} is too large: its numbers were not computed",
-            k + 1
-        );
-        draw::kinematic_stressed(&subject, &sight, stress, &words.name(k))
-    } else if a.moves() {
-        let moving = match a.idle {
-            Some(k) => Moving::idle(&mechanism, first, state, k.wrapping_sub(1))?,
-            None => Moving::new(&mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
-        };
-        if a.motion {
-            draw::kinematic_moving(&subject, &sight, &moving.moved())
-        } else {
-            draw::kinematic_along(&subject, &sight, &moving.moved())
-        }
-    } else {
-        match a.kind {
-            DrawKind::Scheme => draw::scheme(&subject),
-            DrawKind::Kinematic => draw::kinematic_seen(&subject, &sight),
-        }
-    };
+    let drawing = drawing(a, &subject, &found)?;
     let bytes = match wanted {
         Some(size) => picture::png(&drawing, size)?,
         None => drawing.svg.into_bytes(),
@@ -210,6 +170,78 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
     output::to(a.output.as_deref(), |out| {
         out.write_all(&bytes)?;
         Ok(Done::Found)
+    })
+}
+
+/// The drawing that is asked for.
+fn drawing(a: &Draw, subject: &Subject<'_>, found: &[StateAnalysis]) -> anyhow::Result<Drawing> {
+    let sight = Sight {
+        toward: a.view,
+        up: a.up,
+    };
+    let first = found.first().context("no state was analysed")?;
+    if let Some(k) = a.self_stress {
+        return stressed(a, subject, &sight, found, k.wrapping_sub(1));
+    }
+    if a.moves() {
+        return moving(a, subject, &sight, first);
+    }
+    Ok(match a.kind {
+        DrawKind::Scheme => draw::scheme(subject),
+        DrawKind::Kinematic => draw::kinematic_seen(subject, &sight),
+    })
+}
+
+/// The kinematic scheme with a self-stress, counted from 0, as arrows.
+fn stressed(
+    a: &Draw,
+    subject: &Subject<'_>,
+    sight: &Sight,
+    found: &[StateAnalysis],
+    k: usize,
+) -> anyhow::Result<Drawing> {
+    let all = found.first().map_or(&[][..], |s| &s.self_stresses);
+    let told = Analysis::new(subject.mechanism, found, &[]);
+    let told = told.states.first().map_or(&[][..], |s| &s.self_stresses);
+    let (Some(stress), Some(words)) = (all.get(k), told.get(k)) else {
+        bail!(
+            "state {} has {}",
+            a.state,
+            match all.len() {
+                0 => "no self-stress: nothing in it is redundant".to_owned(),
+                n => format!("self-stresses 1 to {n}, in the order of `ozols analyze`"),
+            }
+        );
+    };
+    ensure!(
+        stress.joints.iter().any(|w| w.borne.is_some()),
+        "self-stress {} is too large: its numbers were not computed",
+        k + 1
+    );
+    Ok(draw::kinematic_stressed(
+        subject,
+        sight,
+        stress,
+        &words.name(k),
+    ))
+}
+
+/// The kinematic scheme with its motion, or with the ways of its points.
+fn moving(
+    a: &Draw,
+    subject: &Subject<'_>,
+    sight: &Sight,
+    analysis: &StateAnalysis,
+) -> anyhow::Result<Drawing> {
+    let (mechanism, state) = (subject.mechanism, subject.state);
+    let moving = match a.idle {
+        Some(k) => Moving::idle(mechanism, analysis, state, k.wrapping_sub(1))?,
+        None => Moving::new(mechanism, state, a.stroke.as_deref(), a.drive.as_deref())?,
+    };
+    Ok(if a.motion {
+        draw::kinematic_moving(subject, sight, &moving.moved())
+    } else {
+        draw::kinematic_along(subject, sight, &moving.moved())
     })
 }
 

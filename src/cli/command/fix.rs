@@ -64,18 +64,7 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
     )?;
     let found = lint::look(&again.mechanism, Some(&again.origin))?;
     let (lasting, after) = (found.lasting, found.analysis);
-    ensure!(
-        (after.mobility, after.redundant) == (plan.mobility, plan.redundant),
-        "read again, the edited file has W = {}, σ = {} where W = {}, σ = {} was to be; nothing is written",
-        after.mobility,
-        after.redundant,
-        plan.mobility,
-        plan.redundant
-    );
-    ensure!(
-        a.chosen.place().is_some() || lasting == 0 || after.at_most().is_some(),
-        "read again, the edited file has {lasting} redundant over its motion; nothing is written; look at another pose (--pose)"
-    );
+    as_planned(a, &plan, &after, lasting)?;
     output::to(a.output.as_deref(), |out| {
         out.write_all(&text)?;
         Ok(Done::Found)
@@ -92,7 +81,37 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
     } else {
         "release"
     };
-    let mut lines = summary(&a.file, &told, what, [&before, &after]);
+    let lines = summary(&a.file, &told, what, [&before, &after])
+        + &reservations(&imported, &after, lasting);
+    output::note(&fit(&lines, output::error_width()));
+    Ok(Done::Found)
+}
+
+/// Refuses an edited file that is not what was planned; `lasting` of what is redundant in it stays so over its motion.
+fn as_planned(
+    a: &Fix,
+    plan: &TypePlan,
+    after: &StateAnalysis,
+    lasting: usize,
+) -> anyhow::Result<()> {
+    ensure!(
+        (after.mobility, after.redundant) == (plan.mobility, plan.redundant),
+        "read again, the edited file has W = {}, σ = {} where W = {}, σ = {} was to be; nothing is written",
+        after.mobility,
+        after.redundant,
+        plan.mobility,
+        plan.redundant
+    );
+    ensure!(
+        a.chosen.place().is_some() || lasting == 0 || after.at_most().is_some(),
+        "read again, the edited file has {lasting} redundant over its motion; nothing is written; look at another pose (--pose)"
+    );
+    Ok(())
+}
+
+/// What the figures of the edited file do not say, a line each.
+fn reservations(imported: &Imported, after: &StateAnalysis, lasting: usize) -> String {
+    let mut lines = String::new();
     if after.redundant > lasting && after.at_most().is_none() {
         lines += &format!(
             "  {} redundant at this pose only, where the model is in a special place\n",
@@ -107,8 +126,7 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
             "  as written; within their digits the coordinates leave open whether up to {most} stay redundant: look at other joints (--at), or give more digits\n"
         );
     }
-    output::note(&fit(&lines, output::error_width()));
-    Ok(Done::Found)
+    lines
 }
 
 fn summary(

@@ -11,16 +11,17 @@ use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
 use crate::file::bounded;
-use crate::file::read::workload::grip_from_bytes;
 use crate::file::read::workload::trajectory::trajectory;
+use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
 use crate::grip::gripping::grip;
 use crate::grip::motion::along;
-use crate::model::grip::Toward;
+use crate::model::grip::{GripSpec, MotionStep, Toward};
 use crate::view;
 use crate::view::grip::{charts::charts, motion::GripMotion, text};
 use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail, ensure};
 use args::Grip;
+use std::path::Path;
 
 pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     if a.closure {
@@ -28,40 +29,9 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     }
     let (name, bytes) = load::named(&a.file.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
-    let mut further: Vec<Toward> = a.acceleration.iter().map(|v| Toward::Fixed(*v)).collect();
-    if let Some(size) = a.any_acceleration {
-        ensure!(
-            (0.0..=1e6).contains(&size),
-            "--any-acceleration must be a number from 0 to 1e6 m/s²"
-        );
-        further.push(Toward::Any(size));
-    }
-    match &mut file.spec.load {
-        Some(load) => load.accelerations.extend(further),
-        None if further.is_empty() => {}
-        None => bail!(
-            "{} states no load; give [workload.grip] a mass and friction before accelerations",
-            file.name
-        ),
-    }
+    add_accelerations(&mut file, a)?;
     let steps = match &a.motion {
-        Some(path) => {
-            let bytes = bounded::at_most(path, MAX_DESCRIPTION_BYTES)
-                .with_context(|| format!("cannot read {}", path.display()))?;
-            let steps = trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
-            // Its parts are studied along with the others.
-            let parts = steps
-                .iter()
-                .map(|s| s.diameter.unwrap_or(file.spec.diameter));
-            let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a;
-            for part in parts.collect::<Vec<f64>>() {
-                if !file.spec.diameters.iter().any(|d| near(*d, part)) {
-                    file.spec.diameters.push(part);
-                }
-            }
-            file.spec.diameters.sort_by(f64::total_cmp);
-            Some(steps)
-        }
+        Some(path) => Some(steps_of(path, &mut file)?),
         None => None,
     };
     let found = grip(&file.spec, file.mechanism.as_ref())?;
@@ -93,4 +63,43 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
             Done::Nothing
         })
     })
+}
+
+/// Adds the accelerations of the command line to the load of the file.
+fn add_accelerations(file: &mut WorkloadFile<GripSpec>, a: &Grip) -> anyhow::Result<()> {
+    let mut further: Vec<Toward> = a.acceleration.iter().map(|v| Toward::Fixed(*v)).collect();
+    if let Some(size) = a.any_acceleration {
+        ensure!(
+            (0.0..=1e6).contains(&size),
+            "--any-acceleration must be a number from 0 to 1e6 m/s²"
+        );
+        further.push(Toward::Any(size));
+    }
+    match &mut file.spec.load {
+        Some(load) => load.accelerations.extend(further),
+        None if further.is_empty() => {}
+        None => bail!(
+            "{} states no load; give [workload.grip] a mass and friction before accelerations",
+            file.name
+        ),
+    }
+    Ok(())
+}
+
+/// Reads a motion, whose parts are studied along with the others.
+fn steps_of(path: &Path, file: &mut WorkloadFile<GripSpec>) -> anyhow::Result<Vec<MotionStep>> {
+    let bytes = bounded::at_most(path, MAX_DESCRIPTION_BYTES)
+        .with_context(|| format!("cannot read {}", path.display()))?;
+    let steps = trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
+    let parts = steps
+        .iter()
+        .map(|s| s.diameter.unwrap_or(file.spec.diameter));
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a;
+    for part in parts.collect::<Vec<f64>>() {
+        if !file.spec.diameters.iter().any(|d| near(*d, part)) {
+            file.spec.diameters.push(part);
+        }
+    }
+    file.spec.diameters.sort_by(f64::total_cmp);
+    Ok(steps)
 }

@@ -11,7 +11,7 @@ use crate::cli::terminal::progress::{SearchWatch, note};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::scenes::scenes;
 use crate::page::{Commands, Page, Redesigns, html};
-use crate::redundancy::analysis::{Method, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::request::{List, Request};
@@ -52,14 +52,7 @@ pub(in crate::cli) fn write(
     path: Option<&Path>,
     live: bool,
 ) -> anyhow::Result<String> {
-    ensure!(
-        (1..=MOST).contains(&a.top),
-        "--top must be from 1 to {MOST} in a report; `ozols search` gives longer lists"
-    );
-    let request = Request {
-        list: List::Top(a.top),
-        ..a.checked.request(args.seed)?
-    };
+    let request = asked(args, a)?;
     let written = load::mechanism(&a.file.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
     let prepared = request.prepare(written.clone(), &mut note)?;
@@ -68,9 +61,7 @@ pub(in crate::cli) fn write(
         tolerance: request.snap,
     };
     let states = analyse(&written, &states, method)?;
-    let figures = Analysis::new(&written, &states, &[]).states;
-    let words = |s: &State<'_>| format!("{}: {}, W = {}", s.state, s.verdict(), s.mobility);
-    let verdict = figures.iter().map(words).join("; ");
+    let verdict = verdict(&written, &states);
     let conditions = request.conditions(&prepared, &mut note);
     let mechanism = Arc::new(prepared.mechanism);
     let write = |redesigns: Result<Redesigns<'_>, String>, ideas: Option<Redesigns<'_>>| {
@@ -111,6 +102,25 @@ pub(in crate::cli) fn write(
     Ok(verdict)
 }
 
+/// What the options ask of the search.
+fn asked(args: &Global, a: &Report) -> anyhow::Result<Request> {
+    ensure!(
+        (1..=MOST).contains(&a.top),
+        "--top must be from 1 to {MOST} in a report; `ozols search` gives longer lists"
+    );
+    Ok(Request {
+        list: List::Top(a.top),
+        ..a.checked.request(args.seed)?
+    })
+}
+
+/// The verdict on each state in a few words.
+fn verdict(mechanism: &Mechanism, states: &[StateAnalysis]) -> String {
+    let figures = Analysis::new(mechanism, states, &[]).states;
+    let words = |s: &State<'_>| format!("{}: {}, W = {}", s.state, s.verdict(), s.mobility);
+    figures.iter().map(words).join("; ")
+}
+
 /// A list of the page.
 fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
     let variants = given.by_ref().collect();
@@ -125,49 +135,10 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
 /// The commands that give what the page shows.
 fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     let file = word(&a.file.file);
-    let list = flags(mechanism, request);
-    let mut more = vec![list.clone()];
-    if request.poses > 0 {
-        more.push(format!("--poses {}", request.poses));
-    }
-    if request.generic_only {
-        more.push("--generic-only".to_owned());
-    }
-    more.push(format!("--top {}", a.top));
-    let more = more.iter().filter(|m| !m.is_empty()).join(" ");
+    let more = list_options(mechanism, a, request);
     let row = |what: &str, command: String| (what.to_owned(), command);
     let named = |ending: &str| file_name(&mechanism.name, ending);
-    // `--idea` says that ideas are meant.
-    let plain = flags(
-        mechanism,
-        &Request {
-            distinct: false,
-            ..request.clone()
-        },
-    );
-    let of_one = |name: &str| {
-        let row_of = |what: &str, command: &str, rest: &str| {
-            let one = if request.distinct {
-                request.one()
-            } else {
-                name
-            };
-            let rest = rest.replace("NAME", &format!("{}-{one}", stem(&mechanism.name)));
-            let number = format!("--{one} {{}}");
-            let words = [command, &file, &plain, &number, &rest];
-            row(what, words.iter().filter(|w| !w.is_empty()).join(" "))
-        };
-        // `draw` and `export` count the lucky variants, too.
-        if request.generic_only {
-            return Vec::new();
-        }
-        vec![
-            row_of("The same drawing", "ozols draw", "-o NAME-{}.svg"),
-            row_of("It as a file", "ozols export", "--to toml -o NAME-{}.toml"),
-        ]
-    };
-    let longer = [&list, "{}", "--top 10000"];
-    let longer = longer.iter().filter(|w| !w.is_empty()).join(" ");
+    let longer = joined(&[&flags(mechanism, request), "{}", "--top 10000"]);
     Commands {
         rows: vec![
             row(
@@ -191,8 +162,60 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
                 ),
             ),
         ],
-        variant: of_one("variant"),
-        idea: of_one("idea"),
+        variant: of_one(mechanism, &file, request, "variant"),
+        idea: of_one(mechanism, &file, request, "idea"),
         longer: format!("ozols report {file} {longer} -o report.html"),
     }
+}
+
+/// Words of a command, those left out that are empty.
+fn joined(words: &[&str]) -> String {
+    words.iter().filter(|w| !w.is_empty()).join(" ")
+}
+
+/// The options that the list of the page was made with.
+fn list_options(mechanism: &Mechanism, a: &Report, request: &Request) -> String {
+    let mut more = vec![flags(mechanism, request)];
+    if request.poses > 0 {
+        more.push(format!("--poses {}", request.poses));
+    }
+    if request.generic_only {
+        more.push("--generic-only".to_owned());
+    }
+    more.push(format!("--top {}", a.top));
+    more.iter().filter(|m| !m.is_empty()).join(" ")
+}
+
+/// The commands about one variant or idea, as `name` says, with `{}` for its number.
+fn of_one(
+    mechanism: &Mechanism,
+    file: &str,
+    request: &Request,
+    name: &str,
+) -> Vec<(String, String)> {
+    // `draw` and `export` count the lucky variants, too.
+    if request.generic_only {
+        return Vec::new();
+    }
+    // `--idea` says that ideas are meant.
+    let plain = Request {
+        distinct: false,
+        ..request.clone()
+    };
+    let plain = flags(mechanism, &plain);
+    let one = if request.distinct {
+        request.one()
+    } else {
+        name
+    };
+    let number = format!("--{one} {{}}");
+    let row = |what: &str, command: &str, rest: &str| {
+        let rest = rest.replace("NAME", &format!("{}-{one}", stem(&mechanism.name)));
+        let command = joined(&[command, file, &plain, &number, &rest]);
+        (what.to_owned(), command)
+    };
+    vec![
+        row("The same drawing", "ozols draw", "-o NAME-{}.svg"),
+        row("It as a file", "ozols export", "--to toml -o NAME-{}.toml"),
+    ]
 }

@@ -75,35 +75,10 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         return stability(&m, state, stroke, folder, args.seed);
     }
     let own = matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective);
-    if a.unilateral && !m.joints_in(state).any(|j| object_at(&m, j).is_some()) {
-        bail!(
-            "--unilateral is for contacts with an object, and state {} of {} has none: a link of role = \"object\", and joints of \
-             type fixed, planar, cylinder-on-plane or sphere-on-plane to it",
-            a.state,
-            m.name
-        );
-    }
-    let model = match (a.unilateral, a.spatial, own || a.svg.is_some()) {
-        (true, ..) => Model::Pushing,
-        (_, true, _) => Model::Spatial,
-        (_, false, true) => Model::Planar,
-        (_, false, false) => Model::Either,
-    };
+    let model = model(&m, state, own, a)?;
     let found = match solve(&m, state, stroke, model) {
         // Not held is an answer, and no failure.
-        Err(StaticsError::Spatial(why @ Unsolved::Loose)) => {
-            return output::to(a.output.as_deref(), |out| {
-                match a.format {
-                    StaticsFormat::Json => {
-                        output::json(out, &NotHeld::because(&m, state, &why.to_string()))?
-                    }
-                    StaticsFormat::Csv | StaticsFormat::Text => {
-                        writeln!(out, "{}, state {}: {why}", m.name, a.state)?;
-                    }
-                }
-                Ok(Done::Nothing)
-            });
-        }
+        Err(StaticsError::Spatial(why @ Unsolved::Loose)) => return loose(&m, state, &why, a),
         found => found?,
     };
     match &found {
@@ -115,6 +90,39 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         Done::Found
     } else {
         Done::Nothing
+    })
+}
+
+/// The model that the options ask for; `own` is whether the method solves groups in the plane by itself.
+fn model(m: &Mechanism, state: StateId, own: bool, a: &Statics) -> anyhow::Result<Model> {
+    if a.unilateral && !m.joints_in(state).any(|j| object_at(m, j).is_some()) {
+        bail!(
+            "--unilateral is for contacts with an object, and state {} of {} has none: a link of role = \"object\", and joints of \
+             type fixed, planar, cylinder-on-plane or sphere-on-plane to it",
+            a.state,
+            m.name
+        );
+    }
+    Ok(match (a.unilateral, a.spatial, own || a.svg.is_some()) {
+        (true, ..) => Model::Pushing,
+        (_, true, _) => Model::Spatial,
+        (_, false, true) => Model::Planar,
+        (_, false, false) => Model::Either,
+    })
+}
+
+/// Says why nothing holds the mechanism: exit code 1.
+fn loose(m: &Mechanism, state: StateId, why: &Unsolved, a: &Statics) -> anyhow::Result<Done> {
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            StaticsFormat::Json => {
+                output::json(out, &NotHeld::because(m, state, &why.to_string()))?
+            }
+            StaticsFormat::Csv | StaticsFormat::Text => {
+                writeln!(out, "{}, state {}: {why}", m.name, a.state)?;
+            }
+        }
+        Ok(Done::Nothing)
     })
 }
 

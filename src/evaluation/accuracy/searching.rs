@@ -72,7 +72,7 @@ pub fn trial(
     };
     let (present, _) = listed(mechanism, &base)?;
     let ranked = present.ranking.is_some();
-    let truth = Truth::new(&present, mechanism, (&base, top), effort)?;
+    let truth = Truth::new(&present, mechanism, &base, top, effort)?;
     let nodes = present
         .diagrams
         .as_ref()

@@ -71,11 +71,12 @@ pub struct WhyNone {
 }
 
 impl Outcome {
-    /// An outcome of (determinate, admissible) counts alone.
+    /// An outcome of counts alone.
     pub(super) fn of_counts(
         search: Search,
         request: Request,
-        (determinate, admissible): (Counts, Counts),
+        determinate: Counts,
+        admissible: Counts,
         measured: Option<LooksRounded>,
     ) -> Outcome {
         Outcome {
@@ -102,15 +103,13 @@ impl Outcome {
         found: AtTolerance,
         measured: Option<LooksRounded>,
     ) -> Outcome {
-        let counts = (
-            found.determinate.sure.clone(),
-            found.admissible.sure.clone(),
-        );
+        let determinate = found.determinate.sure.clone();
+        let admissible = found.admissible.sure.clone();
         Outcome {
             stop: found.stop,
             determinate_stop: found.stop,
             numeric: Some(found),
-            ..Outcome::of_counts(search, request, counts, measured)
+            ..Outcome::of_counts(search, request, determinate, admissible, measured)
         }
     }
 

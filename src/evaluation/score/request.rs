@@ -330,8 +330,7 @@ impl Request {
         tell: &mut dyn FnMut(String),
     ) -> Result<(Conditions, Option<LooksRounded>), RequestError> {
         let state = self.state(&prepared.mechanism)?;
-        let asked = (self.as_written, self.snap.is_some());
-        let rounded = prepared.rounded(asked, tell);
+        let rounded = prepared.rounded(self.as_written, self.snap.is_some(), tell);
         let verdicts = rounded.iter().flat_map(|(_, v)| v);
         // Second opinions are read at the errors of what is searched.
         let tolerance = match &prepared.settled {

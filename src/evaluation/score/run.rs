@@ -33,6 +33,10 @@ const POSES: usize = 3;
 const BRUTE_LIMIT: u64 = 1 << 32;
 /// How many of the best both primes must agree on where no number of them is asked for.
 const COMPARED: usize = 10;
+/// What is said where counts do not go by their properties.
+const ONLY_TOTALS: &str = "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given";
+/// What is said where the second opinion is another.
+const CONTRADICTED: &str = "warning: singular values contradict the exact counts, so variants are judged by singular values instead, and no figure is exact";
 
 /// What happens on the way, for whoever shows it.
 #[derive(Debug)]
@@ -97,13 +101,7 @@ pub fn answer(
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
 ) -> Result<Outcome, RunError> {
-    let over = |nth: usize| -> Result<Search, RunError> {
-        let field = exact_field(&mechanism, nth)?;
-        let mut conditions = conditions.clone();
-        // The twin proves counts, and an estimate is none.
-        conditions.estimate = conditions.estimate.filter(|_| nth == 0);
-        Ok(Search::new(field, mechanism.clone(), conditions)?)
-    };
+    let over = |nth: usize| over_prime(&mechanism, &conditions, nth);
     if let Some(digits) = conditions.numeric {
         let search = over(0)?;
         return numeric(search, digits, measured, request, should_cancel, tell);
@@ -111,13 +109,7 @@ pub fn answer(
     if request.method == Method::Brute {
         return by_brute_force(over(0)?, request, measured);
     }
-    let (search, twin) = match request.check {
-        Check::None => (over(0)?, None),
-        Check::Prime | Check::Full => {
-            let (search, twin) = rayon::join(|| over(0), || over(1));
-            (search?, Some(twin?))
-        }
-    };
+    let (search, twin) = with_twin(request.check, over)?;
     for note in search.already_loose()? {
         tell(Event::Note(note));
     }
@@ -126,10 +118,7 @@ pub fn answer(
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
     let mut counts = counted(&search, &diagrams);
     if counts.0.only_total || counts.1.only_total {
-        tell(Event::Note(
-            "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given"
-                .to_owned(),
-        ));
+        tell(Event::Note(ONLY_TOTALS.to_owned()));
     }
     let of_all = counts.0.clone();
     if request.symmetry == Symmetry::OnePerOrbit {
@@ -145,11 +134,7 @@ pub fn answer(
     let contradicted = second.as_ref().is_some_and(|s| !s.agrees());
     // A count as written is what was asked for; one as meant is not what is meant.
     if contradicted && !request.as_written && request.symmetry != Symmetry::OnePerOrbit {
-        tell(Event::Note(
-            "warning: singular values contradict the exact counts, so variants are judged by singular values instead, and no \
-             figure is exact"
-                .to_owned(),
-        ));
+        tell(Event::Note(CONTRADICTED.to_owned()));
         if let Some((search, digits)) = by_values(&search.conditions)? {
             let found = numeric(search, digits, measured, request, should_cancel, tell)?;
             return Ok(Outcome { second, ..found });
@@ -163,7 +148,34 @@ pub fn answer(
         check,
         stroke,
         ranking,
-        ..Outcome::of_counts(search, request.clone(), counts, measured)
+        ..Outcome::of_counts(search, request.clone(), counts.0, counts.1, measured)
+    })
+}
+
+/// The search over a prime, counted from 0.
+fn over_prime(
+    mechanism: &Arc<Mechanism>,
+    conditions: &Conditions,
+    nth: usize,
+) -> Result<Search, RunError> {
+    let field = exact_field(mechanism, nth)?;
+    let mut conditions = conditions.clone();
+    // The twin proves counts, and an estimate is none.
+    conditions.estimate = conditions.estimate.filter(|_| nth == 0);
+    Ok(Search::new(field, mechanism.clone(), conditions)?)
+}
+
+/// The search over the first prime, with its twin over the second where a check needs it.
+fn with_twin(
+    check: Check,
+    over: impl Fn(usize) -> Result<Search, RunError> + Sync,
+) -> Result<(Search, Option<Search>), RunError> {
+    Ok(match check {
+        Check::None => (over(0)?, None),
+        Check::Prime | Check::Full => {
+            let (search, twin) = rayon::join(|| over(0), || over(1));
+            (search?, Some(twin?))
+        }
     })
 }
 
@@ -176,11 +188,12 @@ fn by_brute_force(
     if search.size() > BRUTE_LIMIT.into() {
         return Err(RunError::TooMany(search.size()));
     }
-    let counts = brute::brute(&search)?;
+    let (determinate, admissible) = brute::brute(&search)?;
     Ok(Outcome::of_counts(
         search,
         request.clone(),
-        counts,
+        determinate,
+        admissible,
         measured,
     ))
 }

@@ -150,10 +150,10 @@ impl Sweep {
             Some(free) if asked.methods => judged(m, free),
             _ => BTreeMap::new(),
         };
-        let stroke = asked.stroke.as_ref().map(|stroke| {
+        let stroke = asked.stroke.as_ref().map(|(text, range)| {
+            let over = |s: StateId| Known::of(over_stroke(m, s, text, *range));
             let each = states.iter();
-            each.map(|&s| (m.states[s].clone(), Known::of(over_stroke(m, s, stroke))))
-                .collect()
+            each.map(|&s| (m.states[s].clone(), over(s))).collect()
         });
         Ok(SampleRow {
             states: found.iter().map(SampleState::new).collect(),

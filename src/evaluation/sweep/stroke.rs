@@ -36,17 +36,18 @@ pub enum StrokeError {
     Rank(#[from] NoAnswer),
 }
 
-/// Follows the first drive of a state.
+/// Follows the first drive of a state over a range, as it was written and read.
 ///
 /// # Errors
 /// Where it has none, or which mechanism is meant is not decided.
 pub(super) fn over_stroke(
     m: &Mechanism,
     state: StateId,
-    (text, range): &(String, Stroke),
+    text: &str,
+    range: Stroke,
 ) -> Result<OverStroke, StrokeError> {
     let verdict = verdict(m, state, None)?;
-    let found = AskedStroke::new(m, state, text, *range, None, &verdict, None)?.follow();
+    let found = AskedStroke::new(m, state, text, range, None, &verdict, None)?.follow();
     let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
     let worst = found
         .poses

@@ -165,14 +165,6 @@ pub fn mechanism_file(
     let roles = &paired.structure.roles;
     let rules = &layout.rules;
     let joints = 0..rules.joints.len();
-    let geared = |i: &usize| rules.joints[*i].pair == PairKind::Gear;
-    let points = |l: usize| {
-        let of = |i: &usize| rules.joints[*i].is_at(l) && !geared(i);
-        let own = joints.clone().filter(of).map(|i| layout.at.points[i]);
-        let jaw = roles.jaws.iter().position(|&j| j == l);
-        let tip = jaw.map(|n| layout.at.points[rules.joints.len() + n]);
-        own.chain(tip).collect()
-    };
     let tips: Vec<Place> = layout.at.points[rules.joints.len()..]
         .iter()
         .map(|&p| whole(p))
@@ -183,7 +175,7 @@ pub fn mechanism_file(
         links: names
             .iter()
             .enumerate()
-            .map(|(l, n)| (n.clone(), points(l)))
+            .map(|(l, n)| (n.clone(), points_of(paired, layout, l)))
             .collect(),
         frame: roles.frame,
         jaws: &roles.jaws,
@@ -193,37 +185,63 @@ pub fn mechanism_file(
             grip: layout.limits.task.grip.sign(),
         },
     };
-    let name = |i: usize| {
-        let [u, v] = rules.joints[i].links;
-        joint_name(&names, (u, v))
-    };
-    // A drive on one side alone is no symmetry of what is asked.
-    let images = rules
-        .images()
-        .filter(|(a, _)| !geared(a) && !paired.form.one_sided);
-    let images: Vec<[String; 2]> = images.map(|(a, b)| [name(a), name(b)]).collect();
-    let mirror = paired.form.symmetry == Symmetry::Mirror;
     let couplings = joints.clone().filter_map(|i| {
         let mesh = rules.meshes[i].as_ref()?;
         Some(paired.coupling(layout, i, mesh, &names))
     });
-    let made = joints.clone().filter(|i| !geared(i));
+    let made = joints.clone().filter(|&i| !is_geared(layout, i));
     MechanismFile {
         joint: made
             .map(|i| paired.joint(layout, i, &names, menu))
             .collect(),
         coupling: couplings.collect(),
-        search: SearchEntry {
-            options: menu.options.clone(),
-            unloading: menu.unloading.clone(),
-            mirror: if mirror { images.clone() } else { Vec::new() },
-            turn: if mirror {
-                Vec::new()
-            } else {
-                images.into_iter().map(Vec::from).collect()
-            },
-            ..SearchEntry::default()
-        },
+        search: search_entry(paired, layout, menu, &names),
         ..told.file(workload)
+    }
+}
+
+/// Whether a joint is a mesh of gears, which is a coupling in a file.
+fn is_geared(layout: &PairLayout, joint: usize) -> bool {
+    layout.rules.joints[joint].pair == PairKind::Gear
+}
+
+/// The points of a link: its joints, and its tip where it is a jaw.
+fn points_of(paired: &PairedStructure, layout: &PairLayout, link: usize) -> Vec<Point> {
+    let joints = &layout.rules.joints;
+    let of = |i: &usize| joints[*i].is_at(link) && !is_geared(layout, *i);
+    let own = (0..joints.len()).filter(of).map(|i| layout.at.points[i]);
+    let jaws = &paired.structure.roles.jaws;
+    let jaw = jaws.iter().position(|&j| j == link);
+    let tip = jaw.map(|n| layout.at.points[joints.len() + n]);
+    own.chain(tip).collect()
+}
+
+/// What the search may put at the joints, and which of them are images of each other.
+fn search_entry(
+    paired: &PairedStructure,
+    layout: &PairLayout,
+    menu: &Menu,
+    names: &[String],
+) -> SearchEntry {
+    let rules = &layout.rules;
+    let name = |i: usize| {
+        let [u, v] = rules.joints[i].links;
+        joint_name(names, (u, v))
+    };
+    // A drive on one side alone is no symmetry of what is asked.
+    let images = rules
+        .images()
+        .filter(|&(a, _)| !is_geared(layout, a) && !paired.form.one_sided);
+    let images: Vec<[String; 2]> = images.map(|(a, b)| [name(a), name(b)]).collect();
+    let (mirror, turn) = match paired.form.symmetry {
+        Symmetry::Mirror => (images, Vec::new()),
+        _ => (Vec::new(), images.into_iter().map(Vec::from).collect()),
+    };
+    SearchEntry {
+        options: menu.options.clone(),
+        unloading: menu.unloading.clone(),
+        mirror,
+        turn,
+        ..SearchEntry::default()
     }
 }

@@ -64,6 +64,11 @@ impl ForceFigures {
     }
 }
 
+/// The first of the three equations of a link; the frame has none.
+fn first_row(link: usize, frame: usize) -> Option<usize> {
+    (link != frame).then(|| 3 * (link - usize::from(link > frame)))
+}
+
 impl JointForces {
     /// Room for those of a skeleton.
     #[must_use]
@@ -89,19 +94,37 @@ impl JointForces {
         links: &[LinkPose],
         at: &[Point],
     ) -> bool {
-        let (roles, pins) = (&skeleton.structure.roles, &skeleton.rules.pins);
-        let slides = skeleton.structure.form.input == Input::Slide;
-        // The equations of a link; the frame has none.
-        let rows = |l: usize| (l != roles.frame).then(|| 3 * (l - usize::from(l > roles.frame)));
-        let drive = 2 * pins.len();
+        let roles = &skeleton.structure.roles;
+        let drive = 2 * skeleton.rules.pins.len();
         self.system.clear();
-        for (i, &(u, v)) in pins.iter().enumerate() {
+        self.add_joints(skeleton, links, at);
+        if let Some(row) = first_row(roles.driver, roles.frame) {
+            // A slide lies on the x axis.
+            let slides = skeleton.structure.form.input == Input::Slide;
+            self.system
+                .add(row + if slides { 0 } else { 2 }, drive, 1.0);
+        }
+        self.add_part(skeleton, links);
+        if self.system.solve().is_none() {
+            return false;
+        }
+        self.read(skeleton);
+        true
+    }
+
+    /// Adds what the joints do to their links.
+    fn add_joints(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose], at: &[Point]) {
+        let roles = &skeleton.structure.roles;
+        let slides = skeleton.structure.form.input == Input::Slide;
+        for (i, &(u, v)) in skeleton.rules.pins.iter().enumerate() {
             let guide = slides && i == skeleton.rules.input;
             // What presses on a guide goes with the driver.
             let place = links[if guide { roles.driver } else { v }].point(at[i]);
             self.places[i] = place;
             for (link, sign) in [(u, -1.0), (v, 1.0)] {
-                let Some(row) = rows(link) else { continue };
+                let Some(row) = first_row(link, roles.frame) else {
+                    continue;
+                };
                 if guide {
                     // Across the slide, and a moment about its place.
                     self.system.add(row + 1, 2 * i, sign);
@@ -115,14 +138,16 @@ impl JointForces {
                 }
             }
         }
-        if let Some(row) = rows(roles.driver) {
-            // A slide lies on the x axis.
-            self.system
-                .add(row + if slides { 0 } else { 2 }, drive, 1.0);
-        }
+    }
+
+    /// Adds what the part does to the jaws, as the right side.
+    fn add_part(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose]) {
+        let roles = &skeleton.structure.roles;
         let right = 3 * (skeleton.structure.chain.links() - 1);
         for (n, &jaw) in roles.jaws.iter().enumerate() {
-            let Some(row) = rows(jaw) else { continue };
+            let Some(row) = first_row(jaw, roles.frame) else {
+                continue;
+            };
             // The part pushes outward; what the joints do makes up for it.
             let push = skeleton.bones.inward[n];
             let tip = links[jaw].point(skeleton.bones.tips[n]);
@@ -131,14 +156,17 @@ impl JointForces {
             self.system
                 .add(row + 2, right, cross_plane(tip, push) / ARM);
         }
-        if self.system.solve().is_none() {
-            return false;
-        }
+    }
+
+    /// Reads the forces from the system solved.
+    fn read(&mut self, skeleton: &Skeleton<'_>) {
+        let (roles, pins) = (&skeleton.structure.roles, &skeleton.rules.pins);
+        let slides = skeleton.structure.form.input == Input::Slide;
         for (i, force) in self.pins.iter_mut().enumerate() {
             *force = [self.system.get(2 * i, 0), self.system.get(2 * i + 1, 0)];
         }
         let arm = if slides { 1.0 } else { ARM };
-        self.drive = arm * self.system.get(drive, 0);
+        self.drive = arm * self.system.get(2 * pins.len(), 0);
         if slides {
             let input = skeleton.rules.input;
             let to_driver = if pins[input].1 == roles.driver {
@@ -150,7 +178,6 @@ impl JointForces {
             self.pins[input] = [0.0, across];
             self.moment = to_driver * moment * ARM;
         }
-        true
     }
 
     /// What the forces say, with the links moving as they do for a millimetre of the width.

@@ -41,23 +41,54 @@ pub(super) fn all(width: Option<u16>) -> String {
 /// All that is known of one; its picture goes into a file.
 pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Done> {
     if let Some(path) = file {
-        let drawing = draw::joint_type(of);
-        let bytes = if picture::named(file) {
-            picture::there()?;
-            picture::png(&drawing, Size::Scale(picture::SCALE))?
-        } else {
-            drawing.svg.into_bytes()
-        };
-        output::to(Some(path), |out| {
-            out.write_all(&bytes)?;
-            Ok(Done::Found)
-        })?;
+        draw_to(of, path)?;
     }
     let words = PairWords::builtin();
     let Some(w) = words.get(of.name()) else {
         return Ok(Done::Nothing);
     };
     let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
+    let needs = !w.reference.starts_with("does not matter");
+    output::to(None, |out| {
+        writeln!(
+            out,
+            "{}\n\n{}\n",
+            of.name(),
+            textwrap::fill(&w.about, width)
+        )?;
+        for line in figures(of, w, width) {
+            writeln!(out, "{line}")?;
+        }
+        writeln!(out, "\n{}", example(of, needs))?;
+        if needs {
+            let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what is meant.";
+            writeln!(out, "\n{}", textwrap::fill(guess, width))?;
+        }
+        if file.is_none() {
+            writeln!(out, "\nozols explain {} -o {0}.svg draws it.", of.name())?;
+        }
+        Ok(Done::Found)
+    })
+}
+
+/// Writes the picture of a joint type to a file, as PNG where its name says so.
+fn draw_to(of: &JointType, path: &Path) -> anyhow::Result<()> {
+    let drawing = draw::joint_type(of);
+    let bytes = if picture::named(Some(path)) {
+        picture::there()?;
+        picture::png(&drawing, Size::Scale(picture::SCALE))?
+    } else {
+        drawing.svg.into_bytes()
+    };
+    output::to(Some(path), |out| {
+        out.write_all(&bytes)?;
+        Ok(Done::Found)
+    })?;
+    Ok(())
+}
+
+/// Freedoms, class, axes, cost and hardware, a paragraph each.
+fn figures(of: &JointType, w: &PairWords, width: usize) -> [String; 6] {
     let row = |head: &str, text: &str| {
         let options = textwrap::Options::new(width)
             .initial_indent("  ")
@@ -71,55 +102,35 @@ pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Don
             .map(|f| format!("{} {}", f.name(), meaning(*f)))
             .join(", "),
     };
-    let screws = of.freedoms().contains(&Freedom::Screw);
-    let own = if screws { "\nlead = 5" } else { "" };
-    let needs = !w.reference.starts_with("does not matter");
-    let reference = if needs { "\nreference = [1, 0, 0]" } else { "" };
-    let lines = [
+    let constraints = plural(6 - of.freedoms().len(), "constraint");
+    let class = format!("{} ({constraints})", of.class());
+    let cost = format!(
+        "{} by default, in revolute joints; [search.costs] of a file or --costs states others (`ozols show costs`)",
+        cost(of.default_cost_milli())
+    );
+    [
         row("freedoms", &freedoms),
-        row(
-            "class",
-            &format!(
-                "{} ({})",
-                of.class(),
-                plural(6 - of.freedoms().len(), "constraint")
-            ),
-        ),
+        row("class", &class),
         row("axis z", &w.axis),
         row("reference x", &w.reference),
-        row(
-            "cost",
-            &format!(
-                "{} by default, in revolute joints; [search.costs] of a file or --costs states others (`ozols show costs`)",
-                cost(of.default_cost_milli())
-            ),
-        ),
+        row("cost", &cost),
         row("made as", &w.hardware.join("; ")),
-    ];
-    output::to(None, |out| {
-        writeln!(
-            out,
-            "{}\n\n{}\n",
-            of.name(),
-            textwrap::fill(&w.about, width)
-        )?;
-        for line in &lines {
-            writeln!(out, "{line}")?;
-        }
-        writeln!(
-            out,
-            "\n[[joint]]\nid = \"1-2\"\nlinks = [\"1\", \"2\"]\ntype = \"{}\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]{reference}{own}",
-            of.name()
-        )?;
-        if needs {
-            let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what is meant.";
-            writeln!(out, "\n{}", textwrap::fill(guess, width))?;
-        }
-        if file.is_none() {
-            writeln!(out, "\nozols explain {} -o {0}.svg draws it.", of.name())?;
-        }
-        Ok(Done::Found)
-    })
+    ]
+}
+
+/// A joint of the type as it stands in a file.
+fn example(of: &JointType, needs_reference: bool) -> String {
+    let screws = of.freedoms().contains(&Freedom::Screw);
+    let own = if screws { "\nlead = 5" } else { "" };
+    let reference = if needs_reference {
+        "\nreference = [1, 0, 0]"
+    } else {
+        ""
+    };
+    format!(
+        "[[joint]]\nid = \"1-2\"\nlinks = [\"1\", \"2\"]\ntype = \"{}\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]{reference}{own}",
+        of.name()
+    )
 }
 
 /// A freedom in words.

@@ -10,6 +10,7 @@ use crate::score::request::Request;
 use crate::score::run::{RunError, run};
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
+use crate::search::build::Diagrams;
 use crate::search::check::brute::Matrices;
 use crate::search::diagram::Stop;
 use num_bigint::BigUint;
@@ -60,25 +61,15 @@ impl Truth {
     pub(super) fn new(
         outcome: &Outcome,
         mechanism: &Mechanism,
-        (request, top): (&Request, usize),
+        request: &Request,
+        top: usize,
         effort: TrialEffort,
     ) -> Result<Truth, RunError> {
         let search = over(&outcome.search, PRIME)?;
         let matrices = Matrices::new(&search);
         let judge =
             |choices: &[usize]| brute_judgement::judged(&search, choices, matrices.look(choices));
-        let (looked, diagrams) = match brute_judgement::every(&search, effort.looked) {
-            Some(all) => (all, None),
-            None => {
-                let diagrams = search.build(&|| false, &mut |_| {});
-                let mut some =
-                    brute_judgement::drawn(&search, effort.looked.div_ceil(2), request.seed);
-                let good = search.sample(&diagrams, request.seed);
-                let good: Vec<_> = good.take(effort.looked / 2).collect();
-                some.extend(good.into_iter().map(|a| a.choices));
-                (some, Some(diagrams))
-            }
-        };
+        let (looked, diagrams) = looked_at(&search, effort.looked, request.seed);
         let judged = brute_judgement::judge_all(&looked, judge)?;
         let (cells, cheapest) = match &diagrams {
             None => {
@@ -86,12 +77,8 @@ impl Truth {
                 (Some(brute_judgement::cells(&search, &judged)), best)
             }
             Some(d) if d.stop() == Stop::Exhausted => {
-                let counts = [(false, &d.determinate), (true, &d.admissible)];
-                let of = counts.into_iter().flat_map(|(all, diagram)| {
-                    let counts = search.counts(diagram, all).by_mobility_and_changes;
-                    counts.into_iter().map(move |((w, c), n)| ((all, w, c), n))
-                });
-                (Some(of.collect()), search.cheapest(d, top).collect())
+                let cells = cells_of_diagrams(&search, d);
+                (Some(cells), search.cheapest(d, top).collect())
             }
             Some(_) => (None, Vec::new()),
         };
@@ -184,6 +171,30 @@ impl Truth {
             of: self.judged.len(),
         }
     }
+}
+
+/// The variants to look at one by one: all; or, where they are too many, some drawn from all and some from the admissible ones
+/// of the diagrams, which come along.
+fn looked_at(search: &Search, most: usize, seed: u64) -> (Vec<Vec<usize>>, Option<Diagrams>) {
+    if let Some(all) = brute_judgement::every(search, most) {
+        return (all, None);
+    }
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let mut some = brute_judgement::drawn(search, most.div_ceil(2), seed);
+    let good = search.sample(&diagrams, seed);
+    let good: Vec<_> = good.take(most / 2).collect();
+    some.extend(good.into_iter().map(|a| a.choices));
+    (some, Some(diagrams))
+}
+
+/// All counts of whole diagrams.
+fn cells_of_diagrams(search: &Search, diagrams: &Diagrams) -> Cells {
+    let counts = [(false, &diagrams.determinate), (true, &diagrams.admissible)];
+    let of = counts.into_iter().flat_map(|(all, diagram)| {
+        let counts = search.counts(diagram, all).by_mobility_and_changes;
+        counts.into_iter().map(move |((w, c), n)| ((all, w, c), n))
+    });
+    of.collect()
 }
 
 /// Searches by the diagram, and gives the list that was asked for.

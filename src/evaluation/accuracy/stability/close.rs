@@ -81,6 +81,16 @@ impl SpecialPair {
 }
 
 impl DrawnNumbers {
+    /// What methods say of the special one, and of that which is off in a digit.
+    fn replies(&self, digit: u32) -> Option<Replies> {
+        let read = |off: Option<u32>| {
+            let m = mechanism_from_str("close.toml", &self.text(off)).ok()?;
+            Some((m, self.pair.truth(off.is_some())))
+        };
+        let pair = [read(None)?, read(Some(digit))?];
+        Replies::new(&pair, self.text(Some(digit)))
+    }
+
     /// One drawn at random.
     #[must_use]
     pub fn new(pair: SpecialPair, noise: &mut Noise) -> DrawnNumbers {
@@ -157,16 +167,7 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
         .to_vec();
     for (n, &digit) in digits.iter().enumerate() {
         progress("closeness", n, digits.len());
-        let found: Vec<Replies> = drawn
-            .par_iter()
-            .filter_map(|d| {
-                let read = |off: Option<u32>| {
-                    let m = mechanism_from_str("close.toml", &d.text(off)).ok()?;
-                    Some((m, d.pair.truth(off.is_some())))
-                };
-                Replies::new(&[read(None)?, read(Some(digit))?], d.text(Some(digit)))
-            })
-            .collect();
+        let found: Vec<Replies> = drawn.par_iter().filter_map(|d| d.replies(digit)).collect();
         asked::add(&mut rows, &found);
         for (p, row) in auto.iter_mut().enumerate() {
             row.1

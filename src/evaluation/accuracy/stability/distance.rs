@@ -180,40 +180,40 @@ fn seen(of: &[(f64, VerdictKind)]) -> ToldApart {
     }
 }
 
-/// Runs the study.
-pub(super) fn study(
-    built_in: BuiltIn<'_>,
-    effort: Effort,
-    progress: Progress<'_>,
-) -> Result<Study, ImportError> {
-    let mut distances: Vec<(f64, Expr)> = Vec::new();
-    for e in (-16..=0).step_by(if effort.quick { 2 } else { 1 }) {
+/// The distances looked at, ascending.
+fn distances(quick: bool) -> Vec<(f64, Expr)> {
+    let mut out: Vec<(f64, Expr)> = Vec::new();
+    for e in (-16..=0).step_by(if quick { 2 } else { 1 }) {
         for lead in [1_i32, 3] {
-            if lead == 1 || (e < 0 && !effort.quick) {
+            if lead == 1 || (e < 0 && !quick) {
                 let d = &Expr::from(i64::from(lead)) * &power_of_ten(e);
-                distances.push((d.to_f64(), d));
+                out.push((d.to_f64(), d));
             }
         }
     }
-    let mut table = Vec::new();
-    let mut pictures = Vec::new();
-    let mut values = Vec::new();
-    let mut met: Vec<Vec<ToldApart>> = vec![Vec::new(); registry::ALL.len()];
-    for (n, special) in SPECIALS.iter().enumerate() {
-        progress("distance from special geometry", n, SPECIALS.len());
-        let found = built_in.iter().find(|(name, _)| *name == special.name);
-        let text = found.map_or("", |(_, text)| text);
-        let mechanism = mechanism_from_str(&format!("{}.toml", special.name), text)?;
-        let (at_zero, _) = truth(&mechanism);
-        // A method that is wrong about the special mechanism cannot tell another one from it.
+    out
+}
+
+/// A special mechanism, and what is said of it at every distance.
+struct Displaced<'s> {
+    special: &'s Special,
+    at_zero: Truth,
+    /// By method, whether it is right about the special mechanism.
+    knows: Vec<bool>,
+    found: Vec<At>,
+}
+
+impl<'s> Displaced<'s> {
+    fn new(special: &'s Special, mechanism: &Mechanism, distances: &[(f64, Expr)]) -> Self {
+        let (at_zero, _) = truth(mechanism);
         let knows: Vec<bool> = registry::ALL
             .iter()
-            .map(|x| AnswerVerdict::keeps_promise(&x.answer(&mechanism, StateId::FREE), at_zero))
+            .map(|x| AnswerVerdict::keeps_promise(&x.answer(mechanism, StateId::FREE), at_zero))
             .collect();
         let found: Vec<At> = distances
             .par_iter()
             .map(|(distance, exact)| {
-                let m = special.at(&mechanism, exact);
+                let m = special.at(mechanism, exact);
                 let (truth, rank) = truth(&m);
                 At {
                     distance: *distance,
@@ -226,47 +226,102 @@ pub(super) fn study(
                 }
             })
             .collect();
-        for at in &found {
-            for (method, answer) in registry::ALL.iter().zip(&at.answers) {
-                table.push(DistanceRow {
-                    mechanism: special.name,
-                    distance: format!("{:e}", at.distance),
-                    method: method.name(),
-                    answer: answer.as_ref().ok().map(|a| a.mobility),
-                    exact_instantaneous: at.truth.instantaneous,
-                    exact_finite: at.truth.finite,
-                    special_instantaneous: at_zero.instantaneous,
-                    special_finite: at_zero.finite,
-                    smallest_singular_value: format!("{:.3e}", at.smallest),
-                });
-            }
+        Displaced {
+            special,
+            at_zero,
+            knows,
+            found,
         }
-        let xs: Vec<f64> = found.iter().map(|a| a.distance).collect();
-        let mut rows = Vec::new();
-        for (m, method) in registry::ALL.iter().enumerate() {
-            let kinds = found.iter().map(|a| kind(&a.answers[m], a.truth, at_zero));
-            let kinds: Vec<VerdictKind> = kinds.collect();
-            let pairs: Vec<(f64, VerdictKind)> =
-                xs.iter().copied().zip(kinds.iter().copied()).collect();
-            if kinds.iter().any(|k| *k != VerdictKind::None) {
-                met[m].push(if knows[m] {
-                    seen(&pairs)
-                } else {
-                    ToldApart::Never
-                });
-            }
-            rows.push((method.name().to_owned(), bands(&xs, kinds)));
-        }
-        let far = found.last().map_or(at_zero, |a| a.truth);
-        pictures.push(Picture::of_bands(
-            format!("stability-distance-{}", special.name),
-            &picture(special, rows, at_zero, far),
-        ));
-        values.push(Series {
-            name: special.name.to_owned(),
-            points: found.iter().map(|a| (a.distance, a.smallest)).collect(),
-            style: Style::Line,
+    }
+
+    /// The lines of the table.
+    fn table(&self) -> impl Iterator<Item = DistanceRow> + '_ {
+        self.found.iter().flat_map(|at| {
+            let answers = registry::ALL.iter().zip(&at.answers);
+            answers.map(|(method, answer)| DistanceRow {
+                mechanism: self.special.name,
+                distance: format!("{:e}", at.distance),
+                method: method.name(),
+                answer: answer.as_ref().ok().map(|a| a.mobility),
+                exact_instantaneous: at.truth.instantaneous,
+                exact_finite: at.truth.finite,
+                special_instantaneous: self.at_zero.instantaneous,
+                special_finite: self.at_zero.finite,
+                smallest_singular_value: format!("{:.3e}", at.smallest),
+            })
+        })
+    }
+
+    /// What a method, by its place, says at each distance.
+    fn verdicts(&self, method: usize) -> Vec<(f64, VerdictKind)> {
+        let verdict = |a: &At| {
+            let kind = kind(&a.answers[method], a.truth, self.at_zero);
+            (a.distance, kind)
+        };
+        self.found.iter().map(verdict).collect()
+    }
+
+    /// From where up a method tells the mechanism from the special one; `None` where it says nothing.
+    fn told_apart(&self, method: usize) -> Option<ToldApart> {
+        let verdicts = self.verdicts(method);
+        let answers = verdicts.iter().any(|(_, k)| *k != VerdictKind::None);
+        // A method that is wrong about the special mechanism cannot tell another one from it.
+        answers.then(|| match self.knows[method] {
+            true => seen(&verdicts),
+            false => ToldApart::Never,
+        })
+    }
+
+    fn picture(&self) -> Picture {
+        let xs: Vec<f64> = self.found.iter().map(|a| a.distance).collect();
+        let rows = registry::ALL.iter().enumerate().map(|(m, method)| {
+            let kinds = self.verdicts(m).into_iter().map(|(_, kind)| kind);
+            (method.name().to_owned(), bands(&xs, kinds))
         });
+        let far = self.found.last().map_or(self.at_zero, |a| a.truth);
+        Picture::of_bands(
+            format!("stability-distance-{}", self.special.name),
+            &picture(self.special, rows.collect(), self.at_zero, far),
+        )
+    }
+
+    /// The smallest singular value that counts, over the distance.
+    fn smallest(&self) -> Series {
+        Series {
+            name: self.special.name.to_owned(),
+            points: self
+                .found
+                .iter()
+                .map(|a| (a.distance, a.smallest))
+                .collect(),
+            style: Style::Line,
+        }
+    }
+}
+
+/// Runs the study.
+pub(super) fn study(
+    built_in: BuiltIn<'_>,
+    effort: Effort,
+    progress: Progress<'_>,
+) -> Result<Study, ImportError> {
+    let distances = distances(effort.quick);
+    let mut table = Vec::new();
+    let mut pictures = Vec::new();
+    let mut values = Vec::new();
+    let mut met: Vec<Vec<ToldApart>> = vec![Vec::new(); registry::ALL.len()];
+    for (n, special) in SPECIALS.iter().enumerate() {
+        progress("distance from special geometry", n, SPECIALS.len());
+        let found = built_in.iter().find(|(name, _)| *name == special.name);
+        let text = found.map_or("", |(_, text)| text);
+        let mechanism = mechanism_from_str(&format!("{}.toml", special.name), text)?;
+        let displaced = Displaced::new(special, &mechanism, &distances);
+        table.extend(displaced.table());
+        for (method, met) in met.iter_mut().enumerate() {
+            met.extend(displaced.told_apart(method));
+        }
+        pictures.push(displaced.picture());
+        values.push(displaced.smallest());
     }
     pictures.push(Picture::of_chart(
         "stability-distance-values",

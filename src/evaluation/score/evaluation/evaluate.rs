@@ -7,7 +7,7 @@ use crate::redundancy::analysis::{AnalysisError, Method, analyse};
 use crate::score::evaluation::elimination::{Ended, Scratch};
 use crate::score::evaluation::floor::Floor;
 use crate::score::evaluation::load_cases::{CaseError, Cases, cases};
-use crate::score::evaluation::pose_tables::PoseTable;
+use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
 use crate::score::evaluation::terms::{ErrorSum, Peak, Scores, output_points};
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
@@ -188,35 +188,13 @@ impl<'s> Evaluator<'s> {
         scratch: &mut Scratch,
         each: &mut dyn FnMut(PoseLoad),
     ) -> Result<Option<Scores>, Unsolved> {
-        let (dim, unknowns) = (table.basis.len(), table.unknowns());
-        let width = unknowns + table.cases;
-        let cell = |p: &crate::score::evaluation::pose_tables::PlacedJoint| {
-            &table.cells[p.variable][variant.choices[p.variable]][p.slot]
-        };
-        let Some(meshing) = table.meshing(cell) else {
+        let choices = &variant.choices[..];
+        let Some(meshing) = table.meshing(|place| table.cell(choices, place)) else {
             return Ok(None);
         };
-        scratch.rows.clear();
-        scratch.gram.clear();
-        scratch.gram.resize(unknowns * unknowns, 0.0);
-        let mut count = 0;
-        for place in &table.places {
-            let cell = cell(place);
-            for row in &cell.rows {
-                let from = count * width;
-                scratch.rows.resize(from + width, 0.0);
-                let out = &mut scratch.rows[from..];
-                for &(k, sign) in &place.contours {
-                    for (o, x) in out[k * dim..(k + 1) * dim].iter_mut().zip(row) {
-                        *o = sign * x;
-                    }
-                }
-                out[dim * table.contours..].copy_from_slice(&row[dim..]);
-                count += 1;
-            }
-            table.add_gram(place, cell, &mut scratch.gram);
-        }
-        match scratch.eliminate(count, unknowns, width) {
+        let unknowns = table.unknowns();
+        let count = write_equations(table, choices, scratch);
+        match scratch.eliminate(count, unknowns, unknowns + table.cases) {
             Ended::Open => return Ok(None),
             Ended::Solved { left } if left > NO_WORK * table.scale => {
                 return Err(Unsolved::Moves {
@@ -226,13 +204,72 @@ impl<'s> Evaluator<'s> {
             }
             Ended::Solved { .. } => {}
         }
+        let solved = SolvedPose {
+            table,
+            choices,
+            solution: &scratch.solution,
+            meshing: &meshing,
+        };
         let mut out = self.plain(variant);
-        let mut errors = vec![ErrorSum::new(self.clearance); self.outputs.len()];
-        let x = &scratch.solution;
-        for place in &table.places {
-            let (f, m) = table.borne(place, &table.wrench(place, 0, x, &meshing));
+        solved.raise_peaks(&mut out, each);
+        for output in 0..self.outputs.len() {
+            let error = solved.output_error(output, self.clearance);
+            out.output_error = out.output_error.max(error);
+        }
+        out.conditioning = scratch.spectrum.conditioning(&mut scratch.gram, unknowns);
+        Ok(Some(out))
+    }
+}
+
+/// Writes the equations of a variant in one pose, and the sum of their outer products; gives how many they are.
+fn write_equations(table: &PoseTable, choices: &[usize], scratch: &mut Scratch) -> usize {
+    let (dim, unknowns) = (table.basis.len(), table.unknowns());
+    let width = unknowns + table.cases;
+    scratch.rows.clear();
+    scratch.gram.clear();
+    scratch.gram.resize(unknowns * unknowns, 0.0);
+    let mut count = 0;
+    for place in &table.places {
+        let cell = table.cell(choices, place);
+        for row in &cell.rows {
+            let from = count * width;
+            scratch.rows.resize(from + width, 0.0);
+            let out = &mut scratch.rows[from..];
+            for &(k, sign) in &place.contours {
+                for (o, x) in out[k * dim..(k + 1) * dim].iter_mut().zip(row) {
+                    *o = sign * x;
+                }
+            }
+            out[dim * table.contours..].copy_from_slice(&row[dim..]);
+            count += 1;
+        }
+        table.add_gram(place, cell, &mut scratch.gram);
+    }
+    count
+}
+
+/// A variant in one pose, its equations solved.
+struct SolvedPose<'p> {
+    table: &'p PoseTable,
+    choices: &'p [usize],
+    /// Unknowns × load cases.
+    solution: &'p [f64],
+    meshing: &'p [bool],
+}
+
+impl SolvedPose<'_> {
+    /// Force and moment of a joint in a load case, without what its drive bears.
+    fn borne(&self, place: &PlacedJoint, case: usize) -> ([f64; 3], [f64; 3]) {
+        let wrench = self.table.wrench(place, case, self.solution, self.meshing);
+        self.table.borne(place, &wrench)
+    }
+
+    /// Raises the peaks to what each joint bears of the loads, and tells of it.
+    fn raise_peaks(&self, out: &mut Scores, each: &mut dyn FnMut(PoseLoad)) {
+        for place in &self.table.places {
+            let (f, m) = self.borne(place, 0);
             let (f, m) = (dot(f, f).sqrt(), dot(m, m).sqrt());
-            for &capacity in &cell(place).bears {
+            for &capacity in &self.table.cell(self.choices, place).bears {
                 let (force, moment) = capacity;
                 each(PoseLoad {
                     joint: place.joint,
@@ -246,18 +283,19 @@ impl<'s> Evaluator<'s> {
                 }
             }
         }
-        for (o, error) in errors.iter_mut().enumerate() {
-            for axis in 0..3 {
-                for place in &table.places {
-                    let case = 1 + 3 * o + axis;
-                    let (f, _) = table.borne(place, &table.wrench(place, case, x, &meshing));
-                    error.joint(cell(place).clearance, dot(f, f));
-                }
-                error.end_axis();
+    }
+
+    /// What the clearances let an output move.
+    fn output_error(&self, output: usize, clearance: ClearanceSum) -> f64 {
+        let mut error = ErrorSum::new(clearance);
+        for axis in 0..3 {
+            for place in &self.table.places {
+                let (f, _) = self.borne(place, 1 + 3 * output + axis);
+                let cell = self.table.cell(self.choices, place);
+                error.joint(cell.clearance, dot(f, f));
             }
-            out.output_error = out.output_error.max(error.error());
+            error.end_axis();
         }
-        out.conditioning = scratch.spectrum.conditioning(&mut scratch.gram, unknowns);
-        Ok(Some(out))
+        error.error()
     }
 }

@@ -4,13 +4,14 @@ use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{across, cross};
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{Joint, JointId, JointOption, LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::score::evaluation::coupled::{CoupledChoice, PlacedCoupling, couplings_at};
 use crate::score::evaluation::load_cases::LoadCase;
 use crate::score::evaluation::terms::axis_of;
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
+use crate::search::question::space::Choice;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::applied::link_loads;
 use crate::statics::reactions::drives::{Driven, period};
@@ -65,34 +66,75 @@ pub(in crate::score) struct PoseTable {
     pub(in crate::score) scale: f64,
 }
 
+impl PlacedJoint {
+    /// A joint at its place, of no variable and under no load yet.
+    fn of(geometry: &Geometry, drives: &[Driven], joint: JointId) -> PlacedJoint {
+        let contours = geometry.contours.iter().enumerate();
+        let through = contours.filter_map(|(k, contour)| {
+            let forward = contour.direction(joint)?;
+            Some((k, if forward { 1.0 } else { -1.0 }))
+        });
+        let drive = drives.iter().find(|(j, _)| *j == joint);
+        PlacedJoint {
+            joint,
+            variable: 0,
+            slot: 0,
+            contours: through.collect(),
+            point: geometry.points[joint],
+            held: drive.and_then(|(_, f)| {
+                let (axis, shift) = axis_of(*f)?;
+                Some((geometry.axes[joint][axis], shift))
+            }),
+            along_tree: Vec::new(),
+            couplings: couplings_at(geometry, joint),
+        }
+    }
+}
+
+/// The wrench on every link in each load case: of the loads, then of a unit force along each axis on each output.
+fn wrenches(
+    m: &Mechanism,
+    geometry: &Geometry,
+    outputs: &[(LinkId, [f64; 3])],
+    drives: &[Driven],
+    LoadCase { drive, pose, loads }: &LoadCase,
+) -> Vec<Vec<Six>> {
+    let mut out = vec![link_loads(m, loads, geometry, pose, *drive, period(drives))];
+    for &(link, point) in outputs {
+        let at = geometry.place(pose, link, point);
+        for axis in 0..3 {
+            let mut force = [0.0; 3];
+            force[axis] = 1.0;
+            let mut on_links = vec![[0.0; 6]; m.links.len()];
+            on_links[link] = geometry.within(&wrench(at, force, [0.0; 3]));
+            out.push(on_links);
+        }
+    }
+    out
+}
+
+/// The joints that a choice puts in series, each with whether it is the present one.
+fn in_series<'j>(
+    joint: &'j Joint,
+    choice: &Choice,
+) -> impl Iterator<Item = (&'j JointOption, bool)> {
+    let option = joint.options.get(choice.option);
+    let option = option.map(|o| (o, choice.option == 0));
+    let unloading = choice.unloading.and_then(|u| joint.unloading.get(u));
+    option.into_iter().chain(unloading.map(|o| (o, false)))
+}
+
 impl PoseTable {
     pub(in crate::score) fn new(
         search: &Search,
         types: &JointTypes,
         outputs: &[(LinkId, [f64; 3])],
         drives: &[Driven],
-        LoadCase { drive, pose, loads }: &LoadCase,
+        case: &LoadCase,
     ) -> Result<PoseTable, Unsolved> {
-        let m = &*search.mechanism;
+        let (m, pose) = (&*search.mechanism, &case.pose);
         let geometry = Geometry::new(m, StateId::FREE, pose)?;
-        let mut cases = vec![link_loads(
-            m,
-            loads,
-            &geometry,
-            pose,
-            *drive,
-            period(drives),
-        )];
-        for &(link, point) in outputs {
-            let at = geometry.place(pose, link, point);
-            for axis in 0..3 {
-                let mut force = [0.0; 3];
-                force[axis] = 1.0;
-                let mut case = vec![[0.0; 6]; m.links.len()];
-                case[link] = geometry.within(&wrench(at, force, [0.0; 3]));
-                cases.push(case);
-            }
-        }
+        let cases = wrenches(m, &geometry, outputs, drives, case);
         let along: Vec<Vec<Six>> = cases
             .iter()
             .map(|c| geometry.along_tree(m.joints.len(), c))
@@ -109,36 +151,13 @@ impl PoseTable {
                     continue;
                 }
                 let place = PlacedJoint {
-                    joint,
                     variable: v,
                     slot: of_variable.first().map_or(0, Vec::len),
-                    contours: (0..geometry.contours.len())
-                        .filter_map(|k| {
-                            let forward = geometry.contours[k].direction(joint)?;
-                            Some((k, if forward { 1.0 } else { -1.0 }))
-                        })
-                        .collect(),
-                    point: geometry.points[joint],
-                    held: drives.iter().find(|(j, _)| *j == joint).and_then(|(_, f)| {
-                        let (axis, shift) = axis_of(*f)?;
-                        Some((geometry.axes[joint][axis], shift))
-                    }),
                     along_tree: along.iter().map(|a| a[joint]).collect(),
-                    couplings: couplings_at(&geometry, joint),
+                    ..PlacedJoint::of(&geometry, drives, joint)
                 };
                 for (choice, out) in variable.choices.iter().zip(&mut of_variable) {
-                    let j = &m.joints[joint];
-                    let series = j
-                        .options
-                        .get(choice.option)
-                        .map(|o| (o, choice.option == 0))
-                        .into_iter()
-                        .chain(
-                            choice
-                                .unloading
-                                .and_then(|u| j.unloading.get(u))
-                                .map(|o| (o, false)),
-                        );
+                    let series = in_series(&m.joints[joint], choice);
                     out.push(cell(m, &geometry, pose, types, drives, &place, series)?);
                 }
                 places.push(place);
@@ -155,6 +174,11 @@ impl PoseTable {
             cells,
             scale,
         })
+    }
+
+    /// What choices, by variable, put at a place.
+    pub(in crate::score) fn cell(&self, choices: &[usize], place: &PlacedJoint) -> &Cell {
+        &self.cells[place.variable][choices[place.variable]][place.slot]
     }
 
     /// How many unknowns the equations have: wrenches round the contours, then what couplings pass.

@@ -1,9 +1,10 @@
 //! The scores of a variant the plain way: built as a mechanism and solved by singular values.
 
+use crate::geom::expr::Expr;
 use crate::geom::vector::length;
 use crate::model::joint_type::Freedom;
 use crate::model::loads::{ExternalForce, Loads};
-use crate::model::mechanism::{JointId, StateId};
+use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::evaluate::PoseLoad;
 use crate::score::evaluation::terms::{ErrorSum, Scores, axis_of};
@@ -25,6 +26,44 @@ fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
         None => {}
     }
     (f, m)
+}
+
+/// Raises the peaks to the reactions of a realized variant, and tells of each.
+fn raise_peaks(
+    scores: &mut Scores,
+    reactions: &[JointReaction],
+    types: &[(JointId, JointType)],
+    each: &mut dyn FnMut(PoseLoad),
+) {
+    for r in reactions {
+        let (at, t) = &types[r.joint];
+        let (f, moment) = borne(r);
+        each(PoseLoad {
+            joint: *at,
+            force: length(f),
+            moment: length(moment),
+            capacity: (t.capacity_force, t.capacity_moment),
+        });
+        scores.force.raise(length(f), t.capacity_force, *at);
+        if let Some(capacity) = t.capacity_moment {
+            scores.moment.raise(length(moment), capacity, *at);
+        }
+    }
+}
+
+/// A unit force along an axis on a point of a link, and nothing else.
+fn unit_force(link: LinkId, point: [f64; 3], axis: usize) -> Loads {
+    let force = ExternalForce {
+        link,
+        point: point.map(|x| Expr::from_f64(x).unwrap_or_else(|_| 0.into())),
+        force: [0, 1, 2].map(|i| i64::from(i == axis).into()),
+        range: None,
+        states: None,
+    };
+    Loads {
+        forces: vec![force],
+        ..Loads::default()
+    }
 }
 
 impl Evaluator<'_> {
@@ -59,37 +98,11 @@ impl Evaluator<'_> {
             let mut now = self.plain(variant);
             now.conditioning = 1.0 / solution.condition;
             now.minimum_norm = solution.choice == Uniqueness::MinimumNorm;
-            for r in &solution.reactions {
-                let (at, t) = &types[r.joint];
-                let (f, moment) = borne(r);
-                each(PoseLoad {
-                    joint: *at,
-                    force: length(f),
-                    moment: length(moment),
-                    capacity: (t.capacity_force, t.capacity_moment),
-                });
-                now.force.raise(length(f), t.capacity_force, *at);
-                if let Some(capacity) = t.capacity_moment {
-                    now.moment.raise(length(moment), capacity, *at);
-                }
-            }
+            raise_peaks(&mut now, &solution.reactions, &types, each);
             for &(link, point) in &self.outputs {
                 let mut error = ErrorSum::new(self.clearance);
                 for axis in 0..3 {
-                    let unit = [0, 1, 2].map(|i| i64::from(i == axis).into());
-                    let force = ExternalForce {
-                        link,
-                        point: point.map(|x| {
-                            crate::geom::expr::Expr::from_f64(x).unwrap_or_else(|_| 0.into())
-                        }),
-                        force: unit,
-                        range: None,
-                        states: None,
-                    };
-                    let loads = Loads {
-                        forces: vec![force],
-                        ..Loads::default()
-                    };
+                    let loads = unit_force(link, point, axis);
                     for r in &solve(&loads)?.reactions {
                         let f = length(borne(r).0);
                         error.joint(types[r.joint].1.clearance, f * f);

@@ -12,6 +12,7 @@ use crate::search::check::other_poses::Stroke;
 use crate::search::check::singular_values;
 use crate::search::check::singular_values::{CHECKED, Certified, Summary};
 use crate::search::diagram::Stop;
+use crate::search::numeric::at_tolerance::AtTolerance;
 use crate::search::question::conditions::Symmetry;
 use itertools::Itertools;
 use num_traits::Zero;
@@ -57,13 +58,13 @@ impl Outcome {
     #[must_use]
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         let request = &self.request;
-        self.listed((request.list, request.distinct), request.seed, cancelled)
+        self.listed(request.list, request.distinct, request.seed, cancelled)
     }
 
     /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
     #[must_use]
     pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
-        self.listed((self.request.list, true), self.request.seed, cancelled)
+        self.listed(self.request.list, true, self.request.seed, cancelled)
     }
 
     /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. Those that further
@@ -76,77 +77,21 @@ impl Outcome {
         seed: u64,
         cancelled: ShouldCancel<'o>,
     ) -> Variants<'o> {
-        self.listed((list, self.request.distinct), seed, cancelled)
+        self.listed(list, self.request.distinct, seed, cancelled)
     }
 
     /// A list, of ideas or of all variants.
     fn listed<'o>(
         &'o self,
-        (list, distinct): (List, bool),
+        list: List,
+        distinct: bool,
         seed: u64,
         cancelled: ShouldCancel<'o>,
     ) -> Variants<'o> {
-        let request = &self.request;
-        let wanted = match list {
-            List::Top(k) => k,
-            List::All | List::Sample(_) => usize::MAX / 4,
-            List::Nothing => 0,
+        let Source { variants, ideas } = match &self.numeric {
+            Some(found) => self.by_values(found, list, distinct, seed),
+            None => self.by_diagrams(list, distinct, seed),
         };
-        let mut ideas = Vec::new();
-        let unranked = |v: Assignment| (v, None);
-        let source: Box<dyn Iterator<Item = (Assignment, Option<usize>)>> =
-            if let Some(numeric) = &self.numeric {
-                if let (List::Top(k), true) = (list, distinct) {
-                    let sure = numeric.list(&self.search);
-                    ideas = ideas::ideas_among(&self.search, sure, k);
-                }
-                let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
-                match list {
-                    List::Nothing => Box::new(std::iter::empty()),
-                    List::Top(_) if distinct => Box::new(firsts.into_iter().map(unranked)),
-                    List::Top(_) | List::All => Box::new(numeric.list(&self.search).map(unranked)),
-                    List::Sample(n) => {
-                        let drawn = numeric.drawn(&self.search, seed);
-                        Box::new(drawn.take(n).map(unranked))
-                    }
-                }
-            } else {
-                match (&self.diagrams, &self.ranking, list) {
-                    (Some(d), ranking, List::Top(k)) if distinct => {
-                        let found = match ranking {
-                            Some(r) => {
-                                let list = r.list.iter().map(|r| &r.variant);
-                                let first = ideas::first_of_each(&self.search, list, d).into_iter();
-                                first
-                                    .map(|(at, idea)| (Some(at), idea))
-                                    .take(k)
-                                    .collect_vec()
-                            }
-                            None => {
-                                let all = self.search.ideas(d, k).into_iter();
-                                all.map(|idea| (None, idea)).collect_vec()
-                            }
-                        };
-                        let (places, found): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-                        ideas = found;
-                        let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
-                        Box::new(firsts.into_iter().zip(places))
-                    }
-                    (None, ..) | (.., List::Nothing) => Box::new(std::iter::empty()),
-                    (Some(d), _, List::Sample(n)) => {
-                        let drawn = self.search.sample(d, seed);
-                        Box::new(drawn.take(n).map(unranked))
-                    }
-                    (_, Some(ranked), List::Top(_)) => {
-                        let list = ranked.list.iter().enumerate();
-                        Box::new(list.map(|(place, r)| (r.variant.clone(), Some(place))))
-                    }
-                    (Some(d), ..) => {
-                        let enough = request.listed(wanted);
-                        Box::new(self.search.cheapest(d, enough).map(unranked))
-                    }
-                }
-            };
         // What is proven is a list of all variants; of ideas a diagram cut down may lack the first ones.
         let by_cost = match list {
             _ if self.numeric.is_some() => false,
@@ -162,16 +107,111 @@ impl Outcome {
             outcome: self,
             list,
             cancelled,
-            source,
-            opinions: request.check == Check::Full,
+            source: variants,
+            opinions: self.request.check == Check::Full,
             stroke: self.stroke.as_ref(),
             ready: Vec::new().into_iter(),
             ideas,
             distinct,
-            room: wanted,
+            room: most(list),
             summary,
             interrupted: false,
             short: false,
+        }
+    }
+
+    /// A list of what singular values found.
+    fn by_values<'o>(
+        &'o self,
+        found: &'o AtTolerance,
+        list: List,
+        distinct: bool,
+        seed: u64,
+    ) -> Source<'o> {
+        let unranked = |v: Assignment| (v, None);
+        let sure = found.list(&self.search);
+        match list {
+            List::Nothing => Source::of_variants(std::iter::empty()),
+            List::Top(k) if distinct => {
+                let ideas = ideas::ideas_among(&self.search, sure, k);
+                let places = vec![None; ideas.len()];
+                Source::of_ideas(ideas, places)
+            }
+            List::Top(_) | List::All => Source::of_variants(sure.map(unranked)),
+            List::Sample(n) => {
+                let drawn = found.drawn(&self.search, seed);
+                Source::of_variants(drawn.take(n).map(unranked))
+            }
+        }
+    }
+
+    /// A list of what the diagrams hold; nothing where there are none.
+    fn by_diagrams(&self, list: List, distinct: bool, seed: u64) -> Source<'_> {
+        let unranked = |v: Assignment| (v, None);
+        let Some(d) = &self.diagrams else {
+            return Source::of_variants(std::iter::empty());
+        };
+        match (list, &self.ranking) {
+            (List::Nothing, _) => Source::of_variants(std::iter::empty()),
+            (List::Top(k), Some(ranked)) if distinct => {
+                let list = ranked.list.iter().map(|r| &r.variant);
+                let first = ideas::first_of_each(&self.search, list, d).into_iter();
+                let first = first.map(|(at, idea)| (Some(at), idea)).take(k);
+                let (places, ideas) = first.unzip();
+                Source::of_ideas(ideas, places)
+            }
+            (List::Top(k), None) if distinct => {
+                let ideas = self.search.ideas(d, k);
+                let places = vec![None; ideas.len()];
+                Source::of_ideas(ideas, places)
+            }
+            (List::Sample(n), _) => {
+                let drawn = self.search.sample(d, seed);
+                Source::of_variants(drawn.take(n).map(unranked))
+            }
+            (List::Top(_), Some(ranked)) => {
+                let list = ranked.list.iter().enumerate();
+                Source::of_variants(list.map(|(place, r)| (r.variant.clone(), Some(place))))
+            }
+            (List::Top(_) | List::All, _) => {
+                let enough = self.request.listed(most(list));
+                Source::of_variants(self.search.cheapest(d, enough).map(unranked))
+            }
+        }
+    }
+}
+
+/// How many variants a list has at most.
+fn most(list: List) -> usize {
+    match list {
+        List::Top(k) => k,
+        List::All | List::Sample(_) => usize::MAX / 4,
+        List::Nothing => 0,
+    }
+}
+
+/// What a list is drawn from.
+struct Source<'o> {
+    /// Variants, with their places in the ranking where there is one.
+    variants: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
+    /// What each stands for, where only the first of each idea is given.
+    ideas: Vec<Idea>,
+}
+
+impl<'o> Source<'o> {
+    fn of_variants(variants: impl Iterator<Item = (Assignment, Option<usize>)> + 'o) -> Source<'o> {
+        Source {
+            variants: Box::new(variants),
+            ideas: Vec::new(),
+        }
+    }
+
+    /// Ideas, each as its first variant, with their places.
+    fn of_ideas(ideas: Vec<Idea>, places: Vec<Option<usize>>) -> Source<'o> {
+        let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
+        Source {
+            variants: Box::new(firsts.into_iter().zip(places)),
+            ideas,
         }
     }
 }

@@ -29,7 +29,10 @@ impl Outcome {
                 joint,
                 slides,
                 direction,
-            } => !m.joints[joint].drive && one(m, joint, &[(slides, direction)]).is_some(),
+            } => {
+                !m.joints[joint].drive
+                    && one(m, joint, &[FreedMotion { slides, direction }]).is_some()
+            }
             Release::Coupling(_) => false,
         };
         let held = held_twice(m, &|_| false, &free, None).ok()?;
@@ -42,7 +45,7 @@ impl Outcome {
                 joint,
                 slides,
                 direction,
-            } => Some((joint, (slides, direction))),
+            } => Some((joint, FreedMotion { slides, direction })),
             Release::Coupling(_) => None,
         });
         let allow: Option<Vec<JointOptions>> = of
@@ -80,8 +83,15 @@ impl Outcome {
     }
 }
 
+/// A motion that a joint is to be given.
+#[derive(Clone, Copy)]
+struct FreedMotion {
+    slides: bool,
+    direction: Vector,
+}
+
 /// The cheapest type that has what a joint is to be given.
-fn one(m: &Mechanism, joint: JointId, freed: &[(bool, Vector)]) -> Option<JointOptions> {
+fn one(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOptions> {
     let here = &m.joints[joint];
     // A contact at a point or a line has to be pressed together.
     let pressed =
@@ -105,16 +115,19 @@ fn one(m: &Mechanism, joint: JointId, freed: &[(bool, Vector)]) -> Option<JointO
 }
 
 /// Whether a type in a joint's frame turns about, or slides along, a direction.
-fn has(joint: &Joint, of: &JointType, (slides, direction): (bool, Vector)) -> bool {
+fn has(joint: &Joint, of: &JointType, freed: FreedMotion) -> bool {
     let z = unit(real(&joint.frame.axis));
     let x = unit(across(real(&joint.frame.reference), z));
     let y = cross(z, x);
-    let axes = of.freedoms().iter().filter_map(|f| match (f, slides) {
-        (Freedom::Rx, false) | (Freedom::Tx, true) => Some(x),
-        (Freedom::Ry, false) | (Freedom::Ty, true) => Some(y),
-        (Freedom::Rz, false) | (Freedom::Tz, true) => Some(z),
-        _ => None,
-    });
-    let rest = axes.fold(direction, |rest, a| sub(rest, scale(a, dot(rest, a))));
+    let axes = of
+        .freedoms()
+        .iter()
+        .filter_map(|f| match (f, freed.slides) {
+            (Freedom::Rx, false) | (Freedom::Tx, true) => Some(x),
+            (Freedom::Ry, false) | (Freedom::Ty, true) => Some(y),
+            (Freedom::Rz, false) | (Freedom::Tz, true) => Some(z),
+            _ => None,
+        });
+    let rest = axes.fold(freed.direction, |rest, a| sub(rest, scale(a, dot(rest, a))));
     length(rest) < OUTSIDE
 }

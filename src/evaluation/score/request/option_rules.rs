@@ -5,56 +5,96 @@ use crate::score::request::unlisted::types;
 use crate::score::request::{Inserts, JointOptions, Request, RequestError};
 use itertools::Itertools;
 
-impl Request {
-    /// Holds links, and leaves the options that are allowed.
-    pub(in crate::score) fn restrict(&self, mechanism: &mut Mechanism) -> Result<(), RequestError> {
-        let name = || mechanism.name.clone();
-        let mut held = Vec::with_capacity(self.hold.len());
-        for link in &self.hold {
-            held.push(mechanism.link(link).ok_or_else(|| RequestError::NoLink {
-                mechanism: name(),
-                link: link.clone(),
-            })?);
-        }
+/// The names of the options that the joints of a mechanism have.
+struct KnownOptions<'m> {
+    mechanism: &'m Mechanism,
+    names: Vec<&'m str>,
+}
+
+impl<'m> KnownOptions<'m> {
+    fn of(mechanism: &'m Mechanism) -> KnownOptions<'m> {
         let offered = mechanism.joints.iter().flat_map(|j| &j.options);
-        let mut known: Vec<&str> = offered.map(|o| o.name.as_str()).collect();
-        known.sort_unstable();
-        known.dedup();
-        let check = |names: &[String], flag: &'static str| match names
-            .iter()
-            .find(|n| !known.contains(&n.as_str()))
-        {
+        let mut names: Vec<&str> = offered.map(|o| o.name.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        KnownOptions { mechanism, names }
+    }
+
+    /// Refuses names of a flag that no joint has.
+    fn check(&self, names: &[String], flag: &'static str) -> Result<(), RequestError> {
+        let unknown = |n: &&String| !self.names.contains(&n.as_str());
+        match names.iter().find(unknown) {
             None => Ok(()),
             Some(option) => Err(RequestError::NoOption {
                 flag,
-                mechanism: name(),
+                mechanism: self.mechanism.name.clone(),
                 option: option.clone(),
-                known: (known.iter().map(|k| (*k).to_owned()))
+                known: (self.names.iter().map(|k| (*k).to_owned()))
                     .chain(types().map(|t| t.name().to_owned()))
                     .unique()
                     .collect(),
             }),
-        };
-        check(&self.options, "--options")?;
-        let mut rules: Vec<(JointId, &[String], bool)> = Vec::new();
-        for (list, flag) in [(&self.allow, "--allow"), (&self.forbid, "--forbid")] {
-            for JointOptions { joint, names } in list {
-                let id = mechanism
-                    .joint(joint)
-                    .ok_or_else(|| RequestError::NoJoint {
-                        flag,
-                        mechanism: name(),
-                        joint: joint.clone(),
-                    })?;
-                if flag == "--allow" && names.is_empty() {
-                    return Err(RequestError::NoNames {
-                        joint: joint.clone(),
-                    });
-                }
-                check(names, flag)?;
-                rules.push((id, names, flag == "--allow"));
-            }
         }
+    }
+}
+
+/// Options that are allowed at a joint, or forbidden.
+struct OptionRule<'r> {
+    joint: JointId,
+    /// None where all changes are meant.
+    names: &'r [String],
+    allow: bool,
+}
+
+impl<'r> OptionRule<'r> {
+    /// Reads the rules of one flag.
+    fn read(
+        list: &'r [JointOptions],
+        allow: bool,
+        mechanism: &Mechanism,
+        known: &KnownOptions<'_>,
+    ) -> Result<Vec<OptionRule<'r>>, RequestError> {
+        let flag = if allow { "--allow" } else { "--forbid" };
+        let mut rules = Vec::with_capacity(list.len());
+        for JointOptions { joint: id, names } in list {
+            let joint = mechanism.joint(id).ok_or_else(|| RequestError::NoJoint {
+                flag,
+                mechanism: mechanism.name.clone(),
+                joint: id.clone(),
+            })?;
+            if allow && names.is_empty() {
+                return Err(RequestError::NoNames { joint: id.clone() });
+            }
+            known.check(names, flag)?;
+            rules.push(OptionRule {
+                joint,
+                names,
+                allow,
+            });
+        }
+        Ok(rules)
+    }
+
+    /// Whether an option is left.
+    fn leaves(&self, name: &String) -> bool {
+        !self.names.is_empty() && self.names.contains(name) == self.allow
+    }
+}
+
+impl Request {
+    /// Holds links, and leaves the options that are allowed.
+    pub(in crate::score) fn restrict(&self, mechanism: &mut Mechanism) -> Result<(), RequestError> {
+        let mut held = Vec::with_capacity(self.hold.len());
+        for link in &self.hold {
+            held.push(mechanism.link(link).ok_or_else(|| RequestError::NoLink {
+                mechanism: mechanism.name.clone(),
+                link: link.clone(),
+            })?);
+        }
+        let known = KnownOptions::of(mechanism);
+        known.check(&self.options, "--options")?;
+        let mut rules = OptionRule::read(&self.allow, true, mechanism, &known)?;
+        rules.extend(OptionRule::read(&self.forbid, false, mechanism, &known)?);
         for &l in &held {
             let joints = mechanism.joint_ids();
             let joints = joints.filter(|&j| mechanism.joints[j].links.contains(&l));
@@ -64,11 +104,9 @@ impl Request {
         mechanism.search.hold.extend(held);
         for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.joints) {
             let kept = |name: &String| {
-                let mut own = rules.iter().filter(|(j, ..)| *j == id);
+                let mut own = rules.iter().filter(|r| r.joint == id);
                 (self.options.is_empty() || self.options.contains(name))
-                    && own.all(|(_, names, allow)| {
-                        !names.is_empty() && names.contains(name) == *allow
-                    })
+                    && own.all(|r| r.leaves(name))
             };
             let mut place = 0;
             joint.options.retain(|o| {

@@ -119,58 +119,24 @@ impl Prepared {
     /// asked.
     pub(in crate::score) fn rounded(
         &self,
-        (as_written, snapped): (bool, bool),
+        as_written: bool,
+        snapped: bool,
         tell: &mut dyn FnMut(String),
     ) -> Option<LooksRounded> {
         let Prepared {
             mechanism, settled, ..
         } = self;
-        let name = &mechanism.name;
         let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
         let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
         let Some((v, has)) = settled.open.map(|(i, has)| (&settled.verdicts[i], has)) else {
             let measured = |w: &Rounded| w.digits.is_some();
             let meant = settled.verdicts.iter().all(RankVerdict::is_as_written);
             if let (Some(w), true, false) = (why.as_ref().filter(|w| measured(w)), meant, snapped) {
-                tell(if w.pi {
-                    format!(
-                        "note: pi is no exact number ({w}); its digits are taken at their word, and no rounding of them changes a figure"
-                    )
-                } else {
-                    format!(
-                        "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
-                     is, but the search takes every digit at its word; {CURE}"
-                    )
-                });
+                tell(looks_measured(&mechanism.name, w));
             }
             return told(why.filter(|w| measured(w) || !meant));
         };
-        let looks = why.as_ref().map_or_else(
-            || {
-                format!(
-                    "the mechanism {name} is not the same to within {:.0e}",
-                    v.tolerance
-                )
-            },
-            |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
-        );
-        let [of, near] = [has, v.at_least()].map(|rank| v.figures(rank));
-        let n = v.numeric.unwrap_or_default();
-        let written = if snapped && has != v.as_written {
-            "snapped"
-        } else {
-            "as written"
-        };
-        let likely = if v.is_decided() {
-            "is meant to have"
-        } else {
-            "may be meant to have"
-        };
-        let differ = format!(
-            "{looks}: {written}, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
-             value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
-            v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
-        );
+        let differ = difference(&mechanism.name, why.as_ref(), v, has, snapped);
         if as_written {
             tell(format!("warning: {differ}; {CURE}"));
         } else {
@@ -181,4 +147,54 @@ impl Prepared {
         }
         told(why)
     }
+}
+
+/// What is said of measured coordinates that change no figure.
+fn looks_measured(name: &str, w: &Rounded) -> String {
+    if w.pi {
+        format!(
+            "note: pi is no exact number ({w}); its digits are taken at their word, and no rounding of them changes a figure"
+        )
+    } else {
+        format!(
+            "warning: the coordinates of {name} look measured ({w}). Exact and tolerant ranks agree on it as it \
+             is, but the search takes every digit at its word; {CURE}"
+        )
+    }
+}
+
+/// How the rank that exact arithmetic `has` differs from what a verdict tells of the mechanism of this name.
+fn difference(
+    name: &str,
+    why: Option<&Rounded>,
+    v: &RankVerdict,
+    has: usize,
+    snapped: bool,
+) -> String {
+    let looks = why.map_or_else(
+        || {
+            format!(
+                "the mechanism {name} is not the same to within {:.0e}",
+                v.tolerance
+            )
+        },
+        |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
+    );
+    let [of, near] = [has, v.at_least()].map(|rank| v.figures(rank));
+    let n = v.numeric.unwrap_or_default();
+    let written = if snapped && has != v.as_written {
+        "snapped"
+    } else {
+        "as written"
+    };
+    let likely = if v.is_decided() {
+        "is meant to have"
+    } else {
+        "may be meant to have"
+    };
+    format!(
+        "{looks}: {written}, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
+         value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
+        v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
+    )
 }

@@ -14,51 +14,13 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Where a part is missing, not finished, changed or of another sweep, or the whole cannot be written.
 pub fn merge(parts: &[PathBuf], whole: &Path) -> Result<Table, TableError> {
-    let mut all: Option<Table> = None;
-    let mut seen: Vec<(u64, u64)> = Vec::new();
-    for path in parts {
-        let part = read(path)?;
-        let of: Shard = part
-            .head
-            .shard
-            .parse()
-            .map_err(|_| TableError::Other(path.clone()))?;
-        seen.push((of.index, of.of));
-        match &mut all {
-            None => all = Some(part),
-            Some(all) => {
-                if let Some((what, there, asked)) = part.head.differs(&all.head) {
-                    let path = path.clone();
-                    return Err(TableError::Differs {
-                        path,
-                        what,
-                        there,
-                        asked,
-                    });
-                }
-                all.rows.extend(part.rows);
-            }
-        }
-    }
-    let fail = |why: String| TableError::Parts(why);
-    let mut all = all.ok_or_else(|| fail("there are none".to_owned()))?;
-    let of = seen[0].1;
-    let (missing, twice) = (
-        (0..of).find(|i| !seen.contains(&(*i, of))),
-        seen.iter().duplicates().next(),
-    );
-    match (missing, twice, seen.iter().find(|s| s.1 != of)) {
-        (.., Some(other)) => {
-            let why = format!("one is of {of}, another of {}", other.1);
-            return Err(fail(why));
-        }
-        (_, Some((i, of)), _) => return Err(fail(format!("{}/{of} is there twice", i + 1))),
-        (Some(i), ..) => return Err(fail(format!("{}/{of} is missing", i + 1))),
-        (None, None, None) => {}
-    }
+    let Gathered { all, shards } = gather(parts)?;
+    let mut all = all.ok_or_else(|| TableError::Parts("there are none".to_owned()))?;
+    all_once(&shards)?;
     all.rows.sort_by_key(|r| r.sample);
     if !all.rows.iter().map(|r| r.sample).eq(0..all.head.samples) {
-        return Err(fail("some samples are missing".to_owned()));
+        let why = "some samples are missing";
+        return Err(TableError::Parts(why.to_owned()));
     }
     all.head.shard = Shard::WHOLE.to_string();
     let rows = std::mem::take(&mut all.rows);
@@ -78,6 +40,61 @@ pub fn merge(parts: &[PathBuf], whole: &Path) -> Result<Table, TableError> {
         let _ = std::fs::remove_file(&beside);
     }
     placed.map(|()| all)
+}
+
+/// Parts of one sweep.
+struct Gathered {
+    /// Their rows in one table, in the order of the parts; none where there are no parts.
+    all: Option<Table>,
+    /// Which part of how many each is.
+    shards: Vec<(u64, u64)>,
+}
+
+/// Reads the parts, which must be of the same sweep.
+fn gather(parts: &[PathBuf]) -> Result<Gathered, TableError> {
+    let mut all: Option<Table> = None;
+    let mut shards: Vec<(u64, u64)> = Vec::new();
+    for path in parts {
+        let part = read(path)?;
+        let of: Shard = part
+            .head
+            .shard
+            .parse()
+            .map_err(|_| TableError::Other(path.clone()))?;
+        shards.push((of.index, of.of));
+        match &mut all {
+            None => all = Some(part),
+            Some(all) => {
+                if let Some((what, there, asked)) = part.head.differs(&all.head) {
+                    let path = path.clone();
+                    return Err(TableError::Differs {
+                        path,
+                        what,
+                        there,
+                        asked,
+                    });
+                }
+                all.rows.extend(part.rows);
+            }
+        }
+    }
+    Ok(Gathered { all, shards })
+}
+
+/// Refuses parts, one at least, that are not each of them there once.
+fn all_once(shards: &[(u64, u64)]) -> Result<(), TableError> {
+    let of = shards[0].1;
+    let (missing, twice) = (
+        (0..of).find(|i| !shards.contains(&(*i, of))),
+        shards.iter().duplicates().next(),
+    );
+    let why = match (missing, twice, shards.iter().find(|s| s.1 != of)) {
+        (.., Some(other)) => format!("one is of {of}, another of {}", other.1),
+        (_, Some((i, of)), _) => format!("{}/{of} is there twice", i + 1),
+        (Some(i), ..) => format!("{}/{of} is missing", i + 1),
+        (None, None, None) => return Ok(()),
+    };
+    Err(TableError::Parts(why))
 }
 
 /// Removes what merges that were killed left beside the whole.
