@@ -19,7 +19,7 @@ fn search(name: &str, request: &Request) -> Outcome {
 
 fn json(outcome: &Outcome) -> String {
     let mut out = Vec::new();
-    let none = outcome.why_none().unwrap();
+    let none = outcome.why_none(&|| false).unwrap();
     json::write(&mut out, outcome, outcome.variants(), &none, None).unwrap();
     String::from_utf8(out).unwrap()
 }

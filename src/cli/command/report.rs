@@ -97,8 +97,10 @@ pub(in crate::cli) fn write(
         let given = outcome.ideas_unless(&interrupt::pending);
         redesigns(&outcome, given)
     });
-    let variants = outcome.variants_unless(&interrupt::pending);
-    write(Ok(redesigns(&outcome, variants)), ideas)?;
+    let variants = redesigns(&outcome, outcome.variants_unless(&interrupt::pending));
+    // What is left is to be drawn: whoever interrupts that wants no page.
+    interrupt::be_impatient();
+    write(Ok(variants), ideas)?;
     Ok(verdict)
 }
 

@@ -122,7 +122,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let mut outcome = SearchWatch::new(args.quiet).run(mechanism, &request)?;
     outcome.request.distinct |= a.tells_ideas(&outcome);
     let none = &match a.format {
-        SearchFormat::Text | SearchFormat::Json => outcome.why_none()?,
+        SearchFormat::Text | SearchFormat::Json => outcome.why_none(&interrupt::pending)?,
         SearchFormat::Jsonl | SearchFormat::Csv => WhyNone::default(),
     };
     let done = output::to(a.output.as_deref(), |out| {

@@ -201,20 +201,23 @@ impl Outcome {
         }
     }
 
-    /// What easing one condition would leave, where nothing was found.
+    /// What easing one condition would leave, where nothing was found; of those for which there was time until `cancelled` said to end.
     ///
     /// # Errors
     /// Where the geometry has no exact image.
     ///
     /// # Complexity
     /// A search for each condition and each step of easing it, none of more than some thousand nodes.
-    pub fn relaxations(&self) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+    pub fn relaxations(
+        &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
         let unknown = self.numeric.is_some();
         if unknown || !self.admissible.total.is_zero() || self.search.size().is_one() {
             return Ok(Vec::new());
         }
         let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
-        why_none::relaxations(&self.search, nodes, &|| false)
+        why_none::relaxations(&self.search, nodes, cancelled)
     }
 
     /// What stands in the way of every variant, where nothing was found.
@@ -227,13 +230,13 @@ impl Outcome {
         }
         Ok(why_none::hopeless(&self.search)?)
     }
-    /// What can be said where nothing was found.
+    /// What can be said where nothing was found, as far as there was time until `cancelled` said to end.
     ///
     /// # Errors
     /// Where the geometry has no exact image.
-    pub fn why_none(&self) -> Result<WhyNone, SearchError> {
+    pub fn why_none(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<WhyNone, SearchError> {
         Ok(WhyNone {
-            eased: self.relaxations()?,
+            eased: self.relaxations(cancelled)?,
             hopeless: self.hopeless()?,
         })
     }

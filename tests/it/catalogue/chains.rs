@@ -237,7 +237,7 @@ fn the_ten_link_gripper_is_among_the_structures() {
     };
     assert!(subject.is_essential(&roles));
     assert_eq!(subject.jaws_at_frame(&roles), 0);
-    assert!(working_swap(&subject, &roles, (Symmetry::Mirror, Input::Slide)).is_ok());
+    assert!(working_swap(&subject, &roles, Symmetry::Mirror, Input::Slide).is_ok());
 }
 
 /// Automorphisms by trying every numbering that keeps the numbers of joints.
