@@ -3,16 +3,20 @@
 use super::answer::k_best::{Assignment, Cheapest, Reach};
 use super::build::orders::orders;
 use super::build::self_stress::in_self_stress_space;
-use super::build::staging::laid;
+use super::build::spanning_halves::Halves;
+use super::build::staging::{Staged, laid};
+use super::build::two_sided::two_sided;
 use super::build::{build, one_end};
 use super::diagram::minimize::minimal;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
 
-/// The diagrams of a question as made of motions of live links and in the space dual to self-stresses, each the smallest there is;
-/// those of which the first is made within the limits.
-#[must_use]
-pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
+/// The diagrams of a question as made of motions of live links, of those that are made so within the limits, each beside the
+/// one that is made in another way; all the smallest there are.
+fn beside(
+    question: &Question,
+    other: impl Fn(&Staged<'_>, bool) -> Option<Diagram>,
+) -> Vec<[Option<Diagram>; 2]> {
     let model = &question.least.whole;
     let laid = laid(question, &orders(question), model);
     let keep_output = question.conditions.keep_output;
@@ -28,18 +32,38 @@ pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
         if one.stop != Stop::Exhausted {
             continue;
         }
-        let other = in_self_stress_space(
-            question,
-            model,
-            &staged.order,
-            limits,
-            keep_output,
-            &never,
-            &mut |_| {},
-        );
-        found.push([Some(one), other].map(|d| d.map(|d| minimal(d.layers, d.terminals))));
+        let both = [Some(one), other(staged, keep_output)];
+        found.push(both.map(|d| d.map(|d| minimal(d.layers, d.terminals))));
     }
     found
+}
+
+/// The diagrams of a question as made of motions of live links and in the space dual to self-stresses.
+#[must_use]
+pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
+    beside(question, |staged, keep_output| {
+        in_self_stress_space(
+            question,
+            &question.least.whole,
+            &staged.order,
+            &staged.limits,
+            keep_output,
+            &|| false,
+            &mut |_| {},
+        )
+    })
+}
+
+/// The diagrams of a question as made of motions of live links, and from both ends; none of the latter where more redundant
+/// constraints are allowed than all variants have.
+#[must_use]
+pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
+    let model = &question.least.whole;
+    beside(question, |staged, keep_output| {
+        let (order, limits) = (&staged.order, &staged.limits);
+        let halves = Halves::new(question, model, order, limits, keep_output)?;
+        two_sided(&halves, &model.space, &|| false, &mut |_| {})
+    })
 }
 
 /// The cheapest admissible variants of a question where so many steps from nodes are kept at once.
