@@ -117,7 +117,7 @@ impl Bar {
         });
         bar.set_prefix(match p.doing {
             Doing::Choosing => "joint",
-            Doing::Meeting => "half",
+            Doing::Meeting => "meeting",
         });
         bar.set_length(p.of as u64);
         bar.set_position(p.done as u64);

@@ -88,7 +88,7 @@ impl Outcome {
         seed: u64,
         cancelled: ShouldCancel<'o>,
     ) -> Variants<'o> {
-        let Source { variants, ideas } = match &self.numeric {
+        let ListSource { variants, ideas } = match &self.numeric {
             Some(found) => self.by_values(found, list, distinct, seed),
             None => self.by_diagrams(list, distinct, seed),
         };
@@ -127,55 +127,55 @@ impl Outcome {
         list: List,
         distinct: bool,
         seed: u64,
-    ) -> Source<'o> {
+    ) -> ListSource<'o> {
         let unranked = |v: Assignment| (v, None);
         let sure = found.list(&self.search);
         match list {
-            List::Nothing => Source::of_variants(std::iter::empty()),
+            List::Nothing => ListSource::of_variants(std::iter::empty()),
             List::Top(k) if distinct => {
                 let ideas = ideas::ideas_among(&self.search, sure, k);
                 let places = vec![None; ideas.len()];
-                Source::of_ideas(ideas, places)
+                ListSource::of_ideas(ideas, places)
             }
-            List::Top(_) | List::All => Source::of_variants(sure.map(unranked)),
+            List::Top(_) | List::All => ListSource::of_variants(sure.map(unranked)),
             List::Sample(n) => {
                 let drawn = found.drawn(&self.search, seed);
-                Source::of_variants(drawn.take(n).map(unranked))
+                ListSource::of_variants(drawn.take(n).map(unranked))
             }
         }
     }
 
     /// A list of what the diagrams hold; nothing where there are none.
-    fn by_diagrams(&self, list: List, distinct: bool, seed: u64) -> Source<'_> {
+    fn by_diagrams(&self, list: List, distinct: bool, seed: u64) -> ListSource<'_> {
         let unranked = |v: Assignment| (v, None);
         let Some(d) = &self.diagrams else {
-            return Source::of_variants(std::iter::empty());
+            return ListSource::of_variants(std::iter::empty());
         };
         match (list, &self.ranking) {
-            (List::Nothing, _) => Source::of_variants(std::iter::empty()),
+            (List::Nothing, _) => ListSource::of_variants(std::iter::empty()),
             (List::Top(k), Some(ranked)) if distinct => {
                 let list = ranked.list.iter().map(|r| &r.variant);
                 let first = ideas::first_of_each(&self.search, list, d).into_iter();
                 let first = first.map(|(at, idea)| (Some(at), idea)).take(k);
                 let (places, ideas) = first.unzip();
-                Source::of_ideas(ideas, places)
+                ListSource::of_ideas(ideas, places)
             }
             (List::Top(k), None) if distinct => {
                 let ideas = self.search.ideas(d, k);
                 let places = vec![None; ideas.len()];
-                Source::of_ideas(ideas, places)
+                ListSource::of_ideas(ideas, places)
             }
             (List::Sample(n), _) => {
                 let drawn = self.search.sample(d, seed);
-                Source::of_variants(drawn.take(n).map(unranked))
+                ListSource::of_variants(drawn.take(n).map(unranked))
             }
             (List::Top(_), Some(ranked)) => {
                 let list = ranked.list.iter().enumerate();
-                Source::of_variants(list.map(|(place, r)| (r.variant.clone(), Some(place))))
+                ListSource::of_variants(list.map(|(place, r)| (r.variant.clone(), Some(place))))
             }
             (List::Top(_) | List::All, _) => {
                 let enough = self.request.listed(most(list));
-                Source::of_variants(self.search.cheapest(d, enough).map(unranked))
+                ListSource::of_variants(self.search.cheapest(d, enough).map(unranked))
             }
         }
     }
@@ -191,25 +191,27 @@ fn most(list: List) -> usize {
 }
 
 /// What a list is drawn from.
-struct Source<'o> {
+struct ListSource<'o> {
     /// Variants, with their places in the ranking where there is one.
     variants: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
     /// What each stands for, where only the first of each idea is given.
     ideas: Vec<Idea>,
 }
 
-impl<'o> Source<'o> {
-    fn of_variants(variants: impl Iterator<Item = (Assignment, Option<usize>)> + 'o) -> Source<'o> {
-        Source {
+impl<'o> ListSource<'o> {
+    fn of_variants(
+        variants: impl Iterator<Item = (Assignment, Option<usize>)> + 'o,
+    ) -> ListSource<'o> {
+        ListSource {
             variants: Box::new(variants),
             ideas: Vec::new(),
         }
     }
 
     /// Ideas, each as its first variant, with their places.
-    fn of_ideas(ideas: Vec<Idea>, places: Vec<Option<usize>>) -> Source<'o> {
+    fn of_ideas(ideas: Vec<Idea>, places: Vec<Option<usize>>) -> ListSource<'o> {
         let firsts = ideas.iter().map(|i| i.first.clone()).collect_vec();
-        Source {
+        ListSource {
             variants: Box::new(firsts.into_iter().zip(places)),
             ideas,
         }

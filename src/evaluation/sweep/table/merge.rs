@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Where a part is missing, not finished, changed or of another sweep, or the whole cannot be written.
 pub fn merge(parts: &[PathBuf], whole: &Path) -> Result<Table, TableError> {
-    let Gathered { all, shards } = gather(parts)?;
+    let GatheredParts { all, shards } = gather(parts)?;
     let mut all = all.ok_or_else(|| TableError::Parts("there are none".to_owned()))?;
     all_once(&shards)?;
     all.rows.sort_by_key(|r| r.sample);
@@ -43,7 +43,7 @@ pub fn merge(parts: &[PathBuf], whole: &Path) -> Result<Table, TableError> {
 }
 
 /// Parts of one sweep.
-struct Gathered {
+struct GatheredParts {
     /// Their rows in one table, in the order of the parts; none where there are no parts.
     all: Option<Table>,
     /// Which part of how many each is.
@@ -51,7 +51,7 @@ struct Gathered {
 }
 
 /// Reads the parts, which must be of the same sweep.
-fn gather(parts: &[PathBuf]) -> Result<Gathered, TableError> {
+fn gather(parts: &[PathBuf]) -> Result<GatheredParts, TableError> {
     let mut all: Option<Table> = None;
     let mut shards: Vec<(u64, u64)> = Vec::new();
     for path in parts {
@@ -78,7 +78,7 @@ fn gather(parts: &[PathBuf]) -> Result<Gathered, TableError> {
             }
         }
     }
-    Ok(Gathered { all, shards })
+    Ok(GatheredParts { all, shards })
 }
 
 /// Refuses parts, one at least, that are not each of them there once.

@@ -32,17 +32,17 @@ impl Count for BigUint {
         self.clone()
     }
     fn beside(&self) -> usize {
-        // Digits, and what an allocation takes.
+        // Its digits, and what an allocation takes.
         usize::try_from(self.bits() / 8).unwrap_or(usize::MAX / 4) + 32
     }
 }
 
 /// A number below 2^(64 N), held in place: tables of counts that are added a million times allocate nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Digits<const N: usize>([u64; N]);
+pub struct Wide<const N: usize>([u64; N]);
 
-impl<const N: usize> AddAssign<&Digits<N>> for Digits<N> {
-    fn add_assign(&mut self, other: &Digits<N>) {
+impl<const N: usize> AddAssign<&Wide<N>> for Wide<N> {
+    fn add_assign(&mut self, other: &Wide<N>) {
         let mut carried = false;
         for (own, &digit) in self.0.iter_mut().zip(&other.0) {
             let (sum, over) = own.overflowing_add(digit);
@@ -53,11 +53,11 @@ impl<const N: usize> AddAssign<&Digits<N>> for Digits<N> {
     }
 }
 
-impl<const N: usize> Count for Digits<N> {
+impl<const N: usize> Count for Wide<N> {
     fn one() -> Self {
         let mut digits = [0; N];
         digits[0] = 1;
-        Digits(digits)
+        Wide(digits)
     }
     fn big(&self) -> BigUint {
         let halves = self.0.iter().flat_map(|&d| [d as u32, (d >> 32) as u32]);
@@ -67,13 +67,13 @@ impl<const N: usize> Count for Digits<N> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Count, Digits};
+    use super::{Count, Wide};
     use num_bigint::BigUint;
 
     /// Doubled and added to itself shifted, 2^k and 3^k, up to the last digit, as numbers of any size have them.
     #[test]
     fn digits_add_as_numbers_of_any_size_do() {
-        let (mut digits, mut big) = (Digits::<4>::one(), BigUint::one());
+        let (mut digits, mut big) = (Wide::<4>::one(), BigUint::one());
         for _ in 0..160 {
             let once = digits.clone();
             digits += &once;

@@ -1,6 +1,6 @@
 //! How many variants there are of each kind.
 
-use crate::search::answer::count::{Count, Digits};
+use crate::search::answer::count::{Count, Wide};
 use crate::search::answer::count_tables::totals;
 use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::Diagram;
@@ -146,9 +146,9 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
     }
     let count = match question.space.size().bits() {
         0..=128 => with::<u128>,
-        129..=256 => with::<Digits<4>>,
-        257..=512 => with::<Digits<8>>,
-        513..=1024 => with::<Digits<16>>,
+        129..=256 => with::<Wide<4>>,
+        257..=512 => with::<Wide<8>>,
+        513..=1024 => with::<Wide<16>>,
         _ => with::<BigUint>,
     };
     count(question, diagram, kinds)
