@@ -173,33 +173,21 @@ impl Field {
     #[must_use]
     pub fn inv(self, a: Residue) -> Residue {
         assert!(a != 0, "zero has no inverse");
-        // Of p and a, the smaller is taken from the larger, which is then halved while it is even, until both are 1 (Kaliski, "The
-        // Montgomery inverse and its applications", IEEE Trans. Computers 44, 1995). Without a division, that takes less than half as
-        // long as Euclid's algorithm. Throughout, a·y = v·2^k and a·x = -u·2^k modulo p, and u·y + v·x = p, so that nothing overflows.
-        let (mut u, mut v) = (self.p, a);
-        let (mut x, mut y) = (0u64, 1u64);
-        let mut k = v.trailing_zeros();
-        v >>= k;
-        while u != v {
-            if u > v {
-                u -= v;
-                x += y;
-                let s = u.trailing_zeros();
-                (u, y, k) = (u >> s, y << s, k + s);
-            } else {
-                v -= u;
-                y += x;
-                let s = v.trailing_zeros();
-                (v, x, k) = (v >> s, x << s, k + s);
-            }
+        // Extended Euclid on plain integers is about three times faster than Fermat's power, and more where they are small. No factor
+        // exceeds p in size.
+        let (mut r0, mut r1) = (self.p, self.to_u64(a));
+        let (mut t0, mut t1) = (0i64, 1i64);
+        while r1 != 0 {
+            let q = r0 / r1;
+            (r0, r1) = (r1, r0 - q * r1);
+            (t0, t1) = (t1, t0 - q.cast_signed() * t1);
         }
-        // The form of the inverse is y·2^(128 - k), as a is that of a·2^-64; k is at least 32, since p is at most 2·2^k.
-        let y = self.mul(y, self.r2);
-        if k > 64 {
-            self.mul(y, 1 << (128 - k))
+        let t = if t0 < 0 {
+            t0 + self.p.cast_signed()
         } else {
-            self.mul(self.mul(y, self.r2), 1 << (64 - k))
-        }
+            t0
+        };
+        self.mul(t.cast_unsigned(), self.r2)
     }
 
     /// The residue of a small integer.
