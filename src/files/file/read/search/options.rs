@@ -6,7 +6,7 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{contains, option};
 use crate::file::read::value::limits::LIMITS;
 use crate::file::schema::{JointEntry, MechanismFile, OptionEntry};
-use crate::model::mechanism::JointOption;
+use crate::model::mechanism::{Frame, JointOption};
 
 /// A list of options, and where it stands.
 struct OptionList<'a> {
@@ -70,16 +70,9 @@ pub(crate) fn options(
     }
     for (n, item) in list.entries.iter().enumerate() {
         let path = index(&list.at, n);
-        // A bad entry of the common list would be reported once per joint.
-        let (before, Some(option)) = (
-            out.count(),
-            option(&entry.id, &present.frame, item, states, &path, out),
-        ) else {
+        let Some(option) = allowed(entry, item, &present.frame, states, &path, out) else {
             continue;
         };
-        if out.count() > before || entry.forbid.contains(&option.name) {
-            continue;
-        }
         let same =
             option.joint_type == present.joint_type && contains(&option, present) == Some(true);
         if same && options.len() == 1 + n {
@@ -111,4 +104,19 @@ pub(crate) fn options(
         }
     }
     options
+}
+
+/// What an entry of a list stands for; none where it is bad or the joint forbids it.
+fn allowed(
+    entry: &JointEntry,
+    item: &OptionEntry,
+    present: &Frame,
+    states: &[String],
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> Option<JointOption> {
+    // A bad entry of the common list would be reported once per joint.
+    let before = out.count();
+    let option = option(&entry.id, present, item, states, path, out)?;
+    (out.count() == before && !entry.forbid.contains(&option.name)).then_some(option)
 }
