@@ -50,9 +50,8 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     build_at(file, &Values::new())
 }
 
-/// Builds a mechanism at values of its parameters; those not given have their defaults.
-pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanism, Vec<Finding>> {
-    let mut out = knowing(file, values);
+/// Refuses a file of too many entries before any of them is read.
+fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
     for (what, count, limit) in [
         ("links", file.link.len(), LIMITS.0),
         ("joints", file.joint.len(), LIMITS.1),
@@ -67,6 +66,13 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
             )]);
         }
     }
+    Ok(())
+}
+
+/// Builds a mechanism at values of its parameters; those not given have their defaults.
+pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanism, Vec<Finding>> {
+    let mut out = knowing(file, values);
+    few_enough(file)?;
     let length_unit = length_unit(file, &mut out);
     let mode = mode(file, &mut out);
     let links = links(file, &mut out);

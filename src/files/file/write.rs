@@ -19,7 +19,7 @@ use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::loads::{ExternalMoment, Face, Inertia, Stiffness};
+use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment, Stiffness};
 use crate::model::mechanism::{
     Expected, Frame, Joint, JointId, JointOption, Mechanism, Mode, Role, StateId,
 };
@@ -329,18 +329,48 @@ fn inertia(i: Inertia) -> InertiaEntry {
     }
 }
 
-/// Masses aside, what the mechanism carries; positions and speeds as plain numbers.
-fn workload(m: &Mechanism) -> WorkloadEntry {
-    let loads = &m.loads;
+fn force(m: &Mechanism, f: &ExternalForce) -> ForceEntry {
     let end = |x: f64| x.is_finite().then_some(Quantity::Number(x));
-    let force = loads.forces.iter().map(|f| ForceEntry {
+    ForceEntry {
         link: m.links[f.link].id.clone(),
         point: vector(&f.point),
         force: vector(&f.force),
         from: f.range.and_then(|[from, _]| end(from)),
         to: f.range.and_then(|[_, to]| end(to)),
         state: states(m, f.states.as_ref()),
-    });
+    }
+}
+
+/// An entry for each axis that a joint is turned or shifted along; one of no turn where it is neither.
+fn misalignment(m: &Mechanism, x: &Misalignment) -> Vec<MisalignmentEntry> {
+    let none = x.turn == [0.0; 3] && x.shift == [0.0; 3];
+    let entry = |axis: &str, angle, length| MisalignmentEntry {
+        joint: m.joints[x.joint].id.clone(),
+        angle,
+        length,
+        axis: axis.to_owned(),
+    };
+    let turned = ["x", "y", "z"].into_iter().zip(x.turn);
+    let turned = turned
+        .filter(|(axis, turn)| *turn != 0.0 || none && *axis == "x")
+        .map(|(axis, turn)| entry(axis, Some(Quantity::Number(turn)), None));
+    let shifted = ["x", "y", "z"].into_iter().zip(x.shift);
+    let shifted = shifted
+        .filter(|(_, shift)| *shift != 0.0)
+        .map(|(axis, shift)| entry(axis, None, Some(shift / m.length_unit.metres)));
+    turned.chain(shifted).collect()
+}
+
+fn stiffness(s: Stiffness) -> StiffnessEntry {
+    StiffnessEntry {
+        linear: s.linear,
+        angular: s.angular,
+    }
+}
+
+/// Masses aside, what the mechanism carries; positions and speeds as plain numbers.
+fn workload(m: &Mechanism) -> WorkloadEntry {
+    let loads = &m.loads;
     let speed = |x: &f64| Quantity::Number(*x);
     let moment = |x: &ExternalMoment| MomentEntry {
         link: m.links[x.link].id.clone(),
@@ -353,38 +383,17 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         friction: f.friction.map(decimal),
         radius: f.radius.map(decimal),
     };
-    let stiffness = |(name, s): &(String, Stiffness)| {
-        let entry = StiffnessEntry {
-            linear: s.linear,
-            angular: s.angular,
-        };
-        (name.clone(), entry)
-    };
-    let misalignment = loads.misalignments.iter().flat_map(|x| {
-        let none = x.turn == [0.0; 3] && x.shift == [0.0; 3];
-        let entry = |axis: &str, angle, length| MisalignmentEntry {
-            joint: m.joints[x.joint].id.clone(),
-            angle,
-            length,
-            axis: axis.to_owned(),
-        };
-        let turned = ["x", "y", "z"].into_iter().zip(x.turn);
-        let turned = turned
-            .filter(move |(axis, turn)| *turn != 0.0 || none && *axis == "x")
-            .map(|(axis, turn)| entry(axis, Some(Quantity::Number(turn)), None));
-        let shifted = ["x", "y", "z"].into_iter().zip(x.shift);
-        let shifted = shifted
-            .filter(|(_, shift)| *shift != 0.0)
-            .map(|(axis, shift)| entry(axis, None, Some(shift / m.length_unit.metres)));
-        turned.chain(shifted).collect::<Vec<_>>()
-    });
+    let by_type = loads.stiffness.iter();
+    let misaligned = loads.misalignments.iter();
     WorkloadEntry {
         gravity: loads.gravity.as_ref().map(vector),
-        force: force.collect(),
+        force: loads.forces.iter().map(|f| force(m, f)).collect(),
         moment: loads.moments.iter().map(moment).collect(),
         contact: loads.faces.iter().map(face).collect(),
-        stiffness: loads.stiffness.iter().map(stiffness).collect(),
-        misalignment: misalignment.collect(),
+        stiffness: by_type
+            .map(|(name, s)| (name.clone(), stiffness(*s)))
+            .collect(),
+        misalignment: misaligned.flat_map(|x| misalignment(m, x)).collect(),
         drive_speed: match &loads.drive_speeds[..] {
             [] => None,
             [one] => Some(Quantities::One(speed(one))),

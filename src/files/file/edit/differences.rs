@@ -35,34 +35,9 @@ pub fn differences(
         });
     }
     for (old, new) in before.joint.iter().zip(&after.joint) {
-        let [was, is] = [old, new].map(keys);
-        for key in KEYS {
-            let [was, is] = [&was, &is].map(|k| k.get(key).cloned().unwrap_or_default());
-            if was != is {
-                out.push(Edit::Set {
-                    what: Thing::Joint,
-                    id: old.id.clone(),
-                    key: key.to_owned(),
-                    value: is,
-                });
-            }
-        }
-        let listed = own
-            .joint
-            .iter()
-            .find(|j| j.id == old.id)
-            .and_then(|j| j.options.as_ref());
-        if let (Some(_), Some(kept)) = (listed, &new.options)
-            && old.kind != new.kind
-        {
-            let value = serde_json::to_value(kept).unwrap_or_default();
-            out.push(Edit::Set {
-                what: Thing::Joint,
-                id: old.id.clone(),
-                key: "options".to_owned(),
-                value: without_nothing(value),
-            });
-        }
+        let in_file = own.joint.iter().find(|j| j.id == old.id);
+        let listed = in_file.is_some_and(|j| j.options.is_some());
+        out.extend(joint_changes(old, new, listed));
     }
     for joint in after.joint.iter().skip(before.joint.len()) {
         out.push(Edit::Add {
@@ -70,13 +45,45 @@ pub fn differences(
             entry: keys(joint),
         });
     }
+    out.extend(put_changes(before, after));
+    out
+}
+
+/// What makes one joint of another; its options where the file lists some and the new type has outgrown them.
+fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> {
+    let set = |key: &str, value: Value| Edit::Set {
+        what: Thing::Joint,
+        id: old.id.clone(),
+        key: key.to_owned(),
+        value,
+    };
+    let mut out = Vec::new();
+    let [was, is] = [old, new].map(keys);
+    for key in KEYS {
+        let [was, is] = [&was, &is].map(|k| k.get(key).cloned().unwrap_or_default());
+        if was != is {
+            out.push(set(key, is));
+        }
+    }
+    if let Some(kept) = new.options.as_ref().filter(|_| listed)
+        && old.kind != new.kind
+    {
+        let value = serde_json::to_value(kept).unwrap_or_default();
+        out.push(set("options", without_nothing(value)));
+    }
+    out
+}
+
+/// What changes of the symmetries that searches keep, and of the basis of contours.
+fn put_changes(before: &MechanismFile, after: &MechanismFile) -> Vec<Edit> {
     let put = |path: &[&str], value: Value| Edit::Put {
         path: path.iter().map(|&k| k.to_owned()).collect(),
         value,
     };
-    let listed = |list: &Vec<[String; 2]>| serde_json::to_value(list).unwrap_or_default();
+    let mut out = Vec::new();
     if before.search.mirror != after.search.mirror {
-        out.push(put(&["search", "mirror"], listed(&after.search.mirror)));
+        let mirror = serde_json::to_value(&after.search.mirror).unwrap_or_default();
+        out.push(put(&["search", "mirror"], mirror));
     }
     if before.search.turn != after.search.turn {
         let turn = serde_json::to_value(&after.search.turn).unwrap_or_default();

@@ -77,15 +77,7 @@ fn joint(
         &key(&at, "id"),
         out,
     );
-    let mut ends = [LinkId::new(0); 2];
-    for (e, id) in entry.links.iter().enumerate() {
-        let path = index(&key(&at, "links"), e);
-        ends[e] = link_by_id(links, id, &path, out).unwrap_or(ends[e]);
-    }
-    if entry.links[0] == entry.links[1] {
-        let (joint, link) = (entry.id.clone(), entry.links[0].clone());
-        out.add(&key(&at, "links"), ProblemKind::SelfLoop { joint, link });
-    }
+    let ends = ends(entry, links, &key(&at, "links"), out);
     let found = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), &at, out);
     let Some(joint_type) = found else {
         // The rest depends on the type, but a bad point is worth telling in the same run.
@@ -124,6 +116,24 @@ fn joint(
         options,
         unloading,
     })
+}
+
+/// The links that a joint joins; the first of the file in place of one that is not known.
+fn ends(
+    entry: &JointEntry,
+    links: &[Link],
+    at: &[DocumentStep],
+    out: &mut Findings,
+) -> [LinkId; 2] {
+    let mut ends = [LinkId::new(0); 2];
+    for (e, id) in entry.links.iter().enumerate() {
+        ends[e] = link_by_id(links, id, &index(at, e), out).unwrap_or(ends[e]);
+    }
+    if entry.links[0] == entry.links[1] {
+        let (joint, link) = (entry.id.clone(), entry.links[0].clone());
+        out.add(at, ProblemKind::SelfLoop { joint, link });
+    }
+    ends
 }
 
 /// Whether a joint is driven, and in which freedom where the file names one.

@@ -4,7 +4,7 @@ use crate::file::findings::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::{direction, pitch, vector};
-use crate::file::schema::OptionEntry;
+use crate::file::schema::{OptionEntry, OptionTable};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
@@ -109,36 +109,12 @@ pub(crate) fn joint_type(
         return Some(t);
     }
     match (kind, freedoms) {
-        ("custom", Some(words)) => {
-            let at = key(path, "freedoms");
-            let mut list = Vec::new();
-            for (i, w) in words.iter().enumerate() {
-                match Freedom::from_name(w) {
-                    Some(f) if list.contains(&f) => {
-                        out.add(
-                            &index(&at, i),
-                            ProblemKind::RepeatedFreedom {
-                                joint: joint.to_owned(),
-                                freedom: w.clone(),
-                            },
-                        );
-                    }
-                    Some(f) => list.push(f),
-                    None => {
-                        let known = Freedom::ALL.iter().map(|(_, n)| *n).join(", ");
-                        out.add(
-                            &index(&at, i),
-                            ProblemKind::UnknownWord {
-                                what: "freedom",
-                                word: w.clone(),
-                                known,
-                            },
-                        );
-                    }
-                }
-            }
-            Some(JointType::Custom(list))
-        }
+        ("custom", Some(words)) => Some(JointType::Custom(custom_freedoms(
+            joint,
+            words,
+            &key(path, "freedoms"),
+            out,
+        ))),
         ("custom", None) => {
             let what = "freedoms, such as freedoms = [\"rz\", \"tx\"]";
             out.add(
@@ -182,6 +158,42 @@ pub(crate) fn joint_type(
     }
 }
 
+/// The freedoms that words name, each once.
+fn custom_freedoms(
+    joint: &str,
+    words: &[String],
+    at: &[DocumentStep],
+    out: &mut Findings,
+) -> Vec<Freedom> {
+    let mut list = Vec::new();
+    for (i, w) in words.iter().enumerate() {
+        match Freedom::from_name(w) {
+            Some(f) if list.contains(&f) => {
+                out.add(
+                    &index(at, i),
+                    ProblemKind::RepeatedFreedom {
+                        joint: joint.to_owned(),
+                        freedom: w.clone(),
+                    },
+                );
+            }
+            Some(f) => list.push(f),
+            None => {
+                let known = Freedom::ALL.iter().map(|(_, n)| *n).join(", ");
+                out.add(
+                    &index(at, i),
+                    ProblemKind::UnknownWord {
+                        what: "freedom",
+                        word: w.clone(),
+                        known,
+                    },
+                );
+            }
+        }
+    }
+    list
+}
+
 /// A cost in thousandths.
 pub(crate) fn cost(value: f64, path: &[DocumentStep], out: &mut Findings) -> Option<i64> {
     if !(0.0..=1e6).contains(&value) {
@@ -214,33 +226,10 @@ pub(crate) fn option(
     path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<JointOption> {
-    let (table, at) = (entry.table(), path.to_vec());
+    let table = entry.table();
     let kind = table.kind.as_deref().unwrap_or("custom");
-    let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), &at, out)?;
-    let axis = table.axis.as_ref().map_or_else(
-        || present.axis.clone(),
-        |v| direction(v, &key(&at, "axis"), out),
-    );
-    let reference = match (&table.reference, &table.axis) {
-        (Some(v), _) => Some(direction(v, &key(&at, "reference"), out)),
-        (None, None) => Some(present.reference.clone()),
-        (None, Some(_)) => None,
-    };
-    let stated = [table.pitch.as_ref(), table.lead.as_ref()];
-    let pitch = pitch(stated, &at, out).unwrap_or_else(|| present.pitch.clone());
-    let point = table.point.as_ref();
-    let frame = frame(
-        joint,
-        point.map_or_else(
-            || present.point.clone(),
-            |p| vector(p, &key(&at, "point"), out),
-        ),
-        axis,
-        reference,
-        pitch,
-        &at,
-        out,
-    );
+    let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), path, out)?;
+    let frame = option_frame(joint, present, &table, path, out);
     let name = table
         .name
         .clone()
@@ -249,7 +238,7 @@ pub(crate) fn option(
         let known = states.iter().position(|s| s == name);
         if known.is_none() {
             out.add(
-                &key(&at, "state"),
+                &key(path, "state"),
                 ProblemKind::UnknownWord {
                     what: "state",
                     word: name.clone(),
@@ -259,7 +248,7 @@ pub(crate) fn option(
         }
         known.map(StateId::new)
     });
-    let cost_milli = table.cost.and_then(|c| cost(c, &key(&at, "cost"), out));
+    let cost_milli = table.cost.and_then(|c| cost(c, &key(path, "cost"), out));
     Some(JointOption {
         name,
         joint_type,
@@ -267,6 +256,32 @@ pub(crate) fn option(
         cost_milli,
         state,
     })
+}
+
+/// The frame of an option: what its table leaves out is as the joint has it.
+fn option_frame(
+    joint: &str,
+    present: &Frame,
+    table: &OptionTable,
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> Frame {
+    let axis = table.axis.as_ref().map_or_else(
+        || present.axis.clone(),
+        |v| direction(v, &key(path, "axis"), out),
+    );
+    let reference = match (&table.reference, &table.axis) {
+        (Some(v), _) => Some(direction(v, &key(path, "reference"), out)),
+        (None, None) => Some(present.reference.clone()),
+        (None, Some(_)) => None,
+    };
+    let stated = [table.pitch.as_ref(), table.lead.as_ref()];
+    let pitch = pitch(stated, path, out).unwrap_or_else(|| present.pitch.clone());
+    let point = table.point.as_ref().map_or_else(
+        || present.point.clone(),
+        |p| vector(p, &key(path, "point"), out),
+    );
+    frame(joint, point, axis, reference, pitch, path, out)
 }
 
 /// Whether one joint allows every motion of another at the same place: exactly, over a prime field; `None` where the

@@ -2,7 +2,7 @@
 
 use crate::file::schema::{Coordinate, Diameters, Gravity, GripEntry};
 use crate::file::write::quantity::{angle, number, numbers};
-use crate::model::grip::{GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
+use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::Mechanism;
 
 /// The entry of a gripper, lengths in the mechanism's unit.
@@ -45,21 +45,23 @@ pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
             entry.lever_joints = Some(joints.map(|j| m.joints[j].id.clone()));
         }
     }
-    let Some(load) = &spec.load else {
-        return entry;
-    };
+    if let Some(load) = &spec.load {
+        write_load(&mut entry, load, m.length_unit.metres);
+    }
+    entry
+}
+
+/// What the gripper must hold, lengths in units of so many metres.
+fn write_load(entry: &mut GripEntry, load: &GripLoad, metres: f64) {
     let plain = |x: f64| -> Coordinate { number(x, 1.0) };
     match load.mass {
         PartMass::Constant(mass) => entry.mass = Some(plain(mass)),
-        PartMass::Cylinder {
-            density,
-            length: part,
-        } => {
+        PartMass::Cylinder { density, length } => {
             entry.density = Some(plain(density));
-            entry.part_length = Some(length(part));
+            entry.part_length = Some(number(length, metres));
         }
     }
-    entry.centre_of_mass = Some(numbers(load.centre_of_mass, m.length_unit.metres));
+    entry.centre_of_mass = Some(numbers(load.centre_of_mass, metres));
     entry.gravity = Some(match load.gravity {
         Toward::Fixed(v) => Gravity::Vector(numbers(v, 1.0)),
         Toward::Any(_) => Gravity::Word("any".to_owned()),
@@ -77,5 +79,4 @@ pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
         LeverDrive::Equal => Some("equal".to_owned()),
         LeverDrive::Independent => Some("independent".to_owned()),
     };
-    entry
 }

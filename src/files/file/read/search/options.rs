@@ -6,7 +6,43 @@ use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{contains, option};
 use crate::file::read::value::limits::LIMITS;
 use crate::file::schema::{JointEntry, MechanismFile, OptionEntry};
-use crate::model::mechanism::JointOption;
+use crate::model::mechanism::{Frame, JointOption};
+
+/// A list of options, and where it stands.
+struct OptionList<'a> {
+    entries: &'a [OptionEntry],
+    at: Vec<DocumentStep>,
+    /// Whether it is the joint's own rather than the common one.
+    own: bool,
+}
+
+impl<'a> OptionList<'a> {
+    /// The list that goes for a joint: its own, or the common one where it may change.
+    fn of(
+        file: &'a MechanismFile,
+        entry: &'a JointEntry,
+        changeable: bool,
+        at: &[DocumentStep],
+    ) -> OptionList<'a> {
+        match &entry.options {
+            Some(list) => OptionList {
+                entries: list,
+                at: key(at, "options"),
+                own: true,
+            },
+            None if changeable => OptionList {
+                entries: &file.search.options,
+                at: key(&[DocumentStep::Key("search".to_owned())], "options"),
+                own: false,
+            },
+            None => OptionList {
+                entries: &[],
+                at: Vec::new(),
+                own: false,
+            },
+        }
+    }
+}
 
 /// The options of a joint, the present one first. Options of its own list must contain the present motion; those of
 /// the common list that do not are passed over.
@@ -19,39 +55,24 @@ pub(crate) fn options(
     at: &[DocumentStep],
     out: &mut Findings,
 ) -> Vec<JointOption> {
-    let (list, from, own): (&[OptionEntry], Vec<DocumentStep>, bool) = match &entry.options {
-        Some(list) => (list, key(at, "options"), true),
-        None if changeable => (
-            &file.search.options,
-            key(&[DocumentStep::Key("search".to_owned())], "options"),
-            false,
-        ),
-        None => (&[], Vec::new(), false),
-    };
+    let list = OptionList::of(file, entry, changeable, at);
     let mut options = vec![present.clone()];
-    if list.len() > LIMITS.2 {
+    if list.entries.len() > LIMITS.2 {
         out.add(
-            &from,
+            &list.at,
             ProblemKind::TooMany {
                 what: "options",
-                count: list.len(),
+                count: list.entries.len(),
                 limit: LIMITS.2,
             },
         );
         return options;
     }
-    for (n, item) in list.iter().enumerate() {
-        let path = index(&from, n);
-        // A bad entry of the common list would be reported once per joint.
-        let (before, Some(option)) = (
-            out.count(),
-            option(&entry.id, &present.frame, item, states, &path, out),
-        ) else {
+    for (n, item) in list.entries.iter().enumerate() {
+        let path = index(&list.at, n);
+        let Some(option) = allowed(entry, item, &present.frame, states, &path, out) else {
             continue;
         };
-        if out.count() > before || entry.forbid.contains(&option.name) {
-            continue;
-        }
         let same =
             option.joint_type == present.joint_type && contains(&option, present) == Some(true);
         if same && options.len() == 1 + n {
@@ -63,34 +84,39 @@ pub(crate) fn options(
         if same {
             continue;
         }
+        let joint = entry.id.clone();
         match contains(&option, present) {
-            Some(true) => {}
-            Some(false) if own => {
-                let (joint, option, present) =
-                    (entry.id.clone(), option.name, present.name.clone());
-                out.add(
-                    &path,
-                    ProblemKind::LosesMotion {
-                        joint,
-                        option,
-                        present,
-                    },
-                );
-                continue;
+            Some(true) if options.iter().any(|o| o.name == option.name) => {
+                let option = option.name;
+                out.add(&path, ProblemKind::RepeatedOption { joint, option });
             }
-            _ => continue,
+            Some(true) => options.push(option),
+            Some(false) if list.own => {
+                let (option, present) = (option.name, present.name.clone());
+                let kind = ProblemKind::LosesMotion {
+                    joint,
+                    option,
+                    present,
+                };
+                out.add(&path, kind);
+            }
+            _ => {}
         }
-        if options.iter().any(|o| o.name == option.name) {
-            out.add(
-                &path,
-                ProblemKind::RepeatedOption {
-                    joint: entry.id.clone(),
-                    option: option.name,
-                },
-            );
-            continue;
-        }
-        options.push(option);
     }
     options
+}
+
+/// What an entry of a list stands for; none where it is bad or the joint forbids it.
+fn allowed(
+    entry: &JointEntry,
+    item: &OptionEntry,
+    present: &Frame,
+    states: &[String],
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> Option<JointOption> {
+    // A bad entry of the common list would be reported once per joint.
+    let before = out.count();
+    let option = option(&entry.id, present, item, states, path, out)?;
+    (out.count() == before && !entry.forbid.contains(&option.name)).then_some(option)
 }

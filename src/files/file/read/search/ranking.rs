@@ -4,7 +4,7 @@ use crate::file::findings::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::cost;
-use crate::file::schema::MechanismFile;
+use crate::file::schema::{JointTypeEntry, MechanismFile, RankingEntry};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism, StateId};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
@@ -46,6 +46,11 @@ fn bad(
     );
 }
 
+/// Where `[ranking]` stands.
+fn root() -> [DocumentStep; 1] {
+    [DocumentStep::Key("ranking".to_owned())]
+}
+
 /// The ranking a file asks for, if any.
 pub(crate) fn ranking(
     file: &MechanismFile,
@@ -53,18 +58,36 @@ pub(crate) fn ranking(
     out: &mut Findings,
 ) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
-    let at = [DocumentStep::Key("ranking".to_owned())];
     for (what, count) in [("terms", entry.terms.len()), ("limits", entry.limits.len())] {
         if count > MOST {
             let limit = MOST;
-            out.add(&key(&at, what), ProblemKind::TooMany { what, count, limit });
+            out.add(
+                &key(&root(), what),
+                ProblemKind::TooMany { what, count, limit },
+            );
         }
     }
+    let order = order(entry, out);
+    let clearance = clearance(entry, out);
+    let terms = terms(entry, out);
+    let limits = limits(entry, out);
+    let states = ranked_states(entry, mechanism, out);
+    Some(Ranking {
+        states,
+        order,
+        terms,
+        limits,
+        clearance,
+    })
+}
+
+/// How terms are weighed against each other.
+fn order(entry: &RankingEntry, out: &mut Findings) -> Order {
     let word = entry.order.as_deref().unwrap_or("weighted");
     let order = Order::ALL.iter().find(|(_, w)| *w == word);
     if order.is_none() {
         out.add(
-            &key(&at, "order"),
+            &key(&root(), "order"),
             ProblemKind::UnknownWord {
                 what: "order",
                 word: word.to_owned(),
@@ -72,12 +95,17 @@ pub(crate) fn ranking(
             },
         );
     }
-    let clearance = match entry.clearance.as_deref() {
+    order.map_or(Order::Weighted, |(o, _)| *o)
+}
+
+/// How clearances add up.
+fn clearance(entry: &RankingEntry, out: &mut Findings) -> ClearanceSum {
+    match entry.clearance.as_deref() {
         None | Some("worst") => ClearanceSum::Worst,
         Some("rms") => ClearanceSum::Rms,
         Some(word) => {
             out.add(
-                &key(&at, "clearance"),
+                &key(&root(), "clearance"),
                 ProblemKind::UnknownWord {
                     what: "sum of clearances",
                     word: word.to_owned(),
@@ -86,10 +114,15 @@ pub(crate) fn ranking(
             );
             ClearanceSum::Worst
         }
-    };
+    }
+}
+
+/// The terms with their weights.
+fn terms(entry: &RankingEntry, out: &mut Findings) -> Vec<(Term, f64)> {
+    let list = key(&root(), "terms");
     let mut terms: Vec<(Term, f64)> = Vec::new();
     for (i, t) in entry.terms.iter().enumerate().take(MOST) {
-        let at = index(&key(&at, "terms"), i);
+        let at = index(&list, i);
         let weight = t.weight.unwrap_or(1.0);
         if !(0.0..=1e12).contains(&weight) {
             bad(
@@ -116,7 +149,7 @@ pub(crate) fn ranking(
     }
     if entry.terms.is_empty() {
         out.add(
-            &key(&at, "terms"),
+            &list,
             ProblemKind::UnknownWord {
                 what: "list of terms",
                 word: "[]".to_owned(),
@@ -124,9 +157,15 @@ pub(crate) fn ranking(
             },
         );
     }
+    terms
+}
+
+/// The bounds that variants must keep.
+fn limits(entry: &RankingEntry, out: &mut Findings) -> Vec<Limit> {
+    let list = key(&root(), "limits");
     let mut limits = Vec::new();
     for (i, l) in entry.limits.iter().enumerate().take(MOST) {
-        let at = index(&key(&at, "limits"), i);
+        let at = index(&list, i);
         for (k, bound) in [("min", l.min), ("max", l.max)] {
             if let Some(x) = bound.filter(|x| !x.is_finite()) {
                 bad(out, &key(&at, k), "limit", x, "a finite number");
@@ -137,18 +176,24 @@ pub(crate) fn ranking(
             limits.push(Limit { term, min, max });
         }
     }
+    limits
+}
+
+/// The states that count in the ranking: free, and those in which the gripper holds its part.
+fn ranked_states(entry: &RankingEntry, mechanism: &Mechanism, out: &mut Findings) -> Vec<StateId> {
     let grip = mechanism.loads.grip.as_ref().and_then(|g| g.contacts);
     let counts = |s: StateId| {
         let of_grip = grip.and_then(|c| mechanism.joints[c[0]].states.as_ref());
         s == StateId::FREE || of_grip.is_some_and(|states| states.contains(&s))
     };
+    let list = key(&root(), "states");
     let mut states = Vec::new();
     for (i, word) in entry.states.iter().enumerate().take(MOST) {
         let found = mechanism.state(word);
         match found.filter(|&s| counts(s)) {
             Some(s) => states.push(s),
             None => out.add(
-                &index(&key(&at, "states"), i),
+                &index(&list, i),
                 ProblemKind::UnknownWord {
                     what: "state to rank in (free, or one with the contacts of [workload.grip])",
                     word: word.clone(),
@@ -161,13 +206,7 @@ pub(crate) fn ranking(
             ),
         }
     }
-    Some(Ranking {
-        states,
-        order: order.map_or(Order::Weighted, |(o, _)| *o),
-        terms,
-        limits,
-        clearance,
-    })
+    states
 }
 
 /// What a file says of joint types: of what they bear, and of what they cost in thousandths.
@@ -195,30 +234,7 @@ pub(crate) fn joint_types(
                 },
             );
         }
-        for (k, what, value, least) in [
-            (
-                "capacity_force",
-                "capacity",
-                entry.capacity_force,
-                f64::MIN_POSITIVE,
-            ),
-            (
-                "capacity_moment",
-                "capacity",
-                entry.capacity_moment,
-                f64::MIN_POSITIVE,
-            ),
-            ("clearance", "clearance", entry.clearance, 0.0),
-        ] {
-            if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {
-                let allowed = if least > 0.0 {
-                    "a number above 0, up to 1e12"
-                } else {
-                    "a number from 0 to 1e12"
-                };
-                bad(out, &key(&at, k), what, x, allowed);
-            }
-        }
+        check_figures(entry, &at, out);
         if let Some(milli) = entry.cost.and_then(|c| cost(c, &key(&at, "cost"), out)) {
             costs.push((name.clone(), milli));
         }
@@ -236,4 +252,32 @@ pub(crate) fn joint_types(
         found.extend((says != nothing).then_some(says));
     }
     (found, costs)
+}
+
+/// Whether what a type bears lies in range.
+fn check_figures(entry: &JointTypeEntry, at: &[DocumentStep], out: &mut Findings) {
+    for (k, what, value, least) in [
+        (
+            "capacity_force",
+            "capacity",
+            entry.capacity_force,
+            f64::MIN_POSITIVE,
+        ),
+        (
+            "capacity_moment",
+            "capacity",
+            entry.capacity_moment,
+            f64::MIN_POSITIVE,
+        ),
+        ("clearance", "clearance", entry.clearance, 0.0),
+    ] {
+        if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {
+            let allowed = if least > 0.0 {
+                "a number above 0, up to 1e12"
+            } else {
+                "a number from 0 to 1e12"
+            };
+            bad(out, &key(at, k), what, x, allowed);
+        }
+    }
 }

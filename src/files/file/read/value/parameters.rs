@@ -4,7 +4,7 @@ use crate::file::findings::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;
-use crate::file::schema::{Coordinate, MechanismFile, ParameterEntry, VariedEntry};
+use crate::file::schema::{MechanismFile, ParameterEntry, VariedEntry};
 use crate::geom::expr::{Expr, WORDS};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -75,63 +75,77 @@ fn varied(
     path: &[DocumentStep],
     out: &mut Findings,
 ) -> Option<(Domain, Expr)> {
-    let own = || name.to_owned();
-    let mut read = |c: &Coordinate, at: &[DocumentStep]| number(c, at, out);
     let default = entry
         .default
         .as_ref()
-        .map(|c| read(c, &key(path, "default")));
-    let (domain, first, of) = match (&entry.range, &entry.values) {
-        (Some([from, to]), None) => {
-            let at = key(path, "range");
-            let ends = [read(from, &index(&at, 0)), read(to, &index(&at, 1))];
-            let [from, to] = &ends;
-            if from.to_f64() >= to.to_f64() {
-                let (from, to) = (from.to_string(), to.to_string());
-                let name = own();
-                out.add(&at, ProblemKind::EmptyRange { name, from, to });
-                return None;
-            }
-            let middle = between(&ends, &BigRational::new(1.into(), 2.into()));
-            (Domain::Range(ends), middle, "within its range")
-        }
-        (None, Some(list)) if !list.is_empty() && list.len() <= MOST.1 => {
-            let at = key(path, "values");
-            let each = list.iter().enumerate();
-            let values: Vec<Expr> = each.map(|(i, c)| read(c, &index(&at, i))).collect();
-            let first = values.first()?.clone();
-            (Domain::Values(values), first, "one of its values")
-        }
-        (None, Some(list)) if list.len() > MOST.1 => {
-            let (what, count, limit) = ("values of a parameter", list.len(), MOST.1);
-            out.add(path, ProblemKind::TooMany { what, count, limit });
-            return None;
-        }
-        (None, _) => {
-            out.add(path, ProblemKind::NoValues { name: own() });
-            return None;
-        }
-        (Some(_), Some(_)) => {
-            let (key, other) = ("range", "values");
-            out.add(path, ProblemKind::KeyExcludes { key, other });
-            return None;
-        }
-    };
+        .map(|c| number(c, &key(path, "default"), out));
+    let (domain, first) = domain(name, entry, path, out)?;
     let Some(default) = default else {
         return Some((domain, first));
     };
     let x = default.to_f64();
-    let fits = match &domain {
-        Domain::Constant => true,
-        Domain::Range([from, to]) => (from.to_f64()..=to.to_f64()).contains(&x),
-        Domain::Values(all) => all.iter().any(|v| v.to_f64() == x),
+    let (fits, of) = match &domain {
+        Domain::Constant => (true, "its value"),
+        Domain::Range([from, to]) => (
+            (from.to_f64()..=to.to_f64()).contains(&x),
+            "within its range",
+        ),
+        Domain::Values(all) => (all.iter().any(|v| v.to_f64() == x), "one of its values"),
     };
     if !fits {
-        let (name, value) = (own(), default.to_string());
+        let (name, value) = (name.to_owned(), default.to_string());
         let at = key(path, "default");
         out.add(&at, ProblemKind::BadDefault { name, value, of });
     }
     Some((domain, default))
+}
+
+/// What a parameter may be by its table, and what it is where that gives no default.
+fn domain(
+    name: &str,
+    entry: &VariedEntry,
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> Option<(Domain, Expr)> {
+    let name = name.to_owned();
+    match (&entry.range, &entry.values) {
+        (Some([from, to]), None) => {
+            let at = key(path, "range");
+            let ends = [
+                number(from, &index(&at, 0), out),
+                number(to, &index(&at, 1), out),
+            ];
+            let [from, to] = &ends;
+            if from.to_f64() >= to.to_f64() {
+                let (from, to) = (from.to_string(), to.to_string());
+                out.add(&at, ProblemKind::EmptyRange { name, from, to });
+                return None;
+            }
+            let middle = between(&ends, &BigRational::new(1.into(), 2.into()));
+            Some((Domain::Range(ends), middle))
+        }
+        (None, Some(list)) if !list.is_empty() && list.len() <= MOST.1 => {
+            let at = key(path, "values");
+            let each = list.iter().enumerate();
+            let values: Vec<Expr> = each.map(|(i, c)| number(c, &index(&at, i), out)).collect();
+            let first = values.first()?.clone();
+            Some((Domain::Values(values), first))
+        }
+        (None, Some(list)) if list.len() > MOST.1 => {
+            let (what, count, limit) = ("values of a parameter", list.len(), MOST.1);
+            out.add(path, ProblemKind::TooMany { what, count, limit });
+            None
+        }
+        (None, _) => {
+            out.add(path, ProblemKind::NoValues { name });
+            None
+        }
+        (Some(_), Some(_)) => {
+            let (key, other) = ("range", "values");
+            out.add(path, ProblemKind::KeyExcludes { key, other });
+            None
+        }
+    }
 }
 
 /// The number at a fraction of a range.

@@ -71,6 +71,54 @@ fn cam(t: &mut ValueTable<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
     })
 }
 
+/// Time of a whole oscillation.
+fn period(t: &mut ValueTable<'_>, e: &DriveEntry) -> f64 {
+    let whole = t.positive("period", &e.period, 1.0);
+    let half = t.positive("swing_time", &e.swing_time, 1.0);
+    match (whole, half) {
+        (Some(period), None) => period,
+        (None, Some(half)) => 2.0 * half,
+        (Some(_), Some(_)) => {
+            t.excludes("swing_time", "period");
+            1.0
+        }
+        (None, None) => {
+            let at = t.at.clone();
+            t.needs_at(&at, "drive", "period, or swing_time, its half");
+            1.0
+        }
+    }
+}
+
+/// The diameters that bars come in, ascending.
+fn diameters(t: &mut ValueTable<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
+    let at = key(&t.at, "diameters");
+    let mut diameters = Vec::new();
+    for (i, d) in e.diameters.iter().take(MOST).enumerate() {
+        diameters.push(t.number_at(&index(&at, i), "diameter", d, unit, Bound::Positive));
+    }
+    diameters.sort_by(f64::total_cmp);
+    diameters
+}
+
+/// The angle missing after a swing without the cam, where it was measured.
+fn missing_angle(t: &mut ValueTable<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
+    let missing = e
+        .missing_angle
+        .as_ref()
+        .map(|c| t.angle("missing_angle", c));
+    if let Some(found) = missing.filter(|m| !(0.0..twist).contains(m)) {
+        let path = key(&t.at, "missing_angle");
+        t.bad(
+            &path,
+            "missing_angle",
+            format!("{} degrees", found.to_degrees()),
+            "an angle from 0 to below half the swing",
+        );
+    }
+    missing
+}
+
 /// The drive of a file, where it has one.
 pub(crate) fn drive(
     file: &MechanismFile,
@@ -90,41 +138,10 @@ pub(crate) fn drive(
         3600.0,
         "an angle above 0, up to 3600 degrees",
     ) / 2.0;
-    let whole = t.positive("period", &e.period, 1.0);
-    let half = t.positive("swing_time", &e.swing_time, 1.0);
-    let period = match (whole, half) {
-        (Some(period), None) => period,
-        (None, Some(half)) => 2.0 * half,
-        (Some(_), Some(_)) => {
-            t.excludes("swing_time", "period");
-            1.0
-        }
-        (None, None) => {
-            let at = t.at.clone();
-            t.needs_at(&at, "drive", "period, or swing_time, its half");
-            1.0
-        }
-    };
+    let period = period(t, e);
     let (inertias, payload) = inertias(t, e, unit, mechanism);
-    let at = key(&t.at, "diameters");
-    let mut diameters = Vec::new();
-    for (i, d) in e.diameters.iter().take(MOST).enumerate() {
-        diameters.push(t.number_at(&index(&at, i), "diameter", d, unit, Bound::Positive));
-    }
-    diameters.sort_by(f64::total_cmp);
-    let missing = e
-        .missing_angle
-        .as_ref()
-        .map(|c| t.angle("missing_angle", c));
-    if let Some(found) = missing.filter(|m| !(0.0..twist).contains(m)) {
-        let path = key(&t.at, "missing_angle");
-        t.bad(
-            &path,
-            "missing_angle",
-            format!("{} degrees", found.to_degrees()),
-            "an angle from 0 to below half the swing",
-        );
-    }
+    let diameters = diameters(t, e, unit);
+    let missing = missing_angle(t, e, twist);
     let damping = damping(t, e);
     let cam = cam(t, e, unit);
     let push = push(t, e, twist);
@@ -132,27 +149,16 @@ pub(crate) fn drive(
         .latch_capture
         .as_ref()
         .map(|c| t.angle_in("latch_capture", c, 0.0, 3600.0, "an angle from 0"));
+    let modulus = "a modulus from 1e3 to 1e12 Pa, such as 8e10 for steel";
+    let modulus = Bound::Range(1e3, 1e12, modulus);
+    let stress = Bound::Range(1e3, 1e12, "a stress from 1e3 to 1e12 Pa, such as 4e8");
     Some(DriveSpec {
         twist,
         period,
         inertias,
         payload,
-        shear_modulus: t.number(
-            "shear_modulus",
-            &e.shear_modulus,
-            1.0,
-            Bound::Range(
-                1e3,
-                1e12,
-                "a modulus from 1e3 to 1e12 Pa, such as 8e10 for steel",
-            ),
-        ),
-        allowable_stress: t.number(
-            "allowable_stress",
-            &e.allowable_stress,
-            1.0,
-            Bound::Range(1e3, 1e12, "a stress from 1e3 to 1e12 Pa, such as 4e8"),
-        ),
+        shear_modulus: t.number("shear_modulus", &e.shear_modulus, 1.0, modulus),
+        allowable_stress: t.number("allowable_stress", &e.allowable_stress, 1.0, stress),
         length: t.positive("torsion_length", &e.torsion_length, unit),
         max_length: t.positive("max_length", &e.max_length, unit),
         diameters,

@@ -6,7 +6,7 @@ use crate::file::read::value::names::joint_by_id;
 use crate::file::read::value::quantity::{Bound, ValueTable, word};
 use crate::file::schema::{Diameters, Gravity, GripEntry, MechanismFile};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
-use crate::model::mechanism::{JointId, Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use itertools::Itertools;
 
 /// Standard gravity. `[m/s²]`
@@ -69,13 +69,14 @@ fn diameters(t: &mut ValueTable<'_>, entry: &GripEntry, unit: f64, nominal: f64)
     list
 }
 
-fn load(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
+/// What the part weighs at each diameter; none where the file does not say, or says it twice.
+fn part_mass(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
     let mass = t.optional("mass", e.mass.as_ref(), 1.0, Bound::Positive);
     let density = t.optional("density", e.density.as_ref(), 1.0, Bound::Positive);
     let length = t.optional("part_length", e.part_length.as_ref(), unit, Bound::Positive);
-    let mass = match (mass, density, length) {
-        (Some(m), None, None) => PartMass::Constant(m),
-        (None, Some(density), Some(length)) => PartMass::Cylinder { density, length },
+    match (mass, density, length) {
+        (Some(m), None, None) => return Some(PartMass::Constant(m)),
+        (None, Some(density), Some(length)) => return Some(PartMass::Cylinder { density, length }),
         (None, None, None) => {
             let loads = [
                 ("friction", e.friction.is_some()),
@@ -87,36 +88,28 @@ fn load(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
             for (k, _) in loads.into_iter().filter(|(_, given)| *given) {
                 t.needs(k, "the mass of the part: mass, or density and part_length");
             }
-            return None;
         }
-        (Some(_), _, _) => {
-            t.excludes("mass", "density or part_length");
-            return None;
-        }
-        (None, Some(_), None) => {
-            t.needs("density", "part_length beside it");
-            return None;
-        }
-        (None, None, Some(_)) => {
-            t.needs("part_length", "density beside it");
-            return None;
-        }
-    };
-    let Some(friction) = &e.friction else {
-        t.needs(
-            if e.mass.is_some() { "mass" } else { "density" },
-            "friction, the coefficient between part and faces, beside it",
-        );
-        return None;
-    };
-    let gravity = match &e.gravity {
+        (Some(_), _, _) => t.excludes("mass", "density or part_length"),
+        (None, Some(_), None) => t.needs("density", "part_length beside it"),
+        (None, None, Some(_)) => t.needs("part_length", "density beside it"),
+    }
+    None
+}
+
+/// Gravity in the gripper's axes; down where left out.
+fn gravity(t: &mut ValueTable<'_>, e: &GripEntry) -> Toward {
+    match &e.gravity {
         None => Toward::Fixed([0.0, -GRAVITY, 0.0]),
         Some(Gravity::Vector(v)) => Toward::Fixed(t.vector("gravity", v, 1.0)),
         Some(Gravity::Word(w)) => {
             word(t, "gravity", Some(w), &[("any", ())]);
             Toward::Any(GRAVITY)
         }
-    };
+    }
+}
+
+/// The accelerations of the gripper, each a case; one at rest where there are none, nothing where there are too many.
+fn accelerations(t: &mut ValueTable<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
     let at = key(&t.at, "accelerations");
     if e.accelerations.len() > MOST {
         t.bad(
@@ -142,6 +135,21 @@ fn load(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     if accelerations.is_empty() {
         accelerations.push(Toward::Fixed([0.0; 3]));
     }
+    Some(accelerations)
+}
+
+/// What the gripper must hold, where the file says what the part weighs.
+fn load(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
+    let mass = part_mass(t, e, unit)?;
+    let Some(friction) = &e.friction else {
+        t.needs(
+            if e.mass.is_some() { "mass" } else { "density" },
+            "friction, the coefficient between part and faces, beside it",
+        );
+        return None;
+    };
+    let gravity = gravity(t, e);
+    let accelerations = accelerations(t, e)?;
     let kinds = [
         ("coupled", LeverDrive::Coupled),
         ("equal", LeverDrive::Equal),
@@ -216,23 +224,8 @@ fn joints(t: &mut ValueTable<'_>, k: &'static str, ids: &[String], m: &Mechanism
     each.collect()
 }
 
-/// The joints that stand for the contacts: each joins the part to the lever that is to touch it there.
-fn contacts(
-    t: &mut ValueTable<'_>,
-    e: &GripEntry,
-    spec: &GripSpec,
-    m: &Mechanism,
-) -> Option<[JointId; 4]> {
-    let ids = e.contacts.as_ref()?;
-    let Transmission::Joints(levers) = spec.transmission else {
-        if e.lever_joints.is_none() {
-            t.needs(
-                "contacts",
-                "lever_joints, the joints that the two levers turn in, beside it",
-            );
-        }
-        return None;
-    };
+/// What contacts need of the rest of the table.
+fn contacts_go_with(t: &mut ValueTable<'_>, spec: &GripSpec) {
     if spec.load.is_none() {
         t.needs(
             "contacts",
@@ -255,49 +248,106 @@ fn contacts(
             "pivots = \"fixed\": the mechanism's own stand where they are",
         );
     }
+}
+
+/// The joints of a clamped part and of the levers that clamp it.
+struct Clamp<'a> {
+    mechanism: &'a Mechanism,
+    /// The joints of the levers, upper and lower.
+    levers: [JointId; 2],
+    /// Upper far, upper near, lower far, lower near.
+    contacts: [JointId; 4],
+    /// The clamped object, where the first contact has one.
+    part: Option<LinkId>,
+}
+
+impl Clamp<'_> {
+    /// Whether each contact is between the part and its lever, and all act in the same states.
+    fn check_contacts(&self, t: &mut ValueTable<'_>) {
+        let m = self.mechanism;
+        let at = key(&t.at, "contacts");
+        for (i, &j) in self.contacts.iter().enumerate() {
+            let joint = &m.joints[j];
+            let lever = &m.joints[self.levers[i / 2]];
+            let touches = joint.links.iter().any(|&l| Some(l) == self.part);
+            let on_lever = joint
+                .links
+                .iter()
+                .any(|l| lever.links.contains(l) && *l != m.frame());
+            if !touches || !on_lever {
+                t.bad(&index(&at, i), "contact", format!("{:?}", joint.id), match i / 2 {
+                    0 => "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints",
+                    _ => "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints",
+                });
+            } else if joint.states.is_none() || joint.states != m.joints[self.contacts[0]].states {
+                t.bad(
+                    &index(&at, i),
+                    "contact",
+                    format!("{:?}", joint.id),
+                    "one with the same `state` as the other contacts, such as state = \"clamped\"",
+                );
+            }
+        }
+    }
+
+    /// Whether the levers turn on the frame.
+    fn check_pivots(&self, t: &mut ValueTable<'_>) {
+        let m = self.mechanism;
+        for (k, &j) in self.levers.iter().enumerate() {
+            if !m.joints[j].links.contains(&m.frame()) {
+                t.bad(
+                    &index(&key(&t.at, "lever_joints"), k),
+                    "lever joint",
+                    format!("{:?}", m.joints[j].id),
+                    "a joint at the frame: with contacts, the pivots stand still",
+                );
+            }
+        }
+    }
+
+    /// Whether the contacts are four, and nothing else holds the part.
+    fn holds_alone(&self) -> bool {
+        let m = self.mechanism;
+        let further = |j: JointId| {
+            self.part.is_some_and(|p| m.joints[j].links.contains(&p)) && !self.contacts.contains(&j)
+        };
+        !m.joint_ids().any(further) && self.contacts.iter().all_unique()
+    }
+}
+
+/// The joints that stand for the contacts: each joins the part to the lever that is to touch it there.
+fn contacts(
+    t: &mut ValueTable<'_>,
+    e: &GripEntry,
+    spec: &GripSpec,
+    m: &Mechanism,
+) -> Option<[JointId; 4]> {
+    let ids = e.contacts.as_ref()?;
+    let Transmission::Joints(levers) = spec.transmission else {
+        if e.lever_joints.is_none() {
+            t.needs(
+                "contacts",
+                "lever_joints, the joints that the two levers turn in, beside it",
+            );
+        }
+        return None;
+    };
+    contacts_go_with(t, spec);
     let [upper_far, upper_near, lower_far, lower_near] = joints(t, "contacts", ids, m)[..] else {
         return None;
     };
-    let found = [upper_far, upper_near, lower_far, lower_near];
-    let part = m
-        .link_ids()
-        .find(|&l| m.links[l].role == Role::Object && m.joints[upper_far].links.contains(&l));
-    let at = key(&t.at, "contacts");
-    for (i, &j) in found.iter().enumerate() {
-        let joint = &m.joints[j];
-        let lever = &m.joints[levers[i / 2]];
-        let touches = joint.links.iter().any(|&l| Some(l) == part);
-        let on_lever = joint
-            .links
-            .iter()
-            .any(|l| lever.links.contains(l) && *l != m.frame());
-        if !touches || !on_lever {
-            t.bad(&index(&at, i), "contact", format!("{:?}", joint.id), match i / 2 {
-                0 => "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints",
-                _ => "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints",
-            });
-        } else if joint.states.is_none() || joint.states != m.joints[upper_far].states {
-            t.bad(
-                &index(&at, i),
-                "contact",
-                format!("{:?}", joint.id),
-                "one with the same `state` as the other contacts, such as state = \"clamped\"",
-            );
-        }
-    }
-    for (k, &j) in levers.iter().enumerate() {
-        if !m.joints[j].links.contains(&m.frame()) {
-            t.bad(
-                &index(&key(&t.at, "lever_joints"), k),
-                "lever joint",
-                format!("{:?}", m.joints[j].id),
-                "a joint at the frame: with contacts, the pivots stand still",
-            );
-        }
-    }
-    let further =
-        |j: JointId| part.is_some_and(|p| m.joints[j].links.contains(&p)) && !found.contains(&j);
-    if m.joint_ids().any(further) || !found.iter().all_unique() {
+    let clamp = Clamp {
+        mechanism: m,
+        levers,
+        contacts: [upper_far, upper_near, lower_far, lower_near],
+        part: m
+            .link_ids()
+            .find(|&l| m.links[l].role == Role::Object && m.joints[upper_far].links.contains(&l)),
+    };
+    clamp.check_contacts(t);
+    clamp.check_pivots(t);
+    if !clamp.holds_alone() {
+        let at = key(&t.at, "contacts");
         t.bad(
             &at,
             "list of contacts",
@@ -305,7 +355,32 @@ fn contacts(
             "all four joints of the part, each once: nothing else may hold it",
         );
     }
-    Some(found)
+    Some(clamp.contacts)
+}
+
+/// Where the pivots of the levers stand.
+fn pivots(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Pivots {
+    let fixed = word(
+        t,
+        "pivots",
+        e.pivots.as_ref(),
+        &[("fixed", true), ("nominal", false)],
+    );
+    let distance = t.optional(
+        "pivot_distance",
+        e.pivot_distance.as_ref(),
+        unit,
+        Bound::NotNegative,
+    );
+    if distance.is_some() && !fixed {
+        t.needs("pivot_distance", "pivots = \"fixed\"");
+    }
+    match (fixed, distance) {
+        (false, _) => Pivots::Nominal,
+        (true, Some(a)) if e.levers_cross => Pivots::Fixed(-a),
+        (true, Some(a)) => Pivots::Fixed(a),
+        (true, None) => Pivots::FixedForDiameter,
+    }
 }
 
 /// The gripper of a file, where it has one.
@@ -335,33 +410,14 @@ pub(crate) fn grip(
         "an angle from 0 to 179 degrees",
     );
     let diameter = t.number("diameter", &e.diameter, unit, Bound::Positive);
-    let fixed = word(
-        t,
-        "pivots",
-        e.pivots.as_ref(),
-        &[("fixed", true), ("nominal", false)],
-    );
-    let distance = t.optional(
-        "pivot_distance",
-        e.pivot_distance.as_ref(),
-        unit,
-        Bound::NotNegative,
-    );
-    if distance.is_some() && !fixed {
-        t.needs("pivot_distance", "pivots = \"fixed\"");
-    }
+    let pivots = pivots(t, e, unit);
     let mut spec = GripSpec {
         lever_length: t.number("lever_length", &e.lever_length, unit, Bound::Positive),
         prism_angle,
         mounting_angle,
         diameter,
         diameters: diameters(t, e, unit, diameter),
-        pivots: match (fixed, distance) {
-            (false, _) => Pivots::Nominal,
-            (true, Some(a)) if e.levers_cross => Pivots::Fixed(-a),
-            (true, Some(a)) => Pivots::Fixed(a),
-            (true, None) => Pivots::FixedForDiameter,
-        },
+        pivots,
         face_length: t.optional("face_length", e.face_length.as_ref(), unit, Bound::Positive),
         lever_width: t
             .optional(

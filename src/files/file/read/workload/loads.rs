@@ -10,10 +10,64 @@ use crate::file::read::workload::motion::{
     LARGEST, MAX_FORCES, MAX_STEPS, POSITION, SPEED, position, quantity, speed,
 };
 use crate::file::schema::{
-    InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity, StrokeEntry,
+    ForceEntry, InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity, StrokeEntry,
 };
 use crate::model::loads::{ExternalForce, Inertia, Loads, MassProperties, Stroke};
 use crate::model::mechanism::Mechanism;
+
+/// What inertias and masses may be.
+const NOT_NEGATIVE: &str = "a number from 0 to 1e12";
+
+/// Whether a mass or an inertia is in range.
+fn fits(x: f64) -> bool {
+    (0.0..=LARGEST).contains(&x)
+}
+
+/// Notes a figure of a link that will not do.
+fn bad(
+    out: &mut Findings,
+    path: &[DocumentStep],
+    what: &'static str,
+    value: String,
+    allowed: &'static str,
+) {
+    let kind = ProblemKind::BadQuantity {
+        what,
+        value,
+        allowed,
+    };
+    out.add(path, kind);
+}
+
+/// Inertia about the mass centre, where an entry states one that is in range.
+fn inertia(
+    entry: Option<&InertiaEntry>,
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> Option<Inertia> {
+    match entry? {
+        InertiaEntry::Plane(x) if fits(*x) => Some(Inertia::Plane(*x)),
+        InertiaEntry::Plane(x) => {
+            bad(out, path, "inertia", x.to_string(), NOT_NEGATIVE);
+            None
+        }
+        InertiaEntry::List(v) => {
+            let diagonal = v.iter().take(3).all(|x| fits(*x));
+            let finite = v.iter().all(|x| x.abs() <= LARGEST);
+            match v[..] {
+                [a, b, c] if diagonal => Some(Inertia::Principal([a, b, c])),
+                [a, b, c, d, e, f] if diagonal && finite => {
+                    Some(Inertia::Tensor([a, b, c, d, e, f]))
+                }
+                _ => {
+                    let allowed = "one number, 3 about the axes or 6 of a tensor, those on the diagonal from 0 to 1e12";
+                    bad(out, path, "inertia", format!("{v:?}"), allowed);
+                    None
+                }
+            }
+        }
+    }
+}
 
 /// The mass of a link, where its entry states one.
 pub(crate) fn mass(
@@ -25,42 +79,9 @@ pub(crate) fn mass(
         .centre
         .as_ref()
         .map(|c| vector(c, &key(at, "centre"), out));
-    let mut bad = |k: &str, what, value: String, allowed| {
-        let kind = ProblemKind::BadQuantity {
-            what,
-            value,
-            allowed,
-        };
-        out.add(&key(at, k), kind);
-    };
-    let allowed = "a number from 0 to 1e12";
-    let fits = |x: f64| (0.0..=LARGEST).contains(&x);
-    let inertia = match &entry.inertia {
-        None => None,
-        Some(InertiaEntry::Plane(x)) if fits(*x) => Some(Inertia::Plane(*x)),
-        Some(InertiaEntry::Plane(x)) => {
-            bad("inertia", "inertia", x.to_string(), allowed);
-            None
-        }
-        Some(InertiaEntry::List(v)) => {
-            let diagonal = v.iter().take(3).all(|x| fits(*x));
-            let finite = v.iter().all(|x| x.abs() <= LARGEST);
-            match v[..] {
-                [a, b, c] if diagonal => Some(Inertia::Principal([a, b, c])),
-                [a, b, c, d, e, f] if diagonal && finite => {
-                    Some(Inertia::Tensor([a, b, c, d, e, f]))
-                }
-                _ => {
-                    let allowed = "one number, 3 about the axes or 6 of a tensor, those on the diagonal from 0 to 1e12";
-                    bad("inertia", "inertia", format!("{v:?}"), allowed);
-                    None
-                }
-            }
-        }
-    };
-    if entry.mass.is_some_and(|x| !fits(x)) {
-        let value = entry.mass.unwrap_or(0.0).to_string();
-        bad("mass", "mass", value, allowed);
+    let inertia = inertia(entry.inertia.as_ref(), &key(at, "inertia"), out);
+    if let Some(x) = entry.mass.filter(|&x| !fits(x)) {
+        bad(out, &key(at, "mass"), "mass", x.to_string(), NOT_NEGATIVE);
     }
     let missing = match (entry.mass, &centre, &entry.inertia) {
         (Some(mass), Some(centre), _) => {
@@ -101,63 +122,14 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
     }
     let mut forces = Vec::new();
     for (i, f) in entry.force.iter().enumerate() {
-        let at = index(&key(&at, "force"), i);
-        let point = vector(&f.point, &key(&at, "point"), out);
-        let force = vector(&f.force, &key(&at, "force"), out);
-        let mut end = |q: &Option<Quantity>, k: &str, open: f64| {
-            q.as_ref().map_or(open, |q| {
-                quantity(q, position, "drive position", POSITION, &key(&at, k), out)
-            })
-        };
-        let from = end(&f.from, "from", f64::NEG_INFINITY);
-        let to = end(&f.to, "to", f64::INFINITY);
-        if from > to {
-            out.add(
-                &key(&at, "to"),
-                ProblemKind::BadQuantity {
-                    what: "end of the range",
-                    value: to.to_string(),
-                    allowed: "at or after its beginning",
-                },
-            );
-        }
-        let states = states_by_name(mechanism, f.state.as_ref(), &key(&at, "state"), out);
-        let Some(link) = link_by_id(&mechanism.links, &f.link, &key(&at, "link"), out) else {
-            continue;
-        };
-        forces.push(ExternalForce {
-            link,
-            point,
-            force,
-            range: (f.from.is_some() || f.to.is_some()).then_some([from, to]),
-            states,
-        });
+        forces.extend(force(f, &index(&key(&at, "force"), i), mechanism, out));
     }
     let moments = moments(entry, mechanism, &at, out);
     let stiffness = stiffness(entry, &at, out);
     let faces = faces(entry, mechanism, &at, out);
     let misalignments = misalignments(entry, mechanism, &at, out);
     let path = key(&at, "drive_speed");
-    let drive_speeds = match &entry.drive_speed {
-        None => Vec::new(),
-        Some(Quantities::One(q)) => vec![quantity(q, speed, "drive speed", SPEED, &path, out)],
-        Some(Quantities::Many(list)) => list
-            .iter()
-            .enumerate()
-            .map(|(i, q)| quantity(q, speed, "drive speed", SPEED, &index(&path, i), out))
-            .collect(),
-    };
-    let drives = mechanism.joints.iter().filter(|j| j.drive).count();
-    if drive_speeds.len() > drives {
-        out.add(
-            &path,
-            ProblemKind::TooMany {
-                what: "drive speeds",
-                count: drive_speeds.len(),
-                limit: drives,
-            },
-        );
-    }
+    let drive_speeds = drive_speeds(entry.drive_speed.as_ref(), mechanism, &path, out);
     Loads {
         gravity: entry
             .gravity
@@ -177,6 +149,73 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
         grip: None,
         drive: None,
     }
+}
+
+/// A force from outside, where its link is known.
+fn force(
+    f: &ForceEntry,
+    at: &[DocumentStep],
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> Option<ExternalForce> {
+    let point = vector(&f.point, &key(at, "point"), out);
+    let force = vector(&f.force, &key(at, "force"), out);
+    let mut end = |q: &Option<Quantity>, k: &str, open: f64| {
+        q.as_ref().map_or(open, |q| {
+            quantity(q, position, "drive position", POSITION, &key(at, k), out)
+        })
+    };
+    let from = end(&f.from, "from", f64::NEG_INFINITY);
+    let to = end(&f.to, "to", f64::INFINITY);
+    if from > to {
+        out.add(
+            &key(at, "to"),
+            ProblemKind::BadQuantity {
+                what: "end of the range",
+                value: to.to_string(),
+                allowed: "at or after its beginning",
+            },
+        );
+    }
+    let states = states_by_name(mechanism, f.state.as_ref(), &key(at, "state"), out);
+    let link = link_by_id(&mechanism.links, &f.link, &key(at, "link"), out)?;
+    Some(ExternalForce {
+        link,
+        point,
+        force,
+        range: (f.from.is_some() || f.to.is_some()).then_some([from, to]),
+        states,
+    })
+}
+
+/// The speeds of the drives, no more of them than there are drives.
+fn drive_speeds(
+    entry: Option<&Quantities>,
+    mechanism: &Mechanism,
+    path: &[DocumentStep],
+    out: &mut Findings,
+) -> Vec<f64> {
+    let speeds = match entry {
+        None => Vec::new(),
+        Some(Quantities::One(q)) => vec![quantity(q, speed, "drive speed", SPEED, path, out)],
+        Some(Quantities::Many(list)) => list
+            .iter()
+            .enumerate()
+            .map(|(i, q)| quantity(q, speed, "drive speed", SPEED, &index(path, i), out))
+            .collect(),
+    };
+    let drives = mechanism.joints.iter().filter(|j| j.drive).count();
+    if speeds.len() > drives {
+        out.add(
+            path,
+            ProblemKind::TooMany {
+                what: "drive speeds",
+                count: speeds.len(),
+                limit: drives,
+            },
+        );
+    }
+    speeds
 }
 
 fn stroke(s: &StrokeEntry, at: &[DocumentStep], out: &mut Findings) -> Stroke {

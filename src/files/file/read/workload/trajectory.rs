@@ -1,6 +1,7 @@
 //! A motion of a gripper as CSV: one step a line.
 
 use crate::model::grip::MotionStep;
+use csv::StringRecord;
 use thiserror::Error;
 
 /// Most steps.
@@ -43,6 +44,78 @@ pub enum TrajectoryError {
     },
 }
 
+/// Where the figures of a step stand.
+struct StepColumns {
+    acceleration: [usize; 3],
+    gravity: Option<[usize; 3]>,
+    time: Option<usize>,
+    diameter: Option<usize>,
+}
+
+impl StepColumns {
+    /// The columns by the names in the first line, or what is wrong with those.
+    fn of(names: &StringRecord) -> Result<StepColumns, String> {
+        if let Some(unknown) = names.iter().find(|n| !COLUMNS.contains(n)) {
+            return Err(format!("unknown column {unknown:?}"));
+        }
+        let place = COLUMNS.map(|c| names.iter().position(|n| n == c));
+        let [ax, ay, az, gx, gy, gz, time, diameter] = place;
+        let (Some(ax), Some(ay), Some(az)) = (ax, ay, az) else {
+            return Err("ax, ay and az are needed".to_owned());
+        };
+        let gravity = match (gx, gy, gz) {
+            (Some(x), Some(y), Some(z)) => Some([x, y, z]),
+            (None, None, None) => None,
+            _ => return Err("gx, gy and gz go together".to_owned()),
+        };
+        Ok(StepColumns {
+            acceleration: [ax, ay, az],
+            gravity,
+            time,
+            diameter,
+        })
+    }
+}
+
+/// A line of figures under the names of their columns.
+struct Figures<'a> {
+    names: &'a StringRecord,
+    record: &'a StringRecord,
+}
+
+impl Figures<'_> {
+    /// The number in a column, `least` or above, or what is wrong with it.
+    fn number(&self, column: usize, least: f64) -> Result<f64, String> {
+        let text = self.record.get(column).unwrap_or("");
+        let found = text
+            .parse::<f64>()
+            .ok()
+            .filter(|x| (least..=1e6).contains(x));
+        let name = self.names.get(column).unwrap_or("");
+        found.ok_or_else(|| format!("{name} is {text:?}; give a number of at most 1e6 in size"))
+    }
+
+    fn vector(&self, [x, y, z]: [usize; 3]) -> Result<[f64; 3], String> {
+        Ok([
+            self.number(x, -1e6)?,
+            self.number(y, -1e6)?,
+            self.number(z, -1e6)?,
+        ])
+    }
+
+    /// The step that the line stands for, diameters in `unit` metres.
+    fn step(&self, columns: &StepColumns, unit: f64) -> Result<MotionStep, String> {
+        let time = columns.time.map(|c| self.number(c, -1e6)).transpose()?;
+        let diameter = columns.diameter.map(|c| self.number(c, 1e-9)).transpose()?;
+        Ok(MotionStep {
+            time,
+            diameter: diameter.map(|d| d * unit),
+            gravity: columns.gravity.map(|g| self.vector(g)).transpose()?,
+            acceleration: self.vector(columns.acceleration)?,
+        })
+    }
+}
+
 /// Reads a motion; accelerations in m/s² in the gripper's axes, diameters in `unit` metres.
 ///
 /// # Errors
@@ -57,19 +130,7 @@ pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>
         what,
     };
     let names = reader.headers().map_err(|e| head(e.to_string()))?.clone();
-    if let Some(unknown) = names.iter().find(|n| !COLUMNS.contains(n)) {
-        return Err(head(format!("unknown column {unknown:?}")));
-    }
-    let place = COLUMNS.map(|c| names.iter().position(|n| n == c));
-    let [ax, ay, az, gx, gy, gz, time, diameter] = place;
-    let (Some(ax), Some(ay), Some(az)) = (ax, ay, az) else {
-        return Err(head("ax, ay and az are needed".to_owned()));
-    };
-    let gravity = match (gx, gy, gz) {
-        (Some(x), Some(y), Some(z)) => Some([x, y, z]),
-        (None, None, None) => None,
-        _ => return Err(head("gx, gy and gz go together".to_owned())),
-    };
+    let columns = StepColumns::of(&names).map_err(head)?;
     let mut out = Vec::new();
     for (i, record) in reader.records().enumerate() {
         let at = |line: usize, what: String| TrajectoryError::Line {
@@ -81,32 +142,15 @@ pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>
         let line = record
             .position()
             .map_or(i + 2, |p| usize::try_from(p.line()).unwrap_or(i + 2));
-        let number = |column: usize, least: f64| {
-            let text = record.get(column).unwrap_or("");
-            let found = text
-                .parse::<f64>()
-                .ok()
-                .filter(|x| (least..=1e6).contains(x));
-            let name = names.get(column).unwrap_or("");
-            found.ok_or_else(|| {
-                at(
-                    line,
-                    format!("{name} is {text:?}; give a number of at most 1e6 in size"),
-                )
-            })
+        let figures = Figures {
+            names: &names,
+            record: &record,
         };
-        let vector = |[x, y, z]: [usize; 3]| -> Result<[f64; 3], TrajectoryError> {
-            Ok([number(x, -1e6)?, number(y, -1e6)?, number(z, -1e6)?])
-        };
-        out.push(MotionStep {
-            time: time.map(|c| number(c, -1e6)).transpose()?,
-            diameter: diameter
-                .map(|c| number(c, 1e-9))
-                .transpose()?
-                .map(|d| d * unit),
-            gravity: gravity.map(vector).transpose()?,
-            acceleration: vector([ax, ay, az])?,
-        });
+        out.push(
+            figures
+                .step(&columns, unit)
+                .map_err(|what| at(line, what))?,
+        );
     }
     if !(1..=MOST).contains(&out.len()) {
         return Err(TrajectoryError::Count {

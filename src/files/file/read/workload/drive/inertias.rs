@@ -61,6 +61,24 @@ fn link_inertia(
     Some(about + body.mass * (dot(from, from) - along * along).max(0.0))
 }
 
+/// Inertia of the bare disc, by its figure or by its link.
+fn disc_inertia(
+    t: &mut ValueTable<'_>,
+    e: &DriveEntry,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+) -> Option<f64> {
+    let disc = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
+    match (disc, &e.disc_link) {
+        (Some(_), Some(_)) => {
+            t.excludes("disc_link", "disc_inertia");
+            disc
+        }
+        (None, Some(id)) => Some(link_inertia(t, id, unit, mechanism).unwrap_or(1.0)),
+        (_, None) => disc,
+    }
+}
+
 /// Inertias of the discs with what they carry, and the payload.
 pub(crate) fn inertias(
     t: &mut ValueTable<'_>,
@@ -70,15 +88,7 @@ pub(crate) fn inertias(
 ) -> ([f64; 2], Option<Payload>) {
     let mass = t.positive("payload_mass", &e.payload_mass, 1.0);
     let radius = t.not_negative("payload_radius", &e.payload_radius, unit);
-    let disc = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
-    let disc = match (disc, &e.disc_link) {
-        (Some(_), Some(_)) => {
-            t.excludes("disc_link", "disc_inertia");
-            disc
-        }
-        (None, Some(id)) => Some(link_inertia(t, id, unit, mechanism).unwrap_or(1.0)),
-        (_, None) => disc,
-    };
+    let disc = disc_inertia(t, e, unit, mechanism);
     let whole = t.positive("inertia", &e.inertia, 1.0);
     let payload = match (mass, radius) {
         (Some(mass), Some(radius)) => Some(Payload { mass, radius }),
@@ -94,13 +104,27 @@ pub(crate) fn inertias(
             None
         }
     };
-    let first = match (whole, disc, payload) {
-        (Some(i), None, _) => i,
-        (Some(_), Some(_), _) => {
+    let Some(first) = loaded_inertia(t, whole, disc, payload) else {
+        return ([1.0; 2], payload);
+    };
+    let second = t.positive("second_inertia", &e.second_inertia, 1.0);
+    ([first, second.unwrap_or(first)], payload)
+}
+
+/// Inertia of a disc with its payload: as a whole, or as the sum of both; none where both are without inertia.
+fn loaded_inertia(
+    t: &mut ValueTable<'_>,
+    whole: Option<f64>,
+    disc: Option<f64>,
+    payload: Option<Payload>,
+) -> Option<f64> {
+    match (whole, disc) {
+        (Some(i), None) => Some(i),
+        (Some(_), Some(_)) => {
             t.excludes("disc_inertia", "inertia");
-            1.0
+            Some(1.0)
         }
-        (None, Some(disc), payload) => {
+        (None, Some(disc)) => {
             let sum = disc + payload.map_or(0.0, |p| p.mass * p.radius * p.radius);
             if sum <= 0.0 {
                 let path = key(&t.at, "disc_inertia");
@@ -110,20 +134,18 @@ pub(crate) fn inertias(
                     sum.to_string(),
                     "a disc or a payload with an inertia above 0",
                 );
-                return ([1.0; 2], payload);
+                return None;
             }
-            sum
+            Some(sum)
         }
-        (None, None, _) => {
+        (None, None) => {
             let at = t.at.clone();
             t.needs_at(
                 &at,
                 "drive",
                 "inertia, or disc_inertia with payload_mass and payload_radius",
             );
-            1.0
+            Some(1.0)
         }
-    };
-    let second = t.positive("second_inertia", &e.second_inertia, 1.0);
-    ([first, second.unwrap_or(first)], payload)
+    }
 }

@@ -20,6 +20,7 @@ pub fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<Program
     steps
 }
 
+/// The steps of a file: those it lists, or as many swings as it asks for.
 pub(crate) fn programme(t: &mut ValueTable<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     let dwell = t.optional(
         "dwell",
@@ -28,27 +29,7 @@ pub(crate) fn programme(t: &mut ValueTable<'_>, e: &DriveEntry) -> Vec<Programme
         Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s"),
     );
     let Some(list) = &e.programme else {
-        let stepwise = word(
-            t,
-            "motion",
-            e.motion.as_ref(),
-            &[("stepwise", true), ("reversing", false)],
-        );
-        let count = e.swings.unwrap_or(8);
-        let Some(count) = usize::try_from(count)
-            .ok()
-            .filter(|n| (1..=MOST).contains(n))
-        else {
-            let path = key(&t.at, "swings");
-            t.bad(
-                &path,
-                "number of swings",
-                count.to_string(),
-                "a whole number from 1 to 10000",
-            );
-            return Vec::new();
-        };
-        return regular(stepwise, count, dwell.filter(|d| *d > 0.0));
+        return swings(t, e, dwell);
     };
     let beside = [
         ("motion", e.motion.is_some()),
@@ -63,7 +44,49 @@ pub(crate) fn programme(t: &mut ValueTable<'_>, e: &DriveEntry) -> Vec<Programme
         t.bad(&at, "number of steps", list.len().to_string(), "1 to 10000");
         return Vec::new();
     }
-    let step = |text: &str| match text.trim() {
+    let mut steps = Vec::new();
+    for (i, text) in list.iter().enumerate() {
+        match step(text) {
+            Some(s) => steps.push(s),
+            None => t.bad(
+                &index(&at, i),
+                "step",
+                format!("{text:?}"),
+                "\"1\", \"2\" or a dwell such as \"wait 0.3\"",
+            ),
+        }
+    }
+    steps
+}
+
+/// The steps of a file that gives the number of swings and the dwell after each.
+fn swings(t: &mut ValueTable<'_>, e: &DriveEntry, dwell: Option<f64>) -> Vec<ProgrammeStep> {
+    let stepwise = word(
+        t,
+        "motion",
+        e.motion.as_ref(),
+        &[("stepwise", true), ("reversing", false)],
+    );
+    let count = e.swings.unwrap_or(8);
+    let Some(count) = usize::try_from(count)
+        .ok()
+        .filter(|n| (1..=MOST).contains(n))
+    else {
+        let path = key(&t.at, "swings");
+        t.bad(
+            &path,
+            "number of swings",
+            count.to_string(),
+            "a whole number from 1 to 10000",
+        );
+        return Vec::new();
+    };
+    regular(stepwise, count, dwell.filter(|d| *d > 0.0))
+}
+
+/// A step by its words: "1" or "2", a disc swinging, or "wait 0.3", a dwell in s.
+fn step(text: &str) -> Option<ProgrammeStep> {
+    match text.trim() {
         "1" => Some(ProgrammeStep::Swing(0)),
         "2" => Some(ProgrammeStep::Swing(1)),
         other => {
@@ -78,18 +101,5 @@ pub(crate) fn programme(t: &mut ValueTable<'_>, e: &DriveEntry) -> Vec<Programme
                 .contains(&time)
                 .then_some(ProgrammeStep::Dwell(time))
         }
-    };
-    let mut steps = Vec::new();
-    for (i, text) in list.iter().enumerate() {
-        match step(text) {
-            Some(s) => steps.push(s),
-            None => t.bad(
-                &index(&at, i),
-                "step",
-                format!("{text:?}"),
-                "\"1\", \"2\" or a dwell such as \"wait 0.3\"",
-            ),
-        }
     }
-    steps
 }
