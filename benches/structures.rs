@@ -58,8 +58,8 @@ impl Kind {
         // Nearly all generic ones move, of symmetric ones few.
         if self.name != "all" {
             all.retain(|s| {
-                let of = (s.form.symmetry, s.form.input);
-                working_swap(&subject, &s.roles, of).is_ok()
+                let (symmetry, input) = (s.form.symmetry, s.form.input);
+                working_swap(&subject, &s.roles, symmetry, input).is_ok()
             });
         }
         all

@@ -266,9 +266,12 @@ impl<'s> Displaced<'s> {
         let verdicts = self.verdicts(method);
         let answers = verdicts.iter().any(|(_, k)| *k != VerdictKind::None);
         // A method that is wrong about the special mechanism cannot tell another one from it.
-        answers.then(|| match self.knows[method] {
-            true => seen(&verdicts),
-            false => ToldApart::Never,
+        answers.then(|| {
+            if self.knows[method] {
+                seen(&verdicts)
+            } else {
+                ToldApart::Never
+            }
         })
     }
 

@@ -273,7 +273,7 @@ mod tests {
         let few: Vec<Vec<Residue>> = (0..9).map(|_| vector()).collect();
         let own = [vector(), vector()];
         let some = |node: usize| {
-            let is_in = |i: &usize| (node * 7 + i * i) % 3 == 0;
+            let is_in = |i: &usize| (node * 7 + i * i).is_multiple_of(3);
             (0..few.len())
                 .filter(is_in)
                 .map(|i| few[i].clone())
