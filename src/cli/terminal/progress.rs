@@ -8,7 +8,7 @@ use crate::score::outcome::Outcome;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{List, Request};
 use crate::score::run::{self, Event, RunError, ShouldCancel, Tell};
-use crate::search::diagram::{Doing, Progress};
+use crate::search::diagram::Progress;
 use crate::search::question::conditions::Conditions;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -115,12 +115,13 @@ impl Bar {
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });
-        bar.set_prefix(match p.doing {
-            Doing::Choosing => "joint",
-            Doing::Meeting => "meeting",
-        });
-        bar.set_length(p.of as u64);
-        bar.set_position(p.done as u64);
+        let (what, done, of) = match p.meeting {
+            None => ("joint", p.done, p.of),
+            Some(m) => ("meeting", m.done, m.of),
+        };
+        bar.set_prefix(what);
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
         bar.set_message(format!("{} nodes, {} in this layer", p.nodes, p.layer));
     }
 

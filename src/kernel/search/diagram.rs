@@ -33,28 +33,28 @@ use crate::search::diagram::transition::{Children, Worker};
 use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
-/// What a diagram that is being built has come to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Doing {
-    /// Layers, variable by variable.
-    Choosing,
-    /// Nodes of the front where halves meet, each with all of the back.
-    Meeting,
+/// How many nodes of the front have met those of the back, where a diagram is built from both ends.
+#[derive(Debug, Clone, Copy)]
+pub struct Meeting {
+    /// Nodes that have met all of the back.
+    pub done: usize,
+    /// Nodes of the front in all.
+    pub of: usize,
 }
 
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Progress {
-    /// What is counted in `done` and `of`.
-    pub doing: Doing,
-    /// Variables or nodes done.
+    /// Variables done.
     pub done: usize,
-    /// Variables or nodes in all.
+    /// Variables in all.
     pub of: usize,
     /// Nodes so far.
     pub nodes: usize,
     /// Nodes of the present layer.
     pub layer: usize,
+    /// How far halves have met, while they do.
+    pub meeting: Option<Meeting>,
 }
 
 /// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
@@ -151,11 +151,11 @@ pub(super) fn build(
             cancelled,
             &mut |layer| {
                 progress(Progress {
-                    doing: Doing::Choosing,
                     done,
                     of: stages.len(),
                     nodes: total + layer,
                     layer,
+                    meeting: None,
                 });
             },
         );
@@ -385,7 +385,7 @@ pub(super) fn expand(
 }
 
 /// The nodes of a layer that pass a test, ascending.
-pub(super) fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
+fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
     let chunk = if nodes.len() < PARALLEL {
         nodes.len().max(1)
     } else {

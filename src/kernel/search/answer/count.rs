@@ -70,7 +70,7 @@ mod tests {
     use super::{Count, Wide};
     use num_bigint::BigUint;
 
-    /// Doubled and added to itself shifted, 2^k and 3^k, up to the last digit, as numbers of any size have them.
+    /// Three times as much again and again, then twice, up to the last bit, as numbers of any size have it.
     #[test]
     fn digits_add_as_numbers_of_any_size_do() {
         let (mut digits, mut big) = (Wide::<4>::one(), BigUint::one());

@@ -145,8 +145,8 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
         Some(totals.iter().map(|(k, n)| (*k, n.big())).collect())
     }
     let count = match question.space.size().bits() {
-        0..=128 => with::<u128>,
-        129..=256 => with::<Wide<4>>,
+        0..=127 => with::<u128>,
+        128..=256 => with::<Wide<4>>,
         257..=512 => with::<Wide<8>>,
         513..=1024 => with::<Wide<16>>,
         _ => with::<BigUint>,

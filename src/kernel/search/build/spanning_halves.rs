@@ -8,7 +8,7 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Bases, Quotient, Set, completed, none, put};
 use crate::search::build::self_stress::{Added, space};
-use crate::search::diagram::adding::adding;
+use crate::search::diagram::adding::{Adding, adding};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::reduced_rows::Rows;
 use crate::search::diagram::redundancy_so_far::Limits;
@@ -49,14 +49,14 @@ impl<'a> Halves<'a> {
         keep_output: bool,
     ) -> Option<Self> {
         let field = question.exact.field();
-        let reversed: Vec<usize> = order.iter().rev().copied().collect();
-        let orders = [order, &reversed];
-        let [front, back] = orders.map(|o| space(question, model, o, keep_output));
-        let spaces = [front?, back?];
-        let already = limits.already.saturating_add(spaces[0].lasting);
+        let front = space(question, model, order, keep_output)?;
+        let already = limits.already.saturating_add(front.lasting);
         if already != limits.internal {
             return None;
         }
+        let reversed: Vec<usize> = order.iter().rev().copied().collect();
+        let orders = [order, &reversed];
+        let spaces = [front, space(question, model, &reversed, keep_output)?];
         let all = order.len();
         let shared = |t: &usize| shared(&spaces, *t, all - t);
         let mut starts: Vec<usize> = (0..all).filter(|t| shared(t) == 0).collect();
@@ -65,10 +65,12 @@ impl<'a> Halves<'a> {
         let parts = starts.windows(2).map(|at| {
             let ranges = [at[0]..at[1], all - at[1]..all - at[0]];
             [0, 1].map(|end| {
-                let part = stages[end][ranges[end].clone()].iter();
+                let part = stages[end][ranges[end].clone()].iter().cloned();
                 // Halves meet in what the kept links do, however wrong.
-                let added =
-                    part.map(|stage| Added::new(field, stage.clone().uncollapsed(), limits));
+                let added = part.map(|stage| {
+                    let collapse = None;
+                    Added::new(field, Adding { collapse, ..stage }, limits)
+                });
                 added.collect()
             })
         });

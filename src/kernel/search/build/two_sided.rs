@@ -16,7 +16,7 @@ use crate::search::build::spanning_halves::{Half, Halves};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::Spent;
-use crate::search::diagram::{Carries, DEAD, Diagram, Doing, Layer, Progress, Stop, next};
+use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Meeting, Progress, Stop, next};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -80,14 +80,11 @@ pub(in crate::search) fn two_sided(
     for part in 0..question.parts.len() {
         let done = layers.len();
         let mut told = |now: Progress| {
-            progress(match now.doing {
-                Doing::Choosing => Progress {
-                    done: done + now.done,
-                    of,
-                    nodes: total + now.nodes,
-                    ..now
-                },
-                Doing::Meeting => now,
+            progress(Progress {
+                done: done + now.done,
+                of,
+                nodes: total + now.nodes,
+                ..now
             });
         };
         let found = halves(question, space, part, cancelled, &mut told)?;
@@ -128,11 +125,11 @@ fn halves(
         let bytes = limits.bytes.checked_sub(side.bytes() + other.bytes())?;
         let told = &mut |layer: usize| {
             told(Progress {
-                doing: Doing::Choosing,
                 done,
                 of,
                 nodes: total + layer,
                 layer,
+                meeting: None,
             });
         };
         advance(space, side, (room, bytes), cancelled, told)?;
@@ -146,11 +143,11 @@ fn halves(
     let layer = front.nodes.len();
     let told = &mut |done: usize| {
         told(Progress {
-            doing: Doing::Meeting,
-            done,
-            of: layer,
+            done: of,
+            of,
             nodes: total,
             layer,
+            meeting: Some(Meeting { done, of: layer }),
         });
     };
     let sets = question.join(part, [front.half(), back.half()], cancelled, told)?;

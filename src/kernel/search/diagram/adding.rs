@@ -22,16 +22,6 @@ pub(in crate::search) struct Adding {
     pub(in crate::search) collapse: Option<Collapse>,
 }
 
-impl Adding {
-    /// Without what simplifies the motions of kept links.
-    pub(in crate::search) fn uncollapsed(self) -> Self {
-        Adding {
-            collapse: None,
-            ..self
-        }
-    }
-}
-
 /// The stages of a space for the variables in its order.
 pub(in crate::search) fn adding(
     field: Field,

@@ -11,7 +11,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::path_from_frame;
-use crate::linalg::echelon::Echelon;
+use crate::linalg::echelon::{Echelon, combination};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::search::question::space::{Space, Variable};
@@ -264,7 +264,7 @@ impl SelfStressSpace {
             choices.iter().map(choice).collect()
         };
         let added: Vec<_> = added.iter().enumerate().map(stage).collect();
-        let motion = |of: &Vec<Residue>| combined(field, of, &both[count..], open.len());
+        let motion = |of: &Vec<Residue>| combination(field, &both[count..], of);
         let motions: Vec<Added> = kept.vectors.iter().map(motion).collect();
         let before = |t: usize| count - contours.by.partition_point(|&by| by < t);
         Some(SelfStressSpace {
@@ -288,8 +288,7 @@ impl SelfStressSpace {
     /// A vector in the coordinates before a variable, in those that are the same for all orders.
     pub(in crate::search) fn shared(&self, variable: usize, vector: &[Residue]) -> Added {
         let first = self.count() - self.contours[variable];
-        let width = self.vectors.first().map_or(0, Vec::len);
-        combined(self.field, vector, &self.vectors[first..], width)
+        combination(self.field, &self.vectors[first..], vector)
     }
 
     /// A vector that the variables from one on reach, in the coordinates before it, from those that are the same for all orders.
@@ -308,12 +307,6 @@ impl SelfStressSpace {
 fn from(first: usize, contours: usize, vector: &[Residue], of_links: &Basis) -> Added {
     let links = of_links.factors(&vector[contours..]);
     [&vector[first..contours], &links].concat()
-}
-
-/// Some vectors, each of a width, so many times.
-fn combined(f: Field, factors: &[Residue], vectors: &[Added], width: usize) -> Added {
-    let at = |i: usize| f.sum_of_products(factors.iter().zip(vectors).map(|(&x, v)| (x, v[i])));
-    (0..width).map(at).collect()
 }
 
 /// Whether every choice of a variable has the motions of the present joints.
