@@ -1,5 +1,6 @@
 //! MJCF, read, mended and written.
 
+mod bodies;
 mod context;
 mod defaults;
 mod equality;
