@@ -1,6 +1,6 @@
 //! MJCF, read, mended and written.
 
-mod bodies;
+mod actuators;
 mod context;
 mod defaults;
 mod equality;

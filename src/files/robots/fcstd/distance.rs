@@ -47,7 +47,10 @@ pub(crate) fn distance(
         doubt: None,
     };
     // A distance from a plane may be on either side of it.
-    let off = |swap: bool, more: f64| (value.abs() + more).copysign(height(frames, swap));
+    let off = |swap: bool, more: f64| {
+        let there = height(frames, swap);
+        (value.abs() + more).copysign(there)
+    };
     let found = match (a, b) {
         (Vertex, Vertex) => one(false, Holds::PointPoint(value)),
         (Line | Circle(_), Line | Circle(_)) => {

@@ -126,8 +126,8 @@ fn part<'a, 'n>(
     let mut above = RigidMotion::IDENTITY;
     let mut array = false;
     let mut rest = names;
-    while let Some((&name, within)) = rest.split_first() {
-        rest = within;
+    while let Some((&name, inner)) = rest.split_first() {
+        rest = inner;
         let Some(&part) = main.get(name) else {
             let what = if array {
                 format!("{which} is element {name} of an array, whose place is not read")
@@ -136,7 +136,8 @@ fn part<'a, 'n>(
             };
             return Ok(Err(what));
         };
-        if !part.is_array() && !(part.is_group() && !rest.is_empty()) {
+        let within = part.is_array() || (part.is_group() && !rest.is_empty());
+        if !within {
             return Ok(Ok(PartFound { part, above, rest }));
         }
         array = part.is_array();

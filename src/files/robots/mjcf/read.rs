@@ -292,9 +292,13 @@ fn joint<'a>(
     context: &Context<'a>,
     robot: &mut Robot,
 ) -> Result<Part, ImportError> {
-    let e = own.element;
+    let &OwnJoint {
+        element: e,
+        inner,
+        class,
+    } = own;
     let tag = if e.name() == "freejoint" { "" } else { "joint" };
-    let look = context.defaults.of(e, tag, own.class)?;
+    let look = context.defaults.of(e, tag, class)?;
     let word = if tag.is_empty() {
         "free"
     } else {
@@ -312,11 +316,12 @@ fn joint<'a>(
     let at = if word == "free" {
         RigidMotion::IDENTITY
     } else {
-        RigidMotion::shift(own.inner.point(pos))
+        RigidMotion::shift(inner.point(pos))
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
-        part = part.about(own.inner.direction(axis(e, &look)?));
+        let axis = axis(e, &look)?;
+        part = part.about(inner.direction(axis));
         let unit = if word == "hinge" {
             context.compiler.angle
         } else {
