@@ -13,6 +13,15 @@ use crate::robots::problem::RobotProblem;
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
 
+/// What a joint says of how it resists motion, which is no kinematics.
+const RESISTANCE: [&str; 5] = [
+    "damping",
+    "stiffness",
+    "springdamper",
+    "armature",
+    "frictionloss",
+];
+
 /// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
 struct Waiting<'a> {
     element: Element<'a>,
@@ -332,13 +341,7 @@ fn joint<'a>(
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
         }
     }
-    for key in [
-        "damping",
-        "stiffness",
-        "springdamper",
-        "armature",
-        "frictionloss",
-    ] {
+    for key in RESISTANCE {
         if look.attribute(key).is_some() {
             robot.report.drop(key, Some(&id));
         }
