@@ -8,6 +8,7 @@
 //! out byte for byte the same for the same input. A point that cannot be shown (not finite, beyond 1e300 on a linear
 //! axis, not positive on a log axis) is left out and breaks its line.
 
+mod axes;
 mod axis;
 mod bands;
 mod contours;

@@ -24,6 +24,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Variants made ready before Python takes them.
 const AHEAD: usize = 64;
 
+/// Words for the symmetry of variants.
+const SYMMETRIES: [(&str, Symmetry); 3] = [
+    ("all", Symmetry::All),
+    ("symmetric", Symmetry::SymmetricOnly),
+    ("one-per-orbit", Symmetry::OnePerOrbit),
+];
+/// Words for how variants are checked.
+const CHECKS: [(&str, Check); 3] = [
+    ("none", Check::None),
+    ("prime", Check::Prime),
+    ("full", Check::Full),
+];
+/// Words for how variants are found.
+const METHODS: [(&str, Method); 2] = [("diagram", Method::Diagram), ("brute", Method::Brute)];
+
 /// A [`Request`] as keywords of Python's; `None` where the library's default holds.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
@@ -67,6 +82,20 @@ pub(crate) fn word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyRe
     })
 }
 
+/// A term to rank by, with its weight.
+fn term(asked: &(String, f64)) -> PyResult<(Term, f64)> {
+    let (name, weight) = asked;
+    let term = Term::from_name(name).ok_or_else(|| {
+        let known = Term::ALL.map(Term::name).join(", ");
+        failed(format!("--rank: unknown term \"{name}\"; known: {known}"))
+    })?;
+    if !(0.0..=1e12).contains(weight) {
+        let say = format!("--rank {name}: give a weight from 0 to 1e12");
+        return Err(failed(say));
+    }
+    Ok((term, *weight))
+}
+
 impl Asked {
     /// The memory it asks for, in bytes.
     pub(crate) fn memory(&self) -> Option<usize> {
@@ -79,17 +108,6 @@ impl Asked {
             all.into_iter().map(one).collect()
         };
         let inserts = self.unloading.into_iter();
-        let term = |(name, weight): &(String, f64)| {
-            let term = Term::from_name(name).ok_or_else(|| {
-                let known = Term::ALL.map(Term::name).join(", ");
-                failed(format!("--rank: unknown term \"{name}\"; known: {known}"))
-            })?;
-            if !(0.0..=1e12).contains(weight) {
-                let say = format!("--rank {name}: give a weight from 0 to 1e12");
-                return Err(failed(say));
-            }
-            Ok((term, *weight))
-        };
         let default = Request::default();
         Ok(Request {
             max_redundant: self.max_redundant,
@@ -108,15 +126,7 @@ impl Asked {
             allow: joints(self.allow),
             forbid: joints(self.forbid),
             costs: None,
-            symmetry: word(
-                "symmetry",
-                &self.symmetry,
-                &[
-                    ("all", Symmetry::All),
-                    ("symmetric", Symmetry::SymmetricOnly),
-                    ("one-per-orbit", Symmetry::OnePerOrbit),
-                ],
-            )?,
+            symmetry: word("symmetry", &self.symmetry, &SYMMETRIES)?,
             as_written: self.as_written,
             snap: self.snap,
             counted: self.counted,
@@ -126,20 +136,8 @@ impl Asked {
             pool: self.pool,
             list: List::Top(self.top),
             distinct: self.distinct,
-            check: word(
-                "check",
-                &self.check,
-                &[
-                    ("none", Check::None),
-                    ("prime", Check::Prime),
-                    ("full", Check::Full),
-                ],
-            )?,
-            method: word(
-                "method",
-                &self.method,
-                &[("diagram", Method::Diagram), ("brute", Method::Brute)],
-            )?,
+            check: word("check", &self.check, &CHECKS)?,
+            method: word("method", &self.method, &METHODS)?,
             poses: self.poses,
             generic_only: self.generic_only,
             seed: self.seed,

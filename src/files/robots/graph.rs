@@ -1,7 +1,8 @@
 //! The graph of links and joints: Graphviz DOT and GraphML.
 
 use crate::file::write::role;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
+use crate::geom::expr::Expr;
+use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};
 use crate::robots::mechanism::series_of_single_joints::escape;
 use petgraph::dot::{Config, Dot};
 use petgraph::graph::UnGraph;
@@ -51,23 +52,25 @@ fn quoted(text: &str) -> String {
     format!("\"{inner}\"")
 }
 
+/// What is said of nodes and edges in GraphML: of which of them, its name, its type.
+const KEYS: [(&str, &str, &str); 8] = [
+    ("node", "role", "string"),
+    ("edge", "type", "string"),
+    ("edge", "class", "string"),
+    ("edge", "freedoms", "int"),
+    ("edge", "drive", "boolean"),
+    ("edge", "states", "string"),
+    ("edge", "point", "string"),
+    ("edge", "axis", "string"),
+];
+
 /// Links as nodes and joints as edges, with all that bears on the structure as data.
 #[must_use]
 pub(super) fn graphml(m: &Mechanism) -> String {
     let mut out = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n",
     );
-    let keys = [
-        ("node", "role", "string"),
-        ("edge", "type", "string"),
-        ("edge", "class", "string"),
-        ("edge", "freedoms", "int"),
-        ("edge", "drive", "boolean"),
-        ("edge", "states", "string"),
-        ("edge", "point", "string"),
-        ("edge", "axis", "string"),
-    ];
-    for (on, name, kind) in keys {
+    for (on, name, kind) in KEYS {
         let _ = writeln!(
             out,
             "  <key id=\"{name}\" for=\"{on}\" attr.name=\"{name}\" attr.type=\"{kind}\"/>"
@@ -78,39 +81,41 @@ pub(super) fn graphml(m: &Mechanism) -> String {
         "  <graph id=\"{}\" edgedefault=\"undirected\">",
         escape(&m.name)
     );
-    let datum = |out: &mut String, key: &str, value: &str| {
-        let _ = writeln!(out, "      <data key=\"{key}\">{}</data>", escape(value));
-    };
     for link in &m.links {
         let _ = writeln!(out, "    <node id=\"{}\">", escape(&link.id));
         datum(&mut out, "role", role(link.role).unwrap_or("inner"));
         out.push_str("    </node>\n");
     }
     for j in &m.joints {
-        let [a, b] = j.links.map(|l| escape(&m.links[l].id));
-        let _ = writeln!(
-            out,
-            "    <edge id=\"{}\" source=\"{a}\" target=\"{b}\">",
-            escape(&j.id)
-        );
-        let text =
-            |v: &[crate::geom::expr::Expr; 3]| v.each_ref().map(ToString::to_string).join(" ");
-        datum(&mut out, "type", j.joint_type.name());
-        datum(&mut out, "class", j.joint_type.class());
-        datum(
-            &mut out,
-            "freedoms",
-            &j.joint_type.freedoms().len().to_string(),
-        );
-        datum(&mut out, "drive", &j.drive.to_string());
-        if let Some(states) = &j.states {
-            let names: Vec<&str> = states.iter().map(|&s| m.states[s].as_str()).collect();
-            datum(&mut out, "states", &names.join(" "));
-        }
-        datum(&mut out, "point", &text(&j.frame.point));
-        datum(&mut out, "axis", &text(&j.frame.axis));
-        out.push_str("    </edge>\n");
+        edge(&mut out, m, j);
     }
     out.push_str("  </graph>\n</graphml>\n");
     out
+}
+
+fn datum(out: &mut String, key: &str, value: &str) {
+    let _ = writeln!(out, "      <data key=\"{key}\">{}</data>", escape(value));
+}
+
+/// A joint as an edge of GraphML.
+fn edge(out: &mut String, m: &Mechanism, j: &Joint) {
+    let [a, b] = j.links.map(|l| escape(&m.links[l].id));
+    let _ = writeln!(
+        out,
+        "    <edge id=\"{}\" source=\"{a}\" target=\"{b}\">",
+        escape(&j.id)
+    );
+    let text = |v: &[Expr; 3]| v.each_ref().map(ToString::to_string).join(" ");
+    let freedoms = j.joint_type.freedoms().len();
+    datum(out, "type", j.joint_type.name());
+    datum(out, "class", j.joint_type.class());
+    datum(out, "freedoms", &freedoms.to_string());
+    datum(out, "drive", &j.drive.to_string());
+    if let Some(states) = &j.states {
+        let names: Vec<&str> = states.iter().map(|&s| m.states[s].as_str()).collect();
+        datum(out, "states", &names.join(" "));
+    }
+    datum(out, "point", &text(&j.frame.point));
+    datum(out, "axis", &text(&j.frame.axis));
+    out.push_str("    </edge>\n");
 }

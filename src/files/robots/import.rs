@@ -11,6 +11,7 @@ use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
 use crate::file::write::{self, Comment};
 use crate::geom::extent::diagonal;
+use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::Mechanism;
 use crate::robots::asmt;
 use crate::robots::cad::archive::Archive;
@@ -28,7 +29,7 @@ use crate::robots::mechanism::loop_options;
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::{ExportError, RobotProblem};
 use crate::robots::warning::Report;
-use crate::robots::xml::{self, Document};
+use crate::robots::xml::{self, Document, Element};
 
 /// A mechanism and how it came about.
 #[derive(Debug, Clone)]
@@ -132,15 +133,7 @@ pub fn import(
         joints,
         couplings,
     } = entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
-    let place = |&j: &usize| {
-        let part = &robot.joints[j];
-        places[part.links[0]].then(&part.sides[0]).translation
-    };
-    let sizes = (size(&robot), diagonal(joints.iter().map(place)));
-    file.tolerance = match robot.known_to {
-        Some(known) => digits::stated(known),
-        None => digits::tolerance(document.element(root), sizes),
-    };
+    file.tolerance = tolerance(document.element(root), &robot, &places, &joints);
     let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
     robot.report.kept = coupling::kept(&mechanism);
@@ -161,6 +154,23 @@ pub fn import(
             couplings,
         },
     })
+}
+
+/// How well a robot is known: as its reader says, or by the digits of the numbers below its root element.
+fn tolerance(
+    root: Element<'_>,
+    robot: &Robot,
+    places: &[RigidMotion],
+    joints: &[usize],
+) -> Option<ToleranceEntry> {
+    if let Some(known) = robot.known_to {
+        return digits::stated(known);
+    }
+    let at_joints = joints.iter().map(|&j| {
+        let part = &robot.joints[j];
+        places[part.links[0]].then(&part.sides[0]).translation
+    });
+    digits::tolerance(root, size(robot), diagonal(at_joints))
 }
 
 /// The robot as the reader of its root element finds it.

@@ -1,5 +1,6 @@
 //! MJCF, read, mended and written.
 
+mod actuators;
 mod context;
 mod defaults;
 mod equality;

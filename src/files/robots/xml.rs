@@ -193,6 +193,22 @@ fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     })
 }
 
+/// Refuses one more element so deep, behind so many, or behind so many attributes.
+fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), RobotProblem> {
+    if depth >= MAX_DEPTH {
+        return Err(RobotProblem::TooDeep { limit: MAX_DEPTH });
+    }
+    if elements >= MAX_ELEMENTS {
+        let (what, limit) = ("elements", MAX_ELEMENTS);
+        return Err(RobotProblem::TooMany { what, limit });
+    }
+    if attributes > MAX_ATTRIBUTES.1 {
+        let (what, limit) = ("attributes", MAX_ATTRIBUTES.1);
+        return Err(RobotProblem::TooMany { what, limit });
+    }
+    Ok(())
+}
+
 fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Located> {
     no_control(text, &['\t', '\n', '\r'])?;
     let mut reader = Reader::from_str(text);
@@ -209,18 +225,9 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                 if open.is_empty() && root.is_some() {
                     return Err((xml_problem("a second root element"), before));
                 }
-                if open.len() >= MAX_DEPTH {
-                    return Err((RobotProblem::TooDeep { limit: MAX_DEPTH }, before));
-                }
-                if nodes.len() >= MAX_ELEMENTS {
-                    let (what, limit) = ("elements", MAX_ELEMENTS);
-                    return Err((RobotProblem::TooMany { what, limit }, before));
-                }
+                few_enough(open.len(), nodes.len(), attributes)
+                    .map_err(|problem| (problem, before))?;
                 let id = nodes.len();
-                if attributes > MAX_ATTRIBUTES.1 {
-                    let (what, limit) = ("attributes", MAX_ATTRIBUTES.1);
-                    return Err((RobotProblem::TooMany { what, limit }, before));
-                }
                 nodes.push(node(tag, text, source, before..after)?);
                 attributes += nodes[id].attributes.len();
                 match open.last() {

@@ -42,7 +42,7 @@ impl Bands {
         let mut x = left;
         for (kind, meaning) in MEANINGS {
             if bands().any(|b| b.2 == kind) {
-                bar(&mut xml, kind, (x, x + 22.0), top - 20.0, "");
+                bar(&mut xml, kind, x, x + 22.0, top - 20.0, "");
                 let text = xml.tag("text").set("class", "soft").num("x", x + 28.0);
                 text.num("y", top - 16.0).text(meaning);
                 x += 28.0 + text::width(meaning, TICK) + 18.0;
@@ -75,7 +75,7 @@ impl Bands {
                     tooltip(from),
                     tooltip(to)
                 );
-                bar(&mut xml, kind, (place(a), place(b)), y + ROW / 2.0, &tip);
+                bar(&mut xml, kind, place(a), place(b), y + ROW / 2.0, &tip);
             }
         }
         frame::stroke(&mut xml, "axis", (left, bottom), (right, bottom));
@@ -114,7 +114,7 @@ impl Bands {
 }
 
 /// A band about the height `y`; the kind gives its colour and its height.
-fn bar(xml: &mut Xml, kind: VerdictKind, (from, to): (f64, f64), y: f64, tip: &str) {
+fn bar(xml: &mut Xml, kind: VerdictKind, from: f64, to: f64, y: f64, tip: &str) {
     let height = match kind {
         VerdictKind::Good => 16.0,
         VerdictKind::Warn => 10.0,

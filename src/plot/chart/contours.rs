@@ -1,13 +1,12 @@
 //! A quantity over two others: a mark for each sample, and lines of equal value where the samples are a grid.
 
+use super::axes::PlotAxes;
 use super::axis::{AxisFit, Label, Room, Ruler};
 use super::data::{Contours, Scale};
 use super::frame::{self, Head};
-use crate::chart::style::{PAD, TICK, WIDTH};
+use crate::chart::style::{PAD, WIDTH};
 use crate::format::csv;
 use crate::format::number::tooltip;
-use crate::svg::plane::Rect;
-use crate::svg::text;
 use crate::svg::xml::{Xml, number};
 
 /// The height of the plot.
@@ -27,58 +26,59 @@ impl Contours {
     /// its diagonals from the lower left; there are none where values are counts.
     pub fn svg(&self) -> String {
         let head = Head::new(&self.title, &self.subtitle, WIDTH);
-        let top = head.height() + 32.0;
-        let bottom = top + HEIGHT;
-        let seen = || self.samples.iter().filter(|s| s.2.is_finite());
+        let seen = self.samples.iter().filter(|s| s.2.is_finite());
         let values = Ruler::new(
             Scale::Linear,
-            seen().map(|s| s.2),
+            seen.map(|s| s.2),
             AxisFit::Tight,
             Room::Up(260.0),
         );
         let legend = self.legend(&values);
-        let widest = legend.iter().map(|(l, _)| l.width());
-        let right = WIDTH - PAD - 34.0 - widest.fold(30.0, f64::max);
-        let y = Ruler::new(
-            self.y.scale,
-            self.samples.iter().map(|s| s.1),
-            AxisFit::Padded,
-            Room::Up(HEIGHT),
-        );
-        let labels = y.ticks.iter().filter_map(|t| t.label.as_ref());
-        let left = labels.map(Label::width).fold(0.0, f64::max);
-        let left = (PAD + left + 8.0).max(48.0);
-        let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
-        let across = self.samples.iter().map(|s| s.0);
-        let x = Ruler::new(self.x.scale, across, AxisFit::Padded, room);
-        let plot = Rect {
-            left,
-            top,
-            right,
-            bottom,
-        };
-        let size = (WIDTH, bottom + 52.0);
+        let axes = self.axes(head.height() + 32.0, &legend);
+        let plot = &axes.plot;
+        let size = (WIDTH, plot.bottom + 52.0);
         let mut xml = frame::begin(size, "oz oz-contours", &self.title, &self.about(), &head);
-        let label = text::cut(&self.y.label, TICK, WIDTH - 2.0 * PAD);
-        let text = xml.tag("text").set("class", "name").num("x", PAD);
-        text.num("y", top - 14.0).text(&label);
-        frame::up(&mut xml, &y, &plot);
-        frame::across(&mut xml, &x, &self.x.label, &plot);
-        frame::stroke(&mut xml, "axis", (left, bottom), (right, bottom));
+        axes.draw(&mut xml, &self.x.label, &self.y.label);
         let place = |&(a, b, value): &(f64, f64, f64)| {
-            let at = (x.place(a)?, y.place(b)?);
+            let (x, y) = axes.place(a, b)?;
             let value = if value.is_finite() {
                 values.place(value)?
             } else {
                 f64::NAN
             };
-            Some((left + at.0 * (right - left), bottom - at.1 * HEIGHT, value))
+            Some((x, y, value))
         };
         let nodes: Vec<Option<Node>> = self.samples.iter().map(place).collect();
         let labels = match self.grid().filter(|_| !self.counts) {
             Some(grid) => lines(&mut xml, &values, &nodes, &grid),
             None => Vec::new(),
         };
+        self.marks(&mut xml, &nodes);
+        for (x, y, label) in &labels {
+            frame::tick(&mut xml, label, (*x, y - 4.0), "middle", "halo");
+        }
+        for (n, (label, share)) in legend.iter().enumerate() {
+            let y = plot.top + 12.0 + ROW * n as f64;
+            mark(&mut xml, plot.right + 20.0, y - 4.0, 5.5, *share, "");
+            frame::tick(&mut xml, label, (plot.right + 32.0, y), "start", "value");
+        }
+        xml.finish()
+    }
+
+    /// The axes below `top`, as wide as the legend leaves room for.
+    fn axes(&self, top: f64, legend: &[(Label, f64)]) -> PlotAxes {
+        let widest = legend.iter().map(|(l, _)| l.width());
+        let right = WIDTH - PAD - 34.0 - widest.fold(30.0, f64::max);
+        let up = self.samples.iter().map(|s| s.1);
+        let y = Ruler::new(self.y.scale, up, AxisFit::Padded, Room::Up(HEIGHT));
+        PlotAxes::new(top, HEIGHT, right, y, |room| {
+            let across = self.samples.iter().map(|s| s.0);
+            Ruler::new(self.x.scale, across, AxisFit::Padded, room)
+        })
+    }
+
+    /// A mark for each sample that can be shown.
+    fn marks(&self, xml: &mut Xml, nodes: &[Option<Node>]) {
         let radius = radius(nodes.iter().flatten());
         for (node, &(a, b, value)) in nodes.iter().zip(&self.samples) {
             let Some((px, py, share)) = *node else {
@@ -90,17 +90,8 @@ impl Contours {
                 tooltip(value)
             };
             let tip = format!("{}, {}: {said}", tooltip(a), tooltip(b));
-            mark(&mut xml, px, py, radius, share, &tip);
+            mark(xml, px, py, radius, share, &tip);
         }
-        for (x, y, label) in &labels {
-            frame::tick(&mut xml, label, (*x, y - 4.0), "middle", "halo");
-        }
-        for (n, (label, share)) in legend.iter().enumerate() {
-            let y = top + 12.0 + ROW * n as f64;
-            mark(&mut xml, right + 20.0, y - 4.0, 5.5, *share, "");
-            frame::tick(&mut xml, label, (right + 32.0, y), "start", "value");
-        }
-        xml.finish()
     }
 
     /// The samples, one a line.

@@ -161,7 +161,8 @@ pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
             mark(
                 xml,
                 d,
-                at,
+                at.0,
+                at.1,
                 size,
                 &if count <= 2000 {
                     tip(point)
@@ -171,12 +172,12 @@ pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
             );
         }
     } else {
-        alone.for_each(|&(at, point)| mark(xml, d, at, 3.2, &tip(point)));
+        alone.for_each(|&(at, point)| mark(xml, d, at.0, at.1, 3.2, &tip(point)));
         let every = count.div_ceil(8).max(1);
         let shift = d.number * every / 14;
         for (n, (at, point)) in d.points().enumerate() {
             if d.many && n % every == shift {
-                mark(xml, d, at, 3.2, &tip(point));
+                mark(xml, d, at.0, at.1, 3.2, &tip(point));
             } else if n % count.div_ceil(80).max(1) == 0 {
                 let hit = xml.tag("circle").set("class", "hit");
                 hit.num("cx", at.0)
@@ -190,7 +191,7 @@ pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
 }
 
 /// The mark of a series: its shape, colour and filling say which.
-fn mark(xml: &mut Xml, d: &DrawnSeries, (x, y): (f64, f64), r: f64, tip: &str) {
+fn mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) {
     let class = match (d.hollow(), d.series.style) {
         (true, _) => format!("hollow c{}", d.colour()),
         (_, Style::Points) => format!("full f{}", d.colour()),
@@ -279,12 +280,11 @@ pub(super) fn margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
                 (from - 2.0, y),
             );
         }
-        let middle = (from + SAMPLE / 2.0, y);
         if d.series.style != Style::Points {
             frame::stroke(xml, &line_class(d), (from, y), (from + SAMPLE, y));
         }
         if d.marked() || d.many {
-            mark(xml, d, middle, 4.0, "");
+            mark(xml, d, from + SAMPLE / 2.0, y, 4.0, "");
         }
         let at = from + SAMPLE + 8.0;
         let name = text::cut(&d.series.name, TICK, WIDTH - PAD / 2.0 - at);

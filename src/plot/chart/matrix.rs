@@ -27,11 +27,57 @@ impl VerdictKind {
     }
 }
 
+/// Widths of a matrix in pixels.
+struct MatrixLayout {
+    /// Where the first column begins.
+    left: f64,
+    /// Where the last one ends.
+    right: f64,
+    /// The width of a column.
+    cell: f64,
+    /// The height of the column heads.
+    heads: f64,
+    /// The width of the picture.
+    width: f64,
+}
+
 impl Matrix {
     /// The matrix as a self-contained SVG element, for a file of its own or inside HTML.
     ///
     /// Rows of too few cells end early; cells beyond the last column have a column without a head.
     pub fn svg(&self) -> String {
+        let layout = self.layout();
+        let width = layout.width;
+        let head = Head::new(&self.title, &self.subtitle, width);
+        let rows = self.rows.len().max(self.cells.len());
+        let blocks = rows.div_ceil(BLOCK).max(1);
+        let first = head.height() + layout.heads;
+        let top = |row: usize| first + row as f64 * ROW + (row / BLOCK) as f64 * layout.heads;
+        let height = first + rows as f64 * ROW + (blocks - 1) as f64 * layout.heads + PAD;
+        let about = self.about();
+        let mut xml = frame::begin((width, height), "oz oz-matrix", &self.title, &about, &head);
+        for block in 0..blocks {
+            let top = top(block * BLOCK);
+            for (n, name) in self.columns.iter().enumerate() {
+                let middle = layout.left + (n as f64 + 0.5) * layout.cell;
+                column(&mut xml, name, middle, top - 8.0);
+            }
+            let rows = BLOCK.min(rows - block * BLOCK) as f64;
+            let bottom = top + rows * ROW;
+            frame::stroke(&mut xml, "grid", (PAD, bottom), (layout.right, bottom));
+        }
+        for row in 0..rows {
+            let y = top(row);
+            if row % 5 == 0 {
+                frame::stroke(&mut xml, "grid", (PAD, y), (layout.right, y));
+            }
+            self.row(&mut xml, row, y, &layout);
+        }
+        xml.finish()
+    }
+
+    /// How wide everything is.
+    fn layout(&self) -> MatrixLayout {
         let widest = |names: &[String], most: f64| {
             let widths = names.iter().map(|n| text::width(n.trim(), SIZE));
             widths.fold(0.0, f64::max).min(most)
@@ -41,7 +87,6 @@ impl Matrix {
             .iter()
             .map(Vec::len)
             .fold(self.columns.len(), usize::max);
-        let rows = self.rows.len().max(self.cells.len());
         let texts = self
             .cells
             .iter()
@@ -51,51 +96,29 @@ impl Matrix {
         let before = widest(&self.rows, 300.0) + 12.0;
         let slant = widest(&self.columns, 190.0) * std::f64::consts::FRAC_1_SQRT_2;
         let (left, across) = (PAD + before, columns as f64 * cell);
-        let width = (left + across + PAD.max(slant - cell / 2.0 + 16.0)).max(WIDTH / 2.0);
+        MatrixLayout {
+            left,
+            right: left + across,
+            cell,
+            heads: slant + 22.0,
+            width: (left + across + PAD.max(slant - cell / 2.0 + 16.0)).max(WIDTH / 2.0),
+        }
+    }
 
-        let head = Head::new(&self.title, &self.subtitle, width);
-        let heads = slant + 22.0;
-        let blocks = rows.div_ceil(BLOCK).max(1);
-        let first = head.height() + heads;
-        let top = |row: usize| first + row as f64 * ROW + (row / BLOCK) as f64 * heads;
-        let height = first + rows as f64 * ROW + (blocks - 1) as f64 * heads + PAD;
-        let about = self.about();
-        let mut xml = frame::begin((width, height), "oz oz-matrix", &self.title, &about, &head);
-        for block in 0..blocks {
-            let top = top(block * BLOCK);
-            for (n, name) in self.columns.iter().enumerate() {
-                let middle = left + (n as f64 + 0.5) * cell;
-                column(&mut xml, name, (middle, top - 8.0));
-            }
-            let rows = BLOCK.min(rows - block * BLOCK) as f64;
-            let bottom = top + rows * ROW;
-            frame::stroke(&mut xml, "grid", (PAD, bottom), (left + across, bottom));
+    /// The name of a row and its cells, below `y`.
+    fn row(&self, xml: &mut Xml, row: usize, y: f64, layout: &MatrixLayout) {
+        let name = self.rows.get(row).map_or("", String::as_str);
+        let at = xml
+            .tag("text")
+            .set("class", "name")
+            .set("text-anchor", "end");
+        let at = at.num("x", layout.left - 10.0).num("y", y + 15.0);
+        at.text_and_tip(&text::cut(name, SIZE, 300.0), name.trim());
+        for (n, c) in self.cells.get(row).into_iter().flatten().enumerate() {
+            let column = self.columns.get(n).map_or("", String::as_str);
+            let x = layout.left + n as f64 * layout.cell;
+            one(xml, c, &tip(c, name, column), x, y, layout.cell);
         }
-        for row in 0..rows {
-            let y = top(row);
-            if row % 5 == 0 {
-                frame::stroke(&mut xml, "grid", (PAD, y), (left + across, y));
-            }
-            let name = self.rows.get(row).map_or("", String::as_str);
-            let at = xml
-                .tag("text")
-                .set("class", "name")
-                .set("text-anchor", "end");
-            let at = at.num("x", left - 10.0).num("y", y + 15.0);
-            at.text_and_tip(&text::cut(name, SIZE, 300.0), name.trim());
-            for (n, c) in self.cells.get(row).into_iter().flatten().enumerate() {
-                let column = self.columns.get(n).map_or("", String::as_str);
-                one(
-                    &mut xml,
-                    c,
-                    &tip(c, name, column),
-                    left + n as f64 * cell,
-                    y,
-                    cell,
-                );
-            }
-        }
-        xml.finish()
     }
 
     /// What a screen reader says.
@@ -132,7 +155,7 @@ fn tip(cell: &Cell, row: &str, column: &str) -> String {
 }
 
 /// The head of a column, aslant from its start.
-fn column(xml: &mut Xml, name: &str, (x, y): (f64, f64)) {
+fn column(xml: &mut Xml, name: &str, x: f64, y: f64) {
     let turn = format!("translate({} {}) rotate(-45)", number(x), number(y));
     let text = xml.tag("text").set("class", "name").set("transform", &turn);
     text.text_and_tip(&text::cut(name, SIZE, 190.0), name.trim());

@@ -128,7 +128,7 @@ pub(super) fn judge(imported: &Imported, wanted: &Wanted) -> Result<JudgedRobot,
         let Some(choice) = asked(&robot.joints[j].id) else {
             continue;
         };
-        let options = options(&robot, imported, (j, &closing), &given)?;
+        let options = options(&robot, imported, j, &closing, &given)?;
         let chosen = taken(choice, &options, given.figures.0);
         figures = options[chosen].2.then_some(options[chosen].0.figures);
         let joint = robot.joints[j].id.clone();
@@ -185,11 +185,12 @@ pub fn figures(m: &Mechanism) -> Option<(usize, usize)> {
     found.is_decided().then(|| found.figures(found.rank()))
 }
 
-/// Each kind of closure of a loop about its best axis, with the robot that has it, and whether its figures are decided.
+/// Each kind of closure of a loop, that of joint `j`, about its best axis, with the robot that has it, and whether its figures are decided.
 fn options(
     robot: &Robot,
     imported: &Imported,
-    (j, closing): (usize, &BTreeSet<String>),
+    j: usize,
+    closing: &BTreeSet<String>,
     given: &KnownMotion,
 ) -> Result<Vec<(Judgement, Robot, bool)>, ImportError> {
     let places: &[RigidMotion] = &imported.origin.places;

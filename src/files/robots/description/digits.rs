@@ -69,7 +69,7 @@ fn stated_in(text: &str) -> Option<ToleranceEntry> {
 ///
 /// Each place is taken to be known as well as the number that is known least, a turn moving what is as far away as the robot
 /// is large.
-pub(crate) fn tolerance(root: Element<'_>, (size, across): (f64, f64)) -> Option<ToleranceEntry> {
+pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<ToleranceEntry> {
     let source = &root.document.sources[root.node().source];
     if let Some(known) = stated_in(&source.text) {
         return Some(known);

@@ -48,13 +48,7 @@ pub(crate) fn distance(
     };
     // A distance from a plane may be on either side of it.
     let off = |swap: bool, more: f64| {
-        let [plane, other] = if swap {
-            [&frames[1], &frames[0]]
-        } else {
-            [&frames[0], &frames[1]]
-        };
-        let z = plane.rotation.map(|row| row[2]);
-        let there = dot(sub(other.translation, plane.translation), z);
+        let there = height(frames, swap);
         (value.abs() + more).copysign(there)
     };
     let found = match (a, b) {
@@ -99,6 +93,17 @@ pub(crate) fn distance(
     }
 }
 
+/// How far the one frame is from the plane of the other, along its normal: the plane is the second where they change places.
+fn height(frames: &[RigidMotion; 2], swap: bool) -> f64 {
+    let [plane, other] = if swap {
+        [&frames[1], &frames[0]]
+    } else {
+        [&frames[0], &frames[1]]
+    };
+    let z = plane.rotation.map(|row| row[2]);
+    dot(sub(other.translation, plane.translation), z)
+}
+
 fn radius(k: ShapeKind) -> f64 {
     match k {
         ShapeKind::Circle(r) => r,
@@ -108,18 +113,12 @@ fn radius(k: ShapeKind) -> f64 {
 
 /// Where a shape does not tell what a face is: at a solved pose the directions of the two frames do, as far as they can.
 fn unknown(kinds: [Option<ShapeKind>; 2], frames: &[RigidMotion; 2], found: Distance) -> Distance {
-    let [a, b] = frames;
-    let [z, line] = [a, b].map(|m| m.rotation.map(|row| row[2]));
-    let there = |swap: bool| {
-        let (plane, other) = if swap { (b, a) } else { (a, b) };
-        let z = plane.rotation.map(|row| row[2]);
-        dot(sub(other.translation, plane.translation), z)
-    };
+    let [z, line] = frames.map(|m| m.rotation.map(|row| row[2]));
     let swap = kinds[1] == Some(ShapeKind::Plane);
     if length(cross(z, line)) > 1.0 - SINE {
         // A plane and a cylinder, the first of the two as the plane where nothing says otherwise.
         return Distance {
-            holds: Holds::LineInPlane(there(swap)),
+            holds: Holds::LineInPlane(height(frames, swap)),
             swap,
             doubt: Some(
                 "the kinds of its faces are not known: by their directions they are taken as a plane and a cylinder",
@@ -129,7 +128,7 @@ fn unknown(kinds: [Option<ShapeKind>; 2], frames: &[RigidMotion; 2], found: Dist
     Distance {
         doubt: Some("the kinds of its elements are not known: they are taken as planes"),
         holds: match found.holds {
-            Holds::Planar(_) => Holds::Planar(there(false)),
+            Holds::Planar(_) => Holds::Planar(height(frames, false)),
             other => other,
         },
         ..found

@@ -11,7 +11,7 @@ use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::{RobotProblem, known};
-use crate::robots::xml::{self, Document};
+use crate::robots::xml::{self, Document, Element};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most documents that one may link to, with those that these link to.
@@ -192,6 +192,14 @@ struct Assembling<'a, 'd> {
 /// Two ends of a joint, and its place among the joints.
 type Ended<'a> = (Object<'a>, &'a str, [Reference<'a>; 2]);
 
+/// The parts of an assembly.
+struct Parts<'a> {
+    /// Labels and places; the first is what stands still.
+    parts: Vec<(String, RigidMotion)>,
+    /// Which of them an object is, by its name.
+    place: BTreeMap<&'a str, usize>,
+}
+
 impl<'a> Assembling<'a, '_> {
     fn assembly(
         &self,
@@ -201,26 +209,7 @@ impl<'a> Assembling<'a, '_> {
     ) -> Result<Assembly, ImportError> {
         let ended = self.ended(robot)?;
         let grounded = self.grounded(&ended, robot);
-        let mut parts: Vec<(String, RigidMotion)> =
-            vec![(self.assembly.label().to_owned(), RigidMotion::IDENTITY)];
-        let mut place: BTreeMap<&str, usize> = BTreeMap::new();
-        let ends = ended.iter().flat_map(|(_, _, ends)| ends);
-        for (end, part) in ends.filter_map(|e| Some((e, e.part?))) {
-            if place.contains_key(part) {
-                continue;
-            }
-            document.element(root).room("parts", parts.len())?;
-            let label = self.documents.main.get(part).map_or(part, Object::label);
-            if grounded.contains(part) {
-                if place.values().all(|p| *p != 0) {
-                    label.clone_into(&mut parts[0].0);
-                }
-                place.insert(part, 0);
-            } else {
-                place.insert(part, parts.len());
-                parts.push((label.to_owned(), end.place));
-            }
-        }
+        let Parts { parts, place } = self.parts(&ended, &grounded, document.element(root))?;
         let slides = slides(&ended)?;
         let of = |end: &Reference<'_>| end.part.map_or(0, |p| place.get(p).copied().unwrap_or(0));
         let mut connections = Vec::new();
@@ -269,6 +258,36 @@ impl<'a> Assembling<'a, '_> {
             parts,
             connections,
         })
+    }
+
+    /// The parts that joints hold; what is grounded is one with what stands still, and gives it its name.
+    fn parts(
+        &self,
+        ended: &[Ended<'a>],
+        grounded: &BTreeSet<&'a str>,
+        root: Element<'_>,
+    ) -> Result<Parts<'a>, ImportError> {
+        let mut parts: Vec<(String, RigidMotion)> =
+            vec![(self.assembly.label().to_owned(), RigidMotion::IDENTITY)];
+        let mut place: BTreeMap<&str, usize> = BTreeMap::new();
+        let ends = ended.iter().flat_map(|(_, _, ends)| ends);
+        for (end, part) in ends.filter_map(|e| Some((e, e.part?))) {
+            if place.contains_key(part) {
+                continue;
+            }
+            root.room("parts", parts.len())?;
+            let label = self.documents.main.get(part).map_or(part, Object::label);
+            if grounded.contains(part) {
+                if place.values().all(|p| *p != 0) {
+                    label.clone_into(&mut parts[0].0);
+                }
+                place.insert(part, 0);
+            } else {
+                place.insert(part, parts.len());
+                parts.push((label.to_owned(), end.place));
+            }
+        }
+        Ok(Parts { parts, place })
     }
 
     /// The joints whose two ends are known; the others are told.

@@ -108,25 +108,27 @@ fn is_body(o: &Object<'_>) -> bool {
         || (o.kind.starts_with("Part::") && !o.kind.starts_with("Part::Part"))
 }
 
-fn follow<'a>(
-    names: &[&'a str],
-    element: &'a str,
+/// The part that names lead to, through groups and arrays.
+struct PartFound<'a, 'n> {
+    part: Object<'a>,
+    /// The place of what it is in.
+    above: RigidMotion,
+    /// The names within it.
+    rest: &'n [&'a str],
+}
+
+fn part<'a, 'n>(
+    names: &'n [&'a str],
     which: &str,
     assembly: &Object<'a>,
-    documents: &Documents<'a>,
-) -> Result<Result<Reference<'a>, Broken>, ImportError> {
-    let main = &documents.main;
-    let mut place = RigidMotion::IDENTITY;
+    main: &Objects<'a>,
+) -> Result<Result<PartFound<'a, 'n>, Broken>, ImportError> {
+    let mut above = RigidMotion::IDENTITY;
     let mut array = false;
-    let mut rest = names.iter();
-    let part = loop {
-        let Some(&name) = rest.next() else {
-            return Ok(Err(format!(
-                "{which} names no part of {}",
-                assembly.label()
-            )));
-        };
-        let Some(o) = main.get(name) else {
+    let mut rest = names;
+    while let Some((&name, inner)) = rest.split_first() {
+        rest = inner;
+        let Some(&part) = main.get(name) else {
             let what = if array {
                 format!("{which} is element {name} of an array, whose place is not read")
             } else {
@@ -134,20 +136,46 @@ fn follow<'a>(
             };
             return Ok(Err(what));
         };
-        let within = o.is_array() || (o.is_group() && rest.len() > 0);
+        let within = part.is_array() || (part.is_group() && !rest.is_empty());
         if !within {
-            break o;
+            return Ok(Ok(PartFound { part, above, rest }));
         }
-        array = o.is_array();
-        place = place.then(&o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY));
+        array = part.is_array();
+        above = above.then(&placed(&part)?);
+    }
+    Ok(Err(format!(
+        "{which} names no part of {}",
+        assembly.label()
+    )))
+}
+
+/// The place of an object in what it is in.
+fn placed(o: &Object<'_>) -> Result<RigidMotion, ImportError> {
+    Ok(o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY))
+}
+
+/// Whether a datum is attached to something.
+fn is_attached(o: &Object<'_>) -> bool {
+    ["AttachmentSupport", "Support"].iter().any(|p| {
+        o.property(p)
+            .is_some_and(|p| p.children().any(|c| c.children().next().is_some()))
+    })
+}
+
+fn follow<'a>(
+    names: &[&'a str],
+    element: &'a str,
+    which: &str,
+    assembly: &Object<'a>,
+    documents: &Documents<'a>,
+) -> Result<Result<Reference<'a>, Broken>, ImportError> {
+    let PartFound { part, above, rest } = match part(names, which, assembly, &documents.main)? {
+        Ok(found) => found,
+        Err(broken) => return Ok(Err(broken)),
     };
     let mut out = Reference {
         part: Some(part.name),
-        place: place.then(
-            &part
-                .placement("Placement")?
-                .unwrap_or(RigidMotion::IDENTITY),
-        ),
+        place: above.then(&placed(&part)?),
         inner: RigidMotion::IDENTITY,
         doubt: None,
         shape: part.shape(),
@@ -157,42 +185,36 @@ fn follow<'a>(
     if part.is_datum() {
         // What is attached to nothing stands still.
         out.part = None;
-        if ["AttachmentSupport", "Support"].iter().any(|p| {
-            part.property(p)
-                .is_some_and(|p| p.children().any(|c| c.children().next().is_some()))
-        }) {
+        if is_attached(&part) {
             out.doubt = Some("it is a datum that is attached, taken as standing still".to_owned());
         }
     }
-    let mut at = (*part, "");
+    let mut at = ObjectInFile {
+        object: part,
+        file: "",
+    };
     for &name in rest {
         at = resolved(at, documents, &mut out)?;
-        if is_body(&at.0) || name.is_empty() {
+        let found = documents.of(at.file).and_then(|o| o.get(name));
+        if is_body(&at.object) || name.is_empty() {
             // Features of a body; the last that is there has the shape.
-            let feature = documents.of(at.1).and_then(|o| o.get(name));
-            out.shape = feature
+            out.shape = found
                 .and_then(Object::shape)
-                .filter(|_| at.1.is_empty())
+                .filter(|_| at.file.is_empty())
                 .or(out.shape);
             continue;
         }
-        match documents.of(at.1).and_then(|o| o.get(name)) {
-            Some(o) => {
-                let there = o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY);
-                out.inner = out.inner.then(&there);
-                out.shape = o.shape().filter(|_| at.1.is_empty());
-                out.object = o.kind;
-                at = (*o, at.1);
-            }
-            None => {
-                out.doubt = Some(unknown(name, at.1));
-                out.shape = None;
-                break;
-            }
-        }
+        let Some(o) = found else {
+            out.doubt = Some(unknown(name, at.file));
+            out.shape = None;
+            break;
+        };
+        out.inner = out.inner.then(&placed(o)?);
+        out.shape = o.shape().filter(|_| at.file.is_empty());
+        out.object = o.kind;
+        at.object = *o;
     }
-    let (_, file) = resolved(at, documents, &mut out)?;
-    if !file.is_empty() {
+    if !resolved(at, documents, &mut out)?.file.is_empty() {
         out.shape = None;
     }
     Ok(Ok(out))
@@ -208,33 +230,41 @@ fn unknown(name: &str, file: &str) -> String {
     )
 }
 
+/// An object and the document it is of.
+#[derive(Clone, Copy)]
+struct ObjectInFile<'a> {
+    object: Object<'a>,
+    /// Nothing where it is the one with the assembly.
+    file: &'a str,
+}
+
 /// What a link stands for, in its file; a link that turns what it stands for along adds to the place.
 fn resolved<'a>(
-    (mut o, mut file): (Object<'a>, &'a str),
+    mut at: ObjectInFile<'a>,
     documents: &Documents<'a>,
     out: &mut Reference<'a>,
-) -> Result<(Object<'a>, &'a str), ImportError> {
+) -> Result<ObjectInFile<'a>, ImportError> {
     // A chain of links is short; a ring of them is none.
     for _ in 0..16 {
-        let Some((in_file, name)) = o.linked() else {
+        let Some((in_file, name)) = at.object.linked() else {
             break;
         };
-        let to = if in_file.is_empty() { file } else { in_file };
-        let turns = o.is_true("LinkTransform") == Some(true);
+        let to = if in_file.is_empty() { at.file } else { in_file };
+        let turns = at.object.is_true("LinkTransform") == Some(true);
         let Some(&target) = documents.of(to).and_then(|d| d.get(name)) else {
             if out.doubt.is_none() && !in_file.is_empty() {
-                file = to;
+                at.file = to;
             }
             break;
         };
         if turns {
-            let there = target
-                .placement("Placement")?
-                .unwrap_or(RigidMotion::IDENTITY);
-            out.inner = out.inner.then(&there);
+            out.inner = out.inner.then(&placed(&target)?);
         }
         out.shape = target.shape();
-        (o, file) = (target, to);
+        at = ObjectInFile {
+            object: target,
+            file: to,
+        };
     }
-    Ok((o, file))
+    Ok(at)
 }

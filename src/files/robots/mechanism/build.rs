@@ -259,7 +259,7 @@ pub(crate) fn entries(
         .flat_map(|&j| robot.joints[j].links.map(|l| bodies.of[l]))
         .collect();
     report.size = (used.len(), joints.len());
-    within_limits(report.size)?;
+    within_limits(used.len(), joints.len())?;
     let limited = robot.joints.iter().filter(|j| j.limits.is_some());
     limited.for_each(|j| report.drop("limit of a joint", Some(&j.id)));
     robot.report = report;
@@ -319,7 +319,7 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
 }
 
 /// No more links and joints than a mechanism file may have.
-fn within_limits((links, joints): (usize, usize)) -> Result<(), RobotProblem> {
+fn within_limits(links: usize, joints: usize) -> Result<(), RobotProblem> {
     let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
     match all.iter().find(|(_, count, limit)| count > limit) {
         None => Ok(()),

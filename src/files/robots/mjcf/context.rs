@@ -110,23 +110,28 @@ impl Compiler {
             }
             pose = pose.then(&RigidMotion::z_to(z));
         } else if let Some(angles) = e.numbers::<3>("euler")? {
-            let mut turn = RigidMotion::IDENTITY;
-            for (axis, angle) in self.eulerseq.chars().zip(angles) {
-                let about = match axis.to_ascii_lowercase() {
-                    'x' => X,
-                    'y' => Y,
-                    _ => Z,
-                };
-                let step = RigidMotion::turn(about, angle * self.angle);
-                // Small letters turn with the frame, capitals about the fixed axes.
-                turn = if axis.is_lowercase() {
-                    turn.then(&step)
-                } else {
-                    step.then(&turn)
-                };
-            }
-            pose = pose.then(&turn);
+            pose = pose.then(&self.euler(angles));
         }
         Ok(pose)
+    }
+
+    /// Three turns in the order that the file asks for.
+    fn euler(&self, angles: [f64; 3]) -> RigidMotion {
+        let mut turn = RigidMotion::IDENTITY;
+        for (axis, angle) in self.eulerseq.chars().zip(angles) {
+            let about = match axis.to_ascii_lowercase() {
+                'x' => X,
+                'y' => Y,
+                _ => Z,
+            };
+            let step = RigidMotion::turn(about, angle * self.angle);
+            // Small letters turn with the frame, capitals about the fixed axes.
+            turn = if axis.is_lowercase() {
+                turn.then(&step)
+            } else {
+                step.then(&turn)
+            };
+        }
+        turn
     }
 }

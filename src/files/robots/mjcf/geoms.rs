@@ -86,66 +86,103 @@ impl<'a> Geoms<'a> {
     }
 }
 
-/// A shape, and what it weighs, NaN where only its file says so; none of a kind that is not carried over, which is noted.
-pub(super) fn geom<'a>(
-    e: Element<'a>,
-    look: &Lookup<'a>,
-    (context, geoms): (&Context<'a>, &Geoms<'a>),
-    out: &mut Payload,
-) -> Result<Option<(LinkShape, Option<Weight>)>, ImportError> {
-    let name = e.attribute("name");
+/// How large a shape is and where it stands.
+struct Measures {
+    /// The numbers of `size`; 0 where there are fewer.
+    sizes: [f64; 3],
+    /// Half the length of what is round.
+    half: f64,
+    /// Half the depth and half the length of what has three sizes.
+    deep: f64,
+    long: f64,
+    place: RigidMotion,
+}
+
+impl Measures {
+    fn of<'a>(look: &Lookup<'a>, context: &Context<'a>) -> Result<Measures, ImportError> {
+        let given: Vec<f64> = match look.attribute("size") {
+            Some((_, text)) => text
+                .split_whitespace()
+                .filter_map(|w| w.parse().ok())
+                .collect(),
+            None => Vec::new(),
+        };
+        let sizes = [0, 1, 2].map(|i| given.get(i).copied().unwrap_or(0.0));
+        let mut out = Measures {
+            sizes,
+            half: sizes[1],
+            deep: sizes[1],
+            long: sizes[2],
+            place: RigidMotion {
+                translation: look.vector("pos", [0.0; 3])?,
+                ..orientation(look, context)?
+            },
+        };
+        // Between two points a shape is round, or as deep as it is wide, and as long as they are apart.
+        if let Some([a, b, c, d, f, g]) = look.numbers::<6>("fromto")? {
+            let (from, to) = ([a, b, c], [d, f, g]);
+            out.half = length(sub(to, from)) / 2.0;
+            (out.deep, out.long) = (sizes[0], out.half);
+            out.place = RigidMotion {
+                translation: scale(add(from, to), 0.5),
+                ..RigidMotion::z_to(sub(from, to))
+            };
+        }
+        Ok(out)
+    }
+}
+
+/// The solid of a shape, or what it is called where it is of a kind that is not carried over.
+fn solid(look: &Lookup<'_>, measures: &Measures, geoms: &Geoms<'_>) -> Result<Solid, String> {
     let word = look.attribute("type").map(|a| a.1);
     let word = word.unwrap_or(if look.attribute("mesh").is_some() {
         "mesh"
     } else {
         "sphere"
     });
-    let sizes: Vec<f64> = match look.attribute("size") {
-        Some((_, text)) => text
-            .split_whitespace()
-            .filter_map(|w| w.parse().ok())
-            .collect(),
-        None => Vec::new(),
-    };
-    let size = |i: usize| sizes.get(i).copied().unwrap_or(0.0);
-    let mut place = RigidMotion {
-        translation: look.vector("pos", [0.0; 3])?,
-        ..orientation(look, context)?
-    };
-    // Between two points a shape is round, or as deep as it is wide, and as long as they are apart.
-    let (mut half, mut deep, mut long) = (size(1), size(1), size(2));
-    if let Some([a, b, c, d, f, g]) = look.numbers::<6>("fromto")? {
-        let (from, to) = ([a, b, c], [d, f, g]);
-        half = length(sub(to, from)) / 2.0;
-        (deep, long) = (size(0), half);
-        place = RigidMotion {
-            translation: scale(add(from, to), 0.5),
-            ..RigidMotion::z_to(sub(from, to))
-        };
-    }
-    let solid = match word {
-        "sphere" => Solid::Sphere(size(0)),
-        "capsule" => Solid::Capsule(size(0), 2.0 * half),
-        "cylinder" => Solid::Cylinder(size(0), 2.0 * half),
-        "ellipsoid" => Solid::Ellipsoid([size(0), deep, long]),
-        "box" => Solid::Box([2.0 * size(0), 2.0 * deep, 2.0 * long]),
-        "plane" => Solid::Plane([2.0 * size(0), 2.0 * size(1)]),
+    let &Measures {
+        sizes: [first, second, _],
+        half,
+        deep,
+        long,
+        ..
+    } = measures;
+    Ok(match word {
+        "sphere" => Solid::Sphere(first),
+        "capsule" => Solid::Capsule(first, 2.0 * half),
+        "cylinder" => Solid::Cylinder(first, 2.0 * half),
+        "ellipsoid" => Solid::Ellipsoid([first, deep, long]),
+        "box" => Solid::Box([2.0 * first, 2.0 * deep, 2.0 * long]),
+        "plane" => Solid::Plane([2.0 * first, 2.0 * second]),
         "mesh" => match look
             .attribute("mesh")
             .and_then(|(_, m)| geoms.meshes.get(m))
         {
             Some((file, scale)) => Solid::Mesh(file.clone(), *scale),
-            None => {
-                out.lost.not_read("mesh that is no file", name);
-                return Ok(None);
-            }
+            None => return Err("mesh that is no file".to_owned()),
         },
-        other => {
-            out.lost
-                .not_read(&format!("geometry of kind {other}"), name);
+        other => return Err(format!("geometry of kind {other}")),
+    })
+}
+
+/// A shape, and what it weighs, NaN where only its file says so; none of a kind that is not carried over, which is noted.
+pub(super) fn geom<'a>(
+    e: Element<'a>,
+    look: &Lookup<'a>,
+    context: &Context<'a>,
+    geoms: &Geoms<'a>,
+    out: &mut Payload,
+) -> Result<Option<(LinkShape, Option<Weight>)>, ImportError> {
+    let name = e.attribute("name");
+    let measures = Measures::of(look, context)?;
+    let solid = match solid(look, &measures, geoms) {
+        Ok(solid) => solid,
+        Err(kind) => {
+            out.lost.not_read(&kind, name);
             return Ok(None);
         }
     };
+    let place = measures.place;
     let weight = weigh(&solid, place, look, geoms)?;
     let number = |k: &str| look.attribute(k).map(|(_, v)| v.trim() == "0");
     let through = number("contype") == Some(true) && number("conaffinity") == Some(true);
@@ -156,10 +193,6 @@ pub(super) fn geom<'a>(
     // MuJoCo takes its own grey for "as the material says".
     let stated = look.numbers::<4>("rgba")?;
     let colour = stated.filter(|c| *c != GREY);
-    let words = TOUCH.iter().filter_map(|k| {
-        look.attribute(k)
-            .map(|(_, v)| ((*k).to_owned(), v.to_owned()))
-    });
     Ok(Some((
         LinkShape {
             name: name.map(str::to_owned),
@@ -167,7 +200,7 @@ pub(super) fn geom<'a>(
             place,
             colour: colour.or(material).or(stated),
             use_: if through { Use::Seen } else { Use::Both },
-            words: words.collect(),
+            words: look.words(&TOUCH),
         },
         weight,
     )))

@@ -4,6 +4,7 @@ use crate::file::problem::ImportError;
 use crate::robots::options::Reader;
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::{self, Document, Element, MAX_BYTES};
+use std::path::{Component, Path};
 
 /// Deepest nesting of files, and most includes in all.
 const LIMITS: (usize, usize) = (16, 1000);
@@ -18,7 +19,25 @@ pub(super) fn expand(
 ) -> Result<(), ImportError> {
     let mut count = 0;
     let names = vec![document.element(root).source().to_owned()];
-    below(document, root, &names, &mut count, (read, outside))
+    let files = Files { read, outside };
+    below(document, root, &names, &mut count, &files)
+}
+
+/// The files that may be included.
+struct Files<'r> {
+    read: Reader<'r>,
+    /// Whether those outside the folder of the document may be asked for.
+    outside: bool,
+}
+
+impl Files<'_> {
+    /// Whether a path may be asked for: it leads down, or up where that is allowed.
+    fn reach(&self, file: &str) -> bool {
+        let up = |c| matches!(c, Component::ParentDir);
+        let plain = |c| matches!(c, Component::Normal(_) | Component::CurDir);
+        let mut parts = Path::new(file).components();
+        parts.all(|c| plain(c) || (self.outside && up(c)))
+    }
 }
 
 fn below(
@@ -26,7 +45,7 @@ fn below(
     root: usize,
     open: &[String],
     count: &mut usize,
-    read: (Reader<'_>, bool),
+    files: &Files<'_>,
 ) -> Result<(), ImportError> {
     let mut stack = vec![root];
     while let Some(id) = stack.pop() {
@@ -39,10 +58,10 @@ fn below(
                 continue;
             }
             *count += 1;
-            let inner = included(document, c, open, *count, read)?;
+            let inner = included(document, c, open, *count, files)?;
             let mut names = open.to_vec();
             names.push(document.element(inner).source().to_owned());
-            below(document, inner, &names, count, read)?;
+            below(document, inner, &names, count, files)?;
             all.append(&mut document.nodes[inner].children);
         }
         document.nodes[id].children = all;
@@ -56,7 +75,7 @@ fn included(
     id: usize,
     open: &[String],
     count: usize,
-    (read, outside): (Reader<'_>, bool),
+    files: &Files<'_>,
 ) -> Result<usize, ImportError> {
     let e = document.element(id);
     let file = e.required("file")?.to_owned();
@@ -83,21 +102,12 @@ fn included(
         let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
         return Err(refuse(e, why, "put the files together"));
     }
-    let path = std::path::Path::new(&file);
-    let up = |c| matches!(c, std::path::Component::ParentDir);
-    let plain = |c| {
-        matches!(
-            c,
-            std::path::Component::Normal(_) | std::path::Component::CurDir
-        )
-    };
-    let mut parts = path.components();
-    if !parts.all(|c| plain(c) || (outside && up(c))) {
+    if !files.reach(&file) {
         let why = "it is outside the folder of the file".to_owned();
         let remedy = "copy it there, or name a folder that holds both with --models";
         return Err(refuse(e, why, remedy));
     }
-    let bytes = match read(&file) {
+    let bytes = match (files.read)(&file) {
         Ok(b) => b,
         Err(error) => {
             return Err(refuse(
@@ -118,8 +128,6 @@ fn included(
 
 /// Whether a path's last part is this file.
 fn ends_with(path: &str, file: &str) -> bool {
-    let last = |p: &str| std::path::Path::new(p).file_name().map(ToOwned::to_owned);
-    last(path).is_some()
-        && last(path) == last(file)
-        && std::path::Path::new(file).components().count() == 1
+    let last = |p: &str| Path::new(p).file_name().map(ToOwned::to_owned);
+    last(path).is_some() && last(path) == last(file) && Path::new(file).components().count() == 1
 }

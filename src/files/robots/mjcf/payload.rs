@@ -2,9 +2,10 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::convert::payload::{Actuator, Command, Dynamics, Payload, Weight, Words};
+use crate::robots::convert::payload::{Dynamics, Payload, Weight};
 use crate::robots::convert::solid::together;
 use crate::robots::description::parts::Robot;
+use crate::robots::mjcf::actuators::actuators;
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
 use crate::robots::mjcf::geoms::{Geoms, geom};
@@ -22,34 +23,6 @@ const SOLVER: [&str; 6] = [
 ];
 /// The same of an equality.
 const EQUALITY: [&str; 3] = ["solref", "solimp", "torquescale"];
-/// Words of actuators that MJCF has, but for the joint they move.
-const ACTUATOR: [&str; 24] = [
-    "name",
-    "ctrllimited",
-    "forcelimited",
-    "actlimited",
-    "ctrlrange",
-    "forcerange",
-    "actrange",
-    "lengthrange",
-    "gear",
-    "kp",
-    "kv",
-    "dampratio",
-    "timeconst",
-    "inheritrange",
-    "dyntype",
-    "gaintype",
-    "biastype",
-    "dynprm",
-    "gainprm",
-    "biasprm",
-    "actdim",
-    "actearly",
-    "area",
-    "bias",
-];
-
 /// What holds for the whole file.
 struct Settings {
     autolimits: bool,
@@ -76,8 +49,15 @@ pub(crate) fn read(root: Element<'_>, robot: &Robot) -> Result<Payload, ImportEr
         .enumerate()
         .filter_map(|(j, p)| Some((p.element?, j)))
         .collect();
+    let bodies = BodyReader {
+        robot,
+        context: &context,
+        settings: &settings,
+        geoms: &geoms,
+        joints: &joints,
+    };
     for w in root.named("worldbody") {
-        bodies(w, robot, (&context, &settings, &geoms), &joints, &mut out)?;
+        bodies.read(w, &mut out)?;
     }
     for section in root.children() {
         match section.name() {
@@ -115,6 +95,7 @@ pub(crate) fn read(root: Element<'_>, robot: &Robot) -> Result<Payload, ImportEr
     Ok(out)
 }
 
+/// What `<compiler>` says of weights and limits.
 fn settings(root: Element<'_>, out: &mut Payload) -> Result<Settings, ImportError> {
     let mut found = Settings {
         autolimits: true,
@@ -149,90 +130,124 @@ struct Waiting<'a> {
     class: Option<&'a str>,
 }
 
-/// What holds for all bodies.
-type Whole<'a, 'c> = (&'c Context<'a>, &'c Settings, &'c Geoms<'a>);
+/// Reads what bodies carry, with what holds for all of them.
+struct BodyReader<'a, 'c> {
+    robot: &'c Robot,
+    context: &'c Context<'a>,
+    settings: &'c Settings,
+    geoms: &'c Geoms<'a>,
+    /// The joints of the robot by the elements that say them.
+    joints: &'c BTreeMap<usize, usize>,
+}
 
-fn bodies<'a>(
-    w: Element<'a>,
-    robot: &Robot,
-    (context, settings, geoms): Whole<'a, '_>,
-    joints: &BTreeMap<usize, usize>,
-    out: &mut Payload,
-) -> Result<(), ImportError> {
-    let mut stack = vec![Waiting {
-        element: w,
-        link: 0,
-        place: RigidMotion::IDENTITY,
-        class: w.attribute("childclass"),
-    }];
-    let mut of_shapes: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
-    while let Some(at) = stack.pop() {
-        for e in at.element.children() {
-            let inner = |link, place| Waiting {
-                element: e,
-                link,
-                place,
-                class: e.attribute("childclass").or(at.class),
-            };
-            match e.name() {
-                "body" => {
-                    if let Some(&link) = robot.said.get(&e.id) {
-                        stack.push(inner(link, RigidMotion::IDENTITY));
-                        let words = e
-                            .attributes()
-                            .filter(|(k, _)| ["gravcomp", "user"].contains(k));
-                        words.for_each(|(k, _)| {
-                            out.lost
-                                .not_read(&format!("{k} of a body"), e.attribute("name"))
-                        });
-                    }
-                }
-                "frame" => stack.push(inner(at.link, at.place.then(&context.compiler.place(e)?))),
-                "geom" => {
-                    let look = context.defaults.of(e, "geom", at.class)?;
-                    if let Some((mut shape, weight)) = geom(e, &look, (context, geoms), out)? {
-                        shape.place = at.place.then(&shape.place);
-                        if let Some(w) = weight {
-                            let place = at.place.then(&w.place);
-                            of_shapes
-                                .entry(at.link)
-                                .or_default()
-                                .push(Weight { place, ..w });
+impl<'a> BodyReader<'a, '_> {
+    /// Reads what the bodies below `w` carry.
+    fn read(&self, w: Element<'a>, out: &mut Payload) -> Result<(), ImportError> {
+        let mut stack = vec![Waiting {
+            element: w,
+            link: 0,
+            place: RigidMotion::IDENTITY,
+            class: w.attribute("childclass"),
+        }];
+        let mut of_shapes: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
+        while let Some(at) = stack.pop() {
+            for e in at.element.children() {
+                let inner = |link, place| Waiting {
+                    element: e,
+                    link,
+                    place,
+                    class: e.attribute("childclass").or(at.class),
+                };
+                match e.name() {
+                    "body" => {
+                        if let Some(&link) = self.robot.said.get(&e.id) {
+                            stack.push(inner(link, RigidMotion::IDENTITY));
+                            lost_of_body(e, out);
                         }
-                        out.shape(at.link, shape);
                     }
-                }
-                "inertial" => {
-                    out.weights.insert(at.link, inertial(e, context)?);
-                }
-                "joint" | "freejoint" => {
-                    if let Some(&j) = joints.get(&e.id) {
-                        let tag = if e.name() == "joint" { "joint" } else { "" };
-                        let look = context.defaults.of(e, tag, at.class)?;
-                        let own = dynamics(&look, &robot.joints[j].id, settings, out);
-                        let turns = robot.joints[j]
-                            .joint_type
-                            .freedoms()
-                            .iter()
-                            .all(|f| f.turns());
-                        let unit = if turns { context.compiler.angle } else { 1.0 };
-                        let rest = own.rest * unit - robot.joints[j].zero;
-                        let rest = if own.stiffness > 0.0 { rest } else { 0.0 };
-                        out.dynamics.insert(j, vec![Dynamics { rest, ..own }]);
+                    "frame" => {
+                        let place = at.place.then(&self.context.compiler.place(e)?);
+                        stack.push(inner(at.link, place));
                     }
-                }
-                "site" => {
-                    if let Some((l, place)) = e.attribute("name").and_then(|n| robot.frame(n)) {
-                        out.frames
-                            .push((e.attribute("name").unwrap_or("").to_owned(), l, place));
+                    "geom" => {
+                        if let Some(weight) = self.shape(e, &at, out)? {
+                            of_shapes.entry(at.link).or_default().push(weight);
+                        }
                     }
+                    "inertial" => {
+                        out.weights.insert(at.link, inertial(e, self.context)?);
+                    }
+                    "joint" | "freejoint" => self.joint(e, at.class, out)?,
+                    "site" => self.site(e, out),
+                    other => out.lost.not_read(other, e.attribute("name")),
                 }
-                other => out.lost.not_read(other, e.attribute("name")),
             }
         }
+        weigh(self.robot, of_shapes, self.settings, out);
+        Ok(())
     }
-    weigh(robot, of_shapes, settings, out);
-    Ok(())
+
+    /// Adds a shape to its link; gives what it weighs there.
+    fn shape(
+        &self,
+        e: Element<'a>,
+        at: &Waiting<'a>,
+        out: &mut Payload,
+    ) -> Result<Option<Weight>, ImportError> {
+        let look = self.context.defaults.of(e, "geom", at.class)?;
+        let Some((mut shape, weight)) = geom(e, &look, self.context, self.geoms, out)? else {
+            return Ok(None);
+        };
+        shape.place = at.place.then(&shape.place);
+        out.shape(at.link, shape);
+        Ok(weight.map(|w| Weight {
+            place: at.place.then(&w.place),
+            ..w
+        }))
+    }
+
+    fn joint(
+        &self,
+        e: Element<'a>,
+        class: Option<&'a str>,
+        out: &mut Payload,
+    ) -> Result<(), ImportError> {
+        let Some(&j) = self.joints.get(&e.id) else {
+            return Ok(());
+        };
+        let part = &self.robot.joints[j];
+        let tag = if e.name() == "joint" { "joint" } else { "" };
+        let look = self.context.defaults.of(e, tag, class)?;
+        let own = dynamics(&look, &part.id, self.settings, out);
+        let turns = part.joint_type.freedoms().iter().all(|f| f.turns());
+        let unit = if turns {
+            self.context.compiler.angle
+        } else {
+            1.0
+        };
+        let rest = own.rest * unit - part.zero;
+        let rest = if own.stiffness > 0.0 { rest } else { 0.0 };
+        out.dynamics.insert(j, vec![Dynamics { rest, ..own }]);
+        Ok(())
+    }
+
+    fn site(&self, e: Element<'a>, out: &mut Payload) {
+        if let Some((link, place)) = e.attribute("name").and_then(|n| self.robot.frame(n)) {
+            let name = e.attribute("name").unwrap_or("").to_owned();
+            out.frames.push((name, link, place));
+        }
+    }
+}
+
+/// Notes what a body says that is not read.
+fn lost_of_body(e: Element<'_>, out: &mut Payload) {
+    let words = e
+        .attributes()
+        .filter(|(k, _)| ["gravcomp", "user"].contains(k));
+    words.for_each(|(k, _)| {
+        out.lost
+            .not_read(&format!("{k} of a body"), e.attribute("name"));
+    });
 }
 
 /// Weights of bodies by their shapes where nothing else is said, and no less than what the file asks for.
@@ -337,17 +352,8 @@ fn dynamics(look: &Lookup<'_>, joint: &str, settings: &Settings, out: &mut Paylo
     if look.attribute("springdamper").is_some() {
         out.lost.not_read("springdamper", Some(joint));
     }
-    d.words = words(look, &SOLVER);
+    d.words = look.words(&SOLVER);
     d
-}
-
-/// Attributes that are there, of the element or of its class.
-fn words(look: &Lookup<'_>, keys: &[&str]) -> Words {
-    let one = |k: &&str| {
-        look.attribute(k)
-            .map(|(_, v)| ((*k).to_owned(), v.to_owned()))
-    };
-    keys.iter().filter_map(one).collect()
 }
 
 fn equalities(
@@ -358,7 +364,7 @@ fn equalities(
 ) -> Result<(), ImportError> {
     for e in section.children() {
         let look = context.defaults.of(e, "equality", None)?;
-        let own = words(&look, &EQUALITY);
+        let own = look.words(&EQUALITY);
         if look.attribute("active").is_some_and(|(_, v)| v == "false") {
             out.lost.not_read("inactive equality", e.attribute("name"));
             continue;
@@ -393,49 +399,6 @@ fn equalities(
                 .lost
                 .not_read(&format!("{other} of <equality>"), e.attribute("name")),
         }
-    }
-    Ok(())
-}
-
-fn actuators(
-    section: Element<'_>,
-    context: &Context<'_>,
-    robot: &Robot,
-    out: &mut Payload,
-) -> Result<(), ImportError> {
-    for e in section.children() {
-        let name = e.attribute("name");
-        let joint = e
-            .attribute("joint")
-            .and_then(|n| robot.joints.iter().position(|p| p.id == n));
-        let command = match e.name() {
-            "position" | "intvelocity" => Command::Position,
-            "velocity" | "damper" => Command::Velocity,
-            "motor" | "general" | "cylinder" => Command::Effort,
-            _ => {
-                out.lost
-                    .not_read(&format!("actuator of kind {}", e.name()), name);
-                continue;
-            }
-        };
-        let Some(joint) = joint else {
-            out.lost.not_read("actuator of no joint", name);
-            continue;
-        };
-        let look = context.defaults.of(e, e.name(), None)?;
-        let gear = look
-            .attribute("gear")
-            .and_then(|(_, v)| v.split_whitespace().next()?.parse().ok());
-        out.actuators.push(Actuator {
-            name: name.map(str::to_owned),
-            joint,
-            command,
-            gear: gear
-                .filter(|g: &f64| g.is_finite() && *g != 0.0)
-                .unwrap_or(1.0),
-            tag: Some(e.name().to_owned()),
-            words: words(&look, &ACTUATOR),
-        });
     }
     Ok(())
 }

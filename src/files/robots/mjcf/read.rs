@@ -2,16 +2,25 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Z, length};
+use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Robot, free};
 use crate::robots::mjcf::context::{Context, compiler};
-use crate::robots::mjcf::defaults::Defaults;
+use crate::robots::mjcf::defaults::{Defaults, Lookup};
 use crate::robots::mjcf::{include, replicate};
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
+
+/// What a joint says of how it resists motion, which is no kinematics.
+const RESISTANCE: [&str; 5] = [
+    "damping",
+    "stiffness",
+    "springdamper",
+    "armature",
+    "frictionloss",
+];
 
 /// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
 struct Waiting<'a> {
@@ -56,29 +65,7 @@ pub(crate) fn read(
             "equality" => crate::robots::mjcf::equality::read(section, &context, &mut robot)?,
             "actuator" => {
                 for a in section.children() {
-                    let joint = a.attribute("joint").or(a.attribute("jointinparent"));
-                    match robot
-                        .joints
-                        .iter_mut()
-                        .find(|j| Some(j.id.as_str()) == joint)
-                    {
-                        Some(j) => {
-                            j.drive = true;
-                            robot
-                                .report
-                                .drop("data of an actuator", a.attribute("name"));
-                        }
-                        None => {
-                            let pulled = of_tendon(root, a);
-                            let pulled = |j: &&mut Part| pulled.contains(&j.id.as_str());
-                            robot
-                                .joints
-                                .iter_mut()
-                                .filter(pulled)
-                                .for_each(|j| j.pulled = true);
-                            robot.report.drop("actuator", a.attribute("name"));
-                        }
-                    }
+                    actuator(a, root, &mut robot);
                 }
             }
             "deformable" => {
@@ -89,6 +76,26 @@ pub(crate) fn read(
         }
     }
     Ok(robot)
+}
+
+/// Marks the joint that an actuator drives, or those that it pulls by a tendon.
+fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
+    let name = a.attribute("name");
+    let joint = a.attribute("joint").or(a.attribute("jointinparent"));
+    let mut joints = robot.joints.iter_mut();
+    if let Some(j) = joints.find(|j| Some(j.id.as_str()) == joint) {
+        j.drive = true;
+        robot.report.drop("data of an actuator", name);
+        return;
+    }
+    let pulled = of_tendon(root, a);
+    let pulled = |j: &&mut Part| pulled.contains(&j.id.as_str());
+    robot
+        .joints
+        .iter_mut()
+        .filter(pulled)
+        .for_each(|j| j.pulled = true);
+    robot.report.drop("actuator", name);
 }
 
 /// Names of the joints that an actuator moves by a fixed tendon.
@@ -240,8 +247,14 @@ fn body<'a>(
     Ok(from)
 }
 
-/// A joint of a body: its element, the place of the frames around it in the body, and their class.
-type Own<'a> = (Element<'a>, RigidMotion, Option<&'a str>);
+/// A joint of a body.
+struct OwnJoint<'a> {
+    element: Element<'a>,
+    /// The place of the frames around it in the body.
+    inner: RigidMotion,
+    /// The class of those frames.
+    class: Option<&'a str>,
+}
 
 /// The joints of a body, those in frames in it among them.
 fn own_joints<'a>(
@@ -249,11 +262,15 @@ fn own_joints<'a>(
     place: RigidMotion,
     class: Option<&'a str>,
     context: &Context<'a>,
-    out: &mut Vec<Own<'a>>,
+    out: &mut Vec<OwnJoint<'a>>,
 ) -> Result<(), ImportError> {
     for c in e.children() {
         match c.name() {
-            "joint" | "freejoint" => out.push((c, place, class)),
+            "joint" | "freejoint" => out.push(OwnJoint {
+                element: c,
+                inner: place,
+                class,
+            }),
             "frame" => {
                 let inner = place.then(&context.compiler.place(c)?);
                 let class = c.attribute("childclass").or(class);
@@ -265,14 +282,30 @@ fn own_joints<'a>(
     Ok(())
 }
 
+/// The name of a joint: its own, or one made of its body's and its type.
+fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Result<String, ImportError> {
+    match e.attribute("name") {
+        Some(n) if robot.joints.iter().any(|j| j.id == n) => {
+            Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }))
+        }
+        Some(n) => Ok(n.to_owned()),
+        None => Ok(format!("{body}.{word}")),
+    }
+}
+
 fn joint<'a>(
-    &(e, inner, class): &Own<'a>,
+    own: &OwnJoint<'a>,
     body: &str,
     links: [usize; 2],
     place: RigidMotion,
     context: &Context<'a>,
     robot: &mut Robot,
 ) -> Result<Part, ImportError> {
+    let &OwnJoint {
+        element: e,
+        inner,
+        class,
+    } = own;
     let tag = if e.name() == "freejoint" { "" } else { "joint" };
     let look = context.defaults.of(e, tag, class)?;
     let word = if tag.is_empty() {
@@ -287,13 +320,7 @@ fn joint<'a>(
         "free" => free(),
         _ => return Err(e.unknown_word("type", word, "hinge, slide, ball, free")),
     };
-    let id = match e.attribute("name") {
-        Some(n) if robot.joints.iter().any(|j| j.id == n) => {
-            return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
-        }
-        Some(n) => n.to_owned(),
-        None => format!("{body}.{word}"),
-    };
+    let id = joint_id(e, body, word, robot)?;
     let pos = look.vector("pos", [0.0; 3])?;
     let at = if word == "free" {
         RigidMotion::IDENTITY
@@ -302,18 +329,7 @@ fn joint<'a>(
     };
     let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
     if matches!(word, "hinge" | "slide") {
-        let axis = look.vector("axis", Z)?;
-        if length(axis) < 1e-9 {
-            return Err(e.fail(
-                Some("axis"),
-                RobotProblem::BadValue {
-                    element: e.label(),
-                    what: "axis".to_owned(),
-                    found: look.attribute("axis").map_or("", |(_, v)| v).to_owned(),
-                    want: "give a direction such as 0 0 1".to_owned(),
-                },
-            ));
-        }
+        let axis = axis(e, &look)?;
         part = part.about(inner.direction(axis));
         let unit = if word == "hinge" {
             context.compiler.angle
@@ -325,17 +341,28 @@ fn joint<'a>(
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
         }
     }
-    for key in [
-        "damping",
-        "stiffness",
-        "springdamper",
-        "armature",
-        "frictionloss",
-    ] {
+    for key in RESISTANCE {
         if look.attribute(key).is_some() {
             robot.report.drop(key, Some(&id));
         }
     }
     robot.report.map(word);
     Ok(part)
+}
+
+/// The direction of a hinge or a slide.
+fn axis(e: Element<'_>, look: &Lookup<'_>) -> Result<Vector, ImportError> {
+    let axis = look.vector("axis", Z)?;
+    if length(axis) >= 1e-9 {
+        return Ok(axis);
+    }
+    Err(e.fail(
+        Some("axis"),
+        RobotProblem::BadValue {
+            element: e.label(),
+            what: "axis".to_owned(),
+            found: look.attribute("axis").map_or("", |(_, v)| v).to_owned(),
+            want: "give a direction such as 0 0 1".to_owned(),
+        },
+    ))
 }

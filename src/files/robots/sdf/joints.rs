@@ -83,13 +83,8 @@ pub(crate) fn joint(
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
     let local = |d: Vector| world.inverse().direction(d);
     let joint_type = joint_type(e, word)?;
-    // A parent that is a frame away from the joint: by the specification the frame only names its link, and the model is
-    // as drawn; where it is drawn in parts, the joint is to put the frame onto the child.
-    let is_frame = scene
-        .placed
-        .get(&absolute(scope, parent_name))
-        .is_some_and(|p| p.link.is_none());
-    let apart = is_frame && length(sub(parent_world.translation, world.translation)) > APART * size;
+    let far = length(sub(parent_world.translation, world.translation));
+    let apart = is_frame(&absolute(scope, parent_name), scene) && far > APART * size;
     let on_parent = if apart && scene.assemble {
         RigidMotion {
             translation: parent_world.translation,
@@ -120,14 +115,20 @@ pub(crate) fn joint(
     }
     part.limits = limits(e)?.filter(|_| ["revolute", "prismatic"].contains(&word));
     if apart {
-        let d = length(sub(parent_world.translation, world.translation));
-        told_apart(e, d, scene.assemble, robot);
+        told_apart(e, far, scene.assemble, robot);
     }
     if let Some(leader) = mimic(e, &name, scope, robot)? {
         part.comment = Some(format!("mimics {leader}"));
     }
     robot.joints.push(part);
     Ok(())
+}
+
+/// Whether a name is that of a frame rather than a link. A parent that is a frame away from the joint: by the specification
+/// the frame only names its link, and the model is as drawn; where it is drawn in parts, the joint is to put the frame onto
+/// the child.
+fn is_frame(name: &str, scene: &SdfScene<'_>) -> bool {
+    scene.placed.get(name).is_some_and(|p| p.link.is_none())
 }
 
 fn joint_type(e: Element<'_>, word: &str) -> Result<JointType, ImportError> {

@@ -20,25 +20,8 @@ pub(crate) fn read(
 ) -> Result<Robot, ImportError> {
     let root = document.element(root);
     let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"));
-    for link in root.named("link") {
-        let name = link.required("name")?;
-        link.room("links", robot.links.len())?;
-        if robot.frame(name).is_some() {
-            return Err(link.fail(
-                Some("name"),
-                RobotProblem::Duplicate {
-                    element: link.label(),
-                },
-            ));
-        }
-        let l = robot.link(name, RigidMotion::IDENTITY);
-        robot.said_by(l, link);
-        for c in link.children() {
-            if ["visual", "collision"].contains(&c.name()) {
-                robot.shown.insert(l);
-            }
-            robot.report.drop(c.name(), None);
-        }
+    for e in root.named("link") {
+        link(e, &mut robot)?;
     }
     // Every reader knows the world, and takes what hangs on it for fixed.
     let on_world = |j: Element<'_>| {
@@ -65,21 +48,43 @@ pub(crate) fn read(
         }
     }
     for e in root.named("transmission") {
-        for j in e.named("joint").filter_map(|j| j.attribute("name")) {
-            match robot.joints.iter_mut().find(|p| p.id == j) {
-                Some(p) => {
-                    p.drive = true;
-                    robot.report.drop("data of a transmission", Some(j));
-                }
-                None => robot.report.drop("transmission", Some(j)),
-            }
-        }
+        transmission(e, &mut robot);
     }
     // By convention a root of this name is the ground.
     let world = robot.links.iter().position(|l| l == "world");
     let held = |w: &usize| robot.joints.iter().any(|j| j.links[1] == *w);
     robot.world = world.filter(|w| !held(w));
     Ok(robot)
+}
+
+fn link(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let name = e.required("name")?;
+    e.room("links", robot.links.len())?;
+    if robot.frame(name).is_some() {
+        return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+    }
+    let l = robot.link(name, RigidMotion::IDENTITY);
+    robot.said_by(l, e);
+    for c in e.children() {
+        if ["visual", "collision"].contains(&c.name()) {
+            robot.shown.insert(l);
+        }
+        robot.report.drop(c.name(), None);
+    }
+    Ok(())
+}
+
+/// Marks the joints that a transmission drives.
+fn transmission(e: Element<'_>, robot: &mut Robot) {
+    for j in e.named("joint").filter_map(|j| j.attribute("name")) {
+        match robot.joints.iter_mut().find(|p| p.id == j) {
+            Some(p) => {
+                p.drive = true;
+                robot.report.drop("data of a transmission", Some(j));
+            }
+            None => robot.report.drop("transmission", Some(j)),
+        }
+    }
 }
 
 pub(crate) fn origin(e: Element<'_>) -> Result<RigidMotion, ImportError> {
@@ -170,17 +175,8 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     if part.joint_type == JointType::Universal {
         (part.axis, part.second) = (X, Y);
     }
-    if let Some(l) = e.child("limit")
-        && word != "continuous"
-    {
-        // What is beyond all numbers that are read, 1e16 say, is no limit.
-        let one = |k| match l.attribute(k).map(str::parse::<f64>) {
-            Some(Ok(x)) if x.abs() > 1e9 => Ok(x.signum() * f64::INFINITY),
-            _ => Ok(l.numbers::<1>(k)?.map_or(0.0, |[x]| x)),
-        };
-        let (low, high) = (one("lower")?, one("upper")?);
-        let finite = low.is_finite() && high.is_finite();
-        part.limits = (low < high && finite).then_some((low, high));
+    if let Some(l) = e.child("limit").filter(|_| word != "continuous") {
+        part.limits = limits(l)?;
     }
     robot.report.map(word);
     if let Some(m) = e.child("mimic") {
@@ -204,6 +200,18 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     }
     robot.joints.push(part);
     Ok(())
+}
+
+/// The limits of a joint, where it has any.
+fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> {
+    // What is beyond all numbers that are read, 1e16 say, is no limit.
+    let one = |k| match e.attribute(k).map(str::parse::<f64>) {
+        Some(Ok(x)) if x.abs() > 1e9 => Ok(x.signum() * f64::INFINITY),
+        _ => Ok(e.numbers::<1>(k)?.map_or(0.0, |[x]| x)),
+    };
+    let (low, high) = (one("lower")?, one("upper")?);
+    let finite = low.is_finite() && high.is_finite();
+    Ok((low < high && finite).then_some((low, high)))
 }
 
 pub(crate) fn same_link(e: Element<'_>) -> ImportError {

@@ -95,23 +95,23 @@ impl Figures<'_> {
         found.ok_or_else(|| format!("{name} is {text:?}; give a number of at most 1e6 in size"))
     }
 
-    fn vector(&self, [x, y, z]: [usize; 3]) -> Result<[f64; 3], String> {
-        Ok([
-            self.number(x, -1e6)?,
-            self.number(y, -1e6)?,
-            self.number(z, -1e6)?,
-        ])
-    }
-
     /// The step that the line stands for, diameters in `unit` metres.
     fn step(&self, columns: &StepColumns, unit: f64) -> Result<MotionStep, String> {
+        let vector = |[x, y, z]: [usize; 3]| -> Result<[f64; 3], String> {
+            Ok([
+                self.number(x, -1e6)?,
+                self.number(y, -1e6)?,
+                self.number(z, -1e6)?,
+            ])
+        };
+        let [ax, ay, az] = columns.acceleration;
         let time = columns.time.map(|c| self.number(c, -1e6)).transpose()?;
         let diameter = columns.diameter.map(|c| self.number(c, 1e-9)).transpose()?;
         Ok(MotionStep {
             time,
             diameter: diameter.map(|d| d * unit),
-            gravity: columns.gravity.map(|g| self.vector(g)).transpose()?,
-            acceleration: self.vector(columns.acceleration)?,
+            gravity: columns.gravity.map(vector).transpose()?,
+            acceleration: vector([ax, ay, az])?,
         })
     }
 }

@@ -10,6 +10,16 @@ use crate::robots::convert::to_urdf::{ENDLESS, Loops, ToUrdf};
 use crate::robots::mechanism::series_of_single_joints::{escape, number, numbers};
 use std::fmt::Write;
 
+/// A joint of one freedom as it stands in the file.
+struct JointTag<'a> {
+    name: &'a str,
+    /// Its type.
+    kind: &'a str,
+    /// Its parent and its child.
+    ends: &'a [String; 2],
+    at: &'a RigidMotion,
+}
+
 impl ToUrdf<'_> {
     /// The joints that hold a link.
     pub(super) fn branch(&mut self, b: &Branch) {
@@ -80,7 +90,13 @@ impl ToUrdf<'_> {
                 "continuous"
             };
             let alone = all.len() == 1;
-            self.single(joint, s, (&name, kind), &[from, held.clone()], &at, alone);
+            let tag = JointTag {
+                name: &name,
+                kind,
+                ends: &[from, held.clone()],
+                at: &at,
+            };
+            self.single(joint, s, &tag, alone);
             (from, at) = (held, RigidMotion::IDENTITY);
             if let Moves::Screw(pitch) = s.moves {
                 let thread = self.joints.fit(&format!("{name}~thread"));
@@ -95,14 +111,13 @@ impl ToUrdf<'_> {
                     moves: Moves::Slide,
                     ..*s
                 };
-                self.single(
-                    usize::MAX,
-                    &slide,
-                    (&thread, "prismatic"),
-                    &[from, held.clone()],
-                    &at,
-                    false,
-                );
+                let tag = JointTag {
+                    name: &thread,
+                    kind: "prismatic",
+                    ends: &[from, held.clone()],
+                    at: &at,
+                };
+                self.single(usize::MAX, &slide, &tag, false);
                 from = held;
             }
         }
@@ -120,15 +135,13 @@ impl ToUrdf<'_> {
         name
     }
 
-    fn single(
-        &mut self,
-        joint: usize,
-        s: &Single,
-        (name, kind): (&str, &str),
-        ends: &[String; 2],
-        at: &RigidMotion,
-        alone: bool,
-    ) {
+    fn single(&mut self, joint: usize, s: &Single, tag: &JointTag<'_>, alone: bool) {
+        let &JointTag {
+            name,
+            kind,
+            ends,
+            at,
+        } = tag;
         let mut more = format!("    <axis xyz=\"{}\"/>\n", numbers(s.axis));
         let d = self.scene.payload.of(joint, s.freedom);
         let limits = (alone && joint != usize::MAX)
