@@ -36,6 +36,7 @@ use maud::{Markup, PreEscaped, html};
 use policy::POLICY;
 use style::STYLE;
 use symbols::Drawn;
+use variants::FoundColumns;
 
 pub use contents::{Commands, Page, Redesigns, SHOWN};
 pub use symbols::named_swaps;
@@ -90,6 +91,31 @@ const SECTIONS: [(&str, &str); 5] = [
     ("commands", "How to get this"),
 ];
 
+/// What the search found and what its ideas are, where there are any.
+fn found(page: &Page<'_>) -> Result<[Option<FoundColumns>; 2], AnalysisError> {
+    let columns = |r: Option<&Redesigns<'_>>| {
+        let some = r.filter(|r| !r.variants.is_empty());
+        some.map(|r| FoundColumns::new(page, r)).transpose()
+    };
+    Ok([
+        columns(page.redesigns.as_ref().ok())?,
+        columns(page.ideas.as_ref())?,
+    ])
+}
+
+fn head(name: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta name="color-scheme" content="light dark";
+            meta http-equiv="Content-Security-Policy" content=(POLICY);
+            title { (name) ": redundant constraints and redesigns" }
+            style { (PreEscaped(STYLE)) }
+        }
+    }
+}
+
 /// Writes the page.
 ///
 /// # Errors
@@ -102,15 +128,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let analysis = Analysis::new(m, page.states, &[]);
     let drawn: Vec<Drawn<'_>> = m.state_ids().map(|s| Drawn::new(page, s)).collect();
     let (store, swaps) = symbols::store(&drawn);
-    let search = match &page.redesigns {
-        Ok(r) if !r.variants.is_empty() => Some(variants::FoundColumns::new(page, r)?),
-        _ => None,
-    };
-    let ideas = page.ideas.as_ref().filter(|r| !r.variants.is_empty());
-    let ideas = ideas
-        .map(|r| variants::FoundColumns::new(page, r))
-        .transpose()?;
-    let data = Data::new(page, &analysis, [search, ideas], swaps).script();
+    let data = Data::new(page, &analysis, found(page)?, swaps).script();
     let section = |n: usize, inside: Markup| {
         let (mark, head) = SECTIONS[n];
         html! {
@@ -123,14 +141,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let markup = html! {
         (PreEscaped("<!doctype html>\n"))
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                title { (m.name) ": redundant constraints and redesigns" }
-                style { (PreEscaped(STYLE)) }
-            }
+            (head(&m.name))
             body {
                 a.skip href="#redesigns" { "Skip to the redesigns" }
                 header {

@@ -11,31 +11,27 @@ mod loads;
 mod marked;
 pub(super) mod moving;
 mod naming;
+mod on_paper;
 mod points;
 mod posed;
 pub(super) mod scene;
 
 use self::arrow::Arrow;
 use self::body::Body;
-use self::marked::{Marked, marked};
-use super::subject::{Mark, Subject, roominess};
-use crate::draw::place::projection::places::places;
-use crate::draw::place::projection::{self, JointInSpace, Projection, ToBeSeen, Vector, bounds};
+use self::marked::Marked;
+use super::subject::{Mark, Subject};
+use crate::draw::place::projection::{self, JointInSpace, Projection, Vector, bounds};
 use crate::draw::place::view_direction::Sight;
+use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use crate::draw::symbol::couplings;
-use crate::draw::symbol::drive;
-use crate::draw::symbol::ground::{Foot, Ground, grounds};
+use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::placed::Symbol;
 use crate::draw::symbol::swap::{self, Swap};
-use crate::draw::symbol::symbols;
-use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};
+use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect, add, mean, norm, polyline, scale, sub, unit};
+use crate::svg::plane::{Point, Rect, add, mean, polyline, scale, sub, unit};
 
-/// The room for the joints.
-const ROOM: Point = [560.0, 400.0];
 /// The room below for the axes and the scale.
 const STRIP: f64 = 84.0;
 
@@ -98,18 +94,6 @@ pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Ve
     (drawn.draw(), out)
 }
 
-/// The axes that outputs turn about in the frame.
-fn turning(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> Vec<Vector> {
-    let with = |j: JointId, role: Role| m.joints[j].links.iter().any(|&l| m.links[l].role == role);
-    let turns = |j: JointId| m.joints[j].joint_type.freedoms().contains(&Freedom::Rz);
-    let all = joints.iter().zip(places);
-    let outputs = all.filter(|(j, _)| with(**j, Role::Frame) && with(**j, Role::Output));
-    outputs
-        .filter(|(j, _)| turns(**j))
-        .map(|(_, p)| p.z)
-        .collect()
-}
-
 /// A joint on paper.
 struct Spot {
     joint: JointId,
@@ -117,6 +101,14 @@ struct Spot {
     symbol: Symbol,
     /// The room of the symbol, the ring of a drive included.
     rect: Rect,
+}
+
+/// What a label says, and how it looks.
+#[derive(Clone)]
+struct LabelText {
+    class: String,
+    size: f64,
+    text: String,
 }
 
 /// A scheme under way.
@@ -142,109 +134,7 @@ struct Kinematic<'a> {
     projection: Projection,
 }
 
-impl<'a> Kinematic<'a> {
-    fn new(subject: &'a Subject<'a>, sight: &Sight) -> Kinematic<'a> {
-        let m = subject.mechanism;
-        let joints: Vec<JointId> = m.joints_in(subject.state).collect();
-        let mut links: Vec<(LinkId, Vec<usize>)> = Vec::new();
-        for l in m.link_ids() {
-            let of: Vec<usize> = (0..joints.len())
-                .filter(|&i| m.joints[joints[i]].links.contains(&l))
-                .collect();
-            if !of.is_empty() {
-                links.push((l, of));
-            }
-        }
-        // A redesign is seen as the mechanism it came from, so that the two can be laid side by side.
-        let before = subject.marks.as_ref().and_then(|m| m.before.as_ref());
-        let seen = before.unwrap_or(m);
-        let places = places(seen, &joints);
-        // symbols do not grow, so that many of them need more paper
-        let more = roominess(seen, &joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
-        let room = ROOM.map(|r| r * more);
-        let mut points = marked(m, subject.state, &links);
-        let more: Vec<_> = points.iter().map(|p| p.place).collect();
-        let seen = ToBeSeen {
-            places: &places,
-            more: &more,
-            turning: &turning(seen, &joints, &places),
-        };
-        let projection = projection::best(seen, &links, m.frame(), room, sight);
-        for p in &mut points {
-            p.at = projection.flat(p.place);
-        }
-        let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
-        let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
-        let sizes = crate::draw::symbol::concentric::sizes(&at, &of);
-        let driven = drive::driven_slides(m, subject.state);
-        let spots: Vec<Spot> = joints
-            .iter()
-            .zip(&at)
-            .zip(sizes)
-            .map(|((&joint, &at), size)| {
-                let of = &m.joints[joint];
-                let place = projection::turned(&of.frame);
-                let slide = driven.iter().find(|(j, _)| *j == joint).map(|d| d.1);
-                let symbol = Symbol::new(
-                    subject,
-                    joint,
-                    &of.joint_type,
-                    &place,
-                    &projection.view,
-                    size,
-                    slide,
-                );
-                Spot {
-                    joint,
-                    at,
-                    rect: symbol.room.moved(at),
-                    symbol: symbol.marked(subject.joint_mark(joint)),
-                }
-            })
-            .collect();
-        let mut out = Kinematic {
-            subject,
-            spots,
-            bows: vec![0.0; links.len()],
-            facets: Vec::new(),
-            links,
-            grounds: Vec::new(),
-            places,
-            points,
-            traces: (Vec::new(), false),
-            arrows: Vec::new(),
-            shows: None,
-            projection,
-        };
-        out.facets = out.facets_in_space();
-        let moving = (0..out.links.len()).filter(|&l| !out.is_frame(out.links[l].0));
-        let moving: Vec<usize> = moving.collect();
-        let bodies: Vec<Body> = moving.iter().map(|&l| out.body(l)).collect();
-        for (&l, bow) in moving.iter().zip(body::bows(&bodies)) {
-            out.bows[l] = bow;
-        }
-        let loose = moving.iter().map(|&l| &out.links[l]);
-        let loose: Vec<(usize, Point)> = loose
-            .filter_map(|link| Some((link.1[0], out.loose(link)?)))
-            .collect();
-        let feet: Vec<Foot> = (0..out.spots.len()).map(|i| out.foot(i)).collect();
-        out.grounds = grounds(&feet, &out.links, m.frame(), &loose);
-        out
-    }
-
-    /// A joint as the ground has to know it: a block seen from the side has a rail.
-    fn foot(&self, i: usize) -> Foot {
-        let spot = &self.spots[i];
-        let of = &self.subject.mechanism.joints[spot.joint].joint_type;
-        let along = self.projection.view.flat(self.places[i].z);
-        let side = symbols::side_of_slide(of).filter(|_| norm(along) > 0.5);
-        Foot {
-            at: spot.at,
-            room: spot.rect,
-            slide: side.map(|side| (unit(along), side * spot.symbol.size + 2.0)),
-        }
-    }
-
+impl Kinematic<'_> {
     /// The shape of a link.
     fn body(&self, link: usize) -> Body {
         let (l, of) = &self.links[link];
@@ -260,12 +150,13 @@ impl<'a> Kinematic<'a> {
         }
         let mut points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
         points.extend(self.points_of(*l).map(|p| p.at));
-        points.extend(self.loose(&self.links[link]));
+        points.extend(self.loose(link));
         Body::new(&points).bowed(self.bows[link])
     }
 
     /// The end of a link with one joint, and no point of interest that it leads to.
-    fn loose(&self, (link, of): &(LinkId, Vec<usize>)) -> Option<Point> {
+    fn loose(&self, link: usize) -> Option<Point> {
+        let (link, of) = &self.links[link];
         let &[only] = of.as_slice() else { return None };
         if self.points_of(*link).next().is_some() {
             return None;
@@ -295,29 +186,8 @@ impl<'a> Kinematic<'a> {
 
     fn draw(mut self) -> Drawing {
         let (places, texts) = self.place_labels();
-        let mut area = bounds(&self.spots.iter().map(|s| s.at).collect::<Vec<_>>());
-        let all = self.spots.iter().map(|s| s.rect);
-        let all = all.chain(self.grounds.iter().map(Ground::rect));
-        let all = all.chain(places.iter().map(|p| p.rect));
-        let moving = self.links.iter().filter(|(l, _)| !self.is_frame(*l));
-        let ends = moving.filter_map(|link| self.loose(link));
-        let ends: Vec<Rect> = ends.map(|p| Rect::around(p, 8.0, 8.0)).collect();
-        for r in all.chain(ends) {
-            area = area.with(&r);
-        }
-        for l in 0..self.links.len() {
-            area = area.with(&bounds(&self.body(l).points).grown(3.0));
-        }
-        for p in self.points.iter().map(|p| p.at).chain(self.traced()) {
-            area = area.with(&Rect::around(p, 10.0, 10.0));
-        }
-        area = self
-            .arrow_room(&self.arrows)
-            .map_or(area, |r| area.with(&r));
         let circles = self.circles();
-        for c in circles.iter().flatten() {
-            area = area.with(&bounds(c).grown(1.0));
-        }
+        let area = self.drawn_room(&places, &circles);
         let title = self.subject.title();
         let [what, figures] = self.subject.subtitle(&self.what());
         let shows = self.shows.take().unwrap_or(figures);
@@ -338,16 +208,46 @@ impl<'a> Kinematic<'a> {
         self.draw_links(&mut sheet);
         self.draw_traces(&mut sheet);
         self.draw_couplings(&mut sheet, &circles, by);
-        for g in &self.grounds {
-            sheet.symbol(g.rect());
-            g.draw(&mut sheet);
-        }
-        for p in &places {
-            if let Some((a, b)) = p.leader {
-                sheet.line("lead", add(a, by), add(b, by));
-            }
+        self.draw_ground(&mut sheet);
+        for (a, b) in places.iter().filter_map(|p| p.leader) {
+            sheet.line("lead", add(a, by), add(b, by));
         }
         self.draw_points(&mut sheet);
+        self.draw_joints(&mut sheet);
+        self.draw_arrows(&mut sheet, by);
+        for (n, (place, text)) in places.iter().zip(&texts).enumerate() {
+            self.draw_name(&mut sheet, n, place.rect.moved(by).middle(), text);
+        }
+        self.draw_below(&mut sheet, &plan);
+        sheet.finish(&caption, &plan)
+    }
+
+    /// The room of all that is drawn, before anything is moved to its place on the sheet.
+    fn drawn_room(&self, labels: &[LabelPlace], circles: &[Vec<Vec<Point>>]) -> Rect {
+        let mut area = bounds(&self.spots.iter().map(|s| s.at).collect::<Vec<_>>());
+        let all = self.spots.iter().map(|s| s.rect);
+        let all = all.chain(self.grounds.iter().map(Ground::rect));
+        let all = all.chain(labels.iter().map(|p| p.rect));
+        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
+        let ends = moving.filter_map(|l| self.loose(l));
+        for r in all.chain(ends.map(|p| Rect::around(p, 8.0, 8.0))) {
+            area = area.with(&r);
+        }
+        for l in 0..self.links.len() {
+            area = area.with(&bounds(&self.body(l).points).grown(3.0));
+        }
+        for p in self.points.iter().map(|p| p.at).chain(self.traced()) {
+            area = area.with(&Rect::around(p, 10.0, 10.0));
+        }
+        let arrows = self.arrow_room(&self.arrows);
+        area = arrows.map_or(area, |r| area.with(&r));
+        for c in circles.iter().flatten() {
+            area = area.with(&bounds(c).grown(1.0));
+        }
+        area
+    }
+
+    fn draw_joints(&self, sheet: &mut Sheet) {
         for s in self.outer_first().into_iter().map(|i| &self.spots[i]) {
             sheet.symbol(s.rect);
             let mark = self.subject.joint_mark(s.joint);
@@ -356,20 +256,19 @@ impl<'a> Kinematic<'a> {
                 s.symbol.draw(sheet, self.subject, s.joint, mark);
             });
         }
-        self.draw_arrows(&mut sheet, by);
-        for (n, (place, (class, size, text))) in places.iter().zip(&texts).enumerate() {
-            let at = place.rect.moved(by).middle();
-            let write = |s: &mut Sheet| s.text(class, *size, at, Anchor::Middle, text);
-            match self.spots.get(n) {
-                Some(s) => {
-                    let id = &self.subject.mechanism.joints[s.joint].id;
-                    sheet.group("data-joint-name", id, [0.0; 2], write);
-                }
-                None => write(&mut sheet),
+    }
+
+    /// A label; those of joints come first and stand in groups, so that a joint is found by its name.
+    fn draw_name(&self, sheet: &mut Sheet, n: usize, at: Point, label: &LabelText) {
+        let LabelText { class, size, text } = label;
+        let write = |s: &mut Sheet| s.text(class, *size, at, Anchor::Middle, text);
+        match self.spots.get(n) {
+            Some(s) => {
+                let id = &self.subject.mechanism.joints[s.joint].id;
+                sheet.group("data-joint-name", id, [0.0; 2], write);
             }
+            None => write(sheet),
         }
-        self.draw_below(&mut sheet, &plan);
-        sheet.finish(&caption, &plan)
     }
 
     fn draw_links(&self, sheet: &mut Sheet) {

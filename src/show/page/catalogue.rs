@@ -46,14 +46,8 @@ fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError>
     Ok(rows.into_iter().map(map).collect())
 }
 
-/// The page of a catalogue, `file` being its name for the commands that go on with it.
-///
-/// # Errors
-/// Where the database cannot be read.
-///
-/// # Complexity
-/// A mechanism read for each structure.
-pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
+/// The data of the cards: each structure with a layout and each drawn mechanism, with its drawing and its ideas.
+fn cards(store: &Store) -> Result<Vec<Map<String, Value>>, StoreError> {
     let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
     for mut idea in maps(store, IDEAS)? {
         if let Some(Value::String(of)) = idea.remove("structure") {
@@ -78,18 +72,50 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
         card.insert("drawing".to_owned(), drawn.unwrap_or_default());
         cards.push(card);
     }
+    Ok(cards)
+}
+
+/// What the script is given, to stand in the page.
+fn data(file: &str, cards: Vec<Map<String, Value>>) -> String {
+    let cards = cards.into_iter().map(Value::Object).collect();
+    let data = Map::from_iter([
+        ("file".to_owned(), file.into()),
+        ("cards".to_owned(), cards),
+    ]);
+    escaped(&Value::Object(data).to_string())
+}
+
+fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
+    html! {
+        details {
+            summary { "Structures without a layout" }
+            div.wide { table {
+                thead { tr { th { "why" } th.n { "structures" } } }
+                tbody { @for w in without { tr {
+                    td { (w.get("why").and_then(Value::as_str).unwrap_or_default()) }
+                    td.n { (w.get("n").and_then(Value::as_u64).unwrap_or_default()) }
+                } } }
+            } }
+        }
+    }
+}
+
+/// The page of a catalogue, `file` being its name for the commands that go on with it.
+///
+/// # Errors
+/// Where the database cannot be read.
+///
+/// # Complexity
+/// A mechanism read for each structure.
+pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
+    let cards = cards(store)?;
     let without = maps(store, WITHOUT)?;
     let left_out: u64 = without
         .iter()
         .filter_map(|w| w.get("n").and_then(Value::as_u64))
         .sum();
     let count = cards.len();
-    let cards = cards.into_iter().map(Value::Object).collect();
-    let data = Map::from_iter([
-        ("file".to_owned(), file.into()),
-        ("cards".to_owned(), cards),
-    ]);
-    let data = escaped(&Value::Object(data).to_string());
+    let data = data(file, cards);
     let title = "Grippers by structure";
     let page = html! {
         (DOCTYPE)
@@ -122,18 +148,7 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                     ul id="cards" tabindex="-1" {}
                     p id="more" hidden { button type="button" { "Show more" } }
                     dialog id="chosen" aria-labelledby="chosen-name" {}
-                    @if !without.is_empty() {
-                        details {
-                            summary { "Structures without a layout" }
-                            div.wide { table {
-                                thead { tr { th { "why" } th.n { "structures" } } }
-                                tbody { @for w in &without { tr {
-                                    td { (w.get("why").and_then(Value::as_str).unwrap_or_default()) }
-                                    td.n { (w.get("n").and_then(Value::as_u64).unwrap_or_default()) }
-                                } } }
-                            } }
-                        }
-                    }
+                    @if !without.is_empty() { (left_out_table(&without)) }
                 }
                 script id="data" type="application/json" { (PreEscaped(data)) }
                 script { (PreEscaped(SCRIPT.concat())) }

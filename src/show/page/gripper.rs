@@ -52,30 +52,15 @@ struct GearData {
 pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
     let ids: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let joints: Vec<&Joint> = ids.iter().map(|&j| &m.joints[j]).collect();
-    let square = |j: &&Joint| {
-        let [x, y, z] = real(&j.frame.axis);
-        let across = x == 0.0 && y == 0.0;
-        match j.joint_type {
-            JointType::Prismatic | JointType::Cylindrical => across || z == 0.0,
-            _ => across,
-        }
-    };
-    if !joints.iter().all(square) {
+    if !joints.iter().all(|j| is_square(j)) {
         return None;
     }
     let pins: Vec<[f64; 2]> = joints.iter().map(|j| flat(real(&j.frame.point))).collect();
-    let links: Vec<Vec<usize>> = m
-        .link_ids()
-        .map(|l| {
-            let of = |(_, j): &(usize, &&Joint)| j.links.contains(&l);
-            joints
-                .iter()
-                .enumerate()
-                .filter(of)
-                .map(|(i, _)| i)
-                .collect()
-        })
-        .collect();
+    let links = m.link_ids().map(|l| {
+        let own = joints.iter().enumerate();
+        let own = own.filter(|(_, j)| j.links.contains(&l));
+        own.map(|(i, _)| i).collect()
+    });
     let drive = joints.iter().position(|j| j.drive);
     let driver = drive.map(|d| joints[d].links[1].index());
     let jaws: Vec<usize> = m
@@ -83,15 +68,7 @@ pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
         .filter(|(_, l)| l.role == Role::Output)
         .map(|(l, _)| l.index())
         .collect();
-    // What a person drew may say by its forces where the part is.
-    let tip = |jaw: &usize| {
-        let points = m.points.iter().map(|p| (p.link, &p.point));
-        let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
-        let (_, at) = points.chain(forces).find(|(l, _)| l.index() == *jaw)?;
-        Some(flat(real(at)))
-    };
-    let tips: Option<Vec<[f64; 2]>> = jaws.iter().map(tip).collect();
-    let tips = tips.filter(|t| (2..=3).contains(&t.len()));
+    let tips = tips(m, &jaws).filter(|t| (2..=3).contains(&t.len()));
     let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
     let place = |p: &[f64; 2]| p.map(|x| x * scaled);
     let slides = |d: usize| joints[d].joint_type.freedoms().iter().any(|f| f.slides());
@@ -104,7 +81,7 @@ pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
         along: joints.iter().map(|j| along(j)).collect(),
         pins: pins.iter().map(place).collect(),
         names: joints.iter().map(|j| j.id.clone()).collect(),
-        links,
+        links: links.collect(),
         frame: m.frame().index(),
         driver,
         jaws,
@@ -113,6 +90,27 @@ pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
         tips: tips.map(|t| t.iter().map(place).collect()),
         scale: scaled,
     })
+}
+
+/// Whether a pin is square to the plane of x and y; a slide may lie in it.
+fn is_square(joint: &Joint) -> bool {
+    let [x, y, z] = real(&joint.frame.axis);
+    let across = x == 0.0 && y == 0.0;
+    match joint.joint_type {
+        JointType::Prismatic | JointType::Cylindrical => across || z == 0.0,
+        _ => across,
+    }
+}
+
+/// Where the jaws grip, where that is known of all. What a person drew may say by its forces where the part is.
+fn tips(m: &Mechanism, jaws: &[usize]) -> Option<Vec<[f64; 2]>> {
+    let tip = |jaw: &usize| {
+        let points = m.points.iter().map(|p| (p.link, &p.point));
+        let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
+        let (_, at) = points.chain(forces).find(|(l, _)| l.index() == *jaw)?;
+        Some(flat(real(at)))
+    };
+    jaws.iter().map(tip).collect()
 }
 
 fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {

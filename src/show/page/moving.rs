@@ -3,6 +3,7 @@
 use crate::draw::Moved;
 use crate::file::read::workload::motion::stroke;
 use crate::format::number::decimals;
+use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::drive_range::{SLIDE, Way, way as way_of};
 use crate::motion::follow::slides;
@@ -13,7 +14,7 @@ use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_sl
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::idle_animation::{FAR, wiggle};
 use crate::view::analysis::idle;
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, ensure};
 use std::f64::consts::PI;
 
 /// Pictures of a motion where nobody says how many: at 30 a second, 2.4 seconds.
@@ -49,22 +50,8 @@ impl Moving {
         };
         let slide = slides(&pose, drive);
         let unit = if slide { pose.length } else { 1.0 };
-        let asked = match range {
-            Some(text) => {
-                lengths_where_it_slides(m, slide, text)?;
-                Some(stroke(text)?)
-            }
-            // the file's own is that of its first drive
-            None => m.loads.stroke.filter(|_| named.is_none()),
-        };
+        let asked = stroke_asked(m, slide, range, named)?;
         let steps = asked.map_or(STEPS, |s| s.steps.clamp(2, MOST));
-        if range.is_some() {
-            let asked = asked.map_or(0, |s| s.steps);
-            ensure!(
-                (2..=MOST).contains(&asked),
-                "--stroke takes 2 to {MOST} steps for a drawing"
-            );
-        }
         let range = asked.map(|s| [s.from / unit, s.to / unit]);
         let mut way = way_of(&pose, drive, &held, range, steps);
         // Nobody wants to see jaws go through each other.
@@ -79,40 +66,21 @@ impl Moving {
             way = way_of(&pose, drive, &held, Some(range), steps);
         }
         let name = name_of(m, &pose, drive);
-        let (Some(first), Some(last)) = (way.at.first(), way.at.last()) else {
-            bail!("{name} cannot move from the pose of the file");
-        };
-        ensure!(
-            way.at.len() > 1 && (last - first).abs() > 1e-6,
-            "{name} cannot move from the pose of the file"
-        );
-        let in_units = |x: f64| {
-            if slide {
-                format!("{} {}", decimals(x * unit, 2), m.length_unit.symbol)
-            } else {
-                format!("{}°", decimals(x.to_degrees(), 1))
-            }
-        };
+        let [first, last] = ends_of(&way)
+            .filter(|[first, last]| way.at.len() > 1 && (last - first).abs() > 1e-6)
+            .with_context(|| format!("{name} cannot move from the pose of the file"))?;
         let words = if way.closed {
             format!("drive {name} goes once round")
         } else {
-            let why = |n: usize| match met[n] {
-                Some(_) => Some("jaws meet".to_owned()),
-                None => way.ends[n].map(|s| s.why.word().replace('-', " ")),
+            let place = |x: f64| {
+                if slide {
+                    format!("{} {}", decimals(x * unit, 2), m.length_unit.symbol)
+                } else {
+                    format!("{}°", decimals(x.to_degrees(), 1))
+                }
             };
-            let ends = [why(0), why(1)];
-            let ends = match ends {
-                [Some(a), Some(b)] if a == b => format!(", {a} at both ends"),
-                [a, b] => [(a, "beginning"), (b, "end")]
-                    .into_iter()
-                    .filter_map(|(e, at)| e.map(|e| format!(", {e} at the {at}")))
-                    .collect(),
-            };
-            format!(
-                "drive {name} goes from {} to {}{ends}",
-                in_units(*first),
-                in_units(*last)
-            )
+            let (from, to, why) = (place(first), place(last), why_it_ends(&way, met));
+            format!("drive {name} goes from {from} to {to}{why}")
         };
         Ok(Moving {
             pose,
@@ -124,8 +92,7 @@ impl Moving {
 
     /// From where to where the drive goes, in radians or the file's length unit.
     pub fn reach(&self) -> Option<[f64; 2]> {
-        let ends = [self.way.at.first()?, self.way.at.last()?];
-        Some(ends.map(|x| x * self.unit))
+        ends_of(&self.way).map(|ends| ends.map(|x| x * self.unit))
     }
 
     /// The working motion of a mechanism in which no joint can be a drive.
@@ -205,5 +172,45 @@ impl Moving {
             way: &self.way,
             words: &self.words,
         }
+    }
+}
+
+/// The stroke that the drive is to make: the one given, or the file's own; none where it goes as far as it can.
+fn stroke_asked(
+    m: &Mechanism,
+    slide: bool,
+    range: Option<&str>,
+    named: Option<&str>,
+) -> anyhow::Result<Option<Stroke>> {
+    let Some(text) = range else {
+        // the file's own is that of its first drive
+        return Ok(m.loads.stroke.filter(|_| named.is_none()));
+    };
+    lengths_where_it_slides(m, slide, text)?;
+    let asked = stroke(text)?;
+    ensure!(
+        (2..=MOST).contains(&asked.steps),
+        "--stroke takes 2 to {MOST} steps for a drawing"
+    );
+    Ok(Some(asked))
+}
+
+/// Where a way begins and where it ends; nothing of one without a pose.
+fn ends_of(way: &Way) -> Option<[f64; 2]> {
+    Some([*way.at.first()?, *way.at.last()?])
+}
+
+/// What stops the drive at either end of its way, to go on after where it goes; `met` is where jaws meet.
+fn why_it_ends(way: &Way, met: [Option<f64>; 2]) -> String {
+    let why = |n: usize| match met[n] {
+        Some(_) => Some("jaws meet".to_owned()),
+        None => way.ends[n].map(|s| s.why.word().replace('-', " ")),
+    };
+    match [why(0), why(1)] {
+        [Some(a), Some(b)] if a == b => format!(", {a} at both ends"),
+        [a, b] => [(a, "beginning"), (b, "end")]
+            .into_iter()
+            .filter_map(|(e, at)| e.map(|e| format!(", {e} at the {at}")))
+            .collect(),
     }
 }

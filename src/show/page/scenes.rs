@@ -72,7 +72,7 @@ pub fn moving_scene(
 
 /// The picture of it at rest, without title and legend.
 pub fn still_picture(m: &Mechanism) -> Option<String> {
-    let (Drawing { svg, .. }, scene) = still(m, (None, StateId::FREE), &[])?;
+    let (Drawing { svg, .. }, scene) = still(m, None, StateId::FREE, &[])?;
     let [left, top, right, bottom] = scene.room();
     let room = format!("viewBox=\"{left} {top} {} {}\"", right - left, bottom - top);
     let (before, rest) = svg.split_once("width=\"")?;
@@ -87,12 +87,14 @@ pub fn still_scene(
     of: (Option<&StateAnalysis>, StateId),
     swaps: &[Swap<'_>],
 ) -> Option<Scene> {
-    still(m, of, swaps).map(|(_, scene)| scene)
+    let (found, state) = of;
+    still(m, found, state, swaps).map(|(_, scene)| scene)
 }
 
 fn still(
     m: &Mechanism,
-    (found, state): (Option<&StateAnalysis>, StateId),
+    found: Option<&StateAnalysis>,
+    state: StateId,
     swaps: &[Swap<'_>],
 ) -> Option<(Drawing, Scene)> {
     let rest = Moving::still(m, state).ok()?;

@@ -112,23 +112,8 @@ impl FoundColumns {
         let further = further(r)?;
         let working = page.states.first().map(|s| s.working_mobility);
         let working = working.and_then(|w| i64::try_from(w).ok());
-        let mut idle_words = vec![String::new()];
-        let mut idle_word = Vec::new();
-        for f in &further {
-            let known = idle_words.iter().position(|w| *w == f.idle);
-            idle_word.push(known.unwrap_or_else(|| {
-                idle_words.push(f.idle.clone());
-                idle_words.len() - 1
-            }));
-        }
-        let states = (1..search.mechanism.states.len()).map(|s| {
-            let of = further.iter().map(|f| f.states[s - 1]);
-            let (mobility, redundant) = of.unzip();
-            InState {
-                mobility,
-                redundant,
-            }
-        });
+        let (idle_words, idle_word) = idle_words(&further);
+        let states = (1..search.mechanism.states.len()).map(|s| InState::new(&further, s));
         let conditions = &search.conditions;
         Ok(FoundColumns {
             space: search.size().to_string(),
@@ -178,6 +163,32 @@ impl FoundColumns {
             workload: workload(r),
         })
     }
+}
+
+impl InState {
+    /// The figures of the variants in a state other than the free one.
+    fn new(further: &[Further], state: usize) -> InState {
+        let of = further.iter().map(|f| f.states[state - 1]);
+        let (mobility, redundant) = of.unzip();
+        InState {
+            mobility,
+            redundant,
+        }
+    }
+}
+
+/// The texts on idle motions, each once, and the number of its text by variant.
+fn idle_words(further: &[Further]) -> (Vec<String>, Vec<usize>) {
+    let mut words = vec![String::new()];
+    let mut word = Vec::new();
+    for f in further {
+        let known = words.iter().position(|w| *w == f.idle);
+        word.push(known.unwrap_or_else(|| {
+            words.push(f.idle.clone());
+            words.len() - 1
+        }));
+    }
+    (words, word)
 }
 
 fn why(r: &Redesigns<'_>) -> Vec<Vec<(String, String)>> {

@@ -10,9 +10,10 @@ mod text;
 
 use crate::geom::expr::PI_DIGITS;
 use crate::model::claim::Topic;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
+use crate::redundancy::local_mobility;
 use crate::redundancy::stress::{JointWrench, StressVerdict};
 use crate::view::analysis::least_rows::{ContourRows, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};
@@ -224,7 +225,6 @@ impl<'a> Analysis<'a> {
 
 impl<'a> State<'a> {
     fn new(mechanism: &'a Mechanism, s: &'a StateAnalysis) -> State<'a> {
-        let joint = |j: JointId| mechanism.joints[j].id.as_str();
         let most = s.at_most();
         State {
             state: &s.state,
@@ -253,28 +253,8 @@ impl<'a> State<'a> {
                 .iter()
                 .map(|c| Contour::new(mechanism, c))
                 .collect(),
-            external: s.external.map(|e| External {
-                constraints: e.constraints,
-                actual_mobility: e.actual_mobility,
-                working_mobility: e.working_mobility,
-                lost_mobility: e.lost_mobility,
-                redundant: e.redundant,
-                redundant_by_rank: e.by_rank,
-                agree: e.redundant == e.by_rank,
-            }),
-            idle: s
-                .idle
-                .iter()
-                .map(|i| Idle {
-                    links: i
-                        .links
-                        .iter()
-                        .map(|&l| mechanism.links[l].id.as_str())
-                        .collect(),
-                    through: i.through.iter().map(|&j| joint(j)).collect(),
-                    text: idle::words(mechanism, i),
-                })
-                .collect(),
+            external: s.external.map(External::new),
+            idle: s.idle.iter().map(|i| Idle::new(mechanism, i)).collect(),
             self_stresses: s
                 .self_stresses
                 .iter()
@@ -284,7 +264,7 @@ impl<'a> State<'a> {
                 .left_out
                 .iter()
                 .map(|&(j, freedoms)| LeftOut {
-                    joint: joint(j),
+                    joint: &mechanism.joints[j].id,
                     freedoms,
                 })
                 .collect(),
@@ -301,6 +281,31 @@ impl<'a> State<'a> {
             }),
             per_coupling: s.per_coupling.iter().map(Coupling::new).collect(),
             suggestions: None,
+        }
+    }
+}
+
+impl External {
+    fn new(e: crate::redundancy::analysis::External) -> External {
+        External {
+            constraints: e.constraints,
+            actual_mobility: e.actual_mobility,
+            working_mobility: e.working_mobility,
+            lost_mobility: e.lost_mobility,
+            redundant: e.redundant,
+            redundant_by_rank: e.by_rank,
+            agree: e.redundant == e.by_rank,
+        }
+    }
+}
+
+impl<'a> Idle<'a> {
+    fn new(mechanism: &'a Mechanism, i: &local_mobility::Idle) -> Idle<'a> {
+        let (links, through) = (i.links.iter(), i.through.iter());
+        Idle {
+            links: links.map(|&l| mechanism.links[l].id.as_str()).collect(),
+            through: through.map(|&j| mechanism.joints[j].id.as_str()).collect(),
+            text: idle::words(mechanism, i),
         }
     }
 }

@@ -87,7 +87,8 @@ impl<'a> StrokeData<'a> {
     #[must_use]
     pub fn of(asked: &AskedStroke<'a>) -> StrokeData<'a> {
         let (m, state) = asked.subject();
-        StrokeData::new(m, state, asked.drive(), asked.range(), &asked.follow())
+        let (drive, slides) = asked.drive();
+        StrokeData::new(m, state, drive, slides, asked.range(), &asked.follow())
     }
 
     /// What was found of a drive of this name, which slides or turns, over a range.
@@ -95,7 +96,8 @@ impl<'a> StrokeData<'a> {
     pub fn new(
         m: &'a Mechanism,
         state: StateId,
-        (drive, slides): (String, bool),
+        drive: String,
+        slides: bool,
         [from, to]: [f64; 2],
         found: &StrokeFigures,
     ) -> StrokeData<'a> {
@@ -183,6 +185,13 @@ impl<'a> StrokeData<'a> {
             self.place(self.from, 3),
             self.place(self.to, 3)
         );
+        let _ = writeln!(out, "{}\n", self.pose_table(width));
+        out += &self.remarks();
+        out
+    }
+
+    /// A row for each pose.
+    fn pose_table(&self, width: Option<u16>) -> String {
         // Each change stands at the first pose that is not before it.
         let ahead = (self.to - self.from).signum();
         let mut changes = self.changes.iter().peekable();
@@ -223,7 +232,13 @@ impl<'a> StrokeData<'a> {
             "outputs: middle, turn",
             "",
         ];
-        let _ = writeln!(out, "{}\n", table(&header, rows.collect(), width));
+        table(&header, rows.collect(), width)
+    }
+
+    /// Where the rank changes, what no drive decides, and why the way ends early.
+    fn remarks(&self) -> String {
+        let mut out = String::new();
+        // Writing to a string cannot fail.
         for c in &self.changes {
             let _ = writeln!(out, "  {}", self.told(c));
         }

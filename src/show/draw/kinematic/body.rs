@@ -83,11 +83,11 @@ impl Body {
 /// How far each bar has to bow out so that none lies on another; the longer ones stay straight.
 pub(super) fn bows(bodies: &[Body]) -> Vec<f64> {
     let bar = |i: usize| match bodies[i].points[..] {
-        [a, b] if !bodies[i].plate => Some((a, b)),
+        [a, b] if !bodies[i].plate => Some([a, b]),
         _ => None,
     };
     let mut order: Vec<usize> = (0..bodies.len()).filter(|&i| bar(i).is_some()).collect();
-    let length = |i: usize| bar(i).map_or(0.0, |(a, b)| norm(sub(b, a)));
+    let length = |i: usize| bar(i).map_or(0.0, |[a, b]| norm(sub(b, a)));
     order.sort_by(|&i, &j| length(j).total_cmp(&length(i)).then(i.cmp(&j)));
     let mut out = vec![0.0; bodies.len()];
     let mut done: Vec<usize> = Vec::new();
@@ -96,7 +96,7 @@ pub(super) fn bows(bodies: &[Body]) -> Vec<f64> {
         // as seen from the same side for all
         let taken = done.iter().filter_map(|&k| {
             let other = bar(k)?;
-            let same = dot(sub(own.1, own.0), sub(other.1, other.0)) > 0.0;
+            let same = dot(sub(own[1], own[0]), sub(other[1], other[0])) > 0.0;
             on_each_other(own, other).then_some(if same { out[k] } else { -out[k] })
         });
         let taken: Vec<f64> = taken.collect();
@@ -110,7 +110,7 @@ pub(super) fn bows(bodies: &[Body]) -> Vec<f64> {
 }
 
 /// Whether two segments share more than a point of the paper.
-fn on_each_other((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+fn on_each_other([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let along = unit(sub(b, a));
     let off = |p: Point| cross(along, sub(p, a)).abs();
     if off(c).max(off(d)) > THIN {

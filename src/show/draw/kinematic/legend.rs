@@ -13,21 +13,7 @@ use std::fmt::Write as _;
 impl Kinematic<'_> {
     pub(super) fn legend(&self) -> Vec<(Swatch, String)> {
         let m = self.subject.mechanism;
-        // each type as the first joint of it is drawn
-        let mut types: Vec<(&JointType, &Spot)> = Vec::new();
-        for s in &self.spots {
-            let t = &m.joints[s.joint].joint_type;
-            if !types.iter().any(|(other, _)| *other == t) {
-                types.push((t, s));
-            }
-        }
-        let mut out: Vec<(Swatch, String)> = types
-            .into_iter()
-            .map(|(t, s)| {
-                let shapes = symbols::fitted(&s.symbol.plain());
-                (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
-            })
-            .collect();
+        let mut out = self.joint_type_rows();
         if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
             let draw = |s: &mut Sheet, p: Point| s.shapes(&drive::round("", 9.5), p);
             out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
@@ -68,16 +54,36 @@ impl Kinematic<'_> {
         }
         out.extend(self.arrow_rows(&self.arrows));
         out.extend(self.subject.mark_rows());
-        let none = |_: &mut Sheet, _: Point| {};
-        if self.places.iter().any(|p| p.moved) {
-            let text = "joints that meet in a point stand farther along their axes";
-            out.push((Swatch::Symbol(none), text.to_owned()));
-        }
-        if self.bows.iter().any(|&b| b != 0.0) {
-            let text = "a straight bar bows where it would lie on another";
-            out.push((Swatch::Symbol(none), text.to_owned()));
-        }
+        out.extend(self.departures());
         out
+    }
+
+    /// Each type of joint as the first joint of it is drawn.
+    fn joint_type_rows(&self) -> Vec<(Swatch, String)> {
+        let m = self.subject.mechanism;
+        let mut types: Vec<(&JointType, &Spot)> = Vec::new();
+        for s in &self.spots {
+            let t = &m.joints[s.joint].joint_type;
+            if !types.iter().any(|(other, _)| *other == t) {
+                types.push((t, s));
+            }
+        }
+        let row = |(t, s): (&JointType, &Spot)| {
+            let shapes = symbols::fitted(&s.symbol.plain());
+            (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
+        };
+        types.into_iter().map(row).collect()
+    }
+
+    /// Where the drawing is not as the coordinates have it.
+    fn departures(&self) -> impl Iterator<Item = (Swatch, String)> {
+        let moved = self.places.iter().any(|p| p.moved);
+        let moved = moved.then_some("joints that meet in a point stand farther along their axes");
+        let bowed = self.bows.iter().any(|&b| b != 0.0);
+        let bowed = bowed.then_some("a straight bar bows where it would lie on another");
+        let none = |_: &mut Sheet, _: Point| {};
+        let texts = moved.into_iter().chain(bowed);
+        texts.map(move |text| (Swatch::Symbol(none), text.to_owned()))
     }
 
     /// The drawing in words, for those who do not see it.

@@ -1,98 +1,117 @@
 //! Where the names of joints and links go.
 
-use super::Kinematic;
+use super::{Kinematic, LabelText, Spot};
 use crate::draw::sheet::SMALL;
 use crate::draw::sheet::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::draw::symbol::ground::Ground;
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
 use crate::svg::text::{names, width};
 
+/// A small label, so far from what it names at least.
+fn small(class: String, text: String, anchor: Point, clear: f64) -> (Wish, LabelText) {
+    let wish = Wish {
+        width: width(&text, SMALL),
+        height: 12.0,
+        anchor,
+        clear,
+        first: Vec::new(),
+    };
+    let label = LabelText {
+        class,
+        size: SMALL,
+        text,
+    };
+    (wish, label)
+}
+
 impl Kinematic<'_> {
-    /// Where the ids of joints and links go, with their classes and sizes.
-    pub(super) fn place_labels(&self) -> (Vec<labels::LabelPlace>, Vec<(String, f64, String)>) {
-        let m = self.subject.mechanism;
+    /// Where the ids of joints, links and points of interest go, in this order, and what is written there.
+    pub(super) fn place_labels(&self) -> (Vec<labels::LabelPlace>, Vec<LabelText>) {
         let mut taken: Vec<Rect> = self.spots.iter().map(|s| s.rect).collect();
         taken.extend(self.grounds.iter().map(Ground::rect));
+        taken.extend(self.points.iter().map(|p| Rect::around(p.at, 9.0, 9.0)));
+        let lines = self.drawn_lines().into_iter().map(|ends| AvoidedLine {
+            ends,
+            weight: CROSSED,
+        });
+        let lines: Vec<AvoidedLine> = lines.collect();
+        let named = [self.joint_names(), self.link_names(), self.point_names()].concat();
+        let (wishes, texts): (Vec<Wish>, Vec<LabelText>) = named.into_iter().unzip();
+        (labels::place(&wishes, &mut taken, &lines), texts)
+    }
+
+    /// The segments of all that is drawn, which no label may lie on.
+    fn drawn_lines(&self) -> Vec<(Point, Point)> {
         let mut lines = Vec::new();
-        let mut add_line = |a: Point, b: Point| {
-            lines.push(AvoidedLine {
-                ends: (a, b),
-                weight: CROSSED,
-            });
-        };
         for (n, (l, _)) in self.links.iter().enumerate() {
             if !self.is_frame(*l) {
-                self.body(n).lines().for_each(|(a, b)| add_line(a, b));
+                lines.extend(self.body(n).lines());
             }
         }
-        for (a, b) in self.grounds.iter().filter_map(Ground::stem) {
-            add_line(a, b);
-        }
-        for (a, b) in self.coupling_lines() {
-            add_line(a, b);
-        }
+        lines.extend(self.grounds.iter().filter_map(Ground::stem));
+        lines.extend(self.coupling_lines());
         for c in self.circles().iter().flatten() {
-            for (i, &p) in c.iter().enumerate() {
-                add_line(p, c[(i + 1) % c.len()]);
-            }
+            lines.extend((0..c.len()).map(|i| (c[i], c[(i + 1) % c.len()])));
         }
-        taken.extend(self.points.iter().map(|p| Rect::around(p.at, 9.0, 9.0)));
         for way in &self.traces.0 {
-            way.windows(2).for_each(|w| add_line(w[0], w[1]));
+            lines.extend(way.windows(2).map(|w| (w[0], w[1])));
         }
         for shape in self.arrows.iter().flat_map(|a| self.arrow_shapes(a)) {
-            let points = shape.points();
-            points.windows(2).for_each(|w| add_line(w[0], w[1]));
+            lines.extend(shape.points().windows(2).map(|w| (w[0], w[1])));
         }
-        let (mut wishes, mut texts) = (Vec::new(), Vec::new());
-        let ids: Vec<&str> = self
-            .spots
-            .iter()
-            .map(|s| m.joints[s.joint].id.as_str())
-            .collect();
-        for (s, text) in self.spots.iter().zip(names(&ids, SMALL, 150.0)) {
+        lines
+    }
+
+    /// The ids of joints, each beside its symbol.
+    fn joint_names(&self) -> Vec<(Wish, LabelText)> {
+        let m = self.subject.mechanism;
+        let spots = self.spots.iter();
+        let ids: Vec<&str> = spots.map(|s| m.joints[s.joint].id.as_str()).collect();
+        let one = |(s, text): (&Spot, String)| {
             let half = [s.rect.right - s.rect.left, s.rect.bottom - s.rect.top];
-            wishes.push(Wish {
-                width: width(&text, SMALL),
-                height: 12.0,
-                anchor: s.at,
-                clear: half[0].min(half[1]) / 2.0,
-                first: Vec::new(),
-            });
+            let clear = half[0].min(half[1]) / 2.0;
             let mark = self.subject.joint_mark(s.joint).class();
-            texts.push((format!("small soft{mark}"), SMALL, text));
-        }
-        let ids: Vec<&str> = self
-            .links
-            .iter()
-            .map(|(l, _)| m.links[*l].id.as_str())
-            .collect();
-        let shown = self.links.iter().zip(names(&ids, 12.0, 150.0));
-        for (n, ((l, _), text)) in shown.enumerate() {
+            small(format!("small soft{mark}"), text, s.at, clear)
+        };
+        let texts = names(&ids, SMALL, 150.0);
+        self.spots.iter().zip(texts).map(one).collect()
+    }
+
+    /// The ids of links, each beside or on its body.
+    fn link_names(&self) -> Vec<(Wish, LabelText)> {
+        let m = self.subject.mechanism;
+        let links = self.links.iter();
+        let ids: Vec<&str> = links.map(|(l, _)| m.links[*l].id.as_str()).collect();
+        let one = |(n, text): (usize, String)| {
             let size = [width(&text, 12.0), 13.0];
             let (anchor, first) = self.link_places(n, size);
-            wishes.push(Wish {
+            let wish = Wish {
                 width: size[0],
                 height: size[1],
                 anchor,
                 clear: 2.0,
                 first,
-            });
-            let mark = self.subject.link_mark(*l).class();
-            texts.push((format!("name{mark}"), 12.0, text));
-        }
+            };
+            let mark = self.subject.link_mark(self.links[n].0).class();
+            let label = LabelText {
+                class: format!("name{mark}"),
+                size: 12.0,
+                text,
+            };
+            (wish, label)
+        };
+        let texts = names(&ids, 12.0, 150.0).into_iter();
+        texts.enumerate().map(one).collect()
+    }
+
+    /// The ids of points of interest.
+    fn point_names(&self) -> Vec<(Wish, LabelText)> {
         let ids: Vec<&str> = self.points.iter().map(|p| p.id.as_str()).collect();
-        for (p, text) in self.points.iter().zip(names(&ids, SMALL, 150.0)) {
-            wishes.push(Wish {
-                width: width(&text, SMALL),
-                height: 12.0,
-                anchor: p.at,
-                clear: 5.0,
-                first: Vec::new(),
-            });
-            texts.push(("small soft".to_owned(), SMALL, text));
-        }
-        (labels::place(&wishes, &mut taken, &lines), texts)
+        let texts = names(&ids, SMALL, 150.0);
+        let named = self.points.iter().zip(texts);
+        named
+            .map(|(p, text)| small("small soft".to_owned(), text, p.at, 5.0))
+            .collect()
     }
 
     /// What the name of a link belongs to, and middles for it.

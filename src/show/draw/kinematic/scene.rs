@@ -4,6 +4,7 @@
 
 pub(in crate::draw::kinematic) mod pair;
 pub(in crate::draw::kinematic) mod part;
+mod standing;
 pub(in crate::draw::kinematic) mod swapped;
 
 use super::Kinematic;
@@ -12,17 +13,16 @@ use super::moving::{Moved, flag_row, poses};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::posed::Carried;
 use crate::draw::kinematic::scene::pair::{Pair, Tie};
-use crate::draw::kinematic::scene::part::{SymbolPart, below, paper, tidy};
-use crate::draw::place::projection::{Vector, View, add, cross, dot, norm, scale, sub};
+use crate::draw::kinematic::scene::part::{SymbolPart, tidy};
+use crate::draw::place::projection::{Vector, sub};
 use crate::draw::place::view_direction::Sight;
-use crate::draw::sheet::{Caption, Drawing, Sheet, plan};
+use crate::draw::sheet::{Caption, Drawing, Sheet, Swatch, plan};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::swap::Swap;
-use crate::geom::vector::Z;
 use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
 use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::Point;
+use crate::svg::plane::{Point, Rect};
 use serde::Serialize;
 
 /// A scheme in space.
@@ -137,26 +137,14 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     let mut scene = rest.scene();
     scene.swaps = rest.swap_in(&mut scene, shown.swaps);
     let mut frames = Vec::new();
-    for (n, ((name, moved), poses)) in shown.moves.iter().zip(&of).enumerate() {
+    for (n, (motion, poses)) in shown.moves.iter().zip(&of).enumerate() {
         let lines = rest.moving_lines(poses);
         frames.extend(poses.iter().map(|c| rest.frame(c, &lines)));
         for line in &lines {
             let row = rest.row(line.link);
             scene.wire(&rest, row, line.class, "line", &line.ends, Some(n));
         }
-        let frame = rest.row(subject.mechanism.frame());
-        for (link, tip) in rest.tips() {
-            let way: Vec<Vector> = poses.iter().map(|c| c.point(link, tip)).collect();
-            let form = if moved.way.closed { "loop" } else { "line" };
-            scene.wire(&rest, frame, "trace", form, &way, Some(n));
-        }
-        let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
-        scene.moves.push(Move {
-            name: name.clone(),
-            closed: moved.way.closed,
-            start: moved.way.start,
-            poses: carried.collect(),
-        });
+        scene.add_move(&rest, motion, poses);
     }
     if let (Some((_, first)), Some(poses)) = (shown.moves.first(), of.first()) {
         rest.traces = (rest.ways(poses), first.way.closed);
@@ -173,35 +161,12 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
         });
         arrows.extend(own);
     }
-    let title = subject.title();
-    let subtitle = subject.subtitle(&rest.what());
     let mut legend = rest.legend();
     legend.extend(frames.iter().find_map(flag_row));
     legend.extend(rest.arrow_rows(&arrows));
-    let caption = Caption {
-        title: &title,
-        subtitle: [&subtitle[0], &subtitle[1]],
-        description: &rest.description(),
-        legend,
-    };
-    let plan = plan(&caption, area, super::STRIP);
-    let by = plan.shift;
-    scene.origin = by.map(tidy);
-    let area = area.moved(by);
-    scene.room = [area.left, area.top, area.right, area.bottom].map(tidy);
-    let mut first = frames.swap_remove(start);
-    first.all().for_each(|p| *p = [p[0] + by[0], p[1] + by[1]]);
-    rest.shift_ground(by);
-    let mut sheet = Sheet::new(&caption, &plan);
-    sheet.group("data-home", "ground", [0.0; 2], |s| rest.draw_ground(s));
-    sheet.group("data-scene", "", [0.0; 2], |s| {
-        rest.draw_traces(s);
-        rest.draw_frame(s, &first);
-    });
-    sheet.group("data-home", "scale", [0.0; 2], |s| {
-        rest.draw_below(s, &plan)
-    });
-    (sheet.finish(&caption, &plan), scene)
+    let first = frames.swap_remove(start);
+    let drawing = rest.draw_scene(&mut scene, first, area, legend);
+    (drawing, scene)
 }
 
 impl Scene {
@@ -209,6 +174,25 @@ impl Scene {
     #[must_use]
     pub fn room(&self) -> [f64; 4] {
         self.room
+    }
+
+    /// A motion, with the ways of its points as seen from the frame.
+    fn add_move(&mut self, rest: &Kinematic<'_>, motion: &(String, Moved<'_>), poses: &[Carried]) {
+        let (name, Moved { way, .. }) = motion;
+        let frame = rest.row(rest.subject.mechanism.frame());
+        for (link, tip) in rest.tips() {
+            let trace: Vec<Vector> = poses.iter().map(|c| c.point(link, tip)).collect();
+            let form = if way.closed { "loop" } else { "line" };
+            let n = self.moves.len();
+            self.wire(rest, frame, "trace", form, &trace, Some(n));
+        }
+        let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
+        self.moves.push(Move {
+            name: name.clone(),
+            closed: way.closed,
+            start: way.start,
+            poses: carried.collect(),
+        });
     }
 
     fn wire(
@@ -250,136 +234,6 @@ impl Kinematic<'_> {
             .unwrap_or_default()
     }
 
-    /// What stands on the links.
-    fn scene(&self) -> Scene {
-        let view = &self.projection.view;
-        let m = self.subject.mechanism;
-        let mut out = Scene {
-            view: [view.right, view.up, view.toward].map(fine),
-            upright: fine(upright(view)),
-            origin: [0.0; 2],
-            room: [0.0; 4],
-            scale: self.projection.scale,
-            middle: self.projection.middle,
-            names: self
-                .links
-                .iter()
-                .map(|(l, _)| m.links[*l].id.clone())
-                .collect(),
-            frame: self.row(m.frame()),
-            symbols: Vec::new(),
-            joints: Vec::new(),
-            couplings: Vec::new(),
-            wires: Vec::new(),
-            moves: Vec::new(),
-            stresses: Vec::new(),
-            swaps: Vec::new(),
-        };
-        for row in 0..self.links.len() {
-            if self.is_frame(self.links[row].0) {
-                continue;
-            }
-            let body = self.body(row);
-            let class = self.look(row, &body);
-            match self.arc_in_space(row).or_else(|| self.bowed_in_space(row)) {
-                Some(points) => out.wire(self, row, &class, "line", &points, None),
-                None => {
-                    let facet = self.facets[row].clone();
-                    let points = facet.unwrap_or_else(|| self.points_in_space(row));
-                    out.wire(self, row, &class, "hull", &points, None);
-                }
-            }
-        }
-        for coupling in m.couplings_in(self.subject.state) {
-            for (end, circle) in self.pitch_circles_in_space(coupling, &self.places) {
-                let [a, b] = m.joints[coupling.ends[end].joint]
-                    .links
-                    .map(|l| self.row(l));
-                let link = if self.is_frame(self.links[a].0) { b } else { a };
-                out.wire(self, link, "fine pitch", "loop", &circle, None);
-            }
-        }
-        let frame = self.row(m.frame());
-        for p in &self.points {
-            let corners = super::marked::corners([0.0; 2]).to_vec();
-            let symbol = out.symbol(vec![paper("ink", corners, true)]);
-            let row = self.row(p.link);
-            out.joints.push(SceneJoint {
-                id: Some(p.id.clone()),
-                ..self.standing(p.place, [row; 2], symbol, false)
-            });
-        }
-        let order = self.outer_first();
-        for &i in &order {
-            let spot = &self.spots[i];
-            let mark = self.subject.joint_mark(spot.joint);
-            let of = &m.joints[spot.joint].joint_type;
-            let symbol = out.symbol(self.parts(spot.joint, of, &spot.symbol, mark));
-            let (rides, guides) = self.carriers(i);
-            let place = &self.places[i];
-            out.joints.push(SceneJoint {
-                axes: [place.x, place.y, place.z].map(fine),
-                pair: Some(self.pair(i, of)),
-                id: Some(m.joints[spot.joint].id.clone()),
-                ..self.standing(
-                    place.point,
-                    [rides, guides].map(|l| self.row(l)),
-                    symbol,
-                    false,
-                )
-            });
-        }
-        let row = |joint| {
-            let at = order.iter().position(|&i| self.spots[i].joint == joint);
-            at.map(|n| self.points.len() + n)
-        };
-        let couplings = m.couplings_in(self.subject.state);
-        out.couplings = couplings.filter_map(|c| self.tie(c, row)).collect();
-        // the ground, straight below whatever the view
-        for ground in &self.grounds {
-            let there = |i: &usize| {
-                crate::draw::symbol::concentric::one_place(self.spots[*i].at, ground.from)
-            };
-            let Some(i) = (0..self.spots.len()).find(there) else {
-                continue;
-            };
-            let reach = self.spots[i].symbol.reach() + 6.0;
-            let symbol = out.symbol(below(reach));
-            out.joints
-                .push(self.standing(self.places[i].point, [frame; 2], symbol, true));
-            if let Some(axis) = self.slide_axis(i) {
-                let half = scale(axis, 34.0 / self.projection.scale);
-                let p = self.places[i].point;
-                out.wire(
-                    self,
-                    frame,
-                    "guide",
-                    "line",
-                    &[sub(p, half), add(p, half)],
-                    None,
-                );
-                out.wires
-                    .iter_mut()
-                    .last()
-                    .into_iter()
-                    .for_each(|w| w.turned = true);
-            }
-        }
-        out
-    }
-
-    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize, turned: bool) -> SceneJoint {
-        SceneJoint {
-            at: pixels(self, at),
-            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z],
-            links,
-            symbol,
-            turned,
-            pair: None,
-            id: None,
-        }
-    }
-
     /// By link, its rotation vector and where the origin goes, in pixels.
     fn carried_in_pixels(&self, c: &Carried<'_>) -> Vec<Vec<f64>> {
         let Pose { middle, .. } = c.pose;
@@ -404,6 +258,42 @@ impl Kinematic<'_> {
         }
     }
 
+    /// A picture of a scene in groups, which learns where on the sheet it is.
+    fn draw_scene(
+        &mut self,
+        scene: &mut Scene,
+        mut picture: MovingPicture,
+        area: Rect,
+        legend: Vec<(Swatch, String)>,
+    ) -> Drawing {
+        let title = self.subject.title();
+        let subtitle = self.subject.subtitle(&self.what());
+        let caption = Caption {
+            title: &title,
+            subtitle: [&subtitle[0], &subtitle[1]],
+            description: &self.description(),
+            legend,
+        };
+        let plan = plan(&caption, area, super::STRIP);
+        let by = plan.shift;
+        scene.origin = by.map(tidy);
+        let area = area.moved(by);
+        scene.room = [area.left, area.top, area.right, area.bottom].map(tidy);
+        let shift = |p: &mut Point| *p = [p[0] + by[0], p[1] + by[1]];
+        picture.all().for_each(shift);
+        self.shift_ground(by);
+        let mut sheet = Sheet::new(&caption, &plan);
+        sheet.group("data-home", "ground", [0.0; 2], |s| self.draw_ground(s));
+        sheet.group("data-scene", "", [0.0; 2], |s| {
+            self.draw_traces(s);
+            self.draw_frame(s, &picture);
+        });
+        sheet.group("data-home", "scale", [0.0; 2], |s| {
+            self.draw_below(s, &plan)
+        });
+        sheet.finish(&caption, &plan)
+    }
+
     /// A picture by itself.
     fn draw_frame(&self, sheet: &mut Sheet, frame: &MovingPicture) {
         frame.draw(self, sheet);
@@ -421,17 +311,6 @@ impl Kinematic<'_> {
                 },
             );
         }
-    }
-}
-
-/// What goes up in all views: z, or what goes up on paper where z is not upright in this one.
-fn upright(view: &View) -> Vector {
-    let level = dot(view.right, Z).abs() < 1e-6 && norm(cross(view.toward, Z)) > 1e-3;
-    let upside = dot(view.up, Z) < 0.0;
-    match (level, upside) {
-        (true, false) => Z,
-        (true, true) => scale(Z, -1.0),
-        _ => view.up,
     }
 }
 

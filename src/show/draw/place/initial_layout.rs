@@ -100,67 +100,13 @@ fn with_hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
 
 /// Links by their distance from one of them, each layer in the order of what it hangs on.
 fn layers(graph: &Graph, net: &Net, root: usize) -> Vec<Point> {
-    // links and joints in turn: link l is l, joint j is links + j
     let links = graph.links.len();
-    let mut near: Vec<Vec<usize>> = vec![Vec::new(); links + graph.joints];
-    for (l, of) in graph.links.iter().enumerate() {
-        for &j in of {
-            near[l].push(links + j);
-            near[links + j].push(l);
-        }
-    }
-    let mut depth: Vec<Option<usize>> = vec![None; near.len()];
-    let mut rows: Vec<Vec<usize>> = Vec::new();
-    for from in std::iter::once(root).chain(0..near.len()) {
-        if depth[from].is_some() {
-            continue;
-        }
-        depth[from] = Some(0);
-        let mut queue = std::collections::VecDeque::from([from]);
-        while let Some(x) = queue.pop_front() {
-            let d = depth[x].unwrap_or(0);
-            if rows.len() <= d {
-                rows.push(Vec::new());
-            }
-            rows[d].push(x);
-            for &y in &near[x] {
-                if depth[y].is_none() {
-                    depth[y] = Some(d + 1);
-                    queue.push_back(y);
-                }
-            }
-        }
-    }
-    let mut x = vec![0.0; near.len()];
-    let spread = |row: &[usize], x: &mut [f64]| {
-        for (i, &n) in row.iter().enumerate() {
-            x[n] = i as f64 - (row.len() as f64 - 1.0) / 2.0;
-        }
-    };
-    rows.iter().for_each(|row| spread(row, &mut x));
-    for sweep in 0..8 {
-        for i in 0..rows.len() {
-            let r = if sweep % 2 == 0 {
-                i
-            } else {
-                rows.len() - 1 - i
-            };
-            let mut keyed: Vec<(f64, usize)> = rows[r]
-                .iter()
-                .map(|&n| {
-                    let beside = near[n].iter().map(|&m| [x[m], 0.0]);
-                    (mean(beside)[0], n)
-                })
-                .collect();
-            keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
-            rows[r] = keyed.into_iter().map(|(_, n)| n).collect();
-            spread(&rows[r], &mut x);
-        }
-    }
-    let place = |n: usize| [1.0 * x[n], 0.62 * depth[n].unwrap_or(0) as f64];
+    let mut layers = Layers::around(graph, root);
+    let x = layers.untangled();
+    let place = |n: usize| [1.0 * x[n], 0.62 * layers.depth[n] as f64];
     let mut at: Vec<Point> = (0..graph.joints).map(|j| place(links + j)).collect();
     // a link alone in its layer is round on the side of the others
-    for l in (0..links).filter(|&l| rows[depth[l].unwrap_or(0)].len() == 1) {
+    for l in (0..links).filter(|&l| layers.rows[layers.depth[l]].len() == 1) {
         let of = &graph.links[l];
         let wide = of.iter().map(|&j| x[links + j].abs()).fold(1e-9, f64::max);
         for &j in of {
@@ -170,6 +116,89 @@ fn layers(graph: &Graph, net: &Net, root: usize) -> Vec<Point> {
     }
     at.extend((0..links).filter(|&l| net.hub[l].is_some()).map(place));
     at
+}
+
+/// Links and joints in turn, by their distance from a link: link l is l, joint j is links + j.
+struct Layers {
+    /// The links of each joint and the joints of each link.
+    near: Vec<Vec<usize>>,
+    depth: Vec<usize>,
+    /// What is in each layer, from left to right.
+    rows: Vec<Vec<usize>>,
+}
+
+impl Layers {
+    /// In the order a breadth-first search finds them.
+    fn around(graph: &Graph, root: usize) -> Layers {
+        let links = graph.links.len();
+        let mut near: Vec<Vec<usize>> = vec![Vec::new(); links + graph.joints];
+        for (l, of) in graph.links.iter().enumerate() {
+            for &j in of {
+                near[l].push(links + j);
+                near[links + j].push(l);
+            }
+        }
+        let mut depth: Vec<Option<usize>> = vec![None; near.len()];
+        let mut rows: Vec<Vec<usize>> = Vec::new();
+        for from in std::iter::once(root).chain(0..near.len()) {
+            if depth[from].is_some() {
+                continue;
+            }
+            depth[from] = Some(0);
+            let mut queue = std::collections::VecDeque::from([from]);
+            while let Some(x) = queue.pop_front() {
+                let d = depth[x].unwrap_or(0);
+                if rows.len() <= d {
+                    rows.push(Vec::new());
+                }
+                rows[d].push(x);
+                for &y in &near[x] {
+                    if depth[y].is_none() {
+                        depth[y] = Some(d + 1);
+                        queue.push_back(y);
+                    }
+                }
+            }
+        }
+        let depth = depth.into_iter().map(|d| d.unwrap_or(0));
+        Layers {
+            depth: depth.collect(),
+            near,
+            rows,
+        }
+    }
+
+    /// Orders each layer by the middles of what hangs on it, and tells how far to the right each of them then is.
+    fn untangled(&mut self) -> Vec<f64> {
+        let Layers { near, rows, .. } = self;
+        let mut x = vec![0.0; near.len()];
+        let spread = |row: &[usize], x: &mut [f64]| {
+            for (i, &n) in row.iter().enumerate() {
+                x[n] = i as f64 - (row.len() as f64 - 1.0) / 2.0;
+            }
+        };
+        rows.iter().for_each(|row| spread(row, &mut x));
+        for sweep in 0..8 {
+            for i in 0..rows.len() {
+                let r = if sweep % 2 == 0 {
+                    i
+                } else {
+                    rows.len() - 1 - i
+                };
+                let mut keyed: Vec<(f64, usize)> = rows[r]
+                    .iter()
+                    .map(|&n| {
+                        let beside = near[n].iter().map(|&m| [x[m], 0.0]);
+                        (mean(beside)[0], n)
+                    })
+                    .collect();
+                keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
+                rows[r] = keyed.into_iter().map(|(_, n)| n).collect();
+                spread(&rows[r], &mut x);
+            }
+        }
+        x
+    }
 }
 
 /// Tutte's drawing: a contour on a circle, every other node in the middle of its neighbours.
@@ -222,15 +251,7 @@ fn bundles(graph: &Graph, net: &Net, turn: u64) -> Vec<Point> {
             order.swap(i, dice.below(i + 1));
         }
     }
-    let mut chains: Vec<Vec<usize>> = Vec::new();
-    let mut seen = vec![false; graph.joints];
-    for &l in &branches {
-        for &j in &graph.links[l] {
-            if !seen[j] {
-                chains.push(chain(graph, l, j, &mut seen));
-            }
-        }
-    }
+    let chains = chains(graph, &branches);
     let long = chains.iter().map(Vec::len).max().unwrap_or(1) as f64;
     let radius = (0.5 * (long + 1.0)).max(0.35 * order.len() as f64 + 0.5);
     let mut at = vec![[0.0, 0.0]; net.edges.len()];
@@ -244,38 +265,13 @@ fn bundles(graph: &Graph, net: &Net, turn: u64) -> Vec<Point> {
     }
     let ends: Vec<[usize; 2]> = chains.iter().map(|c| branch_ends(graph, c)).collect();
     for (c, chain) in chains.iter().enumerate() {
-        let same: Vec<usize> = (0..chains.len())
-            .filter(|&d| ends[d] == ends[c] || ends[d] == [ends[c][1], ends[c][0]])
-            .collect();
-        let mine = same.iter().position(|&d| d == c).unwrap_or(0) as f64;
-        let offset = 1.1 * (mine - (same.len() as f64 - 1.0) / 2.0);
-        let (mut a, mut b) = (place[ends[c][0]], place[ends[c][1]]);
-        let flip = ends[c][0] > ends[c][1];
-        if ends[c][0] == ends[c][1] {
-            // a loop from a link to itself goes outward
-            b = add(b, scale(b, 0.8));
-        }
-        if flip {
-            std::mem::swap(&mut a, &mut b);
-        }
-        let along = sub(b, a);
-        let across = [-along[1], along[0]];
-        let across = scale(across, 1.0 / norm(across).max(1e-9));
-        for (i, &j) in chain.iter().enumerate() {
-            let t = (i + 1) as f64 / (chain.len() + 1) as f64;
-            let t = if flip { 1.0 - t } else { t };
-            let bow = offset * (0.35 + 0.65 * (std::f64::consts::PI * t).sin());
-            at[j] = add(add(a, scale(along, t)), scale(across, bow));
+        let offset = 1.1 * beside_twins(&ends, c);
+        for (&j, p) in chain.iter().zip(arc(&place, ends[c], offset, chain.len())) {
+            at[j] = p;
         }
     }
     if branches.is_empty() {
-        let radius = 0.19 * graph.joints as f64;
-        let ring = graph.contours.first().cloned().unwrap_or_default();
-        for (j, p) in at.iter_mut().enumerate().take(graph.joints) {
-            let i = ring.iter().position(|&r| r == j).unwrap_or(j);
-            let angle = TAU * (i as f64 + 0.5) / graph.joints.max(1) as f64 + TAU / 4.0;
-            *p = [radius * angle.cos(), radius * angle.sin()];
-        }
+        ring(graph, &mut at);
     }
     for (l, of) in graph.links.iter().enumerate() {
         if let Some(h) = net.hub[l].filter(|_| of.len() < 3) {
@@ -284,6 +280,67 @@ fn bundles(graph: &Graph, net: &Net, turn: u64) -> Vec<Point> {
         }
     }
     at
+}
+
+/// The chains that go out from links with three and more joints, each once.
+fn chains(graph: &Graph, branches: &[usize]) -> Vec<Vec<usize>> {
+    let mut chains: Vec<Vec<usize>> = Vec::new();
+    let mut seen = vec![false; graph.joints];
+    for &l in branches {
+        for &j in &graph.links[l] {
+            if !seen[j] {
+                chains.push(chain(graph, l, j, &mut seen));
+            }
+        }
+    }
+    chains
+}
+
+/// How far a chain is from the middle of those between the same two links.
+fn beside_twins(ends: &[[usize; 2]], c: usize) -> f64 {
+    let same: Vec<usize> = (0..ends.len())
+        .filter(|&d| ends[d] == ends[c] || ends[d] == [ends[c][1], ends[c][0]])
+        .collect();
+    let mine = same.iter().position(|&d| d == c).unwrap_or(0) as f64;
+    mine - (same.len() as f64 - 1.0) / 2.0
+}
+
+/// The places of so many joints on an arc between two links; all arcs between the same links bow as seen from the same end.
+fn arc(
+    place: &[Point],
+    ends: [usize; 2],
+    offset: f64,
+    joints: usize,
+) -> impl Iterator<Item = Point> + use<> {
+    let (mut a, mut b) = (place[ends[0]], place[ends[1]]);
+    let flip = ends[0] > ends[1];
+    if ends[0] == ends[1] {
+        // a loop from a link to itself goes outward
+        b = add(b, scale(b, 0.8));
+    }
+    if flip {
+        std::mem::swap(&mut a, &mut b);
+    }
+    let along = sub(b, a);
+    let across = [-along[1], along[0]];
+    let across = scale(across, 1.0 / norm(across).max(1e-9));
+    (0..joints).map(move |i| {
+        let t = (i + 1) as f64 / (joints + 1) as f64;
+        let t = if flip { 1.0 - t } else { t };
+        let bow = offset * (0.35 + 0.65 * (std::f64::consts::PI * t).sin());
+        add(add(a, scale(along, t)), scale(across, bow))
+    })
+}
+
+/// All joints on a circle, in the order of the first contour.
+fn ring(graph: &Graph, at: &mut [Point]) {
+    let radius = 0.19 * graph.joints as f64;
+    let ring = graph.contours.first().cloned().unwrap_or_default();
+    for (j, p) in at.iter_mut().enumerate().take(graph.joints) {
+        let i = ring.iter().position(|&r| r == j).unwrap_or(j);
+        let angle = TAU * (i as f64 + 0.5) / graph.joints.max(1) as f64 + TAU / 4.0;
+        *p = [radius * angle.cos(), radius * angle.sin()];
+    }
 }
 
 /// Two links above each other and legs of one kind between them, as parallel manipulators have: the legs stand side by

@@ -32,6 +32,56 @@ struct Candidate {
     joints: Vec<Point>,
 }
 
+impl Candidate {
+    /// A layout in its middle, or made as symmetric as its start; none where it cannot be judged.
+    fn new(
+        crowding: &Crowding,
+        mut at: Vec<Point>,
+        start: &Start,
+        favour: f64,
+    ) -> Option<Candidate> {
+        match &start.mirror {
+            Some(mirror) => mirror.apply(&mut at),
+            None => centre(&mut at),
+        }
+        at.truncate(crowding.joints());
+        let favour = favour * if start.drawn { 0.85 } else { 1.0 };
+        let favour = favour * if start.mirror.is_some() { 0.75 } else { 1.0 };
+        let cost = crowding.cost(&at) * favour;
+        cost.is_finite().then(|| Candidate {
+            cost,
+            favour,
+            mirror: start.mirror.clone(),
+            joints: at,
+        })
+    }
+
+    /// Polishes it where it is crowded.
+    fn polish(&mut self, crowding: &Crowding) {
+        if !crowding.violated(&self.joints) {
+            return;
+        }
+        crowding.polish(&mut self.joints, self.mirror.as_ref());
+        // a symmetric or familiar drawing is worth something, not a crossing
+        let favour = if crowding.violated(&self.joints) {
+            1.0
+        } else {
+            self.favour
+        };
+        self.cost = crowding.cost(&self.joints) * favour;
+    }
+}
+
+/// The best candidates; the best symmetric ones have their chance, whatever they cost before they are polished.
+fn worth_polishing(mut candidates: Vec<Candidate>) -> Vec<Candidate> {
+    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let symmetric = candidates.iter().filter(|c| c.mirror.is_some());
+    let symmetric: Vec<Candidate> = symmetric.take(2).cloned().collect();
+    candidates.truncate(5);
+    candidates.extend(symmetric);
+    candidates
+}
+
 /// A layout of the graph, starting also from the places given for the joints.
 pub(in crate::draw) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let net = net(graph);
@@ -44,49 +94,18 @@ pub(in crate::draw) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
     let nodes = net.edges.len();
     let rounds = (4_000_000 / (nodes * nodes).max(1)).clamp(4, 80);
     let mut candidates: Vec<Candidate> = Vec::new();
-    let mut take = |mut at: Vec<Point>, start: &Start, favour: f64| {
-        match &start.mirror {
-            Some(mirror) => mirror.apply(&mut at),
-            None => centre(&mut at),
-        }
-        let favour = favour * if start.drawn { 0.85 } else { 1.0 };
-        let favour = favour * if start.mirror.is_some() { 0.75 } else { 1.0 };
-        let cost = crowding.cost(&at[..graph.joints]) * favour;
-        if cost.is_finite() {
-            candidates.push(Candidate {
-                cost,
-                favour,
-                mirror: start.mirror.clone(),
-                joints: at[..graph.joints].to_vec(),
-            });
-        }
-    };
     for start in initial_layout::all(graph, &net, hints) {
-        take(start.at.clone(), &start, 1.0);
+        let take = |at: &[Point], favour| Candidate::new(&crowding, at.to_vec(), &start, favour);
+        candidates.extend(take(&start.at, 1.0));
         let mut relaxed = start.at.clone();
         for part in 0..4 {
             relax(&mut relaxed, &far, rounds / 4 + 1);
-            take(relaxed.clone(), &start, 1.0 - 1e-3 * f64::from(part));
+            candidates.extend(take(&relaxed, 1.0 - 1e-3 * f64::from(part)));
         }
     }
-    candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    // the best symmetric ones have their chance, whatever they cost before they are polished
-    let symmetric = candidates.iter().filter(|c| c.mirror.is_some());
-    let symmetric: Vec<Candidate> = symmetric.take(2).cloned().collect();
-    candidates.truncate(5);
-    candidates.extend(symmetric);
     let mut best: Option<Candidate> = None;
-    for mut c in candidates {
-        if crowding.violated(&c.joints) {
-            crowding.polish(&mut c.joints, c.mirror.as_ref());
-            // a symmetric or familiar drawing is worth something, not a crossing
-            let favour = if crowding.violated(&c.joints) {
-                1.0
-            } else {
-                c.favour
-            };
-            c.cost = crowding.cost(&c.joints) * favour;
-        }
+    for mut c in worth_polishing(candidates) {
+        c.polish(&crowding);
         if best.as_ref().is_none_or(|b| c.cost < b.cost) {
             best = Some(c);
         }

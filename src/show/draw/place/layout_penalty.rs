@@ -31,6 +31,11 @@ impl<'a> Crowding<'a> {
         Crowding { graph, of_joint }
     }
 
+    /// How many joints there are to place.
+    pub(in crate::draw) fn joints(&self) -> usize {
+        self.of_joint.len()
+    }
+
     /// The cost of the whole.
     pub(in crate::draw) fn cost(&self, at: &[Point]) -> f64 {
         let rings = self.rings(at);

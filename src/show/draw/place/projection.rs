@@ -150,24 +150,7 @@ pub(in crate::draw) fn best(
 ) -> Projection {
     let middle = middle(places);
     let mut best: Option<(f64, Projection)> = None;
-    let candidates = match (sight.view(), planar(places)) {
-        (Some(view), _) => vec![(view, 0.0)],
-        (None, Some(normal)) => vec![(face_on(normal), 0.0)],
-        (None, None) => {
-            let few = places.len() as f64;
-            let dear = |v: &View| match v.name {
-                _ if v.axis => 1.0 + 0.15 * few,
-                "isometric" => 0.0,
-                _ => 0.4 + 0.02 * few,
-            };
-            // links in layers move in a plane as well
-            let layers = hinge(places).filter(|&n| moves_across(places, n));
-            let layers = layers.map(|n| (face_on(n), 0.0));
-            let views = views().into_iter().map(|v| (v, dear(&v)));
-            layers.into_iter().chain(views).collect()
-        }
-    };
-    for (view, dear) in candidates {
+    for (view, dear) in views_to_try(places, sight) {
         let view = sight.turned(view);
         let on: Vec<Point> = places
             .iter()
@@ -175,13 +158,7 @@ pub(in crate::draw) fn best(
             .collect();
         let beside = more.iter().map(|&p| view.flat(sub(p, middle)));
         let area = bounds(&on.iter().copied().chain(beside).collect::<Vec<_>>());
-        let (w, h) = (area.right - area.left, area.bottom - area.top);
-        let scale = (room[0] / w.max(1e-300)).min(room[1] / h.max(1e-300));
-        let scale = if w.max(h) > 0.0 && scale.is_finite() {
-            scale
-        } else {
-            1.0
-        };
+        let scale = to_fill(room, &area);
         let on: Vec<Point> = on.iter().map(|p| [p[0] * scale, p[1] * scale]).collect();
         let cost = dear + crowd(places, &on, links, frame) + edge_on(&view, turning);
         if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
@@ -202,6 +179,38 @@ pub(in crate::draw) fn best(
         },
         |(_, found)| found,
     )
+}
+
+/// The views that there are to choose from, each with how bad it is in itself.
+fn views_to_try(places: &[JointInSpace], sight: &Sight) -> Vec<(View, f64)> {
+    match (sight.view(), planar(places)) {
+        (Some(view), _) => vec![(view, 0.0)],
+        (None, Some(normal)) => vec![(face_on(normal), 0.0)],
+        (None, None) => {
+            let few = places.len() as f64;
+            let dear = |v: &View| match v.name {
+                _ if v.axis => 1.0 + 0.15 * few,
+                "isometric" => 0.0,
+                _ => 0.4 + 0.02 * few,
+            };
+            // links in layers move in a plane as well
+            let layers = hinge(places).filter(|&n| moves_across(places, n));
+            let layers = layers.map(|n| (face_on(n), 0.0));
+            let views = views().into_iter().map(|v| (v, dear(&v)));
+            layers.into_iter().chain(views).collect()
+        }
+    }
+}
+
+/// How many times larger an area is to be drawn to fill the room.
+fn to_fill(room: Point, area: &Rect) -> f64 {
+    let (w, h) = (area.right - area.left, area.bottom - area.top);
+    let scale = (room[0] / w.max(1e-300)).min(room[1] / h.max(1e-300));
+    if w.max(h) > 0.0 && scale.is_finite() {
+        scale
+    } else {
+        1.0
+    }
 }
 
 /// How much circles about some axes look like lines.

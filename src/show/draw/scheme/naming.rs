@@ -11,27 +11,31 @@ use crate::svg::text::{names, width};
 impl Scheme<'_> {
     /// Where the ids of joints and links and the numbers of contours go, in this order.
     pub(super) fn place_labels(&self) -> Vec<(LabelPlace, String)> {
-        let m = self.subject.mechanism;
-        let mut taken: Vec<Rect> = (0..self.parts.joints.len())
-            .map(|i| {
-                Rect::around(
-                    self.at.joints[i],
-                    2.0 * self.radius(i),
-                    2.0 * self.radius(i),
-                )
-            })
-            .collect();
+        let around = |i| {
+            let side = 2.0 * self.radius(i);
+            Rect::around(self.at.joints[i], side, side)
+        };
+        let mut taken: Vec<Rect> = (0..self.parts.joints.len()).map(around).collect();
+        let lines = self.link_lines();
+        // ids stay off links, numbers of contours off nothing but labels
+        let links = placed(self.link_wishes(), &mut taken, &[]);
+        let contours = placed(self.contour_wishes(), &mut taken, &lines);
+        let joints = placed(self.joint_wishes(), &mut taken, &lines);
+        [joints, links, contours].concat()
+    }
+
+    /// The lines of links, which labels stay off: from the hub to the corners, and round the link.
+    fn link_lines(&self) -> Vec<AvoidedLine> {
         let mut lines = Vec::new();
         for l in 0..self.rings.len() {
             let corners = self.corners(l);
-            let frame = m.links[self.parts.links[l]].role == Role::Frame;
+            let frame = self.subject.mechanism.links[self.parts.links[l]].role == Role::Frame;
             let weight = if frame || corners.len() < 3 { 2.5 } else { 0.6 };
-            for &corner in &corners {
-                lines.push(AvoidedLine {
-                    ends: (self.at.hubs[l], corner),
-                    weight,
-                });
-            }
+            let hub = self.at.hubs[l];
+            lines.extend(corners.iter().map(|&corner| AvoidedLine {
+                ends: (hub, corner),
+                weight,
+            }));
             for (a, b) in outline(&corners) {
                 let along = unit(sub(b, a));
                 let off = scale([-along[1], along[0]], HALF);
@@ -47,64 +51,64 @@ impl Scheme<'_> {
                 }
             }
         }
-        let mut wishes = Vec::new();
-        let mut texts = Vec::new();
-        let ids: Vec<&str> = self
-            .parts
-            .links
-            .iter()
-            .map(|&l| m.links[l].id.as_str())
+        lines
+    }
+
+    /// The ids of links, each to stand on its link.
+    fn link_wishes(&self) -> Vec<(Wish, String)> {
+        let links = self.parts.links.iter();
+        let ids: Vec<&str> = links
+            .map(|&l| self.subject.mechanism.links[l].id.as_str())
             .collect();
-        for (l, text) in names(&ids, 12.0, 150.0).into_iter().enumerate() {
-            wishes.push(Wish {
+        let one = |(l, text): (usize, String)| {
+            let wish = Wish {
                 width: width(&text, 12.0),
                 height: 13.0,
                 anchor: self.at.hubs[l],
                 clear: HALF,
                 first: self.inside_link(l),
-            });
-            texts.push(text);
-        }
-        // ids stay off links, numbers of contours off nothing but labels
-        let places = place(&wishes, &mut taken, &[]);
-        let mut out: Vec<(LabelPlace, String)> = places.into_iter().zip(texts.drain(..)).collect();
-        wishes.clear();
-        for (c, _) in self.parts.contours.iter().enumerate() {
+            };
+            (wish, text)
+        };
+        let texts = names(&ids, 12.0, 150.0).into_iter();
+        texts.enumerate().map(one).collect()
+    }
+
+    /// The numbers of contours, each to stand within its contour.
+    fn contour_wishes(&self) -> Vec<(Wish, String)> {
+        let one = |c: usize| {
             let text = format!("{}", c + 1);
             let middles = self.inside_contour(c);
-            wishes.push(Wish {
+            let wish = Wish {
                 width: width(&text, SMALL) + 8.0,
                 height: 16.0,
                 anchor: middles.first().map_or([0.0, 0.0], |f| f.0),
                 clear: 0.0,
                 first: middles,
-            });
-            texts.push(text);
-        }
-        let badges = place(&wishes, &mut taken, &lines);
-        let badges: Vec<(LabelPlace, String)> = badges.into_iter().zip(texts.drain(..)).collect();
-        wishes.clear();
-        let ids: Vec<&str> = self
-            .parts
-            .joints
-            .iter()
-            .map(|&j| m.joints[j].id.as_str())
+            };
+            (wish, text)
+        };
+        (0..self.parts.contours.len()).map(one).collect()
+    }
+
+    /// The ids of joints, each to stand beside its joint.
+    fn joint_wishes(&self) -> Vec<(Wish, String)> {
+        let joints = self.parts.joints.iter();
+        let ids: Vec<&str> = joints
+            .map(|&j| self.subject.mechanism.joints[j].id.as_str())
             .collect();
-        for (i, text) in names(&ids, SMALL, 150.0).into_iter().enumerate() {
-            wishes.push(Wish {
+        let one = |(i, text): (usize, String)| {
+            let wish = Wish {
                 width: width(&text, SMALL),
                 height: 12.0,
                 anchor: self.at.joints[i],
                 clear: self.radius(i),
                 first: Vec::new(),
-            });
-            texts.push(text);
-        }
-        let ids = place(&wishes, &mut taken, &lines);
-        let mut all: Vec<(LabelPlace, String)> = ids.into_iter().zip(texts).collect();
-        all.append(&mut out);
-        all.extend(badges);
-        all
+            };
+            (wish, text)
+        };
+        let texts = names(&ids, SMALL, 150.0).into_iter();
+        texts.enumerate().map(one).collect()
     }
 
     /// Middles for the id within a link, the best first.
@@ -198,4 +202,15 @@ impl Scheme<'_> {
         }
         out
     }
+}
+
+/// Labels at their places, which are taken from then on.
+fn placed(
+    labels: Vec<(Wish, String)>,
+    taken: &mut Vec<Rect>,
+    lines: &[AvoidedLine],
+) -> Vec<(LabelPlace, String)> {
+    let (wishes, texts): (Vec<Wish>, Vec<String>) = labels.into_iter().unzip();
+    let places = place(&wishes, taken, lines);
+    places.into_iter().zip(texts).collect()
 }

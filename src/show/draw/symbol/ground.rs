@@ -1,6 +1,6 @@
 //! The ground of a kinematic scheme: where the frame is, once for all joints of one place.
 
-use crate::draw::place::projection::bounds;
+use crate::draw::place::projection::{ONE_PLACE, bounds};
 use crate::draw::sheet::Sheet;
 use crate::model::mechanism::LinkId;
 use crate::svg::plane::{Point, Rect, add, dot, norm, polyline, scale, sub, unit};
@@ -95,6 +95,90 @@ impl Ground {
     }
 }
 
+fn together(a: Point, b: Point) -> bool {
+    norm(sub(a, b)) < ONE_PLACE
+}
+
+/// A place of the frame's joints.
+struct GroundSpot {
+    at: Point,
+    /// Where the links that move go from here.
+    dirs: Vec<Point>,
+    /// The room of the symbols.
+    room: Rect,
+    /// The direction of a block's slide, and how far its side is from its middle.
+    rail: Option<(Point, f64)>,
+}
+
+impl GroundSpot {
+    /// A ground in one of sixteen directions; a rail has two.
+    fn ground(&self, step: i32) -> (Point, Ground) {
+        match self.rail {
+            Some((along, off)) => {
+                let side = [-along[1], along[0]];
+                let dir = scale(side, if step % 2 == 0 { 1.0 } else { -1.0 });
+                let rail = Ground {
+                    from: self.at,
+                    to: add(self.at, scale(dir, off)),
+                    half: RAIL,
+                };
+                (dir, rail)
+            }
+            None => {
+                let Rect {
+                    left,
+                    top,
+                    right,
+                    bottom,
+                } = self.room;
+                let reach = (right - left).min(bottom - top) / 2.0 + 9.0;
+                let angle = TAU * f64::from(step) / 16.0;
+                let dir = [angle.cos(), angle.sin()];
+                (dir, Ground::pivot(self.at, add(self.at, scale(dir, reach))))
+            }
+        }
+    }
+
+    /// How bad a ground is, besides its not being upright: what it covers, and which links go its way.
+    fn cost(
+        &self,
+        aslant: f64,
+        dir: Point,
+        ground: &Ground,
+        feet: &[Foot],
+        others: &[Ground],
+    ) -> f64 {
+        let mut cost = 0.25 * (1.0 - dir[1]) + aslant;
+        let near = ground.rect().grown(1.0);
+        for other in feet.iter().filter(|f| !together(f.at, self.at)) {
+            cost += if near.overlaps(&other.room) { 4.0 } else { 0.0 };
+        }
+        cost += 3.0 * others.iter().filter(|g| g.rect().overlaps(&near)).count() as f64;
+        for &link in &self.dirs {
+            cost += 2.5 * beside(dir, link);
+        }
+        cost
+    }
+}
+
+/// Where links that move go from the joints `here`: to their other joints, and to their free ends.
+fn directions_out(
+    at: Point,
+    here: &[usize],
+    feet: &[Foot],
+    moving: &[&[usize]],
+    loose: &[(usize, Point)],
+) -> Vec<Point> {
+    let joined = moving
+        .iter()
+        .filter(|of| of.iter().any(|j| here.contains(j)));
+    let ends = joined.flat_map(|of| of.iter().filter(|j| !here.contains(j)));
+    let ends = ends.map(|&j| feet[j].at);
+    let free = loose.iter().filter(|(j, _)| here.contains(j));
+    let ends = ends.chain(free.map(|(_, end)| *end));
+    ends.map(|end| sub(end, at)).collect()
+}
+
 /// How much two directions are one.
 fn beside(dir: Point, other: Point) -> f64 {
     let along = dot(dir, unit(other));
@@ -113,7 +197,8 @@ pub(in crate::draw) fn grounds(
     let Some((_, of)) = links.iter().find(|(l, _)| *l == frame) else {
         return out;
     };
-    let together = |a: Point, b: Point| norm(sub(a, b)) < crate::draw::place::projection::ONE_PLACE;
+    let moving = links.iter().filter(|(l, _)| *l != frame);
+    let moving: Vec<&[usize]> = moving.map(|(_, of)| of.as_slice()).collect();
     for (n, &i) in of.iter().enumerate() {
         let at = feet[i].at;
         if of[..n].iter().any(|&k| together(feet[k].at, at)) {
@@ -122,48 +207,23 @@ pub(in crate::draw) fn grounds(
         let here: Vec<usize> = (0..feet.len())
             .filter(|&k| together(feet[k].at, at))
             .collect();
-        let room = here
-            .iter()
-            .fold(feet[i].room, |r, &k| r.with(&feet[k].room));
-        let rail = here
-            .iter()
-            .filter(|k| of.contains(k))
-            .find_map(|&k| feet[k].slide);
-        let reach = (room.right - room.left).min(room.bottom - room.top) / 2.0 + 9.0;
+        let spot = GroundSpot {
+            at,
+            dirs: directions_out(at, &here, feet, &moving, loose),
+            room: here
+                .iter()
+                .fold(feet[i].room, |r, &k| r.with(&feet[k].room)),
+            rail: here
+                .iter()
+                .filter(|k| of.contains(k))
+                .find_map(|&k| feet[k].slide),
+        };
         let mut best: Option<(f64, Ground)> = None;
         for step in 0..16 {
-            let angle = TAU * f64::from(step) / 16.0;
-            let (dir, ground) = match rail {
-                Some((along, off)) => {
-                    let side = [-along[1], along[0]];
-                    let dir = scale(side, if step % 2 == 0 { 1.0 } else { -1.0 });
-                    let to = add(at, scale(dir, off));
-                    let half = RAIL;
-                    (dir, Ground { from: at, to, half })
-                }
-                None => {
-                    let dir = [angle.cos(), angle.sin()];
-                    (dir, Ground::pivot(at, add(at, scale(dir, reach))))
-                }
-            };
+            let (dir, ground) = spot.ground(step);
             // straight down is best, then what is clear
             let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
-            let mut cost = 0.25 * (1.0 - dir[1]) + aslant;
-            let near = ground.rect().grown(1.0);
-            for other in feet.iter().filter(|f| !together(f.at, at)) {
-                cost += if near.overlaps(&other.room) { 4.0 } else { 0.0 };
-            }
-            cost += 3.0 * out.iter().filter(|g| g.rect().overlaps(&near)).count() as f64;
-            for (_, other) in links.iter().filter(|(l, _)| *l != frame) {
-                if other.iter().any(|j| here.contains(j)) {
-                    for &j in other.iter().filter(|j| !here.contains(j)) {
-                        cost += 2.5 * beside(dir, sub(feet[j].at, at));
-                    }
-                }
-            }
-            for (_, end) in loose.iter().filter(|(j, _)| here.contains(j)) {
-                cost += 2.5 * beside(dir, sub(*end, at));
-            }
+            let cost = spot.cost(aslant, dir, &ground, feet, &out);
             if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
                 best = Some((cost, ground));
             }

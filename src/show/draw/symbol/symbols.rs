@@ -58,28 +58,7 @@ pub(in crate::draw) fn pieces(joint: &JointType) -> Vec<Piece> {
         ]
         .concat(),
         JointType::Prismatic => sliding(17.0, cuboid([BLOCK, BLOCK, 9.5])),
-        JointType::Helical => {
-            let thread = (0..=40).map(|i| {
-                let t = f64::from(i) / 20.0 - 1.0;
-                let turn = 2.5 * PI * t;
-                [3.4 * turn.sin(), -3.4 * turn.cos(), 8.0 * t]
-            });
-            let spiral = (0..=36).map(|i| {
-                let t = f64::from(i) / 36.0;
-                let turn = 2.0 * TAU * t;
-                [4.4 * t * turn.cos(), 4.4 * t * turn.sin()]
-            });
-            let spiral = Form::Paper(spiral.collect(), false);
-            [
-                vec![line("line", rod(16.0), ALWAYS)],
-                cylinder(BUSH, 9.0, z, FACE_ON),
-                vec![
-                    line("line", thread.collect(), 0.0..SPIRAL),
-                    piece("line", spiral, SPIRAL..2.0),
-                ],
-            ]
-            .concat()
-        }
+        JointType::Helical => screw(),
         JointType::Cylindrical => sliding(17.0, cylinder(BUSH, 9.5, z, FACE_ON)),
         JointType::Universal => cross(CROSS),
         JointType::CylindricalUniversal => sliding(17.0, cross(SLIDING_CROSS)),
@@ -87,14 +66,7 @@ pub(in crate::draw) fn pieces(joint: &JointType) -> Vec<Piece> {
             joint_piece(Form::Hull(vec![[7.0, 0.0, 0.0], [-7.0, 0.0, 0.0]], 6.0)),
             ball(3.2, "ink"),
         ],
-        JointType::Spherical => {
-            let arc = (0..=20).map(|i| {
-                let angle = PI * (-0.2 + 1.4 * f64::from(i) / 20.0);
-                [9.5 * angle.cos(), 9.5 * angle.sin()]
-            });
-            let socket = Form::Paper(arc.collect(), false);
-            [round_ball(6.5), vec![piece("line", socket, ALWAYS)]].concat()
-        }
+        JointType::Spherical => [round_ball(6.5), vec![socket()]].concat(),
         JointType::Planar => vec![plate(9.0, -3.0), plate(9.0, 3.0)],
         JointType::SphereInCylinder => [
             vec![line("fine", rod(15.0), ALWAYS)],
@@ -108,19 +80,7 @@ pub(in crate::draw) fn pieces(joint: &JointType) -> Vec<Piece> {
         ]
         .concat(),
         JointType::SphereOnPlane => [vec![plate(10.0, -5.0)], round_ball(5.0)].concat(),
-        JointType::Fixed => {
-            let h = 5.5;
-            let corners = vec![[-h, -h], [h, -h], [h, h], [-h, h]];
-            let across = |d: f64| {
-                let ends = vec![[-h, -h * d], [h, h * d]];
-                piece("line", Form::Paper(ends, false), ALWAYS)
-            };
-            vec![
-                joint_piece(Form::Paper(corners, true)),
-                across(1.0),
-                across(-1.0),
-            ]
-        }
+        JointType::Fixed => crossed_square(5.5),
         JointType::Custom(_) => {
             let corners = vec![[0.0, -9.0], [9.0, 0.0], [0.0, 9.0], [-9.0, 0.0]];
             vec![joint_piece(Form::Paper(corners, true)), ball(2.0, "ink")]
@@ -257,6 +217,53 @@ fn plate(half: f64, z: f64) -> Piece {
     let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)];
     let corners = corners.map(|(x, y)| [half * x, half * y, z]);
     joint_piece(Form::Hull(corners.to_vec(), 0.0))
+}
+
+/// A nut on a rod, with its thread; from its end the thread is a spiral.
+fn screw() -> Vec<Piece> {
+    let thread = (0..=40).map(|i| {
+        let t = f64::from(i) / 20.0 - 1.0;
+        let turn = 2.5 * PI * t;
+        [3.4 * turn.sin(), -3.4 * turn.cos(), 8.0 * t]
+    });
+    let spiral = (0..=36).map(|i| {
+        let t = f64::from(i) / 36.0;
+        let turn = 2.0 * TAU * t;
+        [4.4 * t * turn.cos(), 4.4 * t * turn.sin()]
+    });
+    let spiral = Form::Paper(spiral.collect(), false);
+    [
+        vec![line("line", rod(16.0), ALWAYS)],
+        cylinder(BUSH, 9.0, |x, y, z| [x, y, z], FACE_ON),
+        vec![
+            line("line", thread.collect(), 0.0..SPIRAL),
+            piece("line", spiral, SPIRAL..2.0),
+        ],
+    ]
+    .concat()
+}
+
+/// What holds a ball: an arc round most of it.
+fn socket() -> Piece {
+    let arc = (0..=20).map(|i| {
+        let angle = PI * (-0.2 + 1.4 * f64::from(i) / 20.0);
+        [9.5 * angle.cos(), 9.5 * angle.sin()]
+    });
+    piece("line", Form::Paper(arc.collect(), false), ALWAYS)
+}
+
+/// A square with its diagonals.
+fn crossed_square(h: f64) -> Vec<Piece> {
+    let corners = vec![[-h, -h], [h, -h], [h, h], [-h, h]];
+    let across = |d: f64| {
+        let ends = vec![[-h, -h * d], [h, h * d]];
+        piece("line", Form::Paper(ends, false), ALWAYS)
+    };
+    vec![
+        joint_piece(Form::Paper(corners, true)),
+        across(1.0),
+        across(-1.0),
+    ]
 }
 
 /// The cross of a universal joint: its two axes, z and x, as arms that end in pins.

@@ -29,6 +29,35 @@ pub fn summary<'a>(
         "middle half",
         "what fails, and why",
     ];
+    let standing = |name: &str| {
+        let m = registry::ALL.iter().position(|x| x.name() == name)?;
+        Some(survey.standing(m).right)
+    };
+    let mut out = format!("{cases} cases of known mobility");
+    if let (Some(auto), Some(count)) = (standing("auto"), standing("count")) {
+        // Writing to a string cannot fail.
+        let _ = write!(
+            out,
+            ": the automatic choice is right on {auto}, the counting formula on {count}"
+        );
+    }
+    let _ = write!(out, "\n\n{}\n", table(&heads, method_rows(survey), width));
+    let _ = write!(
+        out,
+        "\n{} {}. On {machine}.\n",
+        tolerances(survey),
+        repeated(survey)
+    );
+    for (title, sentence) in sentences {
+        // Writing to a string cannot fail.
+        let _ = write!(out, "\n{title}: {sentence}\n");
+    }
+    fit(&out, width)
+}
+
+/// Each method as it is, and with its best tolerance where it has one.
+fn method_rows(survey: &Survey) -> Vec<Vec<String>> {
+    let cases = survey.cases.len();
     let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
     let mut rows = Vec::new();
     for (m, method) in registry::ALL.iter().enumerate() {
@@ -57,30 +86,7 @@ pub fn summary<'a>(
             rows.push(row(name, t.right, t.pose, "its best tolerance".to_owned()));
         }
     }
-    let standing = |name: &str| {
-        let m = registry::ALL.iter().position(|x| x.name() == name)?;
-        Some(survey.standing(m).right)
-    };
-    let mut out = format!("{cases} cases of known mobility");
-    if let (Some(auto), Some(count)) = (standing("auto"), standing("count")) {
-        // Writing to a string cannot fail.
-        let _ = write!(
-            out,
-            ": the automatic choice is right on {auto}, the counting formula on {count}"
-        );
-    }
-    let _ = write!(out, "\n\n{}\n", table(&heads, rows, width));
-    let _ = write!(
-        out,
-        "\n{} {}. On {machine}.\n",
-        tolerances(survey),
-        repeated(survey)
-    );
-    for (title, sentence) in sentences {
-        // Writing to a string cannot fail.
-        let _ = write!(out, "\n{title}: {sentence}\n");
-    }
-    fit(&out, width)
+    rows
 }
 
 /// The worst failures of a method, and what it needs to be right.

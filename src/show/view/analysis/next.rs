@@ -16,55 +16,10 @@ pub fn next(
     snap: Option<f64>,
 ) -> Vec<NextCommand> {
     let snap = snap.map_or(String::new(), |t| format!("--snap {t:e}"));
-    let joined = |more: &str| format!("{more} {snap}").trim().to_owned();
-    let mut steps = Vec::new();
-    for s in states {
-        let Some(Suggestions::Found(found)) = &s.suggestions else {
-            continue;
-        };
-        let of = found.of;
-        match (found.options == "usual", found.state) {
-            (false, StateId::FREE) => steps.push(NextCommand::new(
-                "search",
-                file,
-                &joined(""),
-                &format!("every redesign that removes all {of}, cheapest first"),
-            )),
-            (true, StateId::FREE) => {
-                let names = USUAL.iter().map(|t| format!("\"{}\"", t.name())).join(", ");
-                steps.push(NextCommand {
-                    command: format!("Write under [search]: options = [{names}]"),
-                    gives:
-                        "so that joints have a choice; then `ozols search` finds what removes all"
-                            .to_owned(),
-                });
-            }
-            (false, n) => {
-                let left = found.changes.first().map_or(of, |x| x.remaining);
-                let state = if n == StateId::new(1) {
-                    String::new()
-                } else {
-                    format!(" --state {}", word(s.state))
-                };
-                steps.push(NextCommand::new(
-                    "search",
-                    file,
-                    &joined(&format!("--max-external {left}{state}")),
-                    &format!("redesigns that leave at most {left} of the {of} external, too"),
-                ));
-            }
-            (true, _) if !found.changes.is_empty() => steps.push(NextCommand {
-                command: format!(
-                    "Write at a contact of state {}: unloading = [\"{}\"]",
-                    s.state,
-                    USUAL_UNLOADING.name()
-                ),
-                gives: "so that `ozols search` may insert it; --max-external N asks for it"
-                    .to_owned(),
-            }),
-            (true, _) => {}
-        }
-    }
+    let mut steps: Vec<NextCommand> = states
+        .iter()
+        .filter_map(|s| to_remove(s, file, &snap))
+        .collect();
     if !steps.is_empty() {
         return steps;
     }
@@ -85,4 +40,53 @@ pub fn next(
         "its structural scheme",
     ));
     steps
+}
+
+/// What finds the redesigns that remove what is redundant in a state, or gives joints a choice; nothing where no change is
+/// known that removes any.
+fn to_remove(s: &State<'_>, file: &str, snap: &str) -> Option<NextCommand> {
+    let Some(Suggestions::Found(found)) = &s.suggestions else {
+        return None;
+    };
+    let of = found.of;
+    let joined = |more: &str| format!("{more} {snap}").trim().to_owned();
+    match (found.options == "usual", found.state) {
+        (false, StateId::FREE) => Some(NextCommand::new(
+            "search",
+            file,
+            &joined(""),
+            &format!("every redesign that removes all {of}, cheapest first"),
+        )),
+        (true, StateId::FREE) => {
+            let names = USUAL.iter().map(|t| format!("\"{}\"", t.name())).join(", ");
+            Some(NextCommand {
+                command: format!("Write under [search]: options = [{names}]"),
+                gives: "so that joints have a choice; then `ozols search` finds what removes all"
+                    .to_owned(),
+            })
+        }
+        (false, n) => {
+            let left = found.changes.first().map_or(of, |x| x.remaining);
+            let state = if n == StateId::new(1) {
+                String::new()
+            } else {
+                format!(" --state {}", word(s.state))
+            };
+            Some(NextCommand::new(
+                "search",
+                file,
+                &joined(&format!("--max-external {left}{state}")),
+                &format!("redesigns that leave at most {left} of the {of} external, too"),
+            ))
+        }
+        (true, _) if !found.changes.is_empty() => Some(NextCommand {
+            command: format!(
+                "Write at a contact of state {}: unloading = [\"{}\"]",
+                s.state,
+                USUAL_UNLOADING.name()
+            ),
+            gives: "so that `ozols search` may insert it; --max-external N asks for it".to_owned(),
+        }),
+        (true, _) => None,
+    }
 }

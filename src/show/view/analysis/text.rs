@@ -30,7 +30,6 @@ impl Analysis<'_> {
 
 impl State<'_> {
     fn write(&self, out: &mut String, mechanism: &str, width: Option<u16>) -> std::fmt::Result {
-        let (rows, f) = (self.rows, self.freedoms);
         writeln!(
             out,
             "{mechanism}, state {}: {}, mobility {}\n",
@@ -38,6 +37,34 @@ impl State<'_> {
             self.verdict(),
             self.mobility_figure()
         )?;
+        self.write_counts(out)?;
+        for motion in self.idle_motions() {
+            writeln!(out, "  idle: {motion}")?;
+        }
+        for line in self.left_out.iter().map(LeftOut::words) {
+            writeln!(out, "  {line}")?;
+        }
+        writeln!(out, "  {}", self.certainty)?;
+        for line in self.method_lines() {
+            writeln!(out, "  {line}")?;
+        }
+        self.write_shares(out, width)?;
+        if let Some(e) = &self.external {
+            let disagree = if e.agree { "" } else { "  -- THESE DISAGREE" };
+            writeln!(
+                out,
+                "\n  External: σ = {} = {}; by rank {}{disagree}",
+                e.formula(),
+                e.redundant,
+                e.redundant_by_rank
+            )?;
+        }
+        self.write_self_stresses(out, width)
+    }
+
+    /// What was counted, and W and σ from that.
+    fn write_counts(&self, out: &mut String) -> std::fmt::Result {
+        let (rows, f) = (self.rows, self.freedoms);
         let couplings = match self.per_coupling.len() {
             0 => String::new(),
             c => format!(", c = {}", plural(c, "coupling")),
@@ -67,56 +94,45 @@ impl State<'_> {
                 self.formula_mobility
             )?;
         }
-        for motion in self.idle_motions() {
-            writeln!(out, "  idle: {motion}")?;
-        }
-        for line in self.left_out.iter().map(LeftOut::words) {
-            writeln!(out, "  {line}")?;
-        }
-        writeln!(out, "  {}", self.certainty)?;
-        for line in self.method_lines() {
-            writeln!(out, "  {line}")?;
-        }
+        Ok(())
+    }
+
+    /// The shares of contours and couplings in σ.
+    fn write_shares(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
         let shares = self.per_contour.iter().map(Contour::row);
         let shares = shares
             .chain(self.per_coupling.iter().map(Coupling::row))
             .collect_vec();
-        if !shares.is_empty() {
-            let head = [
-                "contour",
-                "joints",
-                "σ in this order",
-                "in any order",
-                "in any basis",
-            ];
-            writeln!(out, "\n{}", table(&head, shares, width))?;
+        if shares.is_empty() {
+            return Ok(());
         }
-        if let Some(e) = &self.external {
-            let disagree = if e.agree { "" } else { "  -- THESE DISAGREE" };
-            writeln!(
-                out,
-                "\n  External: σ = {} = {}; by rank {}{disagree}",
-                e.formula(),
-                e.redundant,
-                e.redundant_by_rank
-            )?;
+        let head = [
+            "contour",
+            "joints",
+            "σ in this order",
+            "in any order",
+            "in any basis",
+        ];
+        writeln!(out, "\n{}", table(&head, shares, width))
+    }
+
+    fn write_self_stresses(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+        if self.self_stresses.is_empty() {
+            return Ok(());
         }
-        if !self.self_stresses.is_empty() {
-            let head = [
-                "self-stress in contour",
-                "simplest at",
-                "there as",
-                "",
-                "borne by, share of Σ |F|² + |M|²/ℓ²",
-            ];
-            let rows = self.self_stresses.iter().map(SelfStress::row).collect();
-            writeln!(
-                out,
-                "\n{}\n  harmful: loads joints when parts are out of true; harmless: friction shared by the contacts",
-                table(&head, rows, width)
-            )?;
-        }
-        Ok(())
+        let head = [
+            "self-stress in contour",
+            "simplest at",
+            "there as",
+            "",
+            "borne by, share of Σ |F|² + |M|²/ℓ²",
+        ];
+        let rows = self.self_stresses.iter().map(SelfStress::row).collect();
+        writeln!(
+            out,
+            "\n{}\n  harmful: loads joints when parts are out of true; harmless: friction shared by the contacts",
+            table(&head, rows, width)
+        )
     }
 
     /// W, a range where rounded coordinates do not decide.

@@ -199,12 +199,33 @@ fn pairs_text(d: &StructureData) -> String {
     format!(" ({words})")
 }
 
+/// Whether a row tells of a third jaw.
+fn third(row: &Map<String, Value>, key: &str) -> bool {
+    row.get(key).is_some_and(|v| !v.is_null())
+}
+
 /// The figures of a structure with a layout, or why it has none.
 fn structure_text(d: &StructureData) -> String {
     let s = of(&d.structure);
     let mut out = format!("{}: {}\n", s("id"), s("name"));
-    // A third jaw, where there is one.
-    let third = |row: &Map<String, Value>, key: &str| row.get(key).is_some_and(|v| !v.is_null());
+    for classic in &d.classics {
+        let c = of(classic);
+        let _ = writeln!(out, "Known as {}: {}", c("id"), c("about"));
+    }
+    out += &make_up_text(d);
+    let Some(layout) = &d.layout else {
+        let _ = writeln!(out, "No layout: {}.", s("no_layout"));
+        return out;
+    };
+    out += &motion_text(d, layout);
+    out += &stroke_text(d);
+    out += &shape_text(d, layout);
+    out
+}
+
+/// What a structure is made of, how it is driven and which links are its jaws.
+fn make_up_text(d: &StructureData) -> String {
+    let s = of(&d.structure);
     let (jaws, both) = if third(&d.structure, "jaw_c") {
         (
             format!("{}, {} and {}", s("jaw_a"), s("jaw_b"), s("jaw_c")),
@@ -213,13 +234,8 @@ fn structure_text(d: &StructureData) -> String {
     } else {
         (format!("{} and {}", s("jaw_a"), s("jaw_b")), "")
     };
-    for classic in &d.classics {
-        let c = of(classic);
-        let _ = writeln!(out, "Known as {}: {}", c("id"), c("about"));
-    }
-    let _ = writeln!(
-        out,
-        "{}, {}{}; frame {}, driver {} ({}{}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}",
+    format!(
+        "{}, {}{}; frame {}, driver {} ({}{}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}\n",
         plural_of(&s("links"), "link"),
         plural_of(&s("joints"), "joint"),
         pairs_text(d),
@@ -238,67 +254,59 @@ fn structure_text(d: &StructureData) -> String {
         } else {
             ""
         },
-    );
-    let Some(layout) = &d.layout else {
-        let _ = writeln!(out, "No layout: {}.", s("no_layout"));
-        return out;
-    };
+    )
+}
+
+/// How a layout is constrained, how its jaws move and how hard they press.
+fn motion_text(d: &StructureData, layout: &Map<String, Value>) -> String {
     let l = of(layout);
-    let slide = s("input") == "slide";
-    let _ = writeln!(
-        out,
-        "As built: W = {}, σ = {}; finite mobility {}",
+    let slide = of(&d.structure)("input") == "slide";
+    let jaws = if third(layout, "jaw_c_motion") {
+        format!(
+            "{}, {} and {}",
+            l("jaw_a_motion"),
+            l("jaw_b_motion"),
+            l("jaw_c_motion")
+        )
+    } else {
+        format!("{} and {}", l("jaw_a_motion"), l("jaw_b_motion"))
+    };
+    format!(
+        "As built: W = {}, σ = {}; finite mobility {}\n\
+         Jaws: {jaws}, {} to {} mm apart for {} {} of the drive; they turn by {}° at most\n\
+         Force of each jaw for {} of the drive, without friction: {} N ({} to {} over the stroke)\n",
         l("mobility"),
         l("redundant"),
         l("finite"),
-    );
-    let _ = writeln!(
-        out,
-        "Jaws: {}, {} to {} mm apart for {} {} of the drive; they turn by {}° at most",
-        if third(layout, "jaw_c_motion") {
-            format!(
-                "{}, {} and {}",
-                l("jaw_a_motion"),
-                l("jaw_b_motion"),
-                l("jaw_c_motion")
-            )
-        } else {
-            format!("{} and {}", l("jaw_a_motion"), l("jaw_b_motion"))
-        },
         l("opening_min"),
         l("opening_max"),
         l("travel"),
         if slide { "mm" } else { "rad" },
         l("jaw_turn"),
-    );
-    let _ = writeln!(
-        out,
-        "Force of each jaw for {} of the drive, without friction: {} N ({} to {} over the stroke)",
         if slide { "1 N" } else { "1 Nm" },
         l("force_mean"),
         l("force_min"),
         l("force_max"),
-    );
-    out += &stroke_text(d);
-    let _ = writeln!(
-        out,
-        "Drawn: links 1 : {}, worst transmission angle {}°, {} crossings",
+    )
+}
+
+/// How a layout looks, and how many redesigns it has.
+fn shape_text(d: &StructureData, layout: &Map<String, Value>) -> String {
+    let l = of(layout);
+    format!(
+        "Drawn: links 1 : {}, worst transmission angle {}°, {} crossings\n\
+         Determinate variants ({}): {}, of these {} with W = 1{}\n\n",
         l("link_ratio"),
         l("transmission"),
         l("crossings"),
-    );
-    let _ = writeln!(
-        out,
-        "Determinate variants ({}): {}, of these {} with W = 1{}\n",
         l("certainty"),
         l("determinate"),
         l("determinate_w1"),
-        match s("symmetry").as_str() {
+        match of(&d.structure)("symmetry").as_str() {
             "generic" => String::new(),
             symmetry => format!(", {} up to {symmetry} images", l("orbits_w1")),
         },
-    );
-    out
+    )
 }
 
 /// What a catalogue knows of a structure, for people.

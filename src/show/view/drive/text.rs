@@ -198,68 +198,12 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
             significant(design.friction_energy)
         )?;
     }
-    let arrive = match design.feed_moments.len() {
-        0 | 1 => "to arrive at rest",
-        _ => "to arrive",
-    };
-    match design.needed_feed {
-        Some(needed) if design.friction_energy > 0.0 => writeln!(
-            out,
-            "  {arrive} the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
-            significant(needed),
-            (needed / design.friction_energy - 1.0) * 100.0,
-            significant(design.feed)
-        )?,
-        Some(needed) => writeln!(
-            out,
-            "  {arrive} the cam must give {} J",
-            significant(needed)
-        )?,
-        None => writeln!(
-            out,
-            "  no work of the cam brings the disc to its latch: it stops before the push begins"
-        )?,
-    }
+    needed_feed(out, design)?;
     if design.feed_moments.len() > 1 {
-        let piece = |p: &FeedMoment| {
-            let (from, moment) = (degrees(p.from), significant(p.moment));
-            format!("{moment} N·m from {from}")
-        };
-        let all = &design.feed_moments;
-        let pieces: Vec<String> = all.iter().take(PIECES).map(piece).collect();
-        write!(out, "  the cam pushes with {}", pieces.join(", "))?;
-        match all.len().saturating_sub(PIECES) {
-            0 => writeln!(out, ", up to the latch")?,
-            more => writeln!(
-                out,
-                " and {} more, up to the latch; --format json has them all",
-                plural(more, "piece")
-            )?,
-        }
+        feed_pieces(out, &design.feed_moments)?;
     }
     if d.complete {
-        match design.endurance {
-            Endurance::Going {
-                lasts: Some(_),
-                missing,
-            } => writeln!(
-                out,
-                "  repeated as it stands, the programme latches every swing in the long run, at most {} short",
-                degrees(missing)
-            )?,
-            Endurance::Going {
-                lasts: None,
-                missing,
-            } => writeln!(
-                out,
-                "  repeated as it stands, the programme still drifts after {PATIENCE} swings, {} short by then",
-                degrees(missing)
-            )?,
-            Endurance::Failing { after, .. } => writeln!(
-                out,
-                "  BUT NOT FOR LONG: of the programme repeated as it stands, {after} swings are latched and the next one misses; the cam must give more"
-            )?,
-        }
+        endurance(out, &design.endurance)?;
     }
     if let Some(cam) = &design.cam {
         let exact = cam.needed.as_ref().map_or_else(String::new, |s| {
@@ -274,6 +218,76 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
         electromagnet(out, d, cam)?;
     }
     Ok(())
+}
+
+/// The work that the cam must give for the disc to arrive.
+fn needed_feed(out: &mut String, design: &Design) -> std::fmt::Result {
+    let arrive = match design.feed_moments.len() {
+        0 | 1 => "to arrive at rest",
+        _ => "to arrive",
+    };
+    match design.needed_feed {
+        Some(needed) if design.friction_energy > 0.0 => writeln!(
+            out,
+            "  {arrive} the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
+            significant(needed),
+            (needed / design.friction_energy - 1.0) * 100.0,
+            significant(design.feed)
+        ),
+        Some(needed) => writeln!(
+            out,
+            "  {arrive} the cam must give {} J",
+            significant(needed)
+        ),
+        None => writeln!(
+            out,
+            "  no work of the cam brings the disc to its latch: it stops before the push begins"
+        ),
+    }
+}
+
+/// The push of a cam that differs from piece to piece.
+fn feed_pieces(out: &mut String, all: &[FeedMoment]) -> std::fmt::Result {
+    let piece = |p: &FeedMoment| {
+        let (from, moment) = (degrees(p.from), significant(p.moment));
+        format!("{moment} N·m from {from}")
+    };
+    let pieces: Vec<String> = all.iter().take(PIECES).map(piece).collect();
+    write!(out, "  the cam pushes with {}", pieces.join(", "))?;
+    match all.len().saturating_sub(PIECES) {
+        0 => writeln!(out, ", up to the latch"),
+        more => writeln!(
+            out,
+            " and {} more, up to the latch; --format json has them all",
+            plural(more, "piece")
+        ),
+    }
+}
+
+/// Whether the programme could go on for ever.
+fn endurance(out: &mut String, endurance: &Endurance) -> std::fmt::Result {
+    match *endurance {
+        Endurance::Going {
+            lasts: Some(_),
+            missing,
+        } => writeln!(
+            out,
+            "  repeated as it stands, the programme latches every swing in the long run, at most {} short",
+            degrees(missing)
+        ),
+        Endurance::Going {
+            lasts: None,
+            missing,
+        } => writeln!(
+            out,
+            "  repeated as it stands, the programme still drifts after {PATIENCE} swings, {} short by then",
+            degrees(missing)
+        ),
+        Endurance::Failing { after, .. } => writeln!(
+            out,
+            "  BUT NOT FOR LONG: of the programme repeated as it stands, {after} swings are latched and the next one misses; the cam must give more"
+        ),
+    }
 }
 
 /// When the electromagnets are on, what that takes, and what the cam looks like.

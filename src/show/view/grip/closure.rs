@@ -240,9 +240,27 @@ impl<'a> ClosureData<'a> {
         fit(&out, width)
     }
 
-    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+    /// A length in the file's unit, with its symbol.
+    fn long(&self, x: f64) -> String {
         let (metres, symbol) = self.unit;
-        let long = |x: f64| format!("{} {symbol}", significant(x / metres));
+        format!("{} {symbol}", significant(x / metres))
+    }
+
+    fn contact_table(&self, width: Option<u16>) -> String {
+        let rows = self.contacts.iter().map(|c| {
+            let reach = match (c.shape, c.reach) {
+                ("point", _) => "-".to_owned(),
+                (_, Some(r)) => self.long(r),
+                (_, None) => "no end stated".to_owned(),
+            };
+            let friction = c.friction.map_or("as it takes".to_owned(), significant);
+            vec![c.contact.to_owned(), c.shape.to_owned(), reach, friction]
+        });
+        let head = ["contact", "shape", "radius or half length", "friction"];
+        table(&head, rows.collect(), width)
+    }
+
+    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
         writeln!(
             out,
             "{}, state {}: {}\n{}\n",
@@ -257,7 +275,7 @@ impl<'a> ClosureData<'a> {
              (root mean square distance of the contacts from their middle)",
             self.object,
             plural(self.contacts.len(), "contact"),
-            long(self.size)
+            self.long(self.size)
         )?;
         if self.loose > 0 {
             writeln!(
@@ -266,17 +284,7 @@ impl<'a> ClosureData<'a> {
                 plural(self.loose, "free motion")
             )?;
         }
-        let rows = self.contacts.iter().map(|c| {
-            let reach = match (c.shape, c.reach) {
-                ("point", _) => "-".to_owned(),
-                (_, Some(r)) => long(r),
-                (_, None) => "no end stated".to_owned(),
-            };
-            let friction = c.friction.map_or("as it takes".to_owned(), significant);
-            vec![c.contact.to_owned(), c.shape.to_owned(), reach, friction]
-        });
-        let head = ["contact", "shape", "radius or half length", "friction"];
-        writeln!(out, "\n{}", table(&head, rows.collect(), width))?;
+        writeln!(out, "\n{}", self.contact_table(width))?;
         let pairs = self
             .force_closure
             .along
@@ -290,7 +298,7 @@ impl<'a> ClosureData<'a> {
                 out,
                 "\n  of {} with contacts out by up to {}: {} with force closure ({:.1} %), {} with form closure ({:.1} %)",
                 plural(s.samples, "sample"),
-                long(s.tolerance),
+                self.long(s.tolerance),
                 s.force_closed,
                 100.0 * s.force_closed_share,
                 s.form_closed,

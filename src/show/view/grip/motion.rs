@@ -78,10 +78,8 @@ impl GripMotion {
         }
     }
 
-    /// For people, fitted to a terminal of `width` columns where one is given.
-    #[must_use]
-    pub fn text(&self, width: Option<u16>) -> String {
-        let mut out = String::new();
+    /// Whether it can hold, and with what moments.
+    fn verdict(&self) -> String {
         let moments = self.steps.iter().filter_map(|s| s.drive_moment_per_lever);
         let least = moments.clone().fold(f64::INFINITY, f64::min);
         let most = moments.fold(0.0, f64::max);
@@ -90,19 +88,26 @@ impl GripMotion {
             .iter()
             .filter(|s| s.drive_moment_per_lever.is_none())
             .count();
-        let verdict = match lost {
+        match lost {
             0 => format!(
                 "can hold at every step, with {} to {} N·m per lever",
                 significant(least),
                 significant(most)
             ),
             n => format!("CANNOT HOLD at {}", plural(n, "step")),
-        };
+        }
+    }
+
+    /// For people, fitted to a terminal of `width` columns where one is given.
+    #[must_use]
+    pub fn text(&self, width: Option<u16>) -> String {
+        let mut out = String::new();
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
-            "\n  Along the motion, {}: {verdict}\n",
-            plural(self.steps.len(), "step")
+            "\n  Along the motion, {}: {}\n",
+            plural(self.steps.len(), "step"),
+            self.verdict()
         );
         let symbol = self.unit.symbol;
         let effort = if self

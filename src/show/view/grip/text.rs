@@ -33,35 +33,9 @@ fn range(g: &GripReport<'_>, rows: &[&Diameter<'_>]) -> String {
 }
 
 fn write(out: &mut String, g: &GripReport<'_>, width: Option<u16>) -> std::fmt::Result {
-    let (name, symbol) = (g.mechanism, g.file.length_unit.symbol);
+    let symbol = g.file.length_unit.symbol;
     let (held, lost): (Vec<&Diameter>, Vec<&Diameter>) = g.diameters.iter().partition(|d| d.holds);
-    // The forces found can balance the load; others may arise, and the safety factor is for those.
-    let verb = if g.file.spec.load.is_some() {
-        "can hold"
-    } else {
-        "can hold (no load stated)"
-    };
-    match (held.is_empty(), lost.is_empty()) {
-        (true, _) => write!(out, "{name}: cannot hold {}", range(g, &lost))?,
-        (false, true) => write!(out, "{name}: {verb} {}", range(g, &held))?,
-        (false, false) => write!(
-            out,
-            "{name}: {verb} {} of {} diameters, not all",
-            held.len(),
-            g.diameters.len()
-        )?,
-    }
-    if let Some((d, load)) = g.hardest.as_ref().and_then(|d| Some((d, d.load.as_ref()?))) {
-        write!(out, "; hardest at {} {symbol}", length(g, d.diameter))?;
-        if let Some(moment) = load.drive_moment_per_lever {
-            let moment = significant(moment);
-            write!(out, ", {}: drive moment {moment} N·m per lever", load.case)?;
-        }
-        if let (Some(effort), Some(t)) = (load.drive_effort, d.transmission) {
-            write!(out, ", {}", effort_of_drive(effort, t.drive == "slides"))?;
-        }
-    }
-    writeln!(out, "\n")?;
+    verdict(out, g, &held, &lost)?;
     for d in &lost {
         for reason in d.reasons() {
             let at = length(g, d.diameter);
@@ -96,6 +70,43 @@ fn write(out: &mut String, g: &GripReport<'_>, width: Option<u16>) -> std::fmt::
     write!(out, "{}", claims::text(&g.claims, width))
 }
 
+/// What can be held, and what the hardest of it takes.
+fn verdict(
+    out: &mut String,
+    g: &GripReport<'_>,
+    held: &[&Diameter<'_>],
+    lost: &[&Diameter<'_>],
+) -> std::fmt::Result {
+    let (name, symbol) = (g.mechanism, g.file.length_unit.symbol);
+    // The forces found can balance the load; others may arise, and the safety factor is for those.
+    let verb = if g.file.spec.load.is_some() {
+        "can hold"
+    } else {
+        "can hold (no load stated)"
+    };
+    match (held.is_empty(), lost.is_empty()) {
+        (true, _) => write!(out, "{name}: cannot hold {}", range(g, lost))?,
+        (false, true) => write!(out, "{name}: {verb} {}", range(g, held))?,
+        (false, false) => write!(
+            out,
+            "{name}: {verb} {} of {} diameters, not all",
+            held.len(),
+            g.diameters.len()
+        )?,
+    }
+    if let Some((d, load)) = g.hardest.as_ref().and_then(|d| Some((d, d.load.as_ref()?))) {
+        write!(out, "; hardest at {} {symbol}", length(g, d.diameter))?;
+        if let Some(moment) = load.drive_moment_per_lever {
+            let moment = significant(moment);
+            write!(out, ", {}: drive moment {moment} N·m per lever", load.case)?;
+        }
+        if let (Some(effort), Some(t)) = (load.drive_effort, d.transmission) {
+            write!(out, ", {}", effort_of_drive(effort, t.drive == "slides"))?;
+        }
+    }
+    writeln!(out, "\n")
+}
+
 /// What one drive of both levers takes: a force where it slides, a moment where it turns.
 pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
     if slides {
@@ -105,9 +116,10 @@ pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
     }
 }
 
-fn inputs(out: &mut String, g: &GripReport<'_>) -> std::fmt::Result {
-    let (spec, symbol) = (&g.file.spec, g.file.length_unit.symbol);
-    let pivots = match (spec.pivots, g.diameters.first()) {
+/// Where the pivots are.
+fn pivots(g: &GripReport<'_>) -> String {
+    let symbol = g.file.length_unit.symbol;
+    match (g.file.spec.pivots, g.diameters.first()) {
         (Pivots::Nominal, _) | (_, None) => "pivots set for each diameter".to_owned(),
         (Pivots::Fixed(_) | Pivots::FixedForDiameter, Some(d)) => {
             let sign = if d.levers_cross { -1.0 } else { 1.0 };
@@ -122,13 +134,18 @@ fn inputs(out: &mut String, g: &GripReport<'_>) -> std::fmt::Result {
                 format!("{at}, nominal for no diameter")
             }
         }
-    };
+    }
+}
+
+fn inputs(out: &mut String, g: &GripReport<'_>) -> std::fmt::Result {
+    let (spec, symbol) = (&g.file.spec, g.file.length_unit.symbol);
     writeln!(
         out,
-        "  levers: L = {} {symbol}, α = {}°, γ = {}°; {pivots}",
+        "  levers: L = {} {symbol}, α = {}°, γ = {}°; {}",
         length(g, spec.lever_length),
         significant(spec.prism_angle.to_degrees()),
         significant(spec.mounting_angle.to_degrees()),
+        pivots(g)
     )?;
     let Some(load) = &spec.load else {
         return Ok(());

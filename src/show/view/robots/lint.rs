@@ -1,31 +1,27 @@
 //! What robot descriptions hold twice: text, JSON, and SARIF for code scanning.
 
 mod assembly;
+mod finding;
 mod passed_over;
 pub mod sarif;
 
 pub use assembly::{Misfit, TypeChange};
+pub use finding::{Finding, words};
 pub use passed_over::PassedOver;
 
 use assembly::{count, then};
+use finding::LintWords;
 
-use crate::format::number::{brief, cost};
 use crate::format::phrase::plural;
-use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::Mechanism;
 use crate::redundancy::duplicate_constraints::HeldTwice;
-use crate::redundancy::release::{Duplicate, Release, becomes};
-use crate::robots::{CadCount, ElementPlace, Imported, Origin};
-use itertools::Itertools;
+use crate::redundancy::release::Duplicate;
+use crate::robots::{CadCount, Imported, Origin};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Remedies told of each finding.
-const REMEDIES: usize = 3;
 /// Notes told of how a file was read.
 const NOTES: usize = 6;
-/// Joints named in a line.
-const JOINTS: usize = 8;
 
 /// How sure what is found in an open assembly is.
 const NUMERIC: &str = "numeric";
@@ -72,35 +68,6 @@ pub struct Lint {
     /// Whether the file is a robot description, which can be mended.
     #[serde(skip)]
     pub from_description: bool,
-}
-
-/// A redundant constraint.
-#[derive(Debug, Serialize)]
-pub struct Finding {
-    /// File, line and column of the element that the constraint is of; nothing where a file beside it says so.
-    pub file: Option<String>,
-    /// Line, from 1.
-    pub line: Option<usize>,
-    /// Column, from 1.
-    pub column: Option<usize>,
-    /// The joint or coupling.
-    pub constraint: String,
-    /// Its row: x, y or z, a direction, a turn about one.
-    pub row: String,
-    /// The joints and couplings that hold the same.
-    pub duplicates: Vec<String>,
-    /// The contours that its self-stress goes round.
-    pub contours: Vec<String>,
-    /// What an inexact part makes.
-    pub assembly: String,
-    /// How far the two frames of its joint are apart, where a CAD assembly places both.
-    pub misfit: Option<Misfit>,
-    /// The cheapest releases that remove it.
-    pub remedies: Vec<String>,
-    /// Whether it is redundant over the motion, as far as is known: else at this pose only, which is no fault.
-    pub lasts: bool,
-    /// All that in a sentence.
-    pub message: String,
 }
 
 impl Lint {
@@ -289,142 +256,6 @@ impl Lint {
                 "{least} to {most} redundant constraints (undecided: coordinates are rounded too coarsely)"
             )
         }
-    }
-}
-
-struct LintWords<'a> {
-    m: &'a Mechanism,
-    found: &'a HeldTwice,
-}
-
-impl LintWords<'_> {
-    fn coupling(&self, q: usize) -> String {
-        let found = self.m.couplings_in(StateId::FREE).nth(q);
-        found.map_or(String::new(), |c| c.name(self.m))
-    }
-
-    fn joint(&self, j: JointId) -> &str {
-        &self.m.joints[j].id
-    }
-
-    fn finding(&self, d: &Duplicate, lasts: bool, origin: Option<&Origin>) -> Finding {
-        let (constraint, row, assembly) = match d.row {
-            Release::Coupling(q) => (
-                self.coupling(q),
-                "the coupling".to_owned(),
-                "a force or moment through the coupling".to_owned(),
-            ),
-            Release::Freedom {
-                joint,
-                slides,
-                direction,
-            } => {
-                let line = name(direction);
-                let (row, what) = if slides {
-                    (line.clone(), format!("force along {line}"))
-                } else {
-                    (format!("turn about {line}"), format!("moment about {line}"))
-                };
-                (self.joint(joint).to_owned(), row, what)
-            }
-        };
-        let place: Option<ElementPlace> = origin.and_then(|o| match d.row {
-            Release::Coupling(q) => o.coupling(q),
-            Release::Freedom { joint, .. } => o.joint(joint),
-        });
-        let joints = d.by.iter().map(|&j| self.joint(j).to_owned());
-        let itself = |q: &&usize| d.row != Release::Coupling(**q);
-        let couplings = d.couplings.iter().filter(itself).map(|&q| self.coupling(q));
-        let duplicates: Vec<String> = joints.chain(couplings).collect();
-        let contours = &self.found.analysis.per_contour;
-        let contours = d.contours.iter().filter_map(|&k| contours.get(k));
-        // What passes as the model moves needs none.
-        let remedies = d.remedies.iter().take(if lasts { REMEDIES } else { 0 });
-        let more = match duplicates.len().saturating_sub(JOINTS) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        let shown = duplicates.iter().take(JOINTS).join(" / ");
-        let row_words = match d.row {
-            Release::Coupling(_) => row.clone(),
-            Release::Freedom { .. } => format!("row {row}"),
-        };
-        let message = if lasts {
-            format!("{constraint}, {row_words} duplicates {shown}{more}; assembly {assembly}")
-        } else {
-            format!("{constraint}, {row_words} duplicates {shown}{more} at this pose only")
-        };
-        let of_joint = match d.row {
-            Release::Freedom { joint, .. } => Some(joint),
-            Release::Coupling(_) => None,
-        };
-        let apart = origin.and_then(|o| o.misfit(of_joint?));
-        let metres = self.m.length_unit.metres;
-        let misfit = apart.map(|[shift, turn]| Misfit {
-            millimetres: shift * metres * 1e3,
-            degrees: turn.to_degrees(),
-        });
-        let open = origin.and_then(|o| o.open_by(of_joint?));
-        let open = open.map_or(String::new(), |o| format!("; its frames are {o} apart"));
-        Finding {
-            message: message + &open,
-            misfit,
-            lasts,
-            file: place.as_ref().map(|p| p.file.clone()),
-            line: place.as_ref().map(|p| p.at[0]),
-            column: place.as_ref().map(|p| p.at[1]),
-            contours: contours.map(|c| c.contour.name(self.m)).collect(),
-            remedies: remedies.map(|&i| self.remedy(i, origin)).collect(),
-            constraint,
-            row,
-            duplicates,
-            assembly,
-        }
-    }
-
-    /// "slide hinge along y: revolute -> cylindrical (cost 1.5)"; of an assembly, "hinge: Revolute -> Cylindrical (cost 1.5)".
-    fn remedy(&self, i: usize, origin: Option<&Origin>) -> String {
-        let (milli, release) = &self.found.releases[i];
-        let other = origin.and_then(|o| TypeChange::of(self.m, o, release));
-        let words = other.map_or_else(|| words(self.m, release), |c| c.words());
-        format!("{words} (cost {})", cost(*milli))
-    }
-}
-
-/// A release in words: "let a slide along y: revolute -> cylindrical".
-#[must_use]
-pub fn words(m: &Mechanism, release: &Release) -> String {
-    match *release {
-        Release::Coupling(q) => {
-            let found = m.couplings_in(StateId::FREE).nth(q);
-            let name = found.map_or(String::new(), |c| c.name(m));
-            format!("leave out the coupling {name}")
-        }
-        Release::Freedom {
-            joint,
-            slides,
-            direction,
-        } => {
-            let j = &m.joints[joint];
-            let does = if slides { "slide along" } else { "turn about" };
-            format!(
-                "let {} {does} {}: {} -> {}",
-                j.id,
-                name(direction),
-                j.joint_type.name(),
-                becomes(m, joint, slides, direction)
-            )
-        }
-    }
-}
-
-/// "y", or "(0.6, 0.8, 0)".
-fn name(d: Vector) -> String {
-    let axes = ["x", "y", "z"];
-    let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
-    match along {
-        Some(i) => axes[i].to_owned(),
-        None => format!("({})", d.map(brief).join(", ")),
     }
 }
 

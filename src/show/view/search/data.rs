@@ -144,18 +144,32 @@ struct FiguresData {
     redundant: usize,
 }
 
+impl SizeData {
+    fn new(diagram: Option<&Diagram>) -> SizeData {
+        SizeData {
+            largest_layer: diagram.map(|d| d.largest_layer),
+            nodes: diagram.map(|d| d.nodes),
+        }
+    }
+}
+
+impl CheckData {
+    fn new(outcome: &Outcome) -> Option<CheckData> {
+        outcome.check.map(|c| CheckData {
+            primes: c.primes.map(|p| p.to_string()),
+            // Two primes that agree on rounded digits prove nothing.
+            agree: c.agree().filter(|_| outcome.is_confirmed()),
+        })
+    }
+}
+
 impl<'a> SearchData<'a> {
     /// Of an outcome.
     #[must_use]
     pub fn new(outcome: &'a Outcome) -> Self {
         let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
-        let sizes = |of: fn(&Diagrams) -> &Diagram| {
-            let diagram = outcome.diagrams.as_ref().map(of);
-            SizeData {
-                largest_layer: diagram.map(|d| d.largest_layer),
-                nodes: diagram.map(|d| d.nodes),
-            }
-        };
+        let sizes =
+            |of: fn(&Diagrams) -> &Diagram| SizeData::new(outcome.diagrams.as_ref().map(of));
         let estimates = outcome.estimates();
         let by_cost = outcome.admissible_by_cost();
         let left_out = [
@@ -193,11 +207,7 @@ impl<'a> SearchData<'a> {
             determinate_diagram: first,
             admissible_diagram: second,
             stop: outcome.stop.word(),
-            check: outcome.check.map(|c| CheckData {
-                primes: c.primes.map(|p| p.to_string()),
-                // Two primes that agree on rounded digits prove nothing.
-                agree: c.agree().filter(|_| outcome.is_confirmed()),
-            }),
+            check: CheckData::new(outcome),
             measured: outcome.measured.as_ref().map(Measured::new),
             poses: outcome.stroke.as_ref().map(|s| Poses {
                 asked: s.asked,
@@ -217,7 +227,8 @@ impl<'a> SearchData<'a> {
 }
 
 impl<'a> Measured<'a> {
-    fn new((why, verdicts): &'a LooksRounded) -> Self {
+    fn new(rounded: &'a LooksRounded) -> Self {
+        let (why, verdicts) = rounded;
         let figures = |(mobility, redundant)| FiguresData {
             mobility,
             redundant,

@@ -42,12 +42,7 @@ pub fn write(
     let why = hopeless(&outcome.search.mechanism, &none.hopeless);
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
-    let what = match &outcome.ranking {
-        Some(p) => ranking::head(p),
-        None if sample => "drawn at random".to_owned(),
-        None if outcome.request.distinct => ideas::HEAD.to_owned(),
-        None => "cheapest first".to_owned(),
-    };
+    let what = order(outcome);
     let (mut footnotes, mut changed) = (Vec::new(), false);
     // A table is laid out as a whole, so a long list is given as several.
     loop {
@@ -69,14 +64,7 @@ pub fn write(
         footnotes.extend(block.iter().filter_map(note));
     }
     let summary = given.summary();
-    let lines = notes(&summary).into_iter();
-    let notes = lines.chain(marked(footnotes)).map(|l| format!("  {l}\n"));
-    let gap = if summary.is_asked() || summary.proven.is_some_and(|n| n > 0) {
-        "\n"
-    } else {
-        ""
-    };
-    write!(out, "{gap}{}", fit(&notes.collect::<String>(), width))?;
+    write_notes(out, &summary, footnotes, width)?;
     if let Some(p) = &outcome.ranking {
         let m = &outcome.search.mechanism;
         let lines = ranking::notes(m, p).into_iter();
@@ -102,6 +90,33 @@ pub fn write(
         }
     };
     write!(out, "{}", next_commands::text(&steps, width))
+}
+
+/// What order the variants are in.
+fn order(outcome: &Outcome) -> String {
+    match &outcome.ranking {
+        Some(p) => ranking::head(p),
+        None if matches!(outcome.request.list, List::Sample(_)) => "drawn at random".to_owned(),
+        None if outcome.request.distinct => ideas::HEAD.to_owned(),
+        None => "cheapest first".to_owned(),
+    }
+}
+
+/// What is to be said of the list as a whole, then the footnotes.
+fn write_notes(
+    out: &mut dyn io::Write,
+    summary: &Summary,
+    footnotes: Vec<String>,
+    width: Option<u16>,
+) -> io::Result<()> {
+    let lines = notes(summary).into_iter();
+    let notes = lines.chain(marked(footnotes)).map(|l| format!("  {l}\n"));
+    let gap = if summary.is_asked() || summary.proven.is_some_and(|n| n > 0) {
+        "\n"
+    } else {
+        ""
+    };
+    write!(out, "{gap}{}", fit(&notes.collect::<String>(), width))
 }
 
 /// The footnote of a marked variant.

@@ -142,23 +142,38 @@ impl Charts<'_, '_> {
 
     /// A group with a closed contour: its reactions, the tangential ones, and where its guide bears.
     fn contour_group(&mut self, i: usize, index: usize, letters: &ContourGroup) {
-        let (found, title) = (self.of.found, self.of.groups[index].name());
-        let m = &found.linkage.mechanism;
-        let place = |p: PairId| m.pairs[p].name.as_str();
-        let mut series = self.solved(i, &|g, r| magnitudes(&r, &g.pose).to_vec());
-        let prefix = scale(&mut series);
+        let title = self.of.groups[index].name();
+        self.contour_reactions(i, &title, letters);
+        self.tangential_reactions(i, &title, letters);
+        self.guide_bearing(i, &title, letters);
+    }
+
+    fn pair_name(&self, p: PairId) -> &str {
+        &self.of.found.linkage.mechanism.pairs[p].name
+    }
+
+    /// Which joints the letters of a group are.
+    fn letters_key(&self, letters: &ContourGroup) -> String {
         let named = [letters.d, letters.f, letters.k, letters.m, letters.l];
         let key = "DFKML".chars().zip(named);
-        let key = key.map(|(c, p)| format!("{c} = {}", place(p))).join(", ");
+        key.map(|(c, p)| format!("{c} = {}", self.pair_name(p)))
+            .join(", ")
+    }
+
+    fn contour_reactions(&mut self, i: usize, title: &str, letters: &ContourGroup) {
+        let mut series = self.solved(i, &|g, r| magnitudes(&r, &g.pose).to_vec());
+        let prefix = scale(&mut series);
+        let (key, guide) = (self.letters_key(letters), self.pair_name(letters.guide));
+        let subtitle = format!("{key}; guide {guide} with its sign");
         self.add(
             format!("group-{title}"),
-            [
-                format!("reactions of group {title}"),
-                format!("{key}; guide {} with its sign", place(letters.guide)),
-            ],
+            [format!("reactions of group {title}"), subtitle],
             linear(format!("reaction, {prefix}N")),
             series,
         );
+    }
+
+    fn tangential_reactions(&mut self, i: usize, title: &str, letters: &ContourGroup) {
         let mut series = self.solved(i, &|g, _| {
             let steps = &g.steps;
             vec![
@@ -168,6 +183,7 @@ impl Charts<'_, '_> {
             ]
         });
         let prefix = scale(&mut series);
+        let key = self.letters_key(letters);
         self.add(
             format!("tangential-{title}"),
             [
@@ -177,11 +193,16 @@ impl Charts<'_, '_> {
             linear(format!("reaction, {prefix}N")),
             series,
         );
-        let far = 2.0 * found.linkage.size;
+    }
+
+    /// The arm of the guide's reaction, and where along the guide it acts.
+    fn guide_bearing(&mut self, i: usize, title: &str, letters: &ContourGroup) {
+        let linkage = &self.of.found.linkage;
+        let far = 2.0 * linkage.size;
         // Far out the line only says that the reaction changes its sign.
         let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
         let series = over(self.of, |x| {
-            let guide = found.linkage.place(&x.instant.pose, letters.guide);
+            let guide = linkage.place(&x.instant.pose, letters.guide);
             let group = x.groups.get(i);
             let solved = group.and_then(|g| Some((g, g.by(self.shown)?)));
             let named = solved.map(|(g, r)| {
@@ -196,21 +217,15 @@ impl Charts<'_, '_> {
             let named = named.into_iter().flatten();
             named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
         });
-        self.add(
-            format!("guide-{title}"),
-            [
-                format!(
-                    "where the guide bears link {}",
-                    m.bodies[letters.slider].name
-                ),
-                format!(
-                    "Point of application of the reaction of {}; broken where it vanishes",
-                    place(letters.guide)
-                ),
-            ],
-            linear("m"),
-            series,
-        );
+        let slider = &linkage.mechanism.bodies[letters.slider].name;
+        let words = [
+            format!("where the guide bears link {slider}"),
+            format!(
+                "Point of application of the reaction of {}; broken where it vanishes",
+                self.pair_name(letters.guide)
+            ),
+        ];
+        self.add(format!("guide-{title}"), words, linear("m"), series);
     }
 
     /// A group without a closed contour: its reactions.

@@ -3,7 +3,9 @@
 use crate::format::number::figure;
 use crate::format::phrase::plural;
 use crate::statics::assur_class::roman;
-use crate::statics::contour_group::solutions::GroupMethod;
+use crate::statics::contour_group::letters::ContourGroup;
+use crate::statics::contour_group::pose::GroupReactions;
+use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
@@ -159,29 +161,60 @@ fn verdict(s: &StaticsData<'_>) -> String {
     }
 }
 
+/// The reactions of a group with a closed contour over the cycle, with what its letters stand for.
 fn group_table(
     out: &mut String,
     s: &StaticsData<'_>,
     i: usize,
     width: Option<u16>,
 ) -> std::fmt::Result {
-    let (linkage, methods) = (&s.found.linkage, s.methods);
-    let Some(shown) = methods.last() else {
+    let Some(shown) = s.methods.last() else {
         return Ok(());
     };
     let (index, letters) = &s.found.contour_groups[i];
     let moments = s.found.moments.iter();
     let solved = moments.filter_map(|x| Some((x, x.groups.get(i)?)));
     let solved = solved
-        .filter_map(|(x, g)| Some((x, g, g.by(*shown)?)))
+        .filter_map(|(at, group)| {
+            let reactions = group.by(*shown)?;
+            Some(SolvedMoment {
+                at,
+                group,
+                reactions,
+            })
+        })
         .collect_vec();
-    let all = solved.iter().flat_map(|(_, g, r)| magnitudes(r, &g.pose));
+    let all = solved
+        .iter()
+        .flat_map(|x| magnitudes(&x.reactions, &x.group.pose));
     let greatest = all
         .map(|(_, x)| x.abs())
         .filter(|x| x.is_finite())
         .fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
-    let name = |p: PairId| linkage.mechanism.pairs[p].name.as_str();
+    writeln!(
+        out,
+        "Group {}: reactions in {prefix}N by the {} method; {}",
+        s.groups[*index].name(),
+        shown.name(),
+        letters_words(s, letters)
+    )?;
+    let rows = solved.iter().map(|x| x.row(s, letters, unit));
+    let mut header = vec![s.unit()];
+    header.extend(["D", "F", "K", "M", "L", "guide", "h, m", "y, m"]);
+    if s.methods.contains(&GroupMethod::Delta) {
+        header.extend(["R46τ", "R47τ", "R34τ"]);
+    }
+    if s.methods.len() > 1 {
+        header.push("methods differ");
+    }
+    writeln!(out, "{}\n", table(&header, rows.collect(), width))
+}
+
+/// Which joints the letters of a group are, and what its further columns are.
+fn letters_words(s: &StaticsData<'_>, letters: &ContourGroup) -> String {
+    let m = &s.found.linkage.mechanism;
+    let name = |p: PairId| m.pairs[p].name.as_str();
     let names = [
         ("D", letters.d),
         ("F", letters.f),
@@ -189,37 +222,40 @@ fn group_table(
         ("M", letters.m),
         ("L", letters.l),
     ];
-    writeln!(
-        out,
-        "Group {}: reactions in {prefix}N by the {} method; {}, guide = {}",
-        s.groups[*index].name(),
-        shown.name(),
-        names.map(|(l, p)| format!("{l} = {}", name(p))).join(", "),
-        name(letters.guide)
-    )?;
-    writeln!(
-        out,
-        "The guide's reaction has the arm h about D; it acts at y along the guide from {}.{}\n",
-        name(letters.guide),
-        if methods.contains(&GroupMethod::Delta) {
-            let names = [letters.ternary, letters.rods[0], letters.rods[1]]
-                .map(|b| &linkage.mechanism.bodies[b].name);
-            format!(
-                " On the way of the δ-point method: across the rods R46τ at F and R47τ at K, across Dδ R34τ at D (4, 6, 7 = {}, {}, {}).",
-                names[0], names[1], names[2]
-            )
-        } else {
-            String::new()
-        }
-    )?;
-    let delta = methods.contains(&GroupMethod::Delta);
-    let rows = solved.iter().map(|(x, g, r)| {
-        let mut row = vec![figure(s.shown(x.instant.drive))];
+    let guide = name(letters.guide);
+    let on_the_way = if s.methods.contains(&GroupMethod::Delta) {
+        let names = [letters.ternary, letters.rods[0], letters.rods[1]].map(|b| &m.bodies[b].name);
+        format!(
+            " On the way of the δ-point method: across the rods R46τ at F and R47τ at K, across Dδ R34τ at D (4, 6, 7 = {}, {}, {}).",
+            names[0], names[1], names[2]
+        )
+    } else {
+        String::new()
+    };
+    format!(
+        "{}, guide = {guide}\n\
+         The guide's reaction has the arm h about D; it acts at y along the guide from {guide}.{on_the_way}\n",
+        names.map(|(l, p)| format!("{l} = {}", name(p))).join(", ")
+    )
+}
+
+/// A group at a moment of the cycle, with its reactions by the method that is shown.
+struct SolvedMoment<'a> {
+    at: &'a Moment,
+    group: &'a GroupSolutions,
+    reactions: GroupReactions,
+}
+
+impl SolvedMoment<'_> {
+    /// A row of its table, forces in `unit`.
+    fn row(&self, s: &StaticsData<'_>, letters: &ContourGroup, unit: f64) -> Vec<String> {
+        let (g, r) = (self.group, &self.reactions);
+        let mut row = vec![figure(s.shown(self.at.instant.drive))];
         row.extend(magnitudes(r, &g.pose).map(|(_, v)| figure(v / unit)));
-        let guide = linkage.place(&x.instant.pose, letters.guide);
+        let guide = s.found.linkage.place(&self.at.instant.pose, letters.guide);
         row.extend([figure(r.arm), figure(r.guide_offset(&g.pose, guide))]);
-        let steps = &g.steps;
-        if delta {
+        if s.methods.contains(&GroupMethod::Delta) {
+            let steps = &g.steps;
             let on_the_way = [
                 steps.r46_tangential,
                 steps.r47_tangential,
@@ -227,21 +263,12 @@ fn group_table(
             ];
             row.extend(on_the_way.map(|v| figure(v / unit)));
         }
-        if methods.len() > 1 {
-            let differ = g.disagreement(methods);
+        if s.methods.len() > 1 {
+            let differ = g.disagreement(s.methods);
             row.push(differ.map_or_else(String::new, |e| format!("{e:.0e}")));
         }
         row
-    });
-    let mut header = vec![s.unit()];
-    header.extend(["D", "F", "K", "M", "L", "guide", "h, m", "y, m"]);
-    if delta {
-        header.extend(["R46τ", "R47τ", "R34τ"]);
     }
-    if methods.len() > 1 {
-        header.push("methods differ");
-    }
-    writeln!(out, "{}\n", table(&header, rows.collect(), width))
 }
 
 /// The greatest reaction of every joint.

@@ -93,31 +93,11 @@ impl SweepData<'_> {
     /// # Errors
     /// Where a name is none of a parameter that varies, or there are not one or two.
     pub fn plot(&self, what: PlottedQuantity, over: &[String]) -> Result<Plotted, NoPlot> {
-        let known: Vec<&String> = self.parameters.keys().collect();
-        let named: Vec<&String> = match over {
-            [] => known.iter().copied().take(2).collect(),
-            names => names.iter().collect(),
-        };
-        let unknown = named.iter().any(|n| !known.contains(n));
-        if unknown || named.is_empty() || named.len() > 2 || !named.iter().all_unique() {
-            return Err(NoPlot {
-                asked: over.iter().join(","),
-                known: known.iter().take(2).join(","),
-            });
-        }
-        let mut values: BTreeMap<Vec<u64>, (Vec<f64>, f64)> = BTreeMap::new();
-        let mut merged = false;
-        for row in &self.table.rows {
-            let at: Vec<f64> = named.iter().map(|n| row.at[*n]).collect();
-            let key = at.iter().map(|x| x.to_bits()).collect();
-            let value = what.of(row).unwrap_or(f64::NAN);
-            let there = values.entry(key).or_insert((at, f64::NAN));
-            merged |= !there.1.is_nan();
-            // The greater of two, and of a number and none the number.
-            there.1 = there.1.max(value);
-        }
+        let named = self.named(over)?;
+        let (places, merged) = self.greatest_at(what, &named);
         let title = format!("{}: {}", self.mechanism, what.label());
-        let rest = known.iter().filter(|n| !named.contains(n)).join(", ");
+        let mut rest = self.parameters.keys().filter(|n| !named.contains(n));
+        let rest = rest.join(", ");
         let greatest = if merged {
             format!(" Of samples that differ in {rest} alone, the greatest.")
         } else {
@@ -127,8 +107,8 @@ impl SweepData<'_> {
             label: name.to_owned(),
             scale: Scale::Linear,
         };
-        let count = values.len();
-        let places = values.into_values();
+        let count = places.len();
+        let places = places.into_iter();
         Ok(match &named[..] {
             [x, y] => {
                 let lines = if what.is_count() {
@@ -161,5 +141,42 @@ impl SweepData<'_> {
                 }],
             }),
         })
+    }
+
+    /// The parameters that a plot goes over: the first two that vary where none are named.
+    fn named<'a>(&'a self, over: &'a [String]) -> Result<Vec<&'a String>, NoPlot> {
+        let known: Vec<&String> = self.parameters.keys().collect();
+        let named: Vec<&String> = match over {
+            [] => known.iter().copied().take(2).collect(),
+            names => names.iter().collect(),
+        };
+        let unknown = named.iter().any(|n| !known.contains(n));
+        if unknown || named.is_empty() || named.len() > 2 || !named.iter().all_unique() {
+            return Err(NoPlot {
+                asked: over.iter().join(","),
+                known: known.iter().take(2).join(","),
+            });
+        }
+        Ok(named)
+    }
+
+    /// The greatest value at each place in some parameters, and whether several samples with a value are in one place.
+    fn greatest_at(
+        &self,
+        what: PlottedQuantity,
+        named: &[&String],
+    ) -> (Vec<(Vec<f64>, f64)>, bool) {
+        let mut values: BTreeMap<Vec<u64>, (Vec<f64>, f64)> = BTreeMap::new();
+        let mut merged = false;
+        for row in &self.table.rows {
+            let at: Vec<f64> = named.iter().map(|n| row.at[*n]).collect();
+            let key = at.iter().map(|x| x.to_bits()).collect();
+            let value = what.of(row).unwrap_or(f64::NAN);
+            let there = values.entry(key).or_insert((at, f64::NAN));
+            merged |= !there.1.is_nan();
+            // The greater of two, and of a number and none the number.
+            there.1 = there.1.max(value);
+        }
+        (values.into_values().collect(), merged)
     }
 }

@@ -23,8 +23,10 @@ impl Kinematic<'_> {
         let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
         let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
         let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
-        for link in self.links.iter().filter(|(l, _)| bare(*l)) {
-            let (l, of) = link;
+        for (row, (l, of)) in self.links.iter().enumerate() {
+            if !bare(*l) {
+                continue;
+            }
             let mut seen: Vec<Point> = Vec::new();
             for &i in of {
                 let spot = &self.spots[i];
@@ -35,17 +37,14 @@ impl Kinematic<'_> {
                     out.push((*l, self.places[i].point));
                 }
             }
-            out.extend(self.loose_in_space(link).map(|p| (*l, p)));
+            out.extend(self.loose_in_space(row).map(|p| (*l, p)));
         }
         out
     }
 
     /// The free end of a link with one joint.
-    pub(in crate::draw::kinematic) fn loose_in_space(
-        &self,
-        link: &(LinkId, Vec<usize>),
-    ) -> Option<Vector> {
-        let of = &link.1;
+    pub(in crate::draw::kinematic) fn loose_in_space(&self, link: usize) -> Option<Vector> {
+        let of = &self.links[link].1;
         let off = sub(self.loose(link)?, self.spots[of[0]].at);
         let (view, scale) = (&self.projection.view, self.projection.scale);
         let across = add3(

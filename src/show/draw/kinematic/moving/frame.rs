@@ -75,7 +75,7 @@ impl Kinematic<'_> {
         let whole = &self.links[link];
         let own = whole.1.iter().map(|&i| self.places[i].point);
         let own = own.chain(self.points_of(whole.0).map(|p| p.place));
-        own.chain(self.loose_in_space(whole)).collect()
+        own.chain(self.loose_in_space(link)).collect()
     }
 
     /// The middle of those points.

@@ -11,26 +11,46 @@ pub(crate) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSp
     if planar(&out).is_some() {
         return out;
     }
-    let size = extent(&out);
-    let near = |a: Vector, b: Vector| norm(sub(a, b)) <= 1e-6 * size;
-    let step = if size > 0.0 { 0.2 * size } else { 1.0 };
-    let old = out.clone();
-    let links = |i: usize| mechanism.joints[joints[i]].links;
-    for i in 0..out.len() {
+    let crowd = CloseJoints {
+        mechanism,
+        joints,
+        size: extent(&out),
+        old: out.clone(),
+    };
+    for (i, place) in out.iter_mut().enumerate() {
+        if let Some(point) = crowd.moved(i) {
+            (place.point, place.moved) = (point, true);
+        }
+    }
+    out
+}
+
+/// Joints where the coordinates have them, of which some meet in a point.
+struct CloseJoints<'a> {
+    mechanism: &'a Mechanism,
+    joints: &'a [JointId],
+    size: f64,
+    old: Vec<JointInSpace>,
+}
+
+impl CloseJoints<'_> {
+    /// Where a joint is shown instead, if it has to be moved.
+    fn moved(&self, i: usize) -> Option<Vector> {
+        let (old, size) = (&self.old, self.size);
+        let near = |a: Vector, b: Vector| norm(sub(a, b)) <= 1e-6 * size;
         let group: Vec<usize> = (0..old.len())
             .filter(|&k| k != i && near(old[k].point, old[i].point))
             .collect();
         if group.is_empty() {
-            continue;
+            return None;
         }
-        let joint = &mechanism.joints[joints[i]];
+        let joint = &self.mechanism.joints[self.joints[i]];
         let (p, z) = (old[i].point, old[i].z);
         if matches!(joint.joint_type, JointType::Prismatic)
-            && let Some(middle) = between(mechanism, joints, &old, i)
+            && let Some(middle) = between(self.mechanism, self.joints, old, i)
             && !near(middle, p)
         {
-            (out[i].point, out[i].moved) = (middle, true);
-            continue;
+            return Some(middle);
         }
         let slides = joint
             .joint_type
@@ -39,8 +59,21 @@ pub(crate) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSp
             .all(|f| matches!(f, Freedom::Rz | Freedom::Tz | Freedom::Screw));
         let slanted = group.iter().any(|&k| norm(cross(old[k].z, z)) > 1e-6);
         if !slides || !slanted || joint.joint_type == JointType::Fixed {
-            continue;
+            return None;
         }
+        let twins = group
+            .iter()
+            .filter(|&&k| k < i && norm(cross(old[k].z, z)) <= 1e-6)
+            .count();
+        let t = self.free_of_others(i) * (1.0 + 0.5 * twins as f64);
+        (t.abs() > 1e-6 * size).then(|| add(p, scale(z, t)))
+    }
+
+    /// How far along its axis a joint is clear of the axes of others: between those that meet it, or outside.
+    fn free_of_others(&self, i: usize) -> f64 {
+        let (old, size) = (&self.old, self.size);
+        let (p, z) = (old[i].point, old[i].z);
+        let links = |i: usize| self.mechanism.joints[self.joints[i]].links;
         // where the axes of joints on the same links meet this one
         let mut meets: Vec<f64> = (0..old.len())
             .filter(|&k| k != i && links(k).iter().any(|l| links(i).contains(l)))
@@ -51,23 +84,13 @@ pub(crate) fn places(mechanism: &Mechanism, joints: &[JointId]) -> Vec<JointInSp
             (Some(&a), Some(&b)) => (a, b),
             _ => (0.0, 0.0),
         };
-        let t = if high - low > 1e-5 * size {
-            (low + high) / 2.0
-        } else {
-            let middle = middle(&old);
-            let outward = dot(sub(add(p, scale(z, low)), middle), z);
-            low + if outward < -1e-9 * size { -step } else { step }
-        };
-        let twins = group
-            .iter()
-            .filter(|&&k| k < i && norm(cross(old[k].z, z)) <= 1e-6)
-            .count();
-        let t = t * (1.0 + 0.5 * twins as f64);
-        if t.abs() > 1e-6 * size {
-            (out[i].point, out[i].moved) = (add(p, scale(z, t)), true);
+        if high - low > 1e-5 * size {
+            return (low + high) / 2.0;
         }
+        let step = if size > 0.0 { 0.2 * size } else { 1.0 };
+        let outward = dot(sub(add(p, scale(z, low)), middle(old)), z);
+        low + if outward < -1e-9 * size { -step } else { step }
     }
-    out
 }
 
 /// The middle between the other joints of the two bars that a sliding pair joins.

@@ -1,0 +1,155 @@
+//! Where a kinematic scheme has its joints on paper, and how its links and its grounds keep clear of each other there.
+
+use crate::draw::kinematic::body::{self, Body};
+use crate::draw::kinematic::marked::marked;
+use crate::draw::kinematic::{Kinematic, Spot};
+use crate::draw::place::projection::places::places;
+use crate::draw::place::projection::{self, JointInSpace, Projection, ToBeSeen, Vector};
+use crate::draw::place::view_direction::Sight;
+use crate::draw::subject::{Subject, roominess};
+use crate::draw::symbol::concentric::sizes;
+use crate::draw::symbol::drive::driven_slides;
+use crate::draw::symbol::ground::{Foot, grounds};
+use crate::draw::symbol::placed::Symbol;
+use crate::draw::symbol::symbols::side_of_slide;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};
+use crate::svg::plane::{Point, norm, unit};
+
+/// The room for the joints.
+const ROOM: Point = [560.0, 400.0];
+
+impl<'a> Kinematic<'a> {
+    pub(super) fn new(subject: &'a Subject<'a>, sight: &Sight) -> Kinematic<'a> {
+        let m = subject.mechanism;
+        let joints: Vec<JointId> = m.joints_in(subject.state).collect();
+        let links = joined_links(m, &joints);
+        // A redesign is seen as the mechanism it came from, so that the two can be laid side by side.
+        let before = subject.marks.as_ref().and_then(|m| m.before.as_ref());
+        let seen = before.unwrap_or(m);
+        let places = places(seen, &joints);
+        let mut points = marked(m, subject.state, &links);
+        let more: Vec<_> = points.iter().map(|p| p.place).collect();
+        let to_be_seen = ToBeSeen {
+            places: &places,
+            more: &more,
+            turning: &turning(seen, &joints, &places),
+        };
+        let room = room_for(seen, &joints);
+        let projection = projection::best(to_be_seen, &links, m.frame(), room, sight);
+        for p in &mut points {
+            p.at = projection.flat(p.place);
+        }
+        let mut out = Kinematic {
+            subject,
+            spots: spots(subject, &joints, &places, &projection),
+            bows: vec![0.0; links.len()],
+            facets: Vec::new(),
+            links,
+            grounds: Vec::new(),
+            places,
+            points,
+            traces: (Vec::new(), false),
+            arrows: Vec::new(),
+            shows: None,
+            projection,
+        };
+        out.facets = out.facets_in_space();
+        out.keep_apart();
+        out
+    }
+
+    /// Bows out the bars that would lie on others, and puts the grounds where there is room.
+    fn keep_apart(&mut self) {
+        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
+        let moving: Vec<usize> = moving.collect();
+        let bodies: Vec<Body> = moving.iter().map(|&l| self.body(l)).collect();
+        for (&l, bow) in moving.iter().zip(body::bows(&bodies)) {
+            self.bows[l] = bow;
+        }
+        let end = |&l: &usize| Some((self.links[l].1[0], self.loose(l)?));
+        let loose: Vec<(usize, Point)> = moving.iter().filter_map(end).collect();
+        let feet: Vec<Foot> = (0..self.spots.len()).map(|i| self.foot(i)).collect();
+        let frame = self.subject.mechanism.frame();
+        self.grounds = grounds(&feet, &self.links, frame, &loose);
+    }
+
+    /// A joint as the ground has to know it: a block seen from the side has a rail.
+    fn foot(&self, i: usize) -> Foot {
+        let spot = &self.spots[i];
+        let of = &self.subject.mechanism.joints[spot.joint].joint_type;
+        let along = self.projection.view.flat(self.places[i].z);
+        let side = side_of_slide(of).filter(|_| norm(along) > 0.5);
+        Foot {
+            at: spot.at,
+            room: spot.rect,
+            slide: side.map(|side| (unit(along), side * spot.symbol.size + 2.0)),
+        }
+    }
+}
+
+/// The links that have some of the joints, each with the places of its own among these.
+fn joined_links(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, Vec<usize>)> {
+    let mut links = Vec::new();
+    for l in m.link_ids() {
+        let of: Vec<usize> = (0..joints.len())
+            .filter(|&i| m.joints[joints[i]].links.contains(&l))
+            .collect();
+        if !of.is_empty() {
+            links.push((l, of));
+        }
+    }
+    links
+}
+
+/// The room for so many joints: symbols do not grow, so that many of them need more paper.
+fn room_for(m: &Mechanism, joints: &[JointId]) -> Point {
+    let more = roominess(m, joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
+    ROOM.map(|r| r * more)
+}
+
+/// The axes that outputs turn about in the frame.
+fn turning(m: &Mechanism, joints: &[JointId], places: &[JointInSpace]) -> Vec<Vector> {
+    let with = |j: JointId, role: Role| m.joints[j].links.iter().any(|&l| m.links[l].role == role);
+    let turns = |j: JointId| m.joints[j].joint_type.freedoms().contains(&Freedom::Rz);
+    let all = joints.iter().zip(places);
+    let outputs = all.filter(|(j, _)| with(**j, Role::Frame) && with(**j, Role::Output));
+    outputs
+        .filter(|(j, _)| turns(**j))
+        .map(|(_, p)| p.z)
+        .collect()
+}
+
+/// The joints on paper with their symbols, which share the room where several have one place.
+fn spots(
+    subject: &Subject<'_>,
+    joints: &[JointId],
+    places: &[JointInSpace],
+    projection: &Projection,
+) -> Vec<Spot> {
+    let m = subject.mechanism;
+    let at: Vec<Point> = places.iter().map(|p| projection.flat(p.point)).collect();
+    let of: Vec<&Joint> = joints.iter().map(|&j| &m.joints[j]).collect();
+    let sizes = sizes(&at, &of);
+    let driven = driven_slides(m, subject.state);
+    let spots = joints.iter().zip(&at).zip(sizes);
+    let spots = spots.map(|((&joint, &at), size)| {
+        let of = &m.joints[joint];
+        let symbol = Symbol::new(
+            subject,
+            joint,
+            &of.joint_type,
+            &projection::turned(&of.frame),
+            &projection.view,
+            size,
+            driven.iter().find(|(j, _)| *j == joint).map(|d| d.1),
+        );
+        Spot {
+            joint,
+            at,
+            rect: symbol.room.moved(at),
+            symbol: symbol.marked(subject.joint_mark(joint)),
+        }
+    });
+    spots.collect()
+}

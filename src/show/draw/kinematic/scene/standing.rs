@@ -1,0 +1,178 @@
+//! What stands on the links of a scheme in space.
+
+use crate::draw::kinematic::scene::part::{below, paper};
+use crate::draw::kinematic::scene::{Scene, SceneJoint, fine, pixels};
+use crate::draw::kinematic::{Kinematic, marked};
+use crate::draw::place::projection::{Vector, View, add, cross, dot, norm, scale, sub};
+use crate::draw::symbol::concentric::one_place;
+use crate::draw::symbol::ground::Ground;
+use crate::geom::vector::Z;
+use crate::model::mechanism::JointId;
+
+/// Half the length of the guide that a ground shows in turned views, in pixels.
+const HALF_GUIDE: f64 = 34.0;
+
+impl Kinematic<'_> {
+    /// A scene with all that stands on the links.
+    pub(super) fn scene(&self) -> Scene {
+        let mut out = self.bare_scene();
+        self.add_links(&mut out);
+        self.add_pitch_circles(&mut out);
+        self.add_points(&mut out);
+        let order = self.outer_first();
+        self.add_joints(&mut out, &order);
+        self.add_couplings(&mut out, &order);
+        for ground in &self.grounds {
+            self.add_ground(&mut out, ground);
+        }
+        out
+    }
+
+    /// The view and the links, with nothing on them.
+    fn bare_scene(&self) -> Scene {
+        let view = &self.projection.view;
+        let m = self.subject.mechanism;
+        Scene {
+            view: [view.right, view.up, view.toward].map(fine),
+            upright: fine(upright(view)),
+            origin: [0.0; 2],
+            room: [0.0; 4],
+            scale: self.projection.scale,
+            middle: self.projection.middle,
+            names: self
+                .links
+                .iter()
+                .map(|(l, _)| m.links[*l].id.clone())
+                .collect(),
+            frame: self.row(m.frame()),
+            symbols: Vec::new(),
+            joints: Vec::new(),
+            couplings: Vec::new(),
+            wires: Vec::new(),
+            moves: Vec::new(),
+            stresses: Vec::new(),
+            swaps: Vec::new(),
+        }
+    }
+
+    /// The shapes of the links that move.
+    fn add_links(&self, out: &mut Scene) {
+        for row in 0..self.links.len() {
+            if self.is_frame(self.links[row].0) {
+                continue;
+            }
+            let body = self.body(row);
+            let class = self.look(row, &body);
+            match self.arc_in_space(row).or_else(|| self.bowed_in_space(row)) {
+                Some(points) => out.wire(self, row, &class, "line", &points, None),
+                None => {
+                    let facet = self.facets[row].clone();
+                    let points = facet.unwrap_or_else(|| self.points_in_space(row));
+                    out.wire(self, row, &class, "hull", &points, None);
+                }
+            }
+        }
+    }
+
+    /// The pitch circles of gears, each on the link that is not the frame.
+    fn add_pitch_circles(&self, out: &mut Scene) {
+        let m = self.subject.mechanism;
+        for coupling in m.couplings_in(self.subject.state) {
+            for (end, circle) in self.pitch_circles_in_space(coupling, &self.places) {
+                let [a, b] = m.joints[coupling.ends[end].joint]
+                    .links
+                    .map(|l| self.row(l));
+                let link = if self.is_frame(self.links[a].0) { b } else { a };
+                out.wire(self, link, "fine pitch", "loop", &circle, None);
+            }
+        }
+    }
+
+    /// The points of interest, which come before the joints.
+    fn add_points(&self, out: &mut Scene) {
+        for p in &self.points {
+            let corners = marked::corners([0.0; 2]).to_vec();
+            let symbol = out.symbol(vec![paper("ink", corners, true)]);
+            let row = self.row(p.link);
+            out.joints.push(SceneJoint {
+                id: Some(p.id.clone()),
+                ..self.standing(p.place, [row; 2], symbol)
+            });
+        }
+    }
+
+    fn add_joints(&self, out: &mut Scene, order: &[usize]) {
+        let m = self.subject.mechanism;
+        for &i in order {
+            let spot = &self.spots[i];
+            let mark = self.subject.joint_mark(spot.joint);
+            let of = &m.joints[spot.joint].joint_type;
+            let symbol = out.symbol(self.parts(spot.joint, of, &spot.symbol, mark));
+            let (rides, guides) = self.carriers(i);
+            let place = &self.places[i];
+            let links = [rides, guides].map(|l| self.row(l));
+            out.joints.push(SceneJoint {
+                axes: [place.x, place.y, place.z].map(fine),
+                pair: Some(self.pair(i, of)),
+                id: Some(m.joints[spot.joint].id.clone()),
+                ..self.standing(place.point, links, symbol)
+            });
+        }
+    }
+
+    fn add_couplings(&self, out: &mut Scene, order: &[usize]) {
+        let row = |joint: JointId| {
+            let at = order.iter().position(|&i| self.spots[i].joint == joint);
+            at.map(|n| self.points.len() + n)
+        };
+        let couplings = self.subject.mechanism.couplings_in(self.subject.state);
+        out.couplings = couplings.filter_map(|c| self.tie(c, row)).collect();
+    }
+
+    /// The ground of a joint in turned views: straight below whatever the view, with the guide of what slides in it.
+    fn add_ground(&self, out: &mut Scene, ground: &Ground) {
+        let there = |i: &usize| one_place(self.spots[*i].at, ground.from);
+        let Some(i) = (0..self.spots.len()).find(there) else {
+            return;
+        };
+        let frame = self.row(self.subject.mechanism.frame());
+        let place = self.places[i].point;
+        let symbol = out.symbol(below(self.spots[i].symbol.reach() + 6.0));
+        out.joints.push(SceneJoint {
+            turned: true,
+            ..self.standing(place, [frame; 2], symbol)
+        });
+        if let Some(axis) = self.slide_axis(i) {
+            let half = scale(axis, HALF_GUIDE / self.projection.scale);
+            let ends = [sub(place, half), add(place, half)];
+            out.wire(self, frame, "guide", "line", &ends, None);
+            if let Some(guide) = out.wires.last_mut() {
+                guide.turned = true;
+            }
+        }
+    }
+
+    /// A symbol with the axes of the file, in every view.
+    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize) -> SceneJoint {
+        SceneJoint {
+            at: pixels(self, at),
+            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z],
+            links,
+            symbol,
+            turned: false,
+            pair: None,
+            id: None,
+        }
+    }
+}
+
+/// What goes up in all views: z, or what goes up on paper where z is not upright in this one.
+fn upright(view: &View) -> Vector {
+    let level = dot(view.right, Z).abs() < 1e-6 && norm(cross(view.toward, Z)) > 1e-3;
+    let upside = dot(view.up, Z) < 0.0;
+    match (level, upside) {
+        (true, false) => Z,
+        (true, true) => scale(Z, -1.0),
+        _ => view.up,
+    }
+}

@@ -1,0 +1,214 @@
+//! A redundant constraint of a robot description in words.
+
+use super::assembly::{Misfit, TypeChange};
+use crate::format::number::{brief, cost};
+use crate::geom::vector::Vector;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::redundancy::duplicate_constraints::HeldTwice;
+use crate::redundancy::release::{Duplicate, Release, becomes};
+use crate::robots::{ElementPlace, Origin};
+use itertools::Itertools;
+use serde::Serialize;
+
+/// Remedies told of each finding.
+const REMEDIES: usize = 3;
+/// Joints named in a line.
+const JOINTS: usize = 8;
+
+/// A redundant constraint.
+#[derive(Debug, Serialize)]
+pub struct Finding {
+    /// File, line and column of the element that the constraint is of; nothing where a file beside it says so.
+    pub file: Option<String>,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column, from 1.
+    pub column: Option<usize>,
+    /// The joint or coupling.
+    pub constraint: String,
+    /// Its row: x, y or z, a direction, a turn about one.
+    pub row: String,
+    /// The joints and couplings that hold the same.
+    pub duplicates: Vec<String>,
+    /// The contours that its self-stress goes round.
+    pub contours: Vec<String>,
+    /// What an inexact part makes.
+    pub assembly: String,
+    /// How far the two frames of its joint are apart, where a CAD assembly places both.
+    pub misfit: Option<Misfit>,
+    /// The cheapest releases that remove it.
+    pub remedies: Vec<String>,
+    /// Whether it is redundant over the motion, as far as is known: else at this pose only, which is no fault.
+    pub lasts: bool,
+    /// All that in a sentence.
+    pub message: String,
+}
+
+/// A mechanism and what it holds twice, to be put in words.
+pub(super) struct LintWords<'a> {
+    pub(super) m: &'a Mechanism,
+    pub(super) found: &'a HeldTwice,
+}
+
+/// A constraint in words.
+struct ConstraintWords {
+    /// The joint or coupling.
+    constraint: String,
+    row: String,
+    /// Whether it is one of the rows of a joint.
+    of_joint: bool,
+    /// What an inexact part makes.
+    assembly: String,
+}
+
+impl ConstraintWords {
+    /// What it duplicates, in a sentence.
+    fn message(&self, duplicates: &[String], lasts: bool) -> String {
+        let ConstraintWords {
+            constraint,
+            row,
+            of_joint,
+            assembly,
+        } = self;
+        let more = match duplicates.len().saturating_sub(JOINTS) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let shown = duplicates.iter().take(JOINTS).join(" / ");
+        let a_row = if *of_joint { "row " } else { "" };
+        if lasts {
+            format!("{constraint}, {a_row}{row} duplicates {shown}{more}; assembly {assembly}")
+        } else {
+            format!("{constraint}, {a_row}{row} duplicates {shown}{more} at this pose only")
+        }
+    }
+}
+
+impl LintWords<'_> {
+    fn coupling(&self, q: usize) -> String {
+        let found = self.m.couplings_in(StateId::FREE).nth(q);
+        found.map_or(String::new(), |c| c.name(self.m))
+    }
+
+    fn joint(&self, j: JointId) -> &str {
+        &self.m.joints[j].id
+    }
+
+    /// A finding of what a row of a joint or a coupling holds twice; `lasts` where it does so over the motion.
+    pub(super) fn finding(&self, d: &Duplicate, lasts: bool, origin: Option<&Origin>) -> Finding {
+        let named = self.constraint(d.row);
+        let joints = d.by.iter().map(|&j| self.joint(j).to_owned());
+        let itself = |q: &&usize| d.row != Release::Coupling(**q);
+        let couplings = d.couplings.iter().filter(itself).map(|&q| self.coupling(q));
+        let duplicates: Vec<String> = joints.chain(couplings).collect();
+        let contours = &self.found.analysis.per_contour;
+        let contours = d.contours.iter().filter_map(|&k| contours.get(k));
+        // What passes as the model moves needs none.
+        let remedies = d.remedies.iter().take(if lasts { REMEDIES } else { 0 });
+        let (place, of_joint): (Option<ElementPlace>, _) = match d.row {
+            Release::Coupling(q) => (origin.and_then(|o| o.coupling(q)), None),
+            Release::Freedom { joint, .. } => (origin.and_then(|o| o.joint(joint)), Some(joint)),
+        };
+        let open = origin.and_then(|o| o.open_by(of_joint?));
+        let open = open.map_or(String::new(), |o| format!("; its frames are {o} apart"));
+        Finding {
+            message: named.message(&duplicates, lasts) + &open,
+            misfit: origin.and_then(|o| self.misfit(o, of_joint?)),
+            lasts,
+            file: place.as_ref().map(|p| p.file.clone()),
+            line: place.as_ref().map(|p| p.at[0]),
+            column: place.as_ref().map(|p| p.at[1]),
+            contours: contours.map(|c| c.contour.name(self.m)).collect(),
+            remedies: remedies.map(|&i| self.remedy(i, origin)).collect(),
+            constraint: named.constraint,
+            row: named.row,
+            duplicates,
+            assembly: named.assembly,
+        }
+    }
+
+    /// A row of a joint, or a coupling, in words.
+    fn constraint(&self, row: Release) -> ConstraintWords {
+        match row {
+            Release::Coupling(q) => ConstraintWords {
+                constraint: self.coupling(q),
+                row: "the coupling".to_owned(),
+                of_joint: false,
+                assembly: "a force or moment through the coupling".to_owned(),
+            },
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => {
+                let line = name(direction);
+                let (row, assembly) = if slides {
+                    (line.clone(), format!("force along {line}"))
+                } else {
+                    (format!("turn about {line}"), format!("moment about {line}"))
+                };
+                ConstraintWords {
+                    constraint: self.joint(joint).to_owned(),
+                    row,
+                    of_joint: true,
+                    assembly,
+                }
+            }
+        }
+    }
+
+    /// How far the frames of a joint are apart, in millimetres and degrees.
+    fn misfit(&self, origin: &Origin, joint: JointId) -> Option<Misfit> {
+        let [shift, turn] = origin.misfit(joint)?;
+        let metres = self.m.length_unit.metres;
+        Some(Misfit {
+            millimetres: shift * metres * 1e3,
+            degrees: turn.to_degrees(),
+        })
+    }
+
+    /// "slide hinge along y: revolute -> cylindrical (cost 1.5)"; of an assembly, "hinge: Revolute -> Cylindrical (cost 1.5)".
+    pub(super) fn remedy(&self, i: usize, origin: Option<&Origin>) -> String {
+        let (milli, release) = &self.found.releases[i];
+        let other = origin.and_then(|o| TypeChange::of(self.m, o, release));
+        let words = other.map_or_else(|| words(self.m, release), |c| c.words());
+        format!("{words} (cost {})", cost(*milli))
+    }
+}
+
+/// A release in words: "let a slide along y: revolute -> cylindrical".
+#[must_use]
+pub fn words(m: &Mechanism, release: &Release) -> String {
+    match *release {
+        Release::Coupling(q) => {
+            let found = m.couplings_in(StateId::FREE).nth(q);
+            let name = found.map_or(String::new(), |c| c.name(m));
+            format!("leave out the coupling {name}")
+        }
+        Release::Freedom {
+            joint,
+            slides,
+            direction,
+        } => {
+            let j = &m.joints[joint];
+            let does = if slides { "slide along" } else { "turn about" };
+            format!(
+                "let {} {does} {}: {} -> {}",
+                j.id,
+                name(direction),
+                j.joint_type.name(),
+                becomes(m, joint, slides, direction)
+            )
+        }
+    }
+}
+
+/// "y", or "(0.6, 0.8, 0)".
+fn name(d: Vector) -> String {
+    let axes = ["x", "y", "z"];
+    let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
+    match along {
+        Some(i) => axes[i].to_owned(),
+        None => format!("({})", d.map(brief).join(", ")),
+    }
+}
