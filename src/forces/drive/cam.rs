@@ -113,88 +113,56 @@ impl Cam {
     /// there, and is that of an even moment here.
     #[must_use]
     pub fn profile(&self, per_swing: u32) -> Profile {
+        let (count, closes) = self.swings_a_turn();
+        let mut trace = Trace::new(self);
+        for swing in 0..count {
+            for i in 0..per_swing {
+                let turn = self.half_swing * (2.0 * f64::from(i) / f64::from(per_swing) - 1.0);
+                trace.add(swing, turn, i == 0);
+            }
+        }
+        Profile {
+            outline: trace.outline(),
+            grooves: (0..count)
+                .map(|n| 2.0 * self.half_swing * f64::from(n))
+                .collect(),
+            closes,
+            both_ways: trace.both_ways,
+            pressure_angle: if self.mounting > 0.0 {
+                trace.pressure_angle.max(self.pressure_at_ends())
+            } else {
+                FRAC_PI_2
+            },
+            least_curvature: trace.least_curvature,
+            points: trace.points,
+        }
+    }
+
+    /// How many whole swings there are in a turn of the disc, and whether they make it up.
+    fn swings_a_turn(&self) -> (u32, bool) {
         let swings = TAU / (2.0 * self.half_swing);
         let closes = (swings - swings.round()).abs() < 1e-9 * swings;
+        let whole = if closes {
+            swings.round()
+        } else {
+            swings.floor()
+        };
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "at most a few thousand swings a turn, see the reader"
         )]
-        let count = if closes {
-            swings.round()
-        } else {
-            swings.floor()
-        }
-        .max(1.0) as u32;
-        // A flank that begins before the middle leaves no room for one the other way.
-        let both_ways = self.feed.begins() >= 0.0;
-        let (mut points, mut touched, mut pressure_angle) = (Vec::new(), Vec::new(), 0.0f64);
-        let mut least_curvature = self.radius;
-        for swing in 0..count {
-            for i in 0..per_swing {
-                let turn = self.half_swing * (2.0 * f64::from(i) / f64::from(per_swing) - 1.0);
-                let in_groove = i == 0;
-                let flank = if both_ways || in_groove {
-                    turn.abs()
-                } else {
-                    turn
-                };
-                let (fall, slope) = (self.fall(flank), self.slope(flank));
-                let way = if both_ways { turn.signum() } else { 1.0 };
-                let (r, dr) = (self.radius - fall, -slope * way);
-                let angle = self.half_swing * (1.0 + 2.0 * f64::from(swing)) + turn;
-                let (s, c) = angle.sin_cos();
-                let pitch = [r * c, r * s];
-                points.push(ProfilePoint { turn, fall, pitch });
-                if in_groove {
-                    touched.extend(self.round(pitch));
-                    continue;
-                }
-                // One way only, the lifted part begins beside the roller in the groove: a wall, which the roller is lifted over.
-                let beside = (self.roller / (self.radius - self.stroke)).min(1.0).asin();
-                if !both_ways
-                    && turn < self.feed.begins()
-                    && self.half_swing + turn <= 1.05 * beside
-                {
-                    continue;
-                }
-                let long = r.hypot(dr);
-                let normal = [(r * c + dr * s) / long, (r * s - dr * c) / long];
-                touched.push([0, 1].map(|k| pitch[k] - self.roller * normal[k]));
-                pressure_angle = pressure_angle.max((slope / r).atan());
-                least_curvature = least_curvature.min(self.curvature(flank, r, dr));
-            }
-        }
-        // Where the roller's path has a corner outwards, flanks beyond their crossing would be cut away.
-        let least = (self.roller * (1.0 - 1e-6)).powi(2);
-        let clear = |q: &[f64; 2]| {
-            let far = |p: &ProfilePoint| (p.pitch[0] - q[0]).powi(2) + (p.pitch[1] - q[1]).powi(2);
-            points.iter().all(|p| far(p) >= least)
-        };
-        let mut outline: Vec<[f64; 2]> = touched.into_iter().filter(clear).collect();
-        let angle = |q: &[f64; 2]| q[1].atan2(q[0]);
-        outline.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-        // Pieces fall fastest where they end.
+        let count = whole.max(1.0) as u32;
+        (count, closes)
+    }
+
+    /// The greatest angle of pressure where pieces end, where they fall fastest.
+    fn pressure_at_ends(&self) -> f64 {
         let ends = self.pieces().into_iter().map(|([_, to], rate)| {
             let last = self.slope_at(to, rate);
             (last / (self.radius - self.fall(to))).atan()
         });
-        let end = ends.fold(0.0, f64::max);
-        Profile {
-            points,
-            outline,
-            grooves: (0..count)
-                .map(|n| 2.0 * self.half_swing * f64::from(n))
-                .collect(),
-            closes,
-            both_ways,
-            pressure_angle: if self.mounting > 0.0 {
-                pressure_angle.max(end)
-            } else {
-                FRAC_PI_2
-            },
-            least_curvature,
-        }
+        ends.fold(0.0, f64::max)
     }
 
     /// The roller in a groove, the half of it towards the axis.
@@ -222,6 +190,77 @@ impl Cam {
         } else {
             f64::INFINITY
         }
+    }
+}
+
+/// The roller's path as it is traced, point by point.
+struct Trace<'c> {
+    cam: &'c Cam,
+    both_ways: bool,
+    points: Vec<ProfilePoint>,
+    /// Where the roller touches the disc.
+    touched: Vec<[f64; 2]>,
+    pressure_angle: f64,
+    least_curvature: f64,
+}
+
+impl<'c> Trace<'c> {
+    fn new(cam: &'c Cam) -> Trace<'c> {
+        Trace {
+            cam,
+            // A flank that begins before the middle leaves no room for one the other way.
+            both_ways: cam.feed.begins() >= 0.0,
+            points: Vec::new(),
+            touched: Vec::new(),
+            pressure_angle: 0.0,
+            least_curvature: cam.radius,
+        }
+    }
+
+    /// Adds the point at a turn from the middle of a swing.
+    fn add(&mut self, swing: u32, turn: f64, in_groove: bool) {
+        let (cam, both_ways) = (self.cam, self.both_ways);
+        let flank = if both_ways || in_groove {
+            turn.abs()
+        } else {
+            turn
+        };
+        let (fall, slope) = (cam.fall(flank), cam.slope(flank));
+        let way = if both_ways { turn.signum() } else { 1.0 };
+        let (r, dr) = (cam.radius - fall, -slope * way);
+        let angle = cam.half_swing * (1.0 + 2.0 * f64::from(swing)) + turn;
+        let (s, c) = angle.sin_cos();
+        let pitch = [r * c, r * s];
+        self.points.push(ProfilePoint { turn, fall, pitch });
+        if in_groove {
+            self.touched.extend(cam.round(pitch));
+            return;
+        }
+        // One way only, the lifted part begins beside the roller in the groove: a wall, which the roller is lifted over.
+        let beside = (cam.roller / (cam.radius - cam.stroke)).min(1.0).asin();
+        if !both_ways && turn < cam.feed.begins() && cam.half_swing + turn <= 1.05 * beside {
+            return;
+        }
+        let long = r.hypot(dr);
+        let normal = [(r * c + dr * s) / long, (r * s - dr * c) / long];
+        let touched = [0, 1].map(|k| pitch[k] - cam.roller * normal[k]);
+        self.touched.push(touched);
+        self.pressure_angle = self.pressure_angle.max((slope / r).atan());
+        self.least_curvature = self.least_curvature.min(cam.curvature(flank, r, dr));
+    }
+
+    /// What the roller rolls on, by the angle round the axis.
+    fn outline(&self) -> Vec<[f64; 2]> {
+        // Where the roller's path has a corner outwards, flanks beyond their crossing would be cut away.
+        let least = (self.cam.roller * (1.0 - 1e-6)).powi(2);
+        let clear = |q: &[f64; 2]| {
+            let far = |p: &ProfilePoint| (p.pitch[0] - q[0]).powi(2) + (p.pitch[1] - q[1]).powi(2);
+            self.points.iter().all(|p| far(p) >= least)
+        };
+        let mut outline: Vec<[f64; 2]> = self.touched.iter().copied().filter(clear).collect();
+        let angle = |q: &[f64; 2]| q[1].atan2(q[0]);
+        outline.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+        outline
     }
 }
 

@@ -4,6 +4,7 @@ use crate::drive::cam::{Cam, Magnet, Profile, magnet};
 use crate::drive::programme::{Endurance, Module, Run};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
 use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
+use crate::model;
 use crate::model::drive::{Damping, DriveSpec};
 use serde::Serialize;
 
@@ -141,19 +142,18 @@ fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> Payl
 /// ```
 pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
     let sizing = wanted(spec).size();
-    let Some(bar) = sizing.bar else {
-        return Ok(Driving {
-            sizing,
-            design: None,
-        });
-    };
-    let stiffness = bar.stiffness();
+    let design = sizing.bar.map(|bar| design(spec, bar)).transpose()?;
+    Ok(Driving { sizing, design })
+}
+
+/// The damping of the simulation, and where it comes from.
+fn damping(spec: &DriveSpec, stiffness: f64) -> (Damping, DampingFrom) {
     let largest = usize::from(spec.inertias[1] > spec.inertias[0]);
     let viscous = |viscous| Damping {
         viscous,
         coulomb: 0.0,
     };
-    let (damping, damping_from) = match (spec.damping, spec.missing) {
+    match (spec.damping, spec.missing) {
         (Some(d), _) => (d, DampingFrom::Stated),
         (None, Some(missing)) => {
             let inertia = spec.inertias[largest];
@@ -161,7 +161,24 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
             (viscous(needed), DampingFrom::MissingAngle)
         }
         (None, None) => (viscous(0.0), DampingFrom::None),
-    };
+    }
+}
+
+/// The work of the cam that brings both discs to their latch at rest, where any does.
+fn needed_feed(discs: &[Disc; 2], latch: Latch, feed: &Feed) -> Result<Option<f64>, SwingError> {
+    let needs = discs
+        .iter()
+        .map(|d| d.needed_feed(latch, feed))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(needs
+        .into_iter()
+        .try_fold(0.0f64, |most, n| n.map(|n| most.max(n))))
+}
+
+/// The drive with a bar, and the programme it runs.
+fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
+    let stiffness = bar.stiffness();
+    let (damping, damping_from) = damping(spec, stiffness);
     let disc = |inertia| Disc {
         inertia,
         stiffness,
@@ -182,54 +199,26 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
             .map(|d| d.missing(spec.twist))
             .fold(0.0, f64::max)
     });
-    let by_formula = friction_energy(stiffness, spec.twist, missing);
+    let friction_energy = friction_energy(stiffness, spec.twist, missing);
     let feed = Feed {
-        energy: spec.push.energy(spec.twist).unwrap_or(by_formula),
+        energy: spec.push.energy(spec.twist).unwrap_or(friction_energy),
         pieces: spec.push.pieces(),
     };
-    let needs = discs
-        .iter()
-        .map(|d| d.needed_feed(latch, &feed))
-        .collect::<Result<Vec<_>, _>>()?;
-    let needed_feed = needs
-        .into_iter()
-        .try_fold(0.0f64, |most, n| n.map(|n| most.max(n)));
-    let energy = feed.energy;
+    let needed_feed = needed_feed(&discs, latch, &feed)?;
     let module = Module { discs, latch, feed };
     let run = module.run(&spec.programme)?;
-    let cam = spec.cam.map(|c| {
-        let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
-        let profile = c.profile.map(|(radius, roller)| {
-            let cam = Cam {
-                half_swing: spec.twist,
-                feed: module.feed.clone(),
-                stroke: c.stroke,
-                mounting: c.mounting,
-                radius,
-                roller,
-            };
-            cam.profile(PROFILE_POINTS)
-        });
-        CamDesign {
-            spring: spring(by_formula),
-            needed: needed_feed.map(spring),
-            fitted: spring(energy),
-            magnet: magnet(&run, &spring(energy)),
-            profile,
-        }
-    });
     let endurance = module.endurance(&spec.programme)?;
     let radius = spec.payload.map(|p| p.radius);
-    let design = Design {
+    let mut design = Design {
         bar,
         stiffness,
         damping,
         damping_from,
         missing,
-        friction_energy: by_formula,
+        friction_energy,
         needed_feed,
-        feed: energy,
-        cam,
+        feed: module.feed.energy,
+        cam: None,
         motions: spec
             .inertias
             .map(|i| motion(stiffness, i, spec.twist, radius)),
@@ -237,8 +226,30 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
         run,
         endurance,
     };
-    Ok(Driving {
-        sizing,
-        design: Some(design),
-    })
+    design.cam = spec.cam.map(|c| cam(c, spec.twist, &design));
+    Ok(design)
+}
+
+/// The cam of a design, for swings of `twist` either way of the middle.
+fn cam(c: model::drive::Cam, twist: f64, design: &Design) -> CamDesign {
+    let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
+    let profile = c.profile.map(|(radius, roller)| {
+        let cam = Cam {
+            half_swing: twist,
+            feed: design.module.feed.clone(),
+            stroke: c.stroke,
+            mounting: c.mounting,
+            radius,
+            roller,
+        };
+        cam.profile(PROFILE_POINTS)
+    });
+    let fitted = spring(design.feed);
+    CamDesign {
+        spring: spring(design.friction_energy),
+        needed: design.needed_feed.map(spring),
+        fitted,
+        magnet: magnet(&design.run, &fitted),
+        profile,
+    }
 }

@@ -102,6 +102,18 @@ pub enum End {
     Stuck,
 }
 
+impl Latch {
+    /// How a swing ends that comes to rest at a place short of the latch.
+    fn of_rest(self, place: f64) -> End {
+        let missing = self.at - place;
+        if missing <= self.capture {
+            End::Caught { missing }
+        } else {
+            End::Missed { missing }
+        }
+    }
+}
+
 /// Why a disc does not swing.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
@@ -200,6 +212,21 @@ impl Disc {
         (twist - (left - shift)).clamp(0.0, 2.0 * twist)
     }
 
+    /// Refuses a disc that does not swing.
+    fn check(&self) -> Result<(), SwingError> {
+        let positive = self.inertia > 0.0
+            && self.stiffness > 0.0
+            && self.inertia.is_finite()
+            && self.stiffness.is_finite();
+        if !(positive && self.viscous >= 0.0 && self.coulomb >= 0.0) {
+            return Err(SwingError::Disc);
+        }
+        if self.damping_ratio() >= 1.0 {
+            return Err(SwingError::Overdamped(self.damping_ratio()));
+        }
+        Ok(())
+    }
+
     /// Swings from rest at `-start`.
     ///
     /// # Units
@@ -212,16 +239,7 @@ impl Disc {
     /// # Errors
     /// A disc that does not swing.
     pub fn swing(&self, start: f64, latch: Latch, feed: &Feed) -> Result<Swing, SwingError> {
-        let positive = self.inertia > 0.0
-            && self.stiffness > 0.0
-            && self.inertia.is_finite()
-            && self.stiffness.is_finite();
-        if !(positive && self.viscous >= 0.0 && self.coulomb >= 0.0) {
-            return Err(SwingError::Disc);
-        }
-        if self.damping_ratio() >= 1.0 {
-            return Err(SwingError::Overdamped(self.damping_ratio()));
-        }
+        self.check()?;
         let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
         let mut pieces = Vec::new();
         let mut balance = Balance {
@@ -258,7 +276,6 @@ impl Disc {
                 break;
             }
         }
-        let missing = latch.at - u;
         let end = match (pieces.is_empty(), arrived && u >= latch.at) {
             (true, _) => End::Stuck,
             (false, true) => {
@@ -267,8 +284,7 @@ impl Disc {
                     impact: balance.impact,
                 }
             }
-            (false, false) if missing <= latch.capture => End::Caught { missing },
-            (false, false) => End::Missed { missing },
+            (false, false) => latch.of_rest(u),
         };
         balance.stored = self.stiffness * u * u / 2.0;
         Ok(Swing {

@@ -65,6 +65,13 @@ pub struct ContactForce {
 }
 
 impl ContactForce {
+    /// No force.
+    const NONE: ContactForce = ContactForce {
+        normal: 0.0,
+        along: 0.0,
+        axial: 0.0,
+    };
+
     /// Size of the friction force. `[N]`
     #[must_use]
     pub fn friction(&self) -> f64 {
@@ -77,11 +84,7 @@ impl ContactForce {
     /// force is below `least`, which is rounding.
     fn within(self, friction: f64, least: f64) -> ContactForce {
         if self.normal <= least {
-            return ContactForce {
-                normal: 0.0,
-                along: 0.0,
-                axial: 0.0,
-            };
+            return ContactForce::NONE;
         }
         let most = friction * self.normal;
         // A few digits of slack, so that the square root of the sum of squares is not above it by rounding.
@@ -110,6 +113,19 @@ pub struct Slip {
     pub rotation: Spatial,
 }
 
+impl Slip {
+    /// The certificate that nothing holds is a motion on which the load works and no contact force takes work away.
+    fn of_certificate(z: &[f64]) -> Slip {
+        let z = &z[..6];
+        let size = z.iter().map(|z| z * z).sum::<f64>().sqrt();
+        let part = |from: usize| [0, 1, 2].map(|i| z[from + i] / size);
+        Slip {
+            velocity: part(0),
+            rotation: part(3),
+        }
+    }
+}
+
 /// Forces that hold the part with the least drive moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Holding {
@@ -121,6 +137,16 @@ pub struct Holding {
     pub drive: f64,
     /// No smaller drive moment holds the part: value of the dual programme, to its tolerance, and not above `drive`. `[N·m]`
     pub lower_bound: f64,
+}
+
+impl Holding {
+    /// Where there is no load.
+    const IDLE: Holding = Holding {
+        forces: [ContactForce::NONE; 4],
+        moments: [0.0; 2],
+        drive: 0.0,
+        lower_bound: 0.0,
+    };
 }
 
 /// What statics say of a part between four faces.
@@ -283,6 +309,31 @@ impl<'a> Programme<'a> {
         }
         self
     }
+
+    /// The holding that these forces are, with a lower bound of any drive moment.
+    fn held_by(&self, forces: [ContactForce; 4], levers: LeverDrive, least: f64) -> Holding {
+        let of = |v: usize| {
+            let f: &ContactForce = &forces[v / 3];
+            [f.normal, f.along, f.axial][v % 3]
+        };
+        let moment = |k| {
+            let own = self.lever(k, 1.0);
+            own.iter().map(|&(v, a)| a * of(v)).sum::<f64>() * self.length
+        };
+        let moments = [moment(0), moment(1)];
+        // That of these forces, so that statics find the same, and not the solver's own to its tolerance.
+        let drive = match levers {
+            LeverDrive::Coupled => f64::midpoint(moments[0], moments[1]),
+            LeverDrive::Equal | LeverDrive::Independent => moments[0].max(moments[1]),
+        };
+        let drive = drive.max(0.0);
+        Holding {
+            forces,
+            moments,
+            drive,
+            lower_bound: least.min(drive),
+        }
+    }
 }
 
 /// The least drive moment per lever that holds the part in a pose under a load, or the motion in which it slips.
@@ -320,17 +371,7 @@ pub fn hold(
         .chain(load.moment.iter().map(|m| (m / length).powi(2)));
     let unit = size.sum::<f64>().sqrt();
     if unit == 0.0 {
-        let idle = ContactForce {
-            normal: 0.0,
-            along: 0.0,
-            axial: 0.0,
-        };
-        return Ok(HoldingOutcome::Held(Holding {
-            forces: [idle; 4],
-            moments: [0.0; 2],
-            drive: 0.0,
-            lower_bound: 0.0,
-        }));
+        return Ok(HoldingOutcome::Held(Holding::IDLE));
     }
     let programme = programme.write(load, unit, friction, levers);
     let mut objective = [0.0; DRIVE + 1];
@@ -348,37 +389,13 @@ pub fn hold(
                 };
                 found.within(friction, ROUNDING * unit)
             });
-            let of = |v: usize| {
-                let f: &ContactForce = &forces[v / 3];
-                [f.normal, f.along, f.axial][v % 3]
-            };
-            let moment = |k| {
-                let own = programme.lever(k, 1.0);
-                own.iter().map(|&(v, a)| a * of(v)).sum::<f64>() * length
-            };
-            let moments = [moment(0), moment(1)];
-            // That of these forces, so that statics find the same, and not the solver's own to its tolerance.
-            let drive = match levers {
-                LeverDrive::Coupled => f64::midpoint(moments[0], moments[1]),
-                LeverDrive::Equal | LeverDrive::Independent => moments[0].max(moments[1]),
-            };
-            let drive = drive.max(0.0);
-            Ok(HoldingOutcome::Held(Holding {
-                forces,
-                moments,
-                drive,
-                lower_bound: (s.obj_val_dual.max(0.0) * unit * length).min(drive),
-            }))
+            let least = s.obj_val_dual.max(0.0) * unit * length;
+            Ok(HoldingOutcome::Held(
+                programme.held_by(forces, levers, least),
+            ))
         }
         SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
-            // The certificate is a motion on which the load works and no contact force takes work away.
-            let z = &s.z[..6];
-            let size = z.iter().map(|z| z * z).sum::<f64>().sqrt();
-            let part = |from: usize| [0, 1, 2].map(|i| z[from + i] / size);
-            Ok(HoldingOutcome::Slips(Slip {
-                velocity: part(0),
-                rotation: part(3),
-            }))
+            Ok(HoldingOutcome::Slips(Slip::of_certificate(&s.z)))
         }
         other => Err(HoldingError::Solver(format!("{other:?}"))),
     }

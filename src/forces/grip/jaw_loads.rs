@@ -123,6 +123,28 @@ impl Axes {
         let d = [0, 1, 2].map(|i| p[i] - self.origin[i]);
         [dot(d, self.unit[0]), dot(d, self.unit[1])]
     }
+
+    /// Refuses a joint that is farther than `most` from where it is wanted. `[m]`
+    fn check(
+        &self,
+        m: &Mechanism,
+        joint: JointId,
+        wanted: [f64; 2],
+        most: f64,
+    ) -> Result<(), JawError> {
+        let is = self.flat(metres(m, joint));
+        let off = (is[0] - wanted[0]).hypot(is[1] - wanted[1]);
+        if off.is_nan() || off > most {
+            let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
+            return Err(JawError::Misplaced {
+                joint: m.joints[joint].id.clone(),
+                is: told(is),
+                wanted: told(wanted),
+                unit: m.length_unit.symbol,
+            });
+        }
+        Ok(())
+    }
 }
 
 /// The mechanism round a part of one diameter.
@@ -236,8 +258,7 @@ impl Gripping {
         };
         let mechanism = cut_free(m, part);
         let start = Pose::of_file(&mechanism, state)?;
-        let name = |j: JointId| m.joints[j].id.clone();
-        let not_a_hinge = || JawError::NotAHinge(name(joints[0]));
+        let not_a_hinge = || JawError::NotAHinge(m.joints[joints[0]].id.clone());
         let at = hinge(&start, joints[0]).ok_or_else(not_a_hinge)?;
         let t = start.columns[at].twist;
         let axes = axes(
@@ -249,17 +270,7 @@ impl Gripping {
         let placed = contacts.into_iter().zip(nominal.contacts.map(|c| c.point));
         let placed = placed.chain(joints.into_iter().zip(nominal.pivots));
         for (joint, wanted) in placed {
-            let is = axes.flat(metres(m, joint));
-            let off = (is[0] - wanted[0]).hypot(is[1] - wanted[1]);
-            if off.is_nan() || off > PLACED * spec.lever_length {
-                let told = |p: [f64; 2]| p.map(|x| x / m.length_unit.metres);
-                return Err(JawError::Misplaced {
-                    joint: name(joint),
-                    is: told(is),
-                    wanted: told(wanted),
-                    unit: m.length_unit.symbol,
-                });
-            }
+            axes.check(m, joint, wanted, PLACED * spec.lever_length)?;
         }
         Ok(Some(Gripping {
             levers: [lever(0), lever(2)],

@@ -125,6 +125,36 @@ impl<'a> Forces<'a> {
         let load: Vec<f64> = (part.motions.iter())
             .map(|m| power(&load, &m.part))
             .collect();
+        let (programme, worked) = self.programme(&load, cap);
+        let mut aim = vec![0.0; self.columns.len() + 1];
+        aim[0] = -1.0;
+        let found = programme
+            .solve_with(&[], &aim, effort)
+            .map_err(Unsolved::Programme)?;
+        let (least, left) = self.below(&found.x, &load);
+        let mut y = vec![0.0; load.len()];
+        for (i, z) in worked.iter().zip(&found.z) {
+            y[*i] = *z;
+        }
+        let size = inner(&y, &y).sqrt() * inner(&load, &load).sqrt();
+        let y = across(&y, &self.unlimited);
+        // Of a load that is resisted without limit rounding alone is left.
+        let most = match inner(&y, &load) {
+            work if work.abs() > TOLERANCE * size => self.above(&y, work).min(cap),
+            _ => cap,
+        };
+        let normal = self.normal(&y);
+        let sign = inner(&normal, d).signum();
+        Ok(Resisted {
+            least,
+            most,
+            left,
+            normal: scale(normal, sign),
+        })
+    }
+
+    /// The programme of the greatest load, and the motions whose balance is written in it.
+    fn programme(&self, load: &[f64], cap: f64) -> (ConeProgramme, Vec<usize>) {
         let mut programme = ConeProgramme::default();
         // A motion that neither load nor contacts work on says nothing, and rounding must not speak for it.
         let mut worked = Vec::new();
@@ -151,39 +181,21 @@ impl<'a> Forces<'a> {
             programme.row([(p.normal + 3, -1.0)], 0.0);
             programme.within(SecondOrderConeT);
         }
-        let mut aim = vec![0.0; self.columns.len() + 1];
-        aim[0] = -1.0;
-        let found = programme
-            .solve_with(&[], &aim, effort)
-            .map_err(Unsolved::Programme)?;
-        let (least, left) = self.below(&found.x, &load);
-        let mut y = vec![0.0; load.len()];
-        for (i, z) in worked.iter().zip(&found.z) {
-            y[*i] = *z;
-        }
-        let size = inner(&y, &y).sqrt() * inner(&load, &load).sqrt();
-        let y = across(&y, &self.unlimited);
-        // Of a load that is resisted without limit rounding alone is left.
-        let most = match inner(&y, &load) {
-            work if work.abs() > TOLERANCE * size => self.above(&y, work).min(cap),
-            _ => cap,
-        };
-        // The multipliers of the motions: the part's motion that the load works on most for what the contacts can give.
+        (programme, worked)
+    }
+
+    /// The part's motion that multipliers of the motions make up, (turn times the size; shift of the middle): what the load works on
+    /// most for what the contacts can give.
+    fn normal(&self, multipliers: &[f64]) -> Six {
+        let part = self.part;
         let mut twist = [0.0; 6];
-        for (y, motion) in y.iter().zip(&part.motions) {
+        for (y, motion) in multipliers.iter().zip(&part.motions) {
             twist = add(twist, scale(motion.part, *y));
         }
         let turn = [twist[0], twist[1], twist[2]];
         let shift = add([twist[3], twist[4], twist[5]], cross(turn, part.middle));
         let turn = scale(turn, part.size);
-        let normal = [turn[0], turn[1], turn[2], shift[0], shift[1], shift[2]];
-        let sign = inner(&normal, d).signum();
-        Ok(Resisted {
-            least,
-            most,
-            left,
-            normal: scale(normal, sign),
-        })
+        [turn[0], turn[1], turn[2], shift[0], shift[1], shift[2]]
     }
 
     /// The load of the forces found, put within their cones, and what is left of balance.

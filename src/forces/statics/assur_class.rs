@@ -2,8 +2,9 @@
 
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
 use petgraph::algo::dijkstra;
-use petgraph::graph::{NodeIndex, UnGraph};
+use petgraph::graph::{EdgeReference, NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
+use std::collections::HashMap;
 use std::fmt;
 
 /// The structural kind of a group.
@@ -162,44 +163,7 @@ fn longest_contour(n: usize, edges: &[(usize, usize)]) -> usize {
     for (i, &(a, b)) in edges.iter().enumerate() {
         graph.add_edge(NodeIndex::new(a), NodeIndex::new(b), i);
     }
-    // Horton's candidates: for every body and pair, the two shortest paths to the pair's ends, and the pair.
-    let mut candidates: Vec<(usize, Vec<usize>)> = Vec::new();
-    for v in graph.node_indices() {
-        let far = dijkstra(&graph, v, None, |_| 1usize);
-        let path = |mut x: NodeIndex| {
-            let mut out = Vec::new();
-            while x != v {
-                let step = graph.edges(x).find(|e| {
-                    let o = if e.source() == x {
-                        e.target()
-                    } else {
-                        e.source()
-                    };
-                    far.get(&o).is_some_and(|d| d + 1 == far[&x])
-                });
-                let Some(e) = step else { break };
-                out.push(*e.weight());
-                x = if e.source() == x {
-                    e.target()
-                } else {
-                    e.source()
-                };
-            }
-            out
-        };
-        for e in graph.edge_references() {
-            if !far.contains_key(&e.source()) {
-                continue;
-            }
-            let (a, b) = (path(e.source()), path(e.target()));
-            if a.iter().any(|x| b.contains(x)) || a.contains(e.weight()) || b.contains(e.weight()) {
-                continue;
-            }
-            let mut all: Vec<usize> = a.into_iter().chain(b).chain([*e.weight()]).collect();
-            all.sort_unstable();
-            candidates.push((all.len(), all));
-        }
-    }
+    let mut candidates = candidates(&graph);
     candidates.sort_unstable();
     candidates.dedup();
     let mut basis: Vec<Vec<usize>> = Vec::new();
@@ -216,6 +180,55 @@ fn longest_contour(n: usize, edges: &[(usize, usize)]) -> usize {
         }
     }
     longest
+}
+
+/// Horton's candidates for a shortest basis, each with its length: for every body and pair, the two shortest paths to the pair's
+/// ends, and the pair.
+fn candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
+    let mut out: Vec<(usize, Vec<usize>)> = Vec::new();
+    for v in graph.node_indices() {
+        let far = dijkstra(graph, v, None, |_| 1usize);
+        for e in graph.edge_references() {
+            if !far.contains_key(&e.source()) {
+                continue;
+            }
+            let path = |x| shortest_path(graph, &far, v, x);
+            let (a, b) = (path(e.source()), path(e.target()));
+            if a.iter().any(|x| b.contains(x)) || a.contains(e.weight()) || b.contains(e.weight()) {
+                continue;
+            }
+            let mut all: Vec<usize> = a.into_iter().chain(b).chain([*e.weight()]).collect();
+            all.sort_unstable();
+            out.push((all.len(), all));
+        }
+    }
+    out
+}
+
+/// The edges of a shortest path from `x` back to `v`, from which all are so far.
+fn shortest_path(
+    graph: &UnGraph<(), usize>,
+    far: &HashMap<NodeIndex, usize>,
+    v: NodeIndex,
+    mut x: NodeIndex,
+) -> Vec<usize> {
+    let mut out = Vec::new();
+    while x != v {
+        let other = |e: &EdgeReference<'_, usize>| {
+            if e.source() == x {
+                e.target()
+            } else {
+                e.source()
+            }
+        };
+        let step = graph
+            .edges(x)
+            .find(|e| far.get(&other(e)).is_some_and(|d| d + 1 == far[&x]));
+        let Some(e) = step else { break };
+        out.push(*e.weight());
+        x = other(&e);
+    }
+    out
 }
 
 fn symmetric_difference(a: &[usize], b: &[usize]) -> Vec<usize> {

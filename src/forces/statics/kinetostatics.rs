@@ -218,20 +218,52 @@ pub struct Equilibrium {
     pub residual: f64,
 }
 
-/// The unit wrenches (force on the second body, moment about the pair's point) that a pair can pass on, the drive's last.
-fn carried(linkage: &Linkage, pose: &Pose, pair: PairId, drive: bool) -> Vec<([f64; 2], f64)> {
+/// A unit of what a pair can pass on.
+struct UnitReaction {
+    pair: PairId,
+    /// Where the pair is.
+    point: [f64; 2],
+    /// Force on the second body.
+    force: [f64; 2],
+    /// Moment on it about the point.
+    moment: f64,
+    /// Whether the pair's drive gives it.
+    drives: bool,
+}
+
+/// The unit reactions of a pair, the drive's last.
+fn unit_reactions(
+    linkage: &Linkage,
+    pose: &Pose,
+    pair: PairId,
+    drive: bool,
+) -> impl Iterator<Item = UnitReaction> + use<> {
+    let point = linkage.place(pose, pair);
     let along = linkage.along(pose, pair);
     let (x, y, couple) = (
         ([1.0, 0.0], 0.0),
         ([0.0, 1.0], 0.0),
         ([0.0; 2], linkage.size),
     );
-    match (linkage.mechanism.pairs[pair].kind, drive) {
+    let wrenches = match (linkage.mechanism.pairs[pair].kind, drive) {
         (PairKind::Turning, false) => vec![x, y],
         (PairKind::Turning, true) | (PairKind::Rigid, _) => vec![x, y, couple],
         (PairKind::Sliding, false) => vec![couple, (quarter(along), 0.0)],
         (PairKind::Sliding, true) => vec![couple, (quarter(along), 0.0), (along, 0.0)],
-    }
+    };
+    let each = wrenches.into_iter().enumerate();
+    each.map(move |(k, (force, moment))| UnitReaction {
+        pair,
+        point,
+        force,
+        moment,
+        drives: drive && k == 2,
+    })
+}
+
+/// Where a body's own origin is now.
+fn origin(pose: &Pose, body: BodyId) -> [f64; 2] {
+    [pose[body][0], pose[body][1]]
 }
 
 /// Solves the equilibrium of some bodies for the reactions of some pairs, three equations a body. The pairs' constraints
@@ -251,65 +283,21 @@ pub fn equilibrium(
     loads: &[Load],
 ) -> Option<Equilibrium> {
     let n = 3 * bodies.len();
-    let origin = |b: BodyId| [now.pose[b][0], now.pose[b][1]];
-    let mut rows = vec![vec![0.0; n]; n];
-    let mut unknowns = Vec::new();
-    for &p in pairs {
-        let point = linkage.place(&now.pose, p);
-        for (k, (force, moment)) in carried(linkage, &now.pose, p, drives.contains(&p))
-            .into_iter()
-            .enumerate()
-        {
-            let column = unknowns.len();
-            unknowns.push((p, k, force, moment));
-            if column >= n {
-                return None;
-            }
-            for (end, sign) in [(0, -1.0), (1, 1.0)] {
-                let body = linkage.mechanism.pairs[p].bodies[end];
-                let Some(at) = bodies.iter().position(|&b| b == body) else {
-                    continue;
-                };
-                let turn = moment + cross(minus(point, origin(body)), force);
-                rows[3 * at][column] += sign * force[0];
-                rows[3 * at + 1][column] += sign * force[1];
-                rows[3 * at + 2][column] += sign * turn / linkage.size;
-            }
-        }
-    }
+    let unknowns: Vec<UnitReaction> = pairs
+        .iter()
+        .flat_map(|&p| unit_reactions(linkage, &now.pose, p, drives.contains(&p)))
+        .collect();
     if unknowns.len() != n {
         return None;
     }
-    let mut right = vec![0.0; n];
-    for load in loads {
-        if let Some(at) = bodies.iter().position(|&b| b == load.body) {
-            right[3 * at] -= load.force[0];
-            right[3 * at + 1] -= load.force[1];
-            right[3 * at + 2] -= load.moment_about(origin(load.body)) / linkage.size;
-        }
-    }
+    let rows = left_sides(linkage, &now.pose, bodies, &unknowns);
+    let right = right_sides(linkage, &now.pose, bodies, loads);
     let system = System::new(&rows);
     let x = system.solve(&right)?;
     let greatest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let reactions = pairs.iter().map(|&pair| {
-        let mut out = Reaction {
-            pair,
-            point: linkage.place(&now.pose, pair),
-            force: [0.0; 2],
-            moment: 0.0,
-            effort: None,
-        };
-        for (&(p, k, force, moment), value) in unknowns.iter().zip(&x) {
-            if p == pair {
-                out.force = plus(out.force, *value, force);
-                out.moment += value * moment;
-                if k == 2 && drives.contains(&p) {
-                    let turning = linkage.mechanism.pairs[p].kind == PairKind::Turning;
-                    out.effort = Some(if turning { value * moment } else { *value });
-                }
-            }
-        }
-        out
+        let of_pair = unknowns.iter().zip(&x).filter(|(u, _)| u.pair == pair);
+        summed(linkage, &now.pose, pair, of_pair)
     });
     Some(Equilibrium {
         reactions: reactions.collect(),
@@ -320,6 +308,67 @@ pub fn equilibrium(
             0.0
         },
     })
+}
+
+/// The equations of bodies, three each, by what a unit of each unknown adds to them.
+fn left_sides(
+    linkage: &Linkage,
+    pose: &Pose,
+    bodies: &[BodyId],
+    unknowns: &[UnitReaction],
+) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; unknowns.len()]; 3 * bodies.len()];
+    for (column, u) in unknowns.iter().enumerate() {
+        for (end, sign) in [(0, -1.0), (1, 1.0)] {
+            let body = linkage.mechanism.pairs[u.pair].bodies[end];
+            let Some(at) = bodies.iter().position(|&b| b == body) else {
+                continue;
+            };
+            let turn = u.moment + cross(minus(u.point, origin(pose, body)), u.force);
+            rows[3 * at][column] += sign * u.force[0];
+            rows[3 * at + 1][column] += sign * u.force[1];
+            rows[3 * at + 2][column] += sign * turn / linkage.size;
+        }
+    }
+    rows
+}
+
+/// What the loads leave to the reactions in the same equations.
+fn right_sides(linkage: &Linkage, pose: &Pose, bodies: &[BodyId], loads: &[Load]) -> Vec<f64> {
+    let mut right = vec![0.0; 3 * bodies.len()];
+    for load in loads {
+        if let Some(at) = bodies.iter().position(|&b| b == load.body) {
+            right[3 * at] -= load.force[0];
+            right[3 * at + 1] -= load.force[1];
+            right[3 * at + 2] -= load.moment_about(origin(pose, load.body)) / linkage.size;
+        }
+    }
+    right
+}
+
+/// The reaction of a pair as the sum of its unit reactions, each so many times.
+fn summed<'u>(
+    linkage: &Linkage,
+    pose: &Pose,
+    pair: PairId,
+    parts: impl Iterator<Item = (&'u UnitReaction, &'u f64)>,
+) -> Reaction {
+    let mut out = Reaction {
+        pair,
+        point: linkage.place(pose, pair),
+        force: [0.0; 2],
+        moment: 0.0,
+        effort: None,
+    };
+    for (u, value) in parts {
+        out.force = plus(out.force, *value, u.force);
+        out.moment += value * u.moment;
+        if u.drives {
+            let turning = linkage.mechanism.pairs[pair].kind == PairKind::Turning;
+            out.effort = Some(if turning { value * u.moment } else { *value });
+        }
+    }
+    out
 }
 
 /// The whole mechanism at once: every body but the frame, every pair.

@@ -142,6 +142,15 @@ pub struct PlanarMechanism {
     pub unit: &'static str,
 }
 
+/// The freedoms of a joint as its plane of motion sees them.
+struct FreedomsInPlane {
+    turns: usize,
+    /// Directions of the slides.
+    slides: Vec<[f64; 2]>,
+    /// Whether there are others, out of the plane.
+    outside: bool,
+}
+
 fn is_parallel(a: [f64; 3], b: [f64; 3]) -> bool {
     length(cross(a, b)) <= PARALLEL
 }
@@ -219,6 +228,33 @@ impl PlanarMechanism {
             .collect()
     }
 
+    /// What freedoms of a joint are in the plane, with these axes of its frame.
+    fn seen(&self, freedoms: &[Freedom], axes: [[f64; 3]; 3]) -> FreedomsInPlane {
+        let normal = |k: usize| is_parallel(axes[k], self.axes[2]);
+        let across = |k: usize| dot(axes[k], self.axes[2]).abs() <= PARALLEL;
+        let ball = [Freedom::Rx, Freedom::Ry, Freedom::Rz]
+            .iter()
+            .all(|f| freedoms.contains(f));
+        let mut seen = FreedomsInPlane {
+            turns: usize::from(ball),
+            slides: Vec::new(),
+            outside: ball,
+        };
+        for f in freedoms {
+            match f {
+                Freedom::Rx | Freedom::Ry | Freedom::Rz if ball => {}
+                Freedom::Rx if normal(0) => seen.turns += 1,
+                Freedom::Ry if normal(1) => seen.turns += 1,
+                Freedom::Rz if normal(2) => seen.turns += 1,
+                Freedom::Tx if across(0) => seen.slides.push(self.across(axes[0])),
+                Freedom::Ty if across(1) => seen.slides.push(self.across(axes[1])),
+                Freedom::Tz if across(2) => seen.slides.push(self.across(axes[2])),
+                _ => seen.outside = true,
+            }
+        }
+        seen
+    }
+
     fn add_joint(
         &mut self,
         m: &Mechanism,
@@ -229,30 +265,11 @@ impl PlanarMechanism {
         let name = || joint.id.clone();
         let values = FrameValues::new(&Reals, &joint.frame)?;
         let axes = values.axes.map(unit);
-        let freedoms = joint.joint_type.freedoms();
-        let ball = [Freedom::Rx, Freedom::Ry, Freedom::Rz]
-            .iter()
-            .all(|f| freedoms.contains(f));
-        let (mut turns, mut slides, mut outside) = (usize::from(ball), Vec::new(), false);
-        for f in freedoms {
-            let normal = |k: usize| is_parallel(axes[k], self.axes[2]);
-            let across = |k: usize| dot(axes[k], self.axes[2]).abs() <= PARALLEL;
-            match f {
-                Freedom::Rx | Freedom::Ry | Freedom::Rz if ball => {}
-                Freedom::Rx if normal(0) => turns += 1,
-                Freedom::Ry if normal(1) => turns += 1,
-                Freedom::Rz if normal(2) => turns += 1,
-                Freedom::Tx if across(0) => slides.push(self.across(axes[0])),
-                Freedom::Ty if across(1) => slides.push(self.across(axes[1])),
-                Freedom::Tz if across(2) => slides.push(self.across(axes[2])),
-                _ => outside = true,
-            }
-        }
-        if (outside || ball) && matches!(m.mode, Mode::Spatial) {
+        let seen = self.seen(joint.joint_type.freedoms(), axes);
+        if seen.outside && matches!(m.mode, Mode::Spatial) {
             return Err(PlanarError::NotPlanar { joint: name() });
         }
         let point = self.flat(values.point);
-        let along: Vec<[f64; 2]> = slides;
         let mut push = |bodies, kind, along, name| {
             self.pairs.push(Pair {
                 joint: j,
@@ -264,7 +281,7 @@ impl PlanarMechanism {
                 drive: joint.drive,
             });
         };
-        match (turns, along.as_slice()) {
+        match (seen.turns, seen.slides.as_slice()) {
             (0, []) => push(bodies, PairKind::Rigid, [0.0; 2], name()),
             (1, []) => push(bodies, PairKind::Turning, [0.0; 2], name()),
             (0, [u]) => push(bodies, PairKind::Sliding, *u, name()),

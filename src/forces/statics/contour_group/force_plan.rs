@@ -83,68 +83,95 @@ fn parts(
     [first, reaction(&format!("{name}n"), minus(whole, across))]
 }
 
-fn plans(g: &GroupSolutions, r: &GroupReactions, split: bool) -> [Plan; 4] {
-    let (pose, steps) = (&g.pose, &g.steps);
-    let guide = pose.normal().map(|c| c * r.guide);
-    let split = |name: &str, whole, tangential, from, to| {
-        if split {
+/// A group with the reactions of one method, whose forces are drawn.
+struct SolvedGroup<'g> {
+    group: &'g GroupSolutions,
+    reactions: &'g GroupReactions,
+    /// Whether reactions are drawn in two parts, as the δ-point method finds them.
+    split: bool,
+}
+
+impl SolvedGroup<'_> {
+    /// A reaction, whole or in its parts; see [`parts`].
+    fn drawn(
+        &self,
+        name: &str,
+        whole: [f64; 2],
+        tangential: f64,
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> Vec<PlanForce> {
+        if self.split {
             parts(name, whole, tangential, from, to).to_vec()
         } else {
             vec![reaction(name, whole)]
         }
-    };
-    let at_d = || split("R34", r.d, steps.r34_tangential, steps.delta, pose.d);
-    let at_f = |sign: f64, name| {
-        split(
-            name,
-            r.f.map(|x| sign * x),
-            sign * steps.r46_tangential,
-            pose.m,
-            pose.f,
-        )
-    };
-    let at_k = |sign: f64, name| {
-        split(
-            name,
-            r.k.map(|x| sign * x),
-            sign * steps.r47_tangential,
-            pose.l,
-            pose.k,
-        )
-    };
-    let plan = |of, links: &[usize], more: Vec<Vec<PlanForce>>| Plan {
-        of,
-        forces: loads(g, links)
-            .into_iter()
-            .chain(more.into_iter().flatten())
-            .collect(),
-    };
-    [
-        plan(
-            "group",
-            &[0, 1, 2, 3],
-            vec![at_d(), vec![reaction("R0/10", guide)]],
-        ),
-        plan(
-            "link 4",
-            &[0],
-            vec![
-                vec![reaction("R34", r.d)],
-                at_f(-1.0, "R64"),
-                at_k(-1.0, "R74"),
-            ],
-        ),
-        plan(
-            "link 7",
-            &[2],
-            vec![at_k(1.0, "R47"), vec![reaction("R10/7", r.l)]],
-        ),
-        plan(
-            "link 6",
-            &[1],
-            vec![at_f(1.0, "R46"), vec![reaction("R10/6", r.m)]],
-        ),
-    ]
+    }
+
+    fn at_d(&self) -> Vec<PlanForce> {
+        let (pose, steps) = (&self.group.pose, &self.group.steps);
+        let (whole, tangential) = (self.reactions.d, steps.r34_tangential);
+        self.drawn("R34", whole, tangential, steps.delta, pose.d)
+    }
+
+    /// The reaction at F, or with the sign -1 its opposite on the other link.
+    fn at_f(&self, sign: f64, name: &str) -> Vec<PlanForce> {
+        let pose = &self.group.pose;
+        let whole = self.reactions.f.map(|x| sign * x);
+        let tangential = sign * self.group.steps.r46_tangential;
+        self.drawn(name, whole, tangential, pose.m, pose.f)
+    }
+
+    /// The reaction at K, or with the sign -1 its opposite on the other link.
+    fn at_k(&self, sign: f64, name: &str) -> Vec<PlanForce> {
+        let pose = &self.group.pose;
+        let whole = self.reactions.k.map(|x| sign * x);
+        let tangential = sign * self.group.steps.r47_tangential;
+        self.drawn(name, whole, tangential, pose.l, pose.k)
+    }
+
+    /// The loads of some links, and reactions after them.
+    fn plan(&self, of: &'static str, links: &[usize], reactions: Vec<Vec<PlanForce>>) -> Plan {
+        Plan {
+            of,
+            forces: loads(self.group, links)
+                .into_iter()
+                .chain(reactions.into_iter().flatten())
+                .collect(),
+        }
+    }
+
+    fn plans(&self) -> [Plan; 4] {
+        let r = self.reactions;
+        let guide = self.group.pose.normal().map(|c| c * r.guide);
+        let whole = |name: &str, force| vec![reaction(name, force)];
+        [
+            self.plan(
+                "group",
+                &[0, 1, 2, 3],
+                vec![self.at_d(), whole("R0/10", guide)],
+            ),
+            self.plan(
+                "link 4",
+                &[0],
+                vec![
+                    whole("R34", r.d),
+                    self.at_f(-1.0, "R64"),
+                    self.at_k(-1.0, "R74"),
+                ],
+            ),
+            self.plan(
+                "link 7",
+                &[2],
+                vec![self.at_k(1.0, "R47"), whole("R10/7", r.l)],
+            ),
+            self.plan(
+                "link 6",
+                &[1],
+                vec![self.at_f(1.0, "R46"), whole("R10/6", r.m)],
+            ),
+        ]
+    }
 }
 
 /// The plans by the δ-point method beside those of the full solve; `None` where the full solve has no solution.
@@ -155,6 +182,14 @@ fn plans(g: &GroupSolutions, r: &GroupReactions, split: bool) -> [Plan; 4] {
 #[must_use]
 pub fn force_plans(g: &GroupSolutions) -> Option<Vec<[Plan; 2]>> {
     let (full, _) = g.equilibrium?;
-    let (delta, full) = (plans(g, &g.delta, true), plans(g, &full, false));
+    let plans = |reactions, split| {
+        let solved = SolvedGroup {
+            group: g,
+            reactions,
+            split,
+        };
+        solved.plans()
+    };
+    let (delta, full) = (plans(&g.delta, true), plans(&full, false));
     Some(delta.into_iter().zip(full).map(|(a, b)| [a, b]).collect())
 }

@@ -67,53 +67,80 @@ pub fn follow_to(
             (0..start.columns.len()).find(own)
         })
         .collect();
-    let unit = |c: usize| if slides(&start, c) { start.length } else { 1.0 };
     let mut wanted = wanted.to_vec();
     wanted.sort_by(f64::total_cmp);
+    let ahead: Vec<f64> = wanted.iter().copied().filter(|x| *x >= 0.0).collect();
+    let back: Vec<f64> = wanted.iter().rev().copied().filter(|x| *x < 0.0).collect();
     let (mut poses, mut stopped) = (Vec::new(), None);
-    let ahead = wanted.iter().copied().filter(|x| *x >= 0.0);
-    let back = wanted.iter().rev().copied().filter(|x| *x < 0.0);
-    let ways: [Vec<f64>; 2] = [ahead.collect(), back.collect()];
-    for way in ways {
-        if let [only] = held[..] {
-            let mut follower = Follower::new(start.clone(), only, &[]);
-            for to in way {
-                if follower.advance(to / unit(only), |_| {}).is_err() {
-                    stopped = stopped.or(Some(to));
-                    break;
-                }
-                poses.push((to, follower.pose()));
-            }
-            continue;
-        }
-        let speeds = &m.loads.drive_speeds;
-        let ratio = |n: usize| match (n, speeds.first(), speeds.get(n)) {
-            (0, _, _) => 1.0,
-            (_, Some(&first), Some(&own)) if first != 0.0 => own / first,
-            _ => 0.0,
+    for way in [ahead, back] {
+        let found = match held[..] {
+            [only] => alone(&start, only, &way),
+            _ => in_step(&start, column, &held, &m.loads.drive_speeds, &way),
         };
-        let (mut now, mut position) = (start.clone(), 0.0);
-        'positions: for to in way {
-            let parts = ((to - position).abs() / unit(column) / STEP)
-                .ceil()
-                .max(1.0);
-            let mut left = parts;
-            while left > 0.0 {
-                let mut q = vec![0.0; now.columns.len()];
-                for (n, &c) in held.iter().enumerate() {
-                    q[c] = ratio(n) * (to - position) / parts / unit(c);
-                }
-                let Ok(q) = now.close(q, &held) else {
-                    stopped = stopped.or(Some(to));
-                    break 'positions;
-                };
-                now = now.moved(&q);
-                left -= 1.0;
-            }
-            position = to;
-            poses.push((to, now.clone()));
-        }
+        poses.extend(found.poses);
+        stopped = stopped.or(found.stopped);
     }
     poses.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(Followed { poses, stopped })
+}
+
+/// Radians, or the file's unit of length, in a unit that a column moves by.
+fn unit(pose: &Pose, column: usize) -> f64 {
+    if slides(pose, column) {
+        pose.length
+    } else {
+        1.0
+    }
+}
+
+/// Follows the only drive from a pose to positions, each farther than the one before.
+fn alone(start: &Pose, drive: usize, way: &[f64]) -> Followed {
+    let mut out = Followed {
+        poses: Vec::new(),
+        stopped: None,
+    };
+    let mut follower = Follower::new(start.clone(), drive, &[]);
+    for &to in way {
+        if follower.advance(to / unit(start, drive), |_| {}).is_err() {
+            out.stopped = Some(to);
+            break;
+        }
+        out.poses.push((to, follower.pose()));
+    }
+    out
+}
+
+/// The same for the column of the first drive, all drives moving in the ratio of their speeds.
+fn in_step(start: &Pose, first: usize, drives: &[usize], speeds: &[f64], way: &[f64]) -> Followed {
+    let mut out = Followed {
+        poses: Vec::new(),
+        stopped: None,
+    };
+    let ratio = |n: usize| match (n, speeds.first(), speeds.get(n)) {
+        (0, _, _) => 1.0,
+        (_, Some(&first), Some(&own)) if first != 0.0 => own / first,
+        _ => 0.0,
+    };
+    let (mut now, mut position) = (start.clone(), 0.0);
+    for &to in way {
+        let parts = ((to - position).abs() / unit(start, first) / STEP)
+            .ceil()
+            .max(1.0);
+        let mut left = parts;
+        while left > 0.0 {
+            let mut q = vec![0.0; now.columns.len()];
+            for (n, &c) in drives.iter().enumerate() {
+                q[c] = ratio(n) * (to - position) / parts / unit(start, c);
+            }
+            let Ok(q) = now.close(q, drives) else {
+                out.stopped = Some(to);
+                return out;
+            };
+            now = now.moved(&q);
+            left -= 1.0;
+        }
+        position = to;
+        out.poses.push((to, now.clone()));
+    }
+    out
 }

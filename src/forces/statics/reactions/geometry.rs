@@ -12,7 +12,7 @@ use crate::geom::rigid::halves;
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{add_scaled, sub, unit};
 pub use crate::geom::vector::{cross, dot};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::couplings::{CouplingEquation, equations};
 pub use crate::statics::reactions::wrench::{FreedomColumn, Six, about, power, wrench};
@@ -60,33 +60,10 @@ impl Geometry {
     pub fn new(m: &Mechanism, state: StateId, pose: &Pose) -> Result<Geometry, ExactError> {
         let metres = m.length_unit.metres;
         let joints: Vec<JointId> = m.joints_in(state).collect();
-        let (mut points, mut axes) = (
-            vec![[0.0; 3]; m.joints.len()],
-            vec![[[0.0; 3]; 3]; m.joints.len()],
-        );
-        for (j, joint) in m.joints_with_ids() {
-            let frame = FrameValues::new(&Reals, &joint.frame)?;
-            let carried = &pose.links[joint.links[0]];
-            points[j] = moved(pose, joint.links[0], frame.point);
-            axes[j] = frame.axes.map(|a| carried.direction(unit(a)));
-        }
-        #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
-        let count = joints.len().max(1) as f64;
-        let mean = [0, 1, 2].map(|i| joints.iter().map(|&j| points[j][i]).sum::<f64>() / count);
-        let from_mean = |p: [f64; 3]| sub(p, mean);
-        let square: f64 = joints
-            .iter()
-            .map(|&j| dot(from_mean(points[j]), from_mean(points[j])))
-            .sum();
-        let far = mean.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        let spread = (square / count).sqrt();
-        let spread = if spread > 1e-9 * far && spread > 1e-12 {
-            spread
-        } else {
-            pose.length
-        };
+        let (mut points, axes) = frames_now(m, pose)?;
+        let (mean, spread) = middle(&joints, &points, pose.length);
         for &j in &joints {
-            points[j] = from_mean(points[j]).map(|x| x / spread);
+            points[j] = sub(points[j], mean).map(|x| x / spread);
         }
         let shift = sub(mean, pose.middle);
         let columns = pose.columns.iter().map(|c| {
@@ -104,19 +81,7 @@ impl Geometry {
                 twist,
             }
         });
-        let basis = match MotionSpace::new(&Reals, &m.mode)? {
-            MotionSpace::Spatial => (0..6)
-                .map(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))))
-                .collect(),
-            MotionSpace::Planar { axes: [n, e1, e2] } => {
-                let [n, e1, e2] = [unit(n), unit(e1), unit(e2)];
-                vec![
-                    [n[0], n[1], n[2], 0.0, 0.0, 0.0],
-                    [0.0, 0.0, 0.0, e1[0], e1[1], e1[2]],
-                    [0.0, 0.0, 0.0, e2[0], e2[1], e2[2]],
-                ]
-            }
-        };
+        let basis = carried(&m.mode)?;
         let mut out = Geometry {
             state,
             basis,
@@ -244,6 +209,61 @@ impl Geometry {
         }
         out
     }
+}
+
+/// By joint: its point now in the file's unit, and the unit vectors of its frame.
+#[allow(clippy::type_complexity, reason = "two lists")]
+fn frames_now(
+    m: &Mechanism,
+    pose: &Pose,
+) -> Result<(Vec<[f64; 3]>, Vec<[[f64; 3]; 3]>), ExactError> {
+    let (mut points, mut axes) = (
+        vec![[0.0; 3]; m.joints.len()],
+        vec![[[0.0; 3]; 3]; m.joints.len()],
+    );
+    for (j, joint) in m.joints_with_ids() {
+        let frame = FrameValues::new(&Reals, &joint.frame)?;
+        let carried = &pose.links[joint.links[0]];
+        points[j] = moved(pose, joint.links[0], frame.point);
+        axes[j] = frame.axes.map(|a| carried.direction(unit(a)));
+    }
+    Ok((points, axes))
+}
+
+/// Mean and root mean square distance from it of the points of joints; `length` where they are one point.
+fn middle(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f64) {
+    #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
+    let count = joints.len().max(1) as f64;
+    let mean = [0, 1, 2].map(|i| joints.iter().map(|&j| points[j][i]).sum::<f64>() / count);
+    let from_mean = |p: [f64; 3]| sub(p, mean);
+    let square: f64 = joints
+        .iter()
+        .map(|&j| dot(from_mean(points[j]), from_mean(points[j])))
+        .sum();
+    let far = mean.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+    let spread = (square / count).sqrt();
+    if spread > 1e-9 * far && spread > 1e-12 {
+        (mean, spread)
+    } else {
+        (mean, length)
+    }
+}
+
+/// Orthonormal wrenches that contours carry: six, or the three of a plane.
+fn carried(mode: &Mode) -> Result<Vec<Six>, ExactError> {
+    Ok(match MotionSpace::new(&Reals, mode)? {
+        MotionSpace::Spatial => (0..6)
+            .map(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))))
+            .collect(),
+        MotionSpace::Planar { axes: [n, e1, e2] } => {
+            let [n, e1, e2] = [unit(n), unit(e1), unit(e2)];
+            vec![
+                [n[0], n[1], n[2], 0.0, 0.0, 0.0],
+                [0.0, 0.0, 0.0, e1[0], e1[1], e1[2]],
+                [0.0, 0.0, 0.0, e2[0], e2[1], e2[2]],
+            ]
+        }
+    })
 }
 
 /// Where a point of a link is now, in the file's unit.

@@ -117,8 +117,20 @@ pub fn motion(
         speed[c] = *x;
     }
     let fastest = speed.iter().fold(0.0, |a: f64, s| a.max(s.abs()));
-    // What the contours would gain at constant speeds of all freedoms.
-    let mut right = Vec::with_capacity(height);
+    let mut right = to_make_up(geometry, &speed);
+    // A ratio is the same in every pose, and so rates are tied as speeds are.
+    right.resize(height, 0.0);
+    let found = least(&part, &right, fastest * fastest)?.ok_or_else(stuck)?;
+    let mut rates = vec![0.0; f];
+    for (&c, x) in free.iter().zip(&found) {
+        rates[c] = *x;
+    }
+    Ok(along_tree(m.links.len(), geometry, &speed, &rates))
+}
+
+/// What the rates of the freedoms have to make up for: less what the contours would gain at constant speeds of all freedoms.
+fn to_make_up(geometry: &Geometry, speed: &[f64]) -> Vec<f64> {
+    let mut right = Vec::with_capacity(geometry.unknowns());
     for contour in &geometry.contours {
         let (mut velocity, mut gain) = ([0.0; 6], [0.0; 6]);
         for &(joint, forward) in &contour.joints {
@@ -130,16 +142,14 @@ pub fn motion(
         }
         right.extend(geometry.basis.iter().map(|b| -power(b, &gain)));
     }
-    // A ratio is the same in every pose, and so rates are tied as speeds are.
-    right.resize(height, 0.0);
-    let found = least(&part, &right, fastest * fastest)?.ok_or_else(stuck)?;
-    let mut rates = vec![0.0; f];
-    for (&c, x) in free.iter().zip(&found) {
-        rates[c] = *x;
-    }
+    right
+}
+
+/// The motions of the links at speeds and rates of the freedoms, from the frame outwards.
+fn along_tree(links: usize, geometry: &Geometry, speed: &[f64], rates: &[f64]) -> LinkMotions {
     let mut out = LinkMotions {
-        velocity: vec![[0.0; 6]; m.links.len()],
-        rate: vec![[0.0; 6]; m.links.len()],
+        velocity: vec![[0.0; 6]; links],
+        rate: vec![[0.0; 6]; links],
     };
     for &TreeStep {
         link,
@@ -157,7 +167,7 @@ pub fn motion(
         }
         (out.velocity[link], out.rate[link]) = (v, a);
     }
-    Ok(out)
+    out
 }
 
 fn turn(t: &Six) -> [f64; 3] {

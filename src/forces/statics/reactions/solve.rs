@@ -97,16 +97,8 @@ impl Reactions {
             .fold(0.0, |a: f64, x| a.max(x.abs()));
         let work = left.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         if work > NO_WORK * scale {
-            let mut speeds = vec![0.0; geometry.columns.len()];
-            for (&c, x) in system.equations.iter().zip(&left) {
-                speeds[c] = *x;
-            }
-            let twists = geometry.link_twists(m.links.len(), &speeds);
-            // The loaded link that the motion carries along most, else the fastest.
-            let gain = |l: LinkId| -power(&twists[l], &loads_of_links[l]).abs();
-            let fastest = m.link_ids().min_by(|&a, &b| gain(a).total_cmp(&gain(b)));
             return Err(Unsolved::Moves {
-                link: fastest.map_or_else(String::new, |l| m.links[l].id.clone()),
+                link: carried_most(m, geometry, &system, &left, loads_of_links),
                 mobility: system.undriven(),
             });
         }
@@ -132,11 +124,7 @@ impl Reactions {
         let self_stresses: Vec<_> = stresses.iter().map(present).collect();
         let of_couplings = stresses.iter().map(|t| &t.couplings[..]);
         Ok(Solution {
-            choice: match of_contacts {
-                _ if stresses.is_empty() => Uniqueness::Unique,
-                Contacts::AsJoints => Uniqueness::MinimumNorm,
-                Contacts::Pushing => Uniqueness::Pushing,
-            },
+            choice: choice(of_contacts, stresses.is_empty()),
             contacts: {
                 let own = of.own(geometry);
                 faces.iter().map(|c| c.force(geometry, &own)).collect()
@@ -154,5 +142,32 @@ impl Reactions {
             residual,
             size: geometry.size,
         })
+    }
+}
+
+/// The loaded link that the motion carries along most, else the fastest, by the work left in the equations.
+fn carried_most(
+    m: &Mechanism,
+    geometry: &Geometry,
+    system: &System,
+    left: &[f64],
+    loads: &[Six],
+) -> String {
+    let mut speeds = vec![0.0; geometry.columns.len()];
+    for (&c, x) in system.equations.iter().zip(left) {
+        speeds[c] = *x;
+    }
+    let twists = geometry.link_twists(m.links.len(), &speeds);
+    let gain = |l: LinkId| -power(&twists[l], &loads[l]).abs();
+    let most = m.link_ids().min_by(|&a, &b| gain(a).total_cmp(&gain(b)));
+    most.map_or_else(String::new, |l| m.links[l].id.clone())
+}
+
+/// How the reactions are chosen where there are self-stresses, which leave them open.
+fn choice(of_contacts: Contacts, is_unique: bool) -> Uniqueness {
+    match of_contacts {
+        _ if is_unique => Uniqueness::Unique,
+        Contacts::AsJoints => Uniqueness::MinimumNorm,
+        Contacts::Pushing => Uniqueness::Pushing,
     }
 }
