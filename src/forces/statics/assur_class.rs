@@ -4,7 +4,6 @@ use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
 use petgraph::algo::dijkstra;
 use petgraph::graph::{EdgeReference, NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
-use std::collections::HashMap;
 use std::fmt;
 
 /// The structural kind of a group.
@@ -192,7 +191,7 @@ fn candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
             if !far.contains_key(&e.source()) {
                 continue;
             }
-            let path = |x| shortest_path(graph, &far, v, x);
+            let path = |x| shortest_path(graph, |n| far.get(&n).copied(), x);
             let (a, b) = (path(e.source()), path(e.target()));
             if a.iter().any(|x| b.contains(x)) || a.contains(e.weight()) || b.contains(e.weight()) {
                 continue;
@@ -205,15 +204,14 @@ fn candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
     out
 }
 
-/// The edges of a shortest path from `x` back to `v`, from which all are so far.
+/// The edges of a shortest path from `x` back to the body from which all are so far.
 fn shortest_path(
     graph: &UnGraph<(), usize>,
-    far: &HashMap<NodeIndex, usize>,
-    v: NodeIndex,
+    far: impl Fn(NodeIndex) -> Option<usize>,
     mut x: NodeIndex,
 ) -> Vec<usize> {
     let mut out = Vec::new();
-    while x != v {
+    while far(x) != Some(0) {
         let other = |e: &EdgeReference<'_, usize>| {
             if e.source() == x {
                 e.target()
@@ -221,10 +219,13 @@ fn shortest_path(
                 e.source()
             }
         };
-        let step = graph
-            .edges(x)
-            .find(|e| far.get(&other(e)).is_some_and(|d| d + 1 == far[&x]));
-        let Some(e) = step else { break };
+        let nearer = |e: &EdgeReference<'_, usize>| {
+            let d = far(other(e));
+            d.is_some_and(|d| Some(d + 1) == far(x))
+        };
+        let Some(e) = graph.edges(x).find(nearer) else {
+            break;
+        };
         out.push(*e.weight());
         x = other(&e);
     }

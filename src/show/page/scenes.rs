@@ -28,10 +28,11 @@ pub fn scenes(
 /// shown `still`.
 pub fn moving_scene(
     m: &Mechanism,
-    (found, state): (&StateAnalysis, StateId),
+    of: (&StateAnalysis, StateId),
     swaps: &[Swap<'_>],
     still: bool,
 ) -> Option<(Drawing, Scene)> {
+    let (found, state) = of;
     let told = Analysis::new(m, std::slice::from_ref(found), &[]);
     let told = told.states.first()?;
     let drive = Moving::new(m, state, None, None).ok();

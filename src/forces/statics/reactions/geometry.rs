@@ -60,7 +60,7 @@ impl Geometry {
     pub fn new(m: &Mechanism, state: StateId, pose: &Pose) -> Result<Geometry, ExactError> {
         let metres = m.length_unit.metres;
         let joints: Vec<JointId> = m.joints_in(state).collect();
-        let (mut points, axes) = frames_now(m, pose)?;
+        let FramesNow { mut points, axes } = FramesNow::new(m, pose)?;
         let (mean, spread) = middle(&joints, &points, pose.length);
         for &j in &joints {
             points[j] = sub(points[j], mean).map(|x| x / spread);
@@ -211,23 +211,25 @@ impl Geometry {
     }
 }
 
-/// By joint: its point now in the file's unit, and the unit vectors of its frame.
-#[allow(clippy::type_complexity, reason = "two lists")]
-fn frames_now(
-    m: &Mechanism,
-    pose: &Pose,
-) -> Result<(Vec<[f64; 3]>, Vec<[[f64; 3]; 3]>), ExactError> {
-    let (mut points, mut axes) = (
-        vec![[0.0; 3]; m.joints.len()],
-        vec![[[0.0; 3]; 3]; m.joints.len()],
-    );
-    for (j, joint) in m.joints_with_ids() {
-        let frame = FrameValues::new(&Reals, &joint.frame)?;
-        let carried = &pose.links[joint.links[0]];
-        points[j] = moved(pose, joint.links[0], frame.point);
-        axes[j] = frame.axes.map(|a| carried.direction(unit(a)));
+/// Where the joints' frames are at a pose, by joint.
+struct FramesNow {
+    /// Their points, in the file's unit.
+    points: Vec<[f64; 3]>,
+    /// Unit vectors x, y, z of each.
+    axes: Vec<[[f64; 3]; 3]>,
+}
+
+impl FramesNow {
+    fn new(m: &Mechanism, pose: &Pose) -> Result<FramesNow, ExactError> {
+        let (mut points, mut axes) = (Vec::new(), Vec::new());
+        for joint in &m.joints {
+            let frame = FrameValues::new(&Reals, &joint.frame)?;
+            let carried = &pose.links[joint.links[0]];
+            points.push(moved(pose, joint.links[0], frame.point));
+            axes.push(frame.axes.map(|a| carried.direction(unit(a))));
+        }
+        Ok(FramesNow { points, axes })
     }
-    Ok((points, axes))
 }
 
 /// Mean and root mean square distance from it of the points of joints; `length` where they are one point.

@@ -20,6 +20,7 @@ use crate::draw::sheet::{Caption, Drawing, Sheet, Swatch, plan};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::swap::Swap;
 use crate::model::mechanism::LinkId;
+use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect};
@@ -137,14 +138,14 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     let mut scene = rest.scene();
     scene.swaps = rest.swap_in(&mut scene, shown.swaps);
     let mut frames = Vec::new();
-    for (n, (motion, poses)) in shown.moves.iter().zip(&of).enumerate() {
+    for (n, ((name, moved), poses)) in shown.moves.iter().zip(&of).enumerate() {
         let lines = rest.moving_lines(poses);
         frames.extend(poses.iter().map(|c| rest.frame(c, &lines)));
         for line in &lines {
             let row = rest.row(line.link);
             scene.wire(&rest, row, line.class, "line", &line.ends, Some(n));
         }
-        scene.add_move(&rest, motion, poses);
+        scene.add_move(&rest, name, moved.way, poses);
     }
     if let (Some((_, first)), Some(poses)) = (shown.moves.first(), of.first()) {
         rest.traces = (rest.ways(poses), first.way.closed);
@@ -177,8 +178,7 @@ impl Scene {
     }
 
     /// A motion, with the ways of its points as seen from the frame.
-    fn add_move(&mut self, rest: &Kinematic<'_>, motion: &(String, Moved<'_>), poses: &[Carried]) {
-        let (name, Moved { way, .. }) = motion;
+    fn add_move(&mut self, rest: &Kinematic<'_>, name: &str, way: &Way, poses: &[Carried<'_>]) {
         let frame = rest.row(rest.subject.mechanism.frame());
         for (link, tip) in rest.tips() {
             let trace: Vec<Vector> = poses.iter().map(|c| c.point(link, tip)).collect();
@@ -188,7 +188,7 @@ impl Scene {
         }
         let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
         self.moves.push(Move {
-            name: name.clone(),
+            name: name.to_owned(),
             closed: way.closed,
             start: way.start,
             poses: carried.collect(),

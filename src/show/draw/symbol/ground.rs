@@ -112,8 +112,10 @@ struct GroundSpot {
 
 impl GroundSpot {
     /// A ground in one of sixteen directions; a rail has two.
-    fn ground(&self, step: i32) -> (Point, Ground) {
-        match self.rail {
+    fn ground(&self, step: i32) -> TriedGround {
+        // straight down is best, then what is clear
+        let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
+        let (dir, ground) = match self.rail {
             Some((along, off)) => {
                 let side = [-along[1], along[0]];
                 let dir = scale(side, if step % 2 == 0 { 1.0 } else { -1.0 });
@@ -125,40 +127,42 @@ impl GroundSpot {
                 (dir, rail)
             }
             None => {
-                let Rect {
-                    left,
-                    top,
-                    right,
-                    bottom,
-                } = self.room;
-                let reach = (right - left).min(bottom - top) / 2.0 + 9.0;
+                let wide = self.room.right - self.room.left;
+                let reach = wide.min(self.room.bottom - self.room.top) / 2.0 + 9.0;
                 let angle = TAU * f64::from(step) / 16.0;
                 let dir = [angle.cos(), angle.sin()];
                 (dir, Ground::pivot(self.at, add(self.at, scale(dir, reach))))
             }
+        };
+        TriedGround {
+            tilt: 0.25 * (1.0 - dir[1]) + aslant,
+            dir,
+            ground,
         }
     }
 
-    /// How bad a ground is, besides its not being upright: what it covers, and which links go its way.
-    fn cost(
-        &self,
-        aslant: f64,
-        dir: Point,
-        ground: &Ground,
-        feet: &[Foot],
-        others: &[Ground],
-    ) -> f64 {
-        let mut cost = 0.25 * (1.0 - dir[1]) + aslant;
-        let near = ground.rect().grown(1.0);
+    /// How bad a ground is: how far from upright, what it covers, and which links go its way.
+    fn cost(&self, tried: &TriedGround, feet: &[Foot], others: &[Ground]) -> f64 {
+        let mut cost = tried.tilt;
+        let near = tried.ground.rect().grown(1.0);
         for other in feet.iter().filter(|f| !together(f.at, self.at)) {
             cost += if near.overlaps(&other.room) { 4.0 } else { 0.0 };
         }
         cost += 3.0 * others.iter().filter(|g| g.rect().overlaps(&near)).count() as f64;
         for &link in &self.dirs {
-            cost += 2.5 * beside(dir, link);
+            cost += 2.5 * beside(tried.dir, link);
         }
         cost
     }
+}
+
+/// A ground that may stand at a place.
+struct TriedGround {
+    ground: Ground,
+    /// Where it is from the joint.
+    dir: Point,
+    /// How bad its direction is in itself.
+    tilt: f64,
 }
 
 /// Where links that move go from the joints `here`: to their other joints, and to their free ends.
@@ -220,12 +224,10 @@ pub(in crate::draw) fn grounds(
         };
         let mut best: Option<(f64, Ground)> = None;
         for step in 0..16 {
-            let (dir, ground) = spot.ground(step);
-            // straight down is best, then what is clear
-            let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
-            let cost = spot.cost(aslant, dir, &ground, feet, &out);
+            let tried = spot.ground(step);
+            let cost = spot.cost(&tried, feet, &out);
             if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
-                best = Some((cost, ground));
+                best = Some((cost, tried.ground));
             }
         }
         out.extend(best.map(|(_, g)| g));
