@@ -62,6 +62,21 @@ impl Findings {
         }
     }
 
+    /// The entries of a list, which has at most `limit`; the first of them where it has more.
+    pub(crate) fn at_most<'e, T>(
+        &mut self,
+        limit: usize,
+        list: &'e [T],
+        what: &'static str,
+        path: &[DocumentStep],
+    ) -> &'e [T] {
+        let count = list.len();
+        if count > limit {
+            self.add(path, ProblemKind::TooMany { what, count, limit });
+        }
+        &list[..count.min(limit)]
+    }
+
     /// How many there are.
     pub(crate) fn count(&self) -> usize {
         self.told.len() + self.more

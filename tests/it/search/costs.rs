@@ -1,6 +1,7 @@
 //! Costs in a file of their own: printed, changed, taken, and refused where they are none.
 
 use crate::common::{built_in, changed, json, out, run, text};
+use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
@@ -217,5 +218,28 @@ fn bounds_are_whole_steps_above_the_cheapest() {
             assert_eq!(s.steps.above(milli + within), u64::try_from(step).unwrap());
         }
         assert_eq!(s.steps.milli(u64::try_from(step).unwrap()), milli);
+    }
+}
+
+/// A present joint that is listed has the name and the price of the list, wherever it stands in it.
+#[test]
+fn present_joints_cost_what_the_list_says() {
+    let hinge = "{ type = \"revolute\", name = \"stock\", cost = 0.25 }";
+    let before = ["\"prismatic\"", "\"spherical\"", "\"cylindrical\""];
+    let cost = |options: &str| {
+        let text = changed(
+            &out(&["show", "four-bar"]),
+            "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]",
+            &format!("options = [{options}]"),
+        );
+        let m = mechanism_from_str("four-bar.toml", &text).unwrap();
+        let joint = &m.joints[1];
+        assert_eq!(joint.options[0].name, "stock", "{options}");
+        joint.options[0].cost_milli
+    };
+    for other in before {
+        assert_eq!(cost(&format!("{hinge}, {other}")), Some(250));
+        assert_eq!(cost(&format!("{other}, {hinge}")), Some(250), "{other}");
+        assert_eq!(cost(&format!("{other}, \"universal\", {hinge}")), Some(250));
     }
 }

@@ -180,17 +180,7 @@ fn unloading(
         }
         Some(Unloading::List(list)) => (list, key(at, "unloading")),
     };
-    if list.len() > LIMITS.2 {
-        out.add(
-            &from,
-            ProblemKind::TooMany {
-                what: "unloading joints in one place",
-                count: list.len(),
-                limit: LIMITS.2,
-            },
-        );
-        return Vec::new();
-    }
+    let list = out.at_most(LIMITS.2, list, "unloading joints in one place", &from);
     list.iter()
         .enumerate()
         .filter_map(|(n, e)| option(&entry.id, frame, e, states, &index(&from, n), out))

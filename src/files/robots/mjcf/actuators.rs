@@ -34,6 +34,12 @@ const ACTUATOR: [&str; 24] = [
     "bias",
 ];
 
+/// The joint that an actuator acts on, whichever frame it does so in.
+pub(super) fn driven<'a>(actuator: Element<'a>) -> Option<&'a str> {
+    let joint = actuator.attribute("joint");
+    joint.or(actuator.attribute("jointinparent"))
+}
+
 /// Reads a section of actuators.
 pub(super) fn actuators(
     section: Element<'_>,
@@ -43,9 +49,7 @@ pub(super) fn actuators(
 ) -> Result<(), ImportError> {
     for e in section.children() {
         let name = e.attribute("name");
-        let joint = e
-            .attribute("joint")
-            .and_then(|n| robot.joints.iter().position(|p| p.id == n));
+        let joint = driven(e).and_then(|n| robot.joints.iter().position(|p| p.id == n));
         let command = match e.name() {
             "position" | "intvelocity" => Command::Position,
             "velocity" | "damper" => Command::Velocity,

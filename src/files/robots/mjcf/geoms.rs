@@ -86,6 +86,21 @@ impl<'a> Geoms<'a> {
     }
 }
 
+/// The numbers of `size`; 0 where there are fewer than three.
+fn sizes(look: &Lookup<'_>) -> Result<[f64; 3], ImportError> {
+    let Some((e, text)) = look.attribute("size") else {
+        return Ok([0.0; 3]);
+    };
+    let mut out = [0.0; 3];
+    match text.split_whitespace().count() {
+        0 => {}
+        1 => out[..1].copy_from_slice(&e.numbers::<1>("size")?.unwrap_or_default()),
+        2 => out[..2].copy_from_slice(&e.numbers::<2>("size")?.unwrap_or_default()),
+        _ => out = e.numbers::<3>("size")?.unwrap_or_default(),
+    }
+    Ok(out)
+}
+
 /// How large a shape is and where it stands.
 struct Measures {
     /// The numbers of `size`; 0 where there are fewer.
@@ -100,14 +115,7 @@ struct Measures {
 
 impl Measures {
     fn of<'a>(look: &Lookup<'a>, context: &Context<'a>) -> Result<Measures, ImportError> {
-        let given: Vec<f64> = match look.attribute("size") {
-            Some((_, text)) => text
-                .split_whitespace()
-                .filter_map(|w| w.parse().ok())
-                .collect(),
-            None => Vec::new(),
-        };
-        let sizes = [0, 1, 2].map(|i| given.get(i).copied().unwrap_or(0.0));
+        let sizes = sizes(look)?;
         let mut out = Measures {
             sizes,
             half: sizes[1],

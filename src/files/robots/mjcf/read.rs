@@ -5,6 +5,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Robot, free};
+use crate::robots::mjcf::actuators::driven;
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
 use crate::robots::mjcf::{include, replicate};
@@ -81,7 +82,7 @@ pub(crate) fn read(
 /// Marks the joint that an actuator drives, or those that it pulls by a tendon.
 fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
     let name = a.attribute("name");
-    let joint = a.attribute("joint").or(a.attribute("jointinparent"));
+    let joint = driven(a);
     let mut joints = robot.joints.iter_mut();
     if let Some(j) = joints.find(|j| Some(j.id.as_str()) == joint) {
         j.drive = true;

@@ -1,7 +1,7 @@
 //! What links and joints carry, word by word.
 
 use super::{again, numbers, tags, taken, to};
-use ozols::robots::convert::{Target, figures};
+use ozols::robots::convert::{Target, Wanted, convert, figures};
 
 /// A crank, a slider and a wrist with all that the formats have words for.
 const LOADED: &str = r#"<mujoco model="loaded">
@@ -379,4 +379,32 @@ fn couplings_come_back() {
         (1, 1)
     );
     assert_eq!(to(&i, Target::Mjcf).lost.coupling_rows, 0);
+}
+
+// For a joint of one freedom it is the same in which frame its actuator acts.
+#[test]
+fn an_actuator_in_the_parents_frame_stays_with_its_joint() {
+    let text = LOADED.replace(
+        "<motor name=\"push\" joint=",
+        "<motor name=\"push\" jointinparent=",
+    );
+    assert_ne!(text, LOADED);
+    let c = to(&taken("loaded.xml", &text), Target::Mjcf);
+    assert_eq!(c.text, to(&taken("loaded.xml", LOADED), Target::Mjcf).text);
+}
+
+#[test]
+fn sizes_that_are_no_numbers_are_refused() {
+    for size in ["0.1 wide 0.3", "0.1 0.2 0.3 0.4", "1e99"] {
+        let text = LOADED.replace(
+            "type=\"ellipsoid\" size=\"0.1 0.2 0.3\"",
+            &format!("type=\"ellipsoid\" size=\"{size}\""),
+        );
+        assert_ne!(text, LOADED);
+        let i = taken("loaded.xml", &text);
+        let e = convert(&i, Target::Sdf, &Wanted::default())
+            .unwrap_err()
+            .to_string();
+        assert!(e.contains("size") && e.contains(size), "{e}");
+    }
 }

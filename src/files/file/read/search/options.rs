@@ -56,32 +56,22 @@ pub(crate) fn options(
     out: &mut Findings,
 ) -> Vec<JointOption> {
     let list = OptionList::of(file, entry, changeable, at);
-    let mut options = vec![present.clone()];
-    if list.entries.len() > LIMITS.2 {
-        out.add(
-            &list.at,
-            ProblemKind::TooMany {
-                what: "options",
-                count: list.entries.len(),
-                limit: LIMITS.2,
-            },
-        );
-        return options;
-    }
-    for (n, item) in list.entries.iter().enumerate() {
+    let (mut options, mut listed) = (vec![present.clone()], false);
+    let entries = out.at_most(LIMITS.2, list.entries, "options", &list.at);
+    for (n, item) in entries.iter().enumerate() {
         let path = index(&list.at, n);
         let Some(option) = allowed(entry, item, &present.frame, states, &path, out) else {
             continue;
         };
         let same =
             option.joint_type == present.joint_type && contains(&option, present) == Some(true);
-        if same && options.len() == 1 + n {
-            // The present joint, listed: keep its name and cost.
-            options[0].name = option.name;
-            options[0].cost_milli = option.cost_milli.or(options[0].cost_milli);
-            continue;
-        }
         if same {
+            // The present joint, listed: keep its name and cost.
+            if !listed {
+                options[0].name = option.name;
+                options[0].cost_milli = option.cost_milli.or(options[0].cost_milli);
+            }
+            listed = true;
             continue;
         }
         let joint = entry.id.clone();

@@ -58,15 +58,6 @@ pub(crate) fn ranking(
     out: &mut Findings,
 ) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
-    for (what, count) in [("terms", entry.terms.len()), ("limits", entry.limits.len())] {
-        if count > MOST {
-            let limit = MOST;
-            out.add(
-                &key(&root(), what),
-                ProblemKind::TooMany { what, count, limit },
-            );
-        }
-    }
     let order = order(entry, out);
     let clearance = clearance(entry, out);
     let terms = terms(entry, out);
@@ -121,7 +112,8 @@ fn clearance(entry: &RankingEntry, out: &mut Findings) -> ClearanceSum {
 fn terms(entry: &RankingEntry, out: &mut Findings) -> Vec<(Term, f64)> {
     let list = key(&root(), "terms");
     let mut terms: Vec<(Term, f64)> = Vec::new();
-    for (i, t) in entry.terms.iter().enumerate().take(MOST) {
+    let entries = out.at_most(MOST, &entry.terms, "terms", &list);
+    for (i, t) in entries.iter().enumerate() {
         let at = index(&list, i);
         let weight = t.weight.unwrap_or(1.0);
         if !(0.0..=1e12).contains(&weight) {
@@ -164,7 +156,8 @@ fn terms(entry: &RankingEntry, out: &mut Findings) -> Vec<(Term, f64)> {
 fn limits(entry: &RankingEntry, out: &mut Findings) -> Vec<Limit> {
     let list = key(&root(), "limits");
     let mut limits = Vec::new();
-    for (i, l) in entry.limits.iter().enumerate().take(MOST) {
+    let entries = out.at_most(MOST, &entry.limits, "limits", &list);
+    for (i, l) in entries.iter().enumerate() {
         let at = index(&list, i);
         for (k, bound) in [("min", l.min), ("max", l.max)] {
             if let Some(x) = bound.filter(|x| !x.is_finite()) {
@@ -188,7 +181,8 @@ fn ranked_states(entry: &RankingEntry, mechanism: &Mechanism, out: &mut Findings
     };
     let list = key(&root(), "states");
     let mut states = Vec::new();
-    for (i, word) in entry.states.iter().enumerate().take(MOST) {
+    let words = out.at_most(MOST, &entry.states, "states", &list);
+    for (i, word) in words.iter().enumerate() {
         let found = mechanism.state(word);
         match found.filter(|&s| counts(s)) {
             Some(s) => states.push(s),

@@ -94,7 +94,8 @@ fn period(t: &mut ValueTable<'_>, e: &DriveEntry) -> f64 {
 fn diameters(t: &mut ValueTable<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
     let at = key(&t.at, "diameters");
     let mut diameters = Vec::new();
-    for (i, d) in e.diameters.iter().take(MOST).enumerate() {
+    let entries = t.out.at_most(MOST, &e.diameters, "diameters", &at);
+    for (i, d) in entries.iter().enumerate() {
         diameters.push(t.number_at(&index(&at, i), "diameter", d, unit, Bound::Positive));
     }
     diameters.sort_by(f64::total_cmp);

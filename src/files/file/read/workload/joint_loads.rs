@@ -22,8 +22,10 @@ pub(crate) fn moments(
     out: &mut Findings,
 ) -> Vec<ExternalMoment> {
     let mut found = Vec::new();
-    for (i, m) in entry.moment.iter().enumerate().take(MAX_FORCES) {
-        let at = index(&key(at, "moment"), i);
+    let path = key(at, "moment");
+    let entries = out.at_most(MAX_FORCES, &entry.moment, "moments", &path);
+    for (i, m) in entries.iter().enumerate() {
+        let at = index(&path, i);
         let moment = vector(&m.moment, &key(&at, "moment"), out);
         let link = link_by_id(&mechanism.links, &m.link, &key(&at, "link"), out);
         let states = states_by_name(mechanism, m.state.as_ref(), &key(&at, "state"), out);
@@ -44,8 +46,10 @@ pub(crate) fn faces(
     out: &mut Findings,
 ) -> Vec<Face> {
     let mut found = Vec::new();
-    for (i, e) in entry.contact.iter().enumerate().take(MAX_FORCES) {
-        let at = index(&key(at, "contact"), i);
+    let path = key(at, "contact");
+    let entries = out.at_most(MAX_FORCES, &entry.contact, "contacts", &path);
+    for (i, e) in entries.iter().enumerate() {
+        let at = index(&path, i);
         let Some(joint) = joint_by_id(mechanism, &e.joint, &key(&at, "joint"), out) else {
             continue;
         };
@@ -122,8 +126,10 @@ pub(crate) fn misalignments(
     out: &mut Findings,
 ) -> Vec<Misalignment> {
     let mut found = Vec::new();
-    for (i, m) in entry.misalignment.iter().enumerate().take(MAX_FORCES) {
-        let at = index(&key(at, "misalignment"), i);
+    let path = key(at, "misalignment");
+    let entries = out.at_most(MAX_FORCES, &entry.misalignment, "misalignments", &path);
+    for (i, m) in entries.iter().enumerate() {
+        let at = index(&path, i);
         let angle = m.angle.as_ref().map(|angle| {
             quantity(
                 angle,

@@ -109,20 +109,11 @@ pub(crate) fn mass(
 pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> Loads {
     let at = [DocumentStep::Key("workload".to_owned())];
     let entry = &file.workload;
-    if entry.force.len() > MAX_FORCES {
-        out.add(
-            &key(&at, "force"),
-            ProblemKind::TooMany {
-                what: "forces",
-                count: entry.force.len(),
-                limit: MAX_FORCES,
-            },
-        );
-        return Loads::default();
-    }
     let mut forces = Vec::new();
-    for (i, f) in entry.force.iter().enumerate() {
-        forces.extend(force(f, &index(&key(&at, "force"), i), mechanism, out));
+    let path = key(&at, "force");
+    let entries = out.at_most(MAX_FORCES, &entry.force, "forces", &path);
+    for (i, f) in entries.iter().enumerate() {
+        forces.extend(force(f, &index(&path, i), mechanism, out));
     }
     let moments = moments(entry, mechanism, &at, out);
     let stiffness = stiffness(entry, &at, out);
