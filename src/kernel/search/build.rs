@@ -14,7 +14,8 @@ use crate::search::answer::estimate::Estimate;
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::answer::proven_cheapest::cost_of;
 use crate::search::answer::proven_cheapest::up_to;
-use crate::search::answer::{random_cuts, samples};
+use crate::search::answer::random_cuts;
+use crate::search::answer::samples::{Samples, WITHIN};
 use crate::search::build::at_most::at_most;
 use crate::search::build::orders::{Orders, orders};
 use crate::search::build::self_stress::{in_self_stress_space, nothing};
@@ -208,7 +209,8 @@ fn estimates(
 }
 
 /// About how many variants there are, determinate or admissible ones: by samples of a larger set where there is no searched state and
-/// no redundant constraint is allowed, else by random cuts; `end` is the least dimension of the last nodes.
+/// no redundant constraint is allowed, else by random cuts, and so where those are surer because few samples are wanted; `end` is the
+/// least dimension of the last nodes.
 fn estimated(
     question: &Question,
     staged: &Staged<'_>,
@@ -218,20 +220,33 @@ fn estimated(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Estimate> {
     let (model, limits) = (&question.least.whole, &staged.limits);
-    if question.conditions.state.is_none() {
-        let keep_output = admissible && question.conditions.keep_output;
-        let order = &staged.order;
-        let of = at_most(question, model, order, limits, keep_output, cancelled);
-        let found = of.and_then(|of| samples::estimate(question, &of, seed, admissible, cancelled));
-        if found.is_some() {
-            return found;
-        }
+    let by_cuts = || {
+        let stages = staged.stages();
+        let missing = Missing::new(&model.space, stages, limits, end);
+        random_cuts::estimate(
+            question, stages, limits, &missing, seed, admissible, cancelled,
+        )
+    };
+    if question.conditions.state.is_some() {
+        return by_cuts();
     }
-    let stages = staged.stages();
-    let missing = Missing::new(&model.space, stages, limits, end);
-    random_cuts::estimate(
-        question, stages, limits, &missing, seed, admissible, cancelled,
-    )
+    let keep_output = admissible && question.conditions.keep_output;
+    let order = &staged.order;
+    let of = at_most(question, model, order, limits, keep_output, cancelled);
+    let samples = of.as_ref();
+    let samples = samples.and_then(|of| Samples::begin(question, of, seed, admissible, cancelled));
+    let Some(samples) = samples else {
+        return by_cuts();
+    };
+    let reach = samples.reach();
+    let surer = |cuts: &Estimate| cuts.reach() < reach;
+    match (reach > WITHIN).then(by_cuts).flatten().filter(surer) {
+        Some(cuts) => Some(Estimate {
+            at_most: Some(samples.at_most()),
+            ..cuts
+        }),
+        None => samples.estimate(cancelled),
+    }
 }
 
 /// Builds both diagrams from those of the two parts that the closure equations fall apart into; none where they do not, or
@@ -348,7 +363,7 @@ fn within_limits(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    if question.conditions.state.is_none() {
+    if question.conditions.state.is_none() && std::env::var("CUTS").is_err() {
         let keep_output = admissible && question.conditions.keep_output;
         let order = &staged.order;
         let added = in_self_stress_space(

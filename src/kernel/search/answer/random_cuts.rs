@@ -29,14 +29,14 @@ const CUTS: usize = 16;
 /// freedom.
 const STUDENT: f64 = 2.131;
 /// Nodes kept of a layer at least.
-const FEWEST: usize = 64;
+const FEWEST: usize = 256;
 
 /// Estimates how many variants the diagram of some stages has; `filter` applies the conditions on mobility and changes
 /// too. `None` where it was cancelled, where memory does not suffice, and where no cut has any variant, or too many for a
 /// floating-point number.
 ///
 /// # Complexity
-/// That of a diagram of half as many nodes as the limits allow.
+/// That of a diagram of half as many nodes as the limits allow, or of some thousand nodes a layer.
 pub(in crate::search) fn estimate(
     question: &Question,
     stages: &[Stage],

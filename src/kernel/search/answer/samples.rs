@@ -10,54 +10,135 @@
 use crate::search::answer::counts::total;
 use crate::search::answer::drawn::sample_of;
 use crate::search::answer::estimate::{Drawn, Estimate};
+use crate::search::answer::k_best::Assignment;
 use crate::search::build::at_most::AtMost;
 use crate::search::question::Question;
+use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
 
-/// Samples drawn.
-const SAMPLES: usize = 10_000;
+/// Samples drawn first, which say how many more are needed.
+const PILOT: usize = 1_000;
+/// Samples drawn then, at least and at most.
+const SAMPLES: [usize; 2] = [10_000, 200_000];
+/// How far the interval is to reach on either side, in parts of the mean.
+pub(in crate::search) const WITHIN: f64 = 0.01;
 /// Samples looked at before it is asked whether all is cancelled.
 const BATCH: usize = 500;
+/// Standard deviations on either side of the mean that hold a normal variable with a chance of 95 %.
+const NORMAL: f64 = 1.96;
+/// More than what is needed if the first samples are right, for they are not quite.
+const MARGIN: f64 = 1.2;
 /// The chance that the number lies above the interval, and that it lies below.
 const TAIL: f64 = 0.025;
 
-/// Estimates how many variants there are among those of a larger set; `filter` applies the conditions on mobility and changes, too.
-/// None where it was cancelled, where memory does not suffice, and where the set is too large for a floating-point number.
-///
-/// # Complexity
-/// O(samples · n · s²) field operations for n added freedoms and s self-stresses.
-pub(in crate::search) fn estimate(
-    question: &Question,
-    of: &AtMost,
+/// Samples of a larger set, of which some are drawn: they say how many more are needed.
+pub(in crate::search) struct Samples<'a> {
+    of: &'a AtMost,
+    at_most: BigUint,
+    /// The same as a number.
+    all: f64,
+    variants: Box<dyn Iterator<Item = Assignment> + 'a>,
     seed: u64,
-    filter: bool,
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Option<Estimate> {
-    let at_most = total(question, &of.diagram, filter);
-    let all = at_most.to_f64().filter(|x| x.is_finite())?;
-    let mut samples = sample_of(question, &of.diagram, seed, filter);
-    let (mut drawn, mut found) = (0, 0);
-    while drawn < SAMPLES && all > 0.0 {
-        let batch: Vec<_> = samples.by_ref().take(BATCH).collect();
-        if batch.is_empty() || cancelled() {
-            return None;
+    /// The odds against a sample being wanted, by the first of them.
+    odds: f64,
+}
+
+impl<'a> Samples<'a> {
+    /// Draws the first samples of a set; `filter` applies the conditions on mobility and changes, too. None where it was cancelled, where
+    /// memory does not suffice, and where the set is too large for a floating-point number.
+    ///
+    /// # Complexity
+    /// O(samples · n · s²) field operations for n added freedoms and s self-stresses.
+    pub(in crate::search) fn begin(
+        question: &'a Question,
+        of: &'a AtMost,
+        seed: u64,
+        filter: bool,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
+        let at_most = total(question, &of.diagram, filter);
+        let all = at_most.to_f64().filter(|x| x.is_finite())?;
+        let variants = sample_of(question, &of.diagram, seed, filter);
+        let mut out = Samples {
+            of,
+            at_most,
+            all,
+            variants,
+            seed,
+            odds: 0.0,
+        };
+        let (drawn, found) = out.draw(PILOT, cancelled)?;
+        if drawn > 0 {
+            out.odds = number(drawn - found) / number(found);
         }
-        drawn += batch.len();
-        found += batch.par_iter().filter(|v| of.has(&v.choices)).count();
+        Some(out)
     }
-    #[allow(clippy::cast_precision_loss, reason = "samples are few")]
-    let share = found as f64 / drawn.max(1) as f64;
-    #[allow(clippy::cast_precision_loss, reason = "samples are few")]
-    let deviation = (share * (1.0 - share) / drawn.max(1) as f64).sqrt();
-    Some(Estimate {
-        mean: all * share,
-        standard_error: all * deviation,
-        between: interval(drawn, found).map(|x| all * x),
-        at_most: Some(at_most),
-        drawn: Drawn::Samples { of: drawn, found },
-        seed,
-    })
+
+    /// How many of so many samples are wanted, and how many were drawn: none of an empty set.
+    fn draw(
+        &mut self,
+        wanted: usize,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<(usize, usize)> {
+        let (mut drawn, mut found) = (0, 0);
+        while drawn < wanted && self.all > 0.0 {
+            let few = BATCH.min(wanted - drawn);
+            let batch: Vec<_> = self.variants.by_ref().take(few).collect();
+            if batch.is_empty() || cancelled() {
+                return None;
+            }
+            drawn += batch.len();
+            let of = self.of;
+            found += batch.par_iter().filter(|v| of.has(&v.choices)).count();
+        }
+        Some((drawn, found))
+    }
+
+    /// How many more samples are needed, as far as the first tell.
+    fn needed(&self) -> usize {
+        let needed = (NORMAL / WITHIN).powi(2) * self.odds * MARGIN;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between the least and the most"
+        )]
+        let needed = needed.ceil() as usize;
+        needed.clamp(SAMPLES[0], SAMPLES[1])
+    }
+
+    /// How far the interval will reach on either side, in parts of the mean, as far as the first samples tell.
+    pub(in crate::search) fn reach(&self) -> f64 {
+        NORMAL * (self.odds / number(self.needed())).sqrt()
+    }
+
+    /// Estimates how many variants there are by samples drawn afresh, as the first have said how many. None where it was cancelled.
+    pub(in crate::search) fn estimate(
+        mut self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Estimate> {
+        let (drawn, found) = self.draw(self.needed(), cancelled)?;
+        let share = number(found) / number(drawn.max(1));
+        let deviation = (share * (1.0 - share) / number(drawn.max(1))).sqrt();
+        Some(Estimate {
+            mean: self.all * share,
+            standard_error: self.all * deviation,
+            between: interval(drawn, found).map(|x| self.all * x),
+            at_most: Some(self.at_most),
+            drawn: Drawn::Samples { of: drawn, found },
+            seed: self.seed,
+        })
+    }
+
+    /// No more variants than so many are in the set.
+    pub(in crate::search) fn at_most(self) -> BigUint {
+        self.at_most
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "samples are few")]
+fn number(of: usize) -> f64 {
+    of as f64
 }
 
 /// The least and the largest chance at which so many of the samples, or more or fewer of them, are not rarer than [`TAIL`].
@@ -88,13 +169,12 @@ fn bisected(holds: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// The chance that no more than `most` of some samples are found where each is with the chance `p`, which is neither 0 nor 1.
-#[allow(clippy::cast_precision_loss, reason = "samples are few")]
 fn up_to(samples: usize, most: usize, p: f64) -> f64 {
-    let (n, odds) = (samples as f64, p.ln() - (-p).ln_1p());
+    let (n, odds) = (number(samples), p.ln() - (-p).ln_1p());
     let mut term = n * (-p).ln_1p();
     let mut sum = term.exp();
     for k in 1..=most {
-        let k = k as f64;
+        let k = number(k);
         term += ((n - k + 1.0) / k).ln() + odds;
         sum += term.exp();
     }
