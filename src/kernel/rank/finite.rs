@@ -180,8 +180,7 @@ fn exactly(
         ));
     }
     if let (Some(series), Some(order)) = (series, stopped)
-        && let Some(found) =
-            singular::passed(exact, mechanism, closure, rank, (pose, series, order))?
+        && let Some(found) = singular::passed(exact, mechanism, closure, rank, pose, series, order)?
     {
         return Ok(found);
     }

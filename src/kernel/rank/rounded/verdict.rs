@@ -314,7 +314,7 @@ pub(in crate::rank) fn verdict_on(
         _ if tolerance.is_none() && values.gap(near, ROUND_OFF) < CLEAR => Meant::Undecided {
             near: values.left_over(above).unwrap_or(above),
         },
-        _ => meant(mechanism, state, near, (units, reach), tolerance.is_some())?,
+        _ => meant(mechanism, state, near, units, reach, tolerance.is_some())?,
     };
     Ok(found)
 }
@@ -358,7 +358,8 @@ fn meant(
     mechanism: &Mechanism,
     state: StateId,
     rank: usize,
-    (units, reach): (Units, Reach),
+    units: Units,
+    reach: Reach,
     asked: bool,
 ) -> Result<Meant, NoAnswer> {
     if asked {
@@ -412,7 +413,7 @@ mod tests {
                 direction: unit,
             };
             let reach = Reach::of_units(units, size(&m));
-            let found = meant(&m, StateId::FREE, 2, (units, reach), false).unwrap();
+            let found = meant(&m, StateId::FREE, 2, units, reach, false).unwrap();
             assert_eq!(
                 matches!(found, Meant::Near { .. }),
                 near,
