@@ -121,10 +121,11 @@ impl Search {
     pub fn at_tolerance(
         &mut self,
         digits: Digits,
-        (list, seed): (usize, u64),
+        list: usize,
+        seed: u64,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<AtTolerance, ExactError> {
-        at_tolerance::at_tolerance(&mut self.question, digits, (list, seed), cancelled)
+        at_tolerance::at_tolerance(&mut self.question, digits, list, seed, cancelled)
     }
 
     /// How many admissible variants are minimal: no other has part of their freedoms. `None` where that is not counted.

@@ -336,7 +336,7 @@ fn numeric(
         List::All => usize::MAX,
         List::Sample(_) | List::Nothing => 0,
     };
-    let found = search.at_tolerance(digits, (list, request.seed), should_cancel)?;
+    let found = search.at_tolerance(digits, list, request.seed, should_cancel)?;
     tell(Event::Built);
     Ok(Outcome::of_numeric(
         search,

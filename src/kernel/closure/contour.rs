@@ -170,7 +170,10 @@ fn shortest_cycles(
         graph.add_edge(
             NodeIndex::new(a.index()),
             NodeIndex::new(b.index()),
-            (j, UNIT + (i as u64 + 1) * (1 << 20) + (excess & 0xf_ffff)),
+            WeighedJoint {
+                joint: j,
+                length: UNIT + (i as u64 + 1) * (1 << 20) + (excess & 0xf_ffff),
+            },
         );
     }
     let trees: Vec<Tree> = graph.node_indices().map(|v| Tree::new(&graph, v)).collect();
@@ -207,10 +210,17 @@ fn shortest_cycles(
     })
 }
 
-type Graph = UnGraph<(), (JointId, u64)>;
+/// A joint with its length in walks.
+struct WeighedJoint {
+    joint: JointId,
+    /// A unit, and a small excess that no other has.
+    length: u64,
+}
+
+type Graph = UnGraph<(), WeighedJoint>;
 
 /// The end of a joint that is not `x`.
-fn other_end(e: EdgeReference<'_, (JointId, u64)>, x: NodeIndex) -> NodeIndex {
+fn other_end(e: EdgeReference<'_, WeighedJoint>, x: NodeIndex) -> NodeIndex {
     if e.source() == x {
         e.target()
     } else {
@@ -243,7 +253,7 @@ impl Tree {
             for e in graph.edges(x) {
                 let y = other_end(e, x);
                 if dist[y.index()].is_none() {
-                    heap.push(Reverse((d + e.weight().1, y)));
+                    heap.push(Reverse((d + e.weight().length, y)));
                 }
             }
         }
@@ -252,7 +262,7 @@ impl Tree {
         for &x in settled.iter().skip(1) {
             let back = graph.edges(x).find(|e| {
                 let before = dist[other_end(*e, x).index()];
-                before.map(|d| d + e.weight().1) == dist[x.index()]
+                before.map(|d| d + e.weight().length) == dist[x.index()]
             });
             if let Some(e) = back {
                 last[x.index()] = Some(e.id());
@@ -263,12 +273,12 @@ impl Tree {
     }
 
     /// The length of the closed walk through a joint, where the two shortest paths to its ends share only their first link. O(1).
-    fn closes(&self, e: EdgeReference<'_, (JointId, u64)>) -> Option<(u64, usize)> {
+    fn closes(&self, e: EdgeReference<'_, WeighedJoint>) -> Option<(u64, usize)> {
         let (x, y) = (e.source().index(), e.target().index());
         let (dx, dy) = (self.dist[x]?, self.dist[y]?);
-        let in_tree = dx.abs_diff(dy) == e.weight().1;
+        let in_tree = dx.abs_diff(dy) == e.weight().length;
         let apart = self.first[x] != self.first[y];
-        (!in_tree && apart).then(|| (dx + dy + e.weight().1, e.id().index()))
+        (!in_tree && apart).then(|| (dx + dy + e.weight().length, e.id().index()))
     }
 
     /// The joints of that walk, in order.
@@ -280,7 +290,7 @@ impl Tree {
         let path = |mut x: NodeIndex| {
             let mut out = Vec::new();
             while let Some(e) = self.last[x.index()] {
-                out.push(graph[e].0);
+                out.push(graph[e].joint);
                 let Some((a, b)) = graph.edge_endpoints(e) else {
                     break;
                 };
@@ -289,7 +299,7 @@ impl Tree {
             out
         };
         let mut cycle = path(x);
-        cycle.push(graph[e].0);
+        cycle.push(graph[e].joint);
         cycle.extend(path(y).into_iter().rev());
         cycle
     }

@@ -66,7 +66,7 @@ impl Plane {
         let spot = |j: JointId| spots[j.index()];
         let judged = planes.map(|plane| {
             let miss =
-                |a: JointId, b| plane.miss((spot(a), &mechanism.joints[a].joint_type), spot(b));
+                |a: JointId, b| plane.miss(spot(a), &mechanism.joints[a].joint_type, spot(b));
             let misses: Vec<Miss> = pairs.iter().map(|&(a, b)| miss(a, b)).collect();
             let mut off: Vec<f64> = misses.iter().map(Miss::size).collect();
             off.sort_by(f64::total_cmp);

@@ -30,6 +30,15 @@ impl Spot {
     }
 }
 
+/// A type of joint at a place: what says which motions are allowed.
+#[derive(Debug, Clone, Copy)]
+pub struct PlacedType<'a> {
+    /// Its frame.
+    pub frame: &'a Frame,
+    /// The type.
+    pub joint_type: &'a JointType,
+}
+
 /// How far the image of a joint is from the joint it is paired with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Miss {
@@ -93,9 +102,9 @@ pub trait Carrier {
     /// Where a coordinate has no value in the field.
     fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError>;
 
-    /// How far the image of a joint is from a place.
+    /// How far the image of a joint of a type is from a place.
     #[must_use]
-    fn miss(&self, (from, of): (Spot, &JointType), to: Spot) -> Miss {
+    fn miss(&self, from: Spot, of: &JointType, to: Spot) -> Miss {
         Miss::new(self.image(from), of, to)
     }
 
@@ -107,8 +116,8 @@ pub trait Carrier {
         &self,
         exact: &ExactField,
         mode: &Mode,
-        from: (&Frame, &JointType),
-        to: (&Frame, &JointType),
+        from: PlacedType<'_>,
+        to: PlacedType<'_>,
     ) -> Result<bool, ExactError> {
         match self.map(exact)? {
             Some(map) => map.carries(exact, mode, from, to),
@@ -155,8 +164,8 @@ impl Map {
         &self,
         exact: &ExactField,
         mode: &Mode,
-        (frame, of): (&Frame, &JointType),
-        (to, other): (&Frame, &JointType),
+        from: PlacedType<'_>,
+        to: PlacedType<'_>,
     ) -> Result<bool, ExactError> {
         let f = exact.field();
         // A turn about u is one about -u in a mirror; the body point at the origin is the image of that at the shift.
@@ -173,9 +182,10 @@ impl Map {
             [w[0], w[1], w[2], at(0), at(1), at(2)]
         };
         let space = MotionSpace::new(exact, mode)?;
-        let values = FrameValues::new(exact, frame)?.within(&space, of.freedoms());
+        let freedoms = from.joint_type.freedoms();
+        let values = FrameValues::new(exact, from.frame)?.within(&space, freedoms);
         let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
-        for &freedom in of.freedoms() {
+        for &freedom in freedoms {
             let twist = values.twist(exact, freedom);
             if space.components(exact, &twist).is_none() {
                 continue;
@@ -185,7 +195,7 @@ impl Map {
                 None => return Ok(false),
             };
         }
-        for (_, t) in joint_twists(exact, &space, to, other)? {
+        for (_, t) in joint_twists(exact, &space, to.frame, to.joint_type)? {
             own.insert(&t);
         }
         Ok(images.reduced() == own.reduced())

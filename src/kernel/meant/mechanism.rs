@@ -7,8 +7,8 @@ use super::written::{Ray, WrittenPoint, WrittenScene, WrittenSymmetry};
 use crate::geom::expr::Expr;
 use crate::geom::vector::real;
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, JointId, Mechanism, Mode};
-use crate::model::rounded::{FrameUncertainty, uncertainties};
+use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, Mode};
+use crate::model::rounded::{FrameUncertainty, Uncertainties, uncertainties};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -76,6 +76,57 @@ impl Gathered {
                 .then(|| self.ray(&f.reference, half.reference, Some(of))),
         }
     }
+
+    /// Takes in the frame of a joint, with the directions that it and what is offered along its axis use.
+    fn joint(&mut self, joint: &Joint, half: &Uncertainties, j: JointId) -> Slots {
+        let at = j.index();
+        let uses = joint
+            .offered()
+            .filter(|o| written_alike(&o.frame.axis, &joint.frame.axis))
+            .fold(Uses::of(&joint.joint_type), |u, o| {
+                u.or(Uses::of(&o.joint_type))
+            });
+        let halves = FrameUncertainty {
+            point: half.point[at],
+            axis: half.axis[at],
+            reference: half.reference[at],
+            pitch: half.pitch[at],
+        };
+        self.frame(&joint.frame, &halves, j, uses)
+    }
+
+    /// Takes in what an offered frame has other than the joint's own, which is at some slots.
+    fn offered(
+        &mut self,
+        f: &Frame,
+        half: &FrameUncertainty,
+        of: JointId,
+        uses: Uses,
+        own: &Frame,
+        slots: Slots,
+    ) -> Slots {
+        let point = if written_alike(&f.point, &own.point) {
+            slots.point
+        } else {
+            Some(self.point(&f.point, half.point, of))
+        };
+        let axis = if written_alike(&f.axis, &own.axis) {
+            slots.axis
+        } else {
+            uses.axis.then(|| self.ray(&f.axis, half.axis, Some(of)))
+        };
+        let reference = if written_alike(&f.reference, &own.reference) {
+            slots.reference
+        } else {
+            (uses.reference && half.reference != [0.0; 3])
+                .then(|| self.ray(&f.reference, half.reference, Some(of)))
+        };
+        Slots {
+            point,
+            axis,
+            reference,
+        }
+    }
 }
 
 /// Which directions of a frame matter to a joint type.
@@ -129,48 +180,14 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
     let mut own: Vec<Slots> = Vec::new();
     let mut offered: Vec<Vec<Slots>> = Vec::new();
     for (j, joint) in mechanism.joints_with_ids() {
-        let at = j.index();
-        let shares = |o: &Frame| written_alike(&o.axis, &joint.frame.axis);
-        let uses = joint
-            .offered()
-            .filter(|o| shares(&o.frame))
-            .fold(Uses::of(&joint.joint_type), |u, o| {
-                u.or(Uses::of(&o.joint_type))
-            });
-        let halves = FrameUncertainty {
-            point: half.point[at],
-            axis: half.axis[at],
-            reference: half.reference[at],
-            pitch: half.pitch[at],
-        };
-        let slots = all.frame(&joint.frame, &halves, j, uses);
+        let slots = all.joint(joint, &half, j);
         own.push(slots);
-        let of_option = |(n, o): (usize, &crate::model::mechanism::JointOption)| {
-            let (f, h) = (&o.frame, &half.option_frames[at][n]);
-            let uses = Uses::of(&o.joint_type);
-            let point = if written_alike(&f.point, &joint.frame.point) {
-                slots.point
-            } else {
-                Some(all.point(&f.point, h.point, j))
-            };
-            let axis = if shares(f) {
-                slots.axis
-            } else {
-                uses.axis.then(|| all.ray(&f.axis, h.axis, Some(j)))
-            };
-            let reference = if written_alike(&f.reference, &joint.frame.reference) {
-                slots.reference
-            } else {
-                (uses.reference && h.reference != [0.0; 3])
-                    .then(|| all.ray(&f.reference, h.reference, Some(j)))
-            };
-            Slots {
-                point,
-                axis,
-                reference,
-            }
+        let halves = &half.option_frames[j.index()];
+        let of_option = |(o, half): (&JointOption, &FrameUncertainty)| {
+            let (frame, uses) = (&joint.frame, Uses::of(&o.joint_type));
+            all.offered(&o.frame, half, j, uses, frame, slots)
         };
-        offered.push(joint.offered().enumerate().map(of_option).collect());
+        offered.push(joint.offered().zip(halves).map(of_option).collect());
     }
     let normal = match &mechanism.mode {
         Mode::Spatial => None,

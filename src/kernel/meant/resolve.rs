@@ -5,7 +5,7 @@ use super::check::Images;
 use super::exact_directions::{Exact, placed};
 use super::of_points;
 use super::projection::{Projection, Taken};
-use super::relations::{Finder, Relation, Use};
+use super::relations::{Finder, Normals, Relation, Use};
 use super::scene::MeantScene;
 use super::stage::{Stage, StageMark};
 use super::written::WrittenScene;
@@ -93,6 +93,36 @@ struct Doubts {
     of_points: usize,
 }
 
+impl Doubts {
+    /// Of relations with what became of them, of which those from `first` on are of points alone.
+    fn new(
+        became: &[(Relation, Taken)],
+        first: usize,
+        solved: &Projection<'_>,
+        normals: &Normals,
+        images: &Images,
+    ) -> Doubts {
+        // What follows from others to rounding alone does not hold.
+        let broken = |(r, b): &&(Relation, Taken)| {
+            *b == Taken::Refused
+                || (*b == Taken::Implied && !r.rows.iter().all(|w| images.holds(w)))
+        };
+        let left_out = |(r, b): &&(Relation, Taken)| {
+            let asks = r.rows.iter().filter_map(|w| solved.asks(w, &normals.real));
+            let far = asks.fold(0.0, f64::max);
+            *b == Taken::Refused && far > 0.0 && far <= LEFT_OUT
+        };
+        Doubts {
+            left_out: became.iter().filter(left_out).count(),
+            by_chance: became
+                .iter()
+                .filter(|(r, b)| *b == Taken::New && r.weak)
+                .count(),
+            of_points: became[first..].iter().filter(broken).count(),
+        }
+    }
+}
+
 /// A scene, how doubtful it is, and where it is doubted the same without lines and planes that points alone make.
 fn resolve_with(
     written: &WrittenScene,
@@ -138,23 +168,7 @@ fn resolve_with(
         .scene(&solved.rows, &solved.points, &normals)
         .or_else(without)?;
     let images = Images::of(&scene.inside, &normals.exact);
-    // What follows from others to rounding alone does not hold.
-    let broken = |(r, b): &&(Relation, Taken)| {
-        *b == Taken::Refused || (*b == Taken::Implied && !r.rows.iter().all(|w| images.holds(w)))
-    };
-    let left_out = |(r, b): &&(Relation, Taken)| {
-        let asks = r.rows.iter().filter_map(|w| solved.asks(w, &normals.real));
-        let far = asks.fold(0.0, f64::max);
-        *b == Taken::Refused && far > 0.0 && far <= LEFT_OUT
-    };
-    let doubts = Doubts {
-        left_out: became.iter().filter(left_out).count(),
-        by_chance: became
-            .iter()
-            .filter(|(r, b)| *b == Taken::New && r.weak)
-            .count(),
-        of_points: became[first..].iter().filter(broken).count(),
-    };
+    let doubts = Doubts::new(&became, first, &solved, &normals, &images);
     let without = (doubts.of_points > 0).then(without).flatten();
     let taken = became.into_iter().filter(|b| b.1 == Taken::New);
     let relations = taken.map(|(r, _)| (r.kind, r.rows[0].terms.iter().map(|t| t.0).collect()));

@@ -42,16 +42,20 @@ pub struct AboutTerm {
     pub meaning: &'static str,
 }
 
-/// A term that is measured, as most are.
-const MEASURED: AboutTerm = AboutTerm {
-    word: "",
-    key: "",
-    heading: None,
-    csv: true,
-    is_count: false,
-    scale: 1.0,
-    meaning: "",
-};
+impl AboutTerm {
+    /// Of a term that is measured, as most are.
+    const fn measured(word: &'static str, meaning: &'static str) -> AboutTerm {
+        AboutTerm {
+            word,
+            key: word,
+            heading: None,
+            csv: true,
+            is_count: false,
+            scale: 1.0,
+            meaning,
+        }
+    }
+}
 
 impl Term {
     /// Every term.
@@ -71,66 +75,55 @@ impl Term {
     pub fn about(self) -> AboutTerm {
         match self {
             Term::PeakForce => AboutTerm {
-                word: "peak-force",
-                key: "peak-force",
                 heading: Some("force"),
-                meaning: "the greatest joint force over its type's capacity",
-                ..MEASURED
+                ..AboutTerm::measured(
+                    "peak-force",
+                    "the greatest joint force over its type's capacity",
+                )
             },
             Term::PeakMoment => AboutTerm {
-                word: "peak-moment",
-                key: "peak-moment",
                 heading: Some("moment"),
-                meaning: "the greatest joint moment over its type's capacity",
-                ..MEASURED
+                ..AboutTerm::measured(
+                    "peak-moment",
+                    "the greatest joint moment over its type's capacity",
+                )
             },
             // A variant has a conditioning with its drives free, too.
             Term::Conditioning => AboutTerm {
-                word: "conditioning",
                 key: "conditioning-held",
                 heading: Some("cond. held"),
-                meaning: "the smallest singular value over the largest with the drives held, greater being better",
-                ..MEASURED
+                ..AboutTerm::measured(
+                    "conditioning",
+                    "the smallest singular value over the largest with the drives held, greater being better",
+                )
             },
             Term::OutputError => AboutTerm {
-                word: "output-error",
-                key: "output-error",
                 heading: Some("error, mm"),
                 scale: 1e3,
-                meaning: "how far clearances move the outputs, in mm",
-                ..MEASURED
+                ..AboutTerm::measured("output-error", "how far clearances move the outputs, in mm")
             },
             Term::Changes => AboutTerm {
-                word: "changes",
-                key: "changes",
                 heading: Some("changed"),
                 csv: false,
                 is_count: true,
-                meaning: "joints changed and inserted",
-                ..MEASURED
+                ..AboutTerm::measured("changes", "joints changed and inserted")
             },
             Term::Cost => AboutTerm {
-                word: "cost",
-                key: "cost",
                 csv: false,
-                meaning: "the additive cost",
-                ..MEASURED
+                ..AboutTerm::measured("cost", "the additive cost")
             },
             Term::Idle => AboutTerm {
-                word: "idle",
-                key: "idle",
                 heading: Some("idle"),
                 is_count: true,
-                meaning: "mobility beyond the working one",
-                ..MEASURED
+                ..AboutTerm::measured("idle", "mobility beyond the working one")
             },
             Term::Harmful => AboutTerm {
-                word: "harmful",
-                key: "harmful",
                 csv: false,
                 is_count: true,
-                meaning: "harmful redundant constraints that the searched state adds",
-                ..MEASURED
+                ..AboutTerm::measured(
+                    "harmful",
+                    "harmful redundant constraints that the searched state adds",
+                )
             },
         }
     }

@@ -72,6 +72,36 @@ impl fmt::Display for Rounded {
     }
 }
 
+/// What a coordinate is one of: a length, or a direction.
+#[derive(Clone, Copy)]
+struct CoordinateKind {
+    /// The length of the direction; 0 for a length.
+    norm: f64,
+    /// From how many digits on it is long.
+    least: usize,
+}
+
+impl CoordinateKind {
+    /// That of points and pitches.
+    const LENGTH: CoordinateKind = CoordinateKind {
+        norm: 0.0,
+        least: LONG_LENGTH,
+    };
+
+    /// That of the components of a direction.
+    fn of_direction(direction: &[Expr; 3]) -> CoordinateKind {
+        let least = if is_rounded(direction) {
+            1
+        } else {
+            LONG_DIRECTION
+        };
+        CoordinateKind {
+            norm: length(real(direction)),
+            least,
+        }
+    }
+}
+
 /// What is seen of a mechanism's decimals.
 #[derive(Default)]
 struct SeenDecimals {
@@ -85,14 +115,14 @@ struct SeenDecimals {
 }
 
 impl SeenDecimals {
-    /// Takes in a coordinate of a vector of length `norm`, 0 for a length, that is long from so many digits on.
-    fn see(&mut self, v: &Expr, (norm, least): (f64, usize), place: &dyn Fn() -> String) {
-        let direction = norm > 0.0;
-        let long = |d: &Decimal| d.digits.is_none_or(|n| n >= least);
+    /// Takes in a coordinate.
+    fn see(&mut self, v: &Expr, kind: CoordinateKind, place: &dyn Fn() -> String) {
+        let direction = kind.norm > 0.0;
+        let long = |d: &Decimal| d.digits.is_none_or(|n| n >= kind.least);
         let Some(decimal) = decimal(v).filter(long) else {
             return;
         };
-        let of = if direction { norm } else { 1.0 };
+        let of = if direction { kind.norm } else { 1.0 };
         // A value that is used at several joints is one number.
         let size = v.to_f64().abs().to_bits();
         self.units[usize::from(direction)].insert(size, decimal.unit / of);
@@ -114,28 +144,18 @@ impl SeenDecimals {
             ("reference", &f.reference, true),
         ] {
             let kind = if direction {
-                kind_of(vector)
+                CoordinateKind::of_direction(vector)
             } else {
-                (0.0, LONG_LENGTH)
+                CoordinateKind::LENGTH
             };
             for c in vector {
                 self.see(c, kind, &|| format!("{what} of {}", at()));
             }
         }
-        self.see(&f.pitch, (0.0, LONG_LENGTH), &|| {
+        self.see(&f.pitch, CoordinateKind::LENGTH, &|| {
             format!("pitch of {}", at())
         });
     }
-}
-
-/// The length of a direction, and from how many digits on its components are long.
-fn kind_of(direction: &[Expr; 3]) -> (f64, usize) {
-    let least = if is_rounded(direction) {
-        1
-    } else {
-        LONG_DIRECTION
-    };
-    (length(real(direction)), least)
 }
 
 /// A coordinate as it is told.
@@ -177,8 +197,9 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
         }
     }
     if let Mode::Planar { normal } = &mechanism.mode {
+        let kind = CoordinateKind::of_direction(normal);
         for c in normal {
-            seen.see(c, kind_of(normal), &|| "normal of the plane".to_owned());
+            seen.see(c, kind, &|| "normal of the plane".to_owned());
         }
     }
     let [measured, any] = seen.first;

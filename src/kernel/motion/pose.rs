@@ -9,7 +9,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::spanning_tree;
-use crate::closure::twist::{FrameValues, MotionSpace, Twist};
+use crate::closure::twist::{FrameValues, MotionSpace, Twist, joint_twists};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::Extent;
 use crate::geom::rigid::{RigidMotion, halves};
@@ -98,66 +98,30 @@ impl Pose {
             .map(|&j| FrameValues::new(&Reals, &mechanism.joints[j].frame))
             .collect::<Result<Vec<_>, _>>()?;
         let points: Vec<[f64; 3]> = frames.iter().map(|f| f.point).collect();
-        let Extent {
-            middle,
-            length: size,
-        } = Extent::of(&points);
-        let (mut columns, mut base) = (Vec::new(), Vec::new());
-        let mut of_joint = vec![Vec::new(); mechanism.joints.len()];
-        for (&j, frame) in joints.iter().zip(&frames) {
-            let joint = &mechanism.joints[j];
-            let freedoms = joint.joint_type.freedoms();
-            let frame = frame.within(&space, freedoms);
-            let unit = FrameValues {
-                axes: frame.axes.map(vector::unit),
-                point: sub(frame.point, middle).map(|x| x / size),
-                pitch: frame.pitch / size,
-            };
-            let kept = crate::closure::twist::joint_twists(
-                &Reals,
-                &space,
-                &joint.frame,
-                &joint.joint_type,
-            )?;
-            let mut kept: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
-            // A pin in a slot: the pin first, as in `workload::planar`.
-            let has = |f| freedoms.contains(&f);
-            let slot = has(Freedom::Tx) && !has(Freedom::Ty);
-            kept.sort_by_key(|f| f.slides() == slot);
-            for (n, freedom) in kept.into_iter().enumerate() {
-                of_joint[j].push(columns.len());
-                base.push((joint.links[0], n));
-                columns.push(PoseColumn {
-                    joint: j,
-                    freedom,
-                    twist: unit.twist(&Reals, freedom),
-                    moved: 0.0,
-                });
-            }
-        }
-        let walk = |j: JointId, forward: bool| -> Walk {
-            if forward {
-                of_joint[j].iter().map(|&c| (c, 1.0)).collect()
-            } else {
-                of_joint[j].iter().rev().map(|&c| (c, -1.0)).collect()
-            }
+        let extent = Extent::of(&points);
+        let mut all = JointColumns {
+            columns: Vec::new(),
+            base: Vec::new(),
+            of_joint: vec![Vec::new(); mechanism.joints.len()],
         };
+        for (&j, frame) in joints.iter().zip(&frames) {
+            all.add(mechanism, &space, j, frame, extent)?;
+        }
         let couplings = mechanism
             .couplings_in(state)
-            .filter_map(|c| coupled(c, &columns, size))
+            .filter_map(|c| coupled(c, &all.columns, extent.length))
             .collect();
-        let contours = contour_basis(mechanism, state)
-            .iter()
-            .map(|c: &Contour| c.joints.iter().flat_map(|&(j, d)| walk(j, d)).collect())
-            .collect();
+        let walk = |c: &Contour| c.joints.iter().flat_map(|&(j, d)| all.walk(j, d)).collect();
+        let contours = contour_basis(mechanism, state).iter().map(walk).collect();
         let tree = spanning_tree(mechanism, state)
             .into_iter()
-            .map(|s| (s.link, s.from, walk(s.joint, s.forward)))
+            .map(|s| (s.link, s.from, all.walk(s.joint, s.forward)))
             .collect();
+        let JointColumns { columns, base, .. } = all;
         Ok(Pose {
             columns,
-            length: size,
-            middle,
+            length: extent.length,
+            middle: extent.middle,
             links: vec![RigidMotion::IDENTITY; mechanism.links.len()],
             accuracy: 0.0,
             contours,
@@ -282,6 +246,63 @@ impl Pose {
             *link = d.then(link);
         }
         next
+    }
+}
+
+/// The columns of a pose while they are laid out, joint by joint.
+struct JointColumns {
+    columns: Vec<PoseColumn>,
+    /// First link of every column's joint, and the columns of that joint before it.
+    base: Vec<(LinkId, usize)>,
+    /// The columns of each joint.
+    of_joint: Vec<Vec<usize>>,
+}
+
+impl JointColumns {
+    /// Adds the freedoms of a joint with a frame, in lengths and about the middle of all.
+    fn add(
+        &mut self,
+        mechanism: &Mechanism,
+        space: &MotionSpace<f64>,
+        j: JointId,
+        frame: &FrameValues<f64>,
+        all: Extent,
+    ) -> Result<(), ExactError> {
+        let joint = &mechanism.joints[j];
+        let freedoms = joint.joint_type.freedoms();
+        let (frame, size) = (frame.within(space, freedoms), all.length);
+        let unit = FrameValues {
+            axes: frame.axes.map(vector::unit),
+            point: sub(frame.point, all.middle).map(|x| x / size),
+            pitch: frame.pitch / size,
+        };
+        let kept = joint_twists(&Reals, space, &joint.frame, &joint.joint_type)?;
+        let mut kept: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
+        // A pin in a slot: the pin first, as in `workload::planar`.
+        let has = |f| freedoms.contains(&f);
+        let slot = has(Freedom::Tx) && !has(Freedom::Ty);
+        kept.sort_by_key(|f| f.slides() == slot);
+        for (n, freedom) in kept.into_iter().enumerate() {
+            self.of_joint[j].push(self.columns.len());
+            self.base.push((joint.links[0], n));
+            self.columns.push(PoseColumn {
+                joint: j,
+                freedom,
+                twist: unit.twist(&Reals, freedom),
+                moved: 0.0,
+            });
+        }
+        Ok(())
+    }
+
+    /// The freedoms of a joint as they are passed in a direction.
+    fn walk(&self, j: JointId, forward: bool) -> Walk {
+        let own = self.of_joint[j].iter();
+        if forward {
+            own.map(|&c| (c, 1.0)).collect()
+        } else {
+            own.rev().map(|&c| (c, -1.0)).collect()
+        }
     }
 }
 

@@ -151,15 +151,7 @@ fn exactly(
     let (series, line) = (expanded.series.as_ref(), expanded.line);
     let isolated = |m: usize| series.and_then(|s| s.isolated(m));
     let stopped = line.and_then(|l| l.stopped);
-    let proven = |order| {
-        Finite::new(
-            0,
-            How::Stopped {
-                order,
-                motions: instantaneous,
-            },
-        )
-    };
+    let proven = |order| nothing_moves(order, instantaneous);
     if let (1, Some(order)) = (instantaneous, stopped) {
         return Ok(proven(order));
     }
@@ -180,8 +172,7 @@ fn exactly(
         ));
     }
     if let (Some(series), Some(order)) = (series, stopped)
-        && let Some(found) =
-            singular::passed(exact, mechanism, closure, rank, (pose, series, order))?
+        && let Some(found) = singular::passed(exact, mechanism, closure, rank, pose, series, order)?
     {
         return Ok(found);
     }
@@ -204,6 +195,11 @@ fn exactly(
         }),
         None => of_pursuit(found),
     })
+}
+
+/// What is proven where all of so many instantaneous motions are stopped.
+fn nothing_moves(order: usize, motions: usize) -> Finite {
+    Finite::new(0, How::Stopped { order, motions })
 }
 
 /// Follows the motion of a pose, where it is not too large for that.

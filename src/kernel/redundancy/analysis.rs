@@ -174,21 +174,14 @@ fn chosen(
         } => {
             // What was found is as good as doubles; what is written is read at the tolerance asked for.
             let tolerance = moved.map_or(verdict.tolerance, |_| NEAR);
+            let (by, known) = (Elimination::Svd, Some(finite));
             let found = NumericRank {
                 rank: *rank,
                 ..verdict.numeric.unwrap_or_default()
             };
-            let whole = numerically(
-                near,
-                state,
-                Elimination::Svd,
-                found,
-                tolerance,
-                Some(finite),
-            )?;
             StateAnalysis {
-                certainty: Elimination::Svd.certainty(found, verdict.tolerance),
-                ..whole
+                certainty: by.certainty(found, verdict.tolerance),
+                ..numerically(near, state, by, found, tolerance, known)?
             }
         }
         Meant::Undecided { near } => StateAnalysis {
@@ -249,27 +242,8 @@ fn numerically(
     }
     let measured = Measured::new(mechanism, state, tolerance)?;
     let working_mobility = measured.span_of_links(&outputs(mechanism));
-    let external = match whole.external {
-        Some(e) => {
-            let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
-            let free = Measured::new(mechanism, StateId::FREE, tolerance)?;
-            let free_rows = Closure::new(&Reals, mechanism, StateId::FREE)?;
-            let free_redundant = free_rows.rows() + free.mobility() - free_rows.columns.len();
-            let (actual, working) = (int(free.mobility()), int(measured.span_of_joints(&own)));
-            let redundant = whole.rows + measured.mobility() - whole.freedoms;
-            let bodies = e.lost_mobility + int(whole.mobility) - e.working_mobility;
-            let lost = bodies - (int(measured.mobility()) - working);
-            let found = External {
-                actual_mobility: actual,
-                working_mobility: working,
-                lost_mobility: lost,
-                redundant: e.constraints - (actual - working) - lost,
-                by_rank: int(redundant) - int(free_redundant),
-                ..e
-            };
-            // Ranks of two states at a tolerance may contradict each other; then neither is told.
-            Some(found).filter(|x| x.redundant == x.by_rank)
-        }
+    let external = match &whole.external {
+        Some(e) => external_by(mechanism, tolerance, &whole, e, &measured)?,
         None => None,
     };
     Ok(StateAnalysis {
@@ -286,6 +260,35 @@ fn numerically(
         self_stresses: Vec::new(),
         ..whole
     })
+}
+
+/// What a state adds to the free one by singular values, where exact ranks say `e`; none where ranks of the two contradict each
+/// other.
+fn external_by(
+    mechanism: &Mechanism,
+    tolerance: f64,
+    whole: &StateAnalysis,
+    e: &External,
+    measured: &Measured<'_>,
+) -> Result<Option<External>, AnalysisError> {
+    let own: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+    let free = Measured::new(mechanism, StateId::FREE, tolerance)?;
+    let free_rows = Closure::new(&Reals, mechanism, StateId::FREE)?;
+    let free_redundant = free_rows.rows() + free.mobility() - free_rows.columns.len();
+    let (actual, working) = (int(free.mobility()), int(measured.span_of_joints(&own)));
+    let redundant = whole.rows + measured.mobility() - whole.freedoms;
+    let bodies = e.lost_mobility + int(whole.mobility) - e.working_mobility;
+    let lost = bodies - (int(measured.mobility()) - working);
+    let found = External {
+        actual_mobility: actual,
+        working_mobility: working,
+        lost_mobility: lost,
+        redundant: e.constraints - (actual - working) - lost,
+        by_rank: int(redundant) - int(free_redundant),
+        ..*e
+    };
+    // Ranks of two states at a tolerance may contradict each other; then neither is told.
+    Ok(Some(found).filter(|x| x.redundant == x.by_rank))
 }
 
 fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
@@ -317,6 +320,37 @@ fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> bool {
         .is_ok_and(|c| c.rank == rank)
 }
 
+/// How sure a rank by the first of two fields is, which that by the other must be too.
+fn certainty(
+    mechanism: &Mechanism,
+    state: StateId,
+    fields: &[ExactField; 2],
+    rank: usize,
+) -> Result<Certainty, AnalysisError> {
+    // That was one of the rows that are enough, this is one of all.
+    let [_, other] = fields;
+    let ranks = [
+        rank,
+        modular::rank(other, &Closure::new(other, mechanism, state)?),
+    ];
+    let primes = fields.each_ref().map(|f| f.field().modulus());
+    if ranks[0] != ranks[1] {
+        let state = mechanism.states[state].clone();
+        return Err(AnalysisError::Disagree {
+            state,
+            first: primes[0],
+            second: primes[1],
+            ranks,
+        });
+    }
+    // A certificate would be of the digits that stand for π.
+    Ok(if !mechanism.has_pi() && proven(mechanism, state, rank) {
+        Certainty::Proven { primes }
+    } else {
+        Certainty::Modular { primes }
+    })
+}
+
 /// On exact geometry; `known` is the finite mobility where it was found already, since following a motion takes the most.
 fn exactly(
     mechanism: &Mechanism,
@@ -329,29 +363,9 @@ fn exactly(
     ];
     let exact = &fields[0];
     let closure = Closure::new(exact, mechanism, state)?;
-    // One rank of the rows that are enough, the other of all.
     let least_rows = LeastRows::new(exact, mechanism, &closure)?;
-    let ranks = [
-        least_rows.rank(),
-        modular::rank(&fields[1], &Closure::new(&fields[1], mechanism, state)?),
-    ];
-    let primes = [exact.field().modulus(), fields[1].field().modulus()];
-    if ranks[0] != ranks[1] {
-        let state = mechanism.states[state].clone();
-        return Err(AnalysisError::Disagree {
-            state,
-            first: primes[0],
-            second: primes[1],
-            ranks,
-        });
-    }
-    let rank = ranks[0];
-    // A certificate would be of the digits that stand for π.
-    let certainty = if !mechanism.has_pi() && proven(mechanism, state, rank) {
-        Certainty::Proven { primes }
-    } else {
-        Certainty::Modular { primes }
-    };
+    let rank = least_rows.rank();
+    let certainty = certainty(mechanism, state, &fields, rank)?;
     let kernel = motions(exact, &closure);
     let outputs = outputs(mechanism);
     let working_mobility = span_of_links(exact, mechanism, &closure, &kernel, &outputs);

@@ -43,6 +43,32 @@ impl HeldTwice {
             self.analysis.at_most().map_or(least, |(_, most)| most),
         )
     }
+
+    /// Tells where σ holds. Where fewer are redundant at a further pose, and it is known how many are at this one, those are the
+    /// ones that last, and the pose is given.
+    fn look_elsewhere(
+        &mut self,
+        geometry: &Mechanism,
+        tolerance: f64,
+        inside: &dyn Fn(&Pose) -> bool,
+    ) -> Result<Option<Pose>, AnalysisError> {
+        let (least, most) = self.range();
+        let finite = match self.analysis.certainty {
+            Certainty::Undecided { .. } => self.analysis.finite.by_numeric_rank(),
+            _ => self.analysis.finite,
+        };
+        let state = StateId::FREE;
+        let (over, pose) = redundant_where(geometry, state, &finite, most, tolerance, inside)?;
+        self.over = Some(over);
+        let Where::Pose { elsewhere, .. } = over else {
+            return Ok(None);
+        };
+        let pose = pose.filter(|_| least == most);
+        if pose.is_some() {
+            self.lasting = elsewhere;
+        }
+        Ok(pose)
+    }
 }
 
 /// Finds what is held twice. `closes` says which joints are there to close loops, `may` what may be let go, `inside` which poses
@@ -74,7 +100,7 @@ pub fn held_twice(
         releases: Vec::new(),
         cheapest: Vec::new(),
     };
-    let (least, most) = out.range();
+    let (_, most) = out.range();
     out.lasting = most;
     if most == 0 {
         return Ok(out);
@@ -86,19 +112,10 @@ pub fn held_twice(
         .map_or(FLAT, |n| (n.kept * n.dropped.max(1e-13)).sqrt());
     // Between what is kept and what is dropped, where coordinates are rounded.
     let tolerance = gap.max(FLAT);
-    let mut elsewhere = None;
-    if let Some(inside) = inside {
-        let finite = match out.analysis.certainty {
-            Certainty::Undecided { .. } => out.analysis.finite.by_numeric_rank(),
-            _ => out.analysis.finite,
-        };
-        let (over, pose) = redundant_where(geometry, state, &finite, most, tolerance, inside)?;
-        out.over = Some(over);
-        if let (Where::Pose { elsewhere: n, .. }, Some(pose), true) = (over, pose, least == most) {
-            out.lasting = n;
-            elsewhere = Some(pose);
-        }
-    }
+    let elsewhere = match inside {
+        Some(inside) => out.look_elsewhere(geometry, tolerance, inside)?,
+        None => None,
+    };
     let rank = out.analysis.rows - most;
     let Some(stressed) = Stressed::new(geometry, state, rank)? else {
         return Ok(out);
@@ -119,18 +136,7 @@ pub fn held_twice(
             };
             let (theirs, releases) = candidates(m, &lasting, closes, may);
             out.cheapest = as_built(m, &lasting, &releases);
-            let back = |r: &Release| match *r {
-                Release::Coupling(q) => Release::Coupling(q),
-                Release::Freedom {
-                    joint,
-                    slides,
-                    direction,
-                } => Release::Freedom {
-                    joint,
-                    slides,
-                    direction: settled_back(m, &pose, joint, direction),
-                },
-            };
+            let back = |r: &Release| taken_back(m, &pose, r);
             let chosen = lasting.cheapest(&theirs);
             let first: Vec<(i64, Release)> = chosen
                 .iter()
@@ -142,6 +148,22 @@ pub fn held_twice(
     }
     out.list = stressed.duplicates(&rows, &out.releases);
     Ok(out)
+}
+
+/// A release at a moved pose in the pose of the file.
+fn taken_back(m: &Mechanism, pose: &Pose, release: &Release) -> Release {
+    match *release {
+        Release::Coupling(q) => Release::Coupling(q),
+        Release::Freedom {
+            joint,
+            slides,
+            direction,
+        } => Release::Freedom {
+            joint,
+            slides,
+            direction: settled_back(m, pose, joint, direction),
+        },
+    }
 }
 
 /// A direction of a moved pose in the pose of the file, as a multiple of 1e-9, so that rounding errors of the way back are none.

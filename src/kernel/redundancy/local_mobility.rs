@@ -34,36 +34,18 @@ pub fn idle_motions(
     kernel: &[Speeds],
     outputs: &[LinkId],
 ) -> Vec<Idle> {
-    let f = exact.field();
-    let links: Vec<LinkId> = mechanism
-        .link_ids()
-        .filter(|&l| {
-            mechanism
-                .joints_in(closure.state)
-                .any(|j| mechanism.joints[j].links.contains(&l))
-        })
-        .collect();
-    // What the outputs do under each motion, and the motions under which all of them rest.
-    let there = links.iter().copied().filter(|l| outputs.contains(l));
-    let of_outputs = closure.link_motions(exact, mechanism, &there.collect::<Vec<LinkId>>());
-    let moved = |speeds: &Speeds| {
-        let twists = of_outputs.iter().flat_map(|m| twist(exact, m, speeds));
-        twists.chain([0]).collect()
-    };
-    let images: Vec<Vec<Residue>> = kernel.iter().map(moved).collect();
-    let all = relations(f, &images);
+    let ids = joined(mechanism, closure);
+    let there = ids.iter().copied().filter(|l| outputs.contains(l));
+    let there: Vec<LinkId> = there.collect();
+    let all = at_rest(exact, mechanism, closure, kernel, &there);
     if all.is_empty() {
         // What one link does alone would be among them.
         return Vec::new();
     }
-    let all = all.iter().map(|factors| combination(f, kernel, factors));
-    let motion = closure.link_motions(exact, mechanism, &links);
-    // What every column closes, and couples.
-    let mut rows = closure.dense(exact);
-    rows.iter_mut().for_each(|r| r.push(0));
-    let mut span = Echelon::new(f);
+    let links = Links::new(exact, mechanism, closure, ids);
+    let mut span = Echelon::new(exact.field());
     let mut found = Vec::new();
-    for (at, &l) in links.iter().enumerate() {
+    for (at, &l) in links.ids.iter().enumerate() {
         if outputs.contains(&l) {
             continue;
         }
@@ -71,15 +53,9 @@ pub fn idle_motions(
             .joints_in(closure.state)
             .filter(|&j| mechanism.joints[j].links.contains(&l))
             .collect();
-        for speeds in alone(
-            exact,
-            closure,
-            (&links, &motion),
-            &rows,
-            (mechanism, l, &joints),
-        ) {
+        for speeds in links.alone(l, &joints) {
             if span.insert(&speeds) {
-                let own = twist(exact, &motion[at], &speeds);
+                let own = twist(exact, &links.motion[at], &speeds);
                 let rests = |j: &JointId| rests_at(exact, mechanism, *j, &own);
                 let turns = own.len() == 6 && own[..3].iter().any(|&x| x != 0);
                 found.push(Idle {
@@ -93,12 +69,8 @@ pub fn idle_motions(
     }
     for speeds in all {
         if span.insert(&speeds) {
-            let moving = links
-                .iter()
-                .zip(&motion)
-                .filter(|(_, m)| twist(exact, m, &speeds).iter().any(|&x| x != 0));
             found.push(Idle {
-                links: moving.map(|(l, _)| *l).collect(),
+                links: links.moved(&speeds),
                 through: Vec::new(),
                 turns: false,
                 direction: None,
@@ -108,46 +80,112 @@ pub fn idle_motions(
     found
 }
 
-/// Motions of one link alone: only its own joints move then, and its neighbours rest; what lies behind them does so with them.
-fn alone(
+/// The links that have a joint in a state.
+fn joined(mechanism: &Mechanism, closure: &Closure<Residue>) -> Vec<LinkId> {
+    let is_joined = |l: &LinkId| {
+        let mut joints = mechanism.joints_in(closure.state);
+        joints.any(|j| mechanism.joints[j].links.contains(l))
+    };
+    mechanism.link_ids().filter(is_joined).collect()
+}
+
+/// The motions under which all of some outputs rest.
+fn at_rest(
     exact: &ExactField,
+    mechanism: &Mechanism,
     closure: &Closure<Residue>,
-    (links, motion): (&[LinkId], &[Vec<Vec<Residue>>]),
-    rows: &[Vec<Residue>],
-    (mechanism, link, joints): (&Mechanism, LinkId, &[JointId]),
+    kernel: &[Speeds],
+    outputs: &[LinkId],
 ) -> Vec<Speeds> {
-    let mut neighbours: Vec<LinkId> = joints
-        .iter()
-        .flat_map(|&j| mechanism.joints[j].links)
-        .filter(|&l| l != link)
-        .collect();
-    neighbours.sort_unstable();
-    neighbours.dedup();
-    let columns: Vec<usize> = (0..closure.columns.len())
-        .filter(|&c| joints.contains(&closure.columns[c].joint))
-        .collect();
-    let image = |&c: &usize| {
-        let mut image = rows[c].clone();
-        for l in &neighbours {
-            if let Some(at) = links.iter().position(|x| x == l) {
-                image.extend(&motion[at][c]);
-            }
-        }
-        image
+    let f = exact.field();
+    let of_outputs = closure.link_motions(exact, mechanism, outputs);
+    let moved = |speeds: &Speeds| {
+        let twists = of_outputs.iter().flat_map(|m| twist(exact, m, speeds));
+        twists.chain([0]).collect()
     };
-    let images: Vec<Vec<Residue>> = columns.iter().map(image).collect();
-    let whole = |few: Vec<Residue>| {
-        let mut speeds = vec![0; closure.columns.len()];
-        columns
-            .iter()
-            .zip(few)
-            .for_each(|(&c, speed)| speeds[c] = speed);
-        speeds
-    };
-    relations(exact.field(), &images)
-        .into_iter()
-        .map(whole)
+    let images: Vec<Vec<Residue>> = kernel.iter().map(moved).collect();
+    let all = relations(f, &images);
+    all.iter()
+        .map(|factors| combination(f, kernel, factors))
         .collect()
+}
+
+/// The links of a state, and what the columns of J do to them.
+struct Links<'a> {
+    exact: &'a ExactField,
+    mechanism: &'a Mechanism,
+    closure: &'a Closure<Residue>,
+    ids: Vec<LinkId>,
+    /// Of each link, the twist that each column gives it.
+    motion: Vec<Vec<Vec<Residue>>>,
+    /// What every column closes, and couples.
+    rows: Vec<Vec<Residue>>,
+}
+
+impl<'a> Links<'a> {
+    fn new(
+        exact: &'a ExactField,
+        mechanism: &'a Mechanism,
+        closure: &'a Closure<Residue>,
+        ids: Vec<LinkId>,
+    ) -> Links<'a> {
+        let mut rows = closure.dense(exact);
+        rows.iter_mut().for_each(|r| r.push(0));
+        Links {
+            exact,
+            mechanism,
+            closure,
+            motion: closure.link_motions(exact, mechanism, &ids),
+            ids,
+            rows,
+        }
+    }
+
+    /// The links that speeds move.
+    fn moved(&self, speeds: &Speeds) -> Vec<LinkId> {
+        let moving = |(_, m): &(&LinkId, &Vec<Vec<Residue>>)| {
+            twist(self.exact, m, speeds).iter().any(|&x| x != 0)
+        };
+        let links = self.ids.iter().zip(&self.motion).filter(moving);
+        links.map(|(l, _)| *l).collect()
+    }
+
+    /// Motions of one link alone: only its own joints move then, and its neighbours rest; what lies behind them does so with them.
+    fn alone(&self, link: LinkId, joints: &[JointId]) -> Vec<Speeds> {
+        let closure = self.closure;
+        let mut neighbours: Vec<LinkId> = joints
+            .iter()
+            .flat_map(|&j| self.mechanism.joints[j].links)
+            .filter(|&l| l != link)
+            .collect();
+        neighbours.sort_unstable();
+        neighbours.dedup();
+        let columns: Vec<usize> = (0..closure.columns.len())
+            .filter(|&c| joints.contains(&closure.columns[c].joint))
+            .collect();
+        let image = |&c: &usize| {
+            let mut image = self.rows[c].clone();
+            for l in &neighbours {
+                if let Some(at) = self.ids.iter().position(|x| x == l) {
+                    image.extend(&self.motion[at][c]);
+                }
+            }
+            image
+        };
+        let images: Vec<Vec<Residue>> = columns.iter().map(image).collect();
+        let whole = |few: Vec<Residue>| {
+            let mut speeds = vec![0; closure.columns.len()];
+            columns
+                .iter()
+                .zip(few)
+                .for_each(|(&c, speed)| speeds[c] = speed);
+            speeds
+        };
+        relations(self.exact.field(), &images)
+            .into_iter()
+            .map(whole)
+            .collect()
+    }
 }
 
 /// What a twist turns about, or slides along where it does not turn.

@@ -425,7 +425,7 @@ fn prove(
         return;
     }
     let known = cost_of(question, &out.admissible, &most).flatten();
-    let proof = up_to(question, &missing, (&most, known), build);
+    let proof = up_to(question, &missing, &most, known, build);
     match proof.up_to {
         // Nothing had to be left out: what has no completion by dimensions made the diagram too large.
         Some(all) if all.cost_milli == i64::MAX => out.admissible = all.diagram,

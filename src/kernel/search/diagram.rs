@@ -29,7 +29,7 @@ use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::state_copies::Move;
 pub use crate::search::diagram::stop::Stop;
-use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::transition::{Children, GrownStage, Worker};
 use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
@@ -111,7 +111,8 @@ impl Diagram {
     }
 }
 
-/// Builds the diagram of a space along given stages; under a ceiling, all of it that variants within the ceiling need.
+/// Builds the diagram of a space along given stages, of variants with redundant constraints that they have `already`; under a ceiling,
+/// all of it that variants within the ceiling need.
 ///
 /// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
 /// what was found can still be completed. The result does not depend on the number of threads: children are computed in
@@ -123,7 +124,9 @@ impl Diagram {
 pub(super) fn build(
     space: &Space,
     stages: &[impl Carries],
-    (limits, already, mut ceiling): (&Limits, u32, Option<&mut Ceiling<'_>>),
+    limits: &Limits,
+    already: u32,
+    mut ceiling: Option<&mut Ceiling<'_>>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
@@ -137,7 +140,7 @@ pub(super) fn build(
         let choices = &space.variables[stage.variable()].choices;
         let room = limits.nodes.saturating_sub(total).max(fewest);
         let bytes = allowed.saturating_sub(held + nodes.bytes());
-        let merge = Merge::new((room, bytes), stop, nodes.len() * choices.len());
+        let merge = Merge::new(room, bytes, stop, nodes.len() * choices.len());
         let merge = next(
             stage,
             choices,
@@ -227,8 +230,10 @@ pub(super) fn of_live_links(
 ) -> Diagram {
     let over = |stage| Over::new(field, space, stage, limits);
     let stages: Vec<Over<'_>> = stages.iter().map(over).collect();
-    let within = (limits, limits.already, ceiling);
-    build(space, &stages, within, cancelled, progress)
+    let already = limits.already;
+    build(
+        space, &stages, limits, already, ceiling, cancelled, progress,
+    )
 }
 
 /// How many ways lead to each of the next nodes, from how many lead to these.
@@ -305,7 +310,10 @@ impl Carries for Over<'_> {
     }
 
     fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        let stage = (self.stage, &self.growth[..]);
+        let stage = GrownStage {
+            stage: self.stage,
+            growth: &self.growth,
+        };
         worker.children(self.space, stage, matrix, spent, self.limits, out);
     }
 }

@@ -141,7 +141,7 @@ impl Question {
 
     /// The bodies that must be held in the searched state.
     pub fn held(&self) -> impl Iterator<Item = LinkId> + '_ {
-        self.grasps.iter().map(|(body, _)| *body)
+        self.grasps.iter().map(|g| g.body)
     }
 
     /// The bodies that must be held and are not in the mechanism as it is, in a sentence each: no option takes a motion away,

@@ -1,6 +1,6 @@
 //! What tests alone need of the inside of a search, and nothing else may use.
 
-use super::answer::k_best::{Assignment, Cheapest, Reach};
+use super::answer::k_best::{Assignment, Cheapest, ListLimits, Reach};
 use super::build::orders::orders;
 use super::build::self_stress::in_self_stress_space;
 use super::build::spanning_halves::Halves;
@@ -70,10 +70,14 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
 #[must_use]
 pub fn cheapest_in_room(question: &Question, room: usize, top: usize) -> Vec<Assignment> {
     let found = build(question, &|| false, &mut |_| {});
+    let limits = ListLimits {
+        reach: Reach::Variants(top),
+        ceiling: u64::MAX,
+    };
     let mut all = Cheapest::<u128>::new(
         &found.admissible,
         &question.steps,
-        (Reach::Variants(top), u64::MAX),
+        limits,
         |_| true,
         |k| k,
         usize::MAX,

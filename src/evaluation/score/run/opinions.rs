@@ -46,13 +46,8 @@ pub(super) fn second_opinion(
         listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
     }
     let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
-    let said = second_opinion::second_opinion(
-        search,
-        written,
-        (listed, drawn),
-        determinate,
-        request.seed,
-    )?;
+    let said =
+        second_opinion::second_opinion(search, written, listed, drawn, determinate, request.seed)?;
     Ok(Some(said))
 }
 

@@ -49,76 +49,91 @@ fn show_rational(r: &BigRational) -> (String, u8) {
     (format!("{sign}{whole}.{fraction}"), strength)
 }
 
+/// What is still to be written.
+enum Task<'a> {
+    Text(&'static str),
+    Power(i64),
+    /// A tree, in brackets where it binds less than this.
+    Tree(&'a Expr, u8),
+}
+
+/// A node in pieces.
+enum Pieces<'a> {
+    /// One without parts.
+    Whole(String),
+    /// One with parts, in reverse: the stack of tasks is written from its end.
+    Parts(Vec<Task<'a>>),
+}
+
+/// The pieces of a node, with its binding strength.
+fn pieces(kind: &NodeKind) -> (u8, Pieces<'_>) {
+    use Task::{Power, Text, Tree};
+    let (strength, parts) = match kind {
+        NodeKind::Rational(r) => {
+            let (text, strength) = show_rational(r);
+            return (strength, Pieces::Whole(text));
+        }
+        NodeKind::Trig(function, k, n) => {
+            let name = match function {
+                Function::Cos => "cos",
+                Function::Sin => "sin",
+                Function::Tan => "tan",
+            };
+            let (angle, strength) =
+                show_rational(&BigRational::new(BigInt::from(*k) * 360, (*n).into()));
+            let text = if strength == ATOM {
+                format!("{name}({angle}deg)")
+            } else {
+                format!("{name}(({angle})deg)")
+            };
+            return (ATOM, Pieces::Whole(text));
+        }
+        NodeKind::Pi => return (ATOM, Pieces::Whole("pi".to_owned())),
+        NodeKind::Add(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("+"), Tree(a, SUM)]),
+        NodeKind::Sub(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("-"), Tree(a, SUM)]),
+        NodeKind::Mul(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("*"), Tree(a, PRODUCT)]),
+        NodeKind::Div(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("/"), Tree(a, PRODUCT)]),
+        NodeKind::Neg(a) => (UNARY, vec![Tree(a, UNARY), Text("-")]),
+        NodeKind::Pow(a, n) => (UNARY + 1, vec![Power(*n), Tree(a, ATOM)]),
+        NodeKind::Sqrt(a) => (ATOM, vec![Text(")"), Tree(a, 0), Text("sqrt(")]),
+    };
+    (strength, Pieces::Parts(parts))
+}
+
 /// Writes a text that [`FromStr`](std::str::FromStr) reads back as the same number (as long as it stays within the limits on texts).
 /// Trees of several thousand leaves are written as a decimal approximation instead.
 impl fmt::Display for Expr {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        enum Task<'a> {
-            Text(&'static str),
-            Power(i64),
-            Tree(&'a Expr, u8),
-        }
-        use Task::{Power, Text, Tree};
         if self.0.size > MAX_SHOWN {
             return write!(f, "{:?}", self.to_f64());
         }
-        let mut tasks = vec![Tree(self, 0)];
+        let mut tasks = vec![Task::Tree(self, 0)];
         while let Some(task) = tasks.pop() {
             let (e, least) = match task {
-                Text(t) => {
+                Task::Text(t) => {
                     f.write_str(t)?;
                     continue;
                 }
-                Power(n) => {
+                Task::Power(n) => {
                     write!(f, "^{n}")?;
                     continue;
                 }
-                Tree(e, least) => (e, least),
+                Task::Tree(e, least) => (e, least),
             };
-            // In reverse: the stack is written from its end.
-            let (strength, mut parts) = match &e.0.kind {
-                NodeKind::Rational(r) => {
-                    let (text, strength) = show_rational(r);
-                    if strength < least {
-                        write!(f, "({text})")?
-                    } else {
-                        f.write_str(&text)?
+            let (strength, pieces) = pieces(&e.0.kind);
+            let bracketed = strength < least;
+            match pieces {
+                Pieces::Whole(text) if bracketed => write!(f, "({text})")?,
+                Pieces::Whole(text) => f.write_str(&text)?,
+                Pieces::Parts(mut parts) => {
+                    if bracketed {
+                        tasks.push(Task::Text(")"));
                     }
-                    continue;
-                }
-                NodeKind::Trig(function, k, n) => {
-                    let name = match function {
-                        Function::Cos => "cos",
-                        Function::Sin => "sin",
-                        Function::Tan => "tan",
-                    };
-                    let (angle, strength) =
-                        show_rational(&BigRational::new(BigInt::from(*k) * 360, (*n).into()));
-                    if strength == ATOM {
-                        write!(f, "{name}({angle}deg)")?
-                    } else {
-                        write!(f, "{name}(({angle})deg)")?
+                    tasks.append(&mut parts);
+                    if bracketed {
+                        tasks.push(Task::Text("("));
                     }
-                    continue;
                 }
-                NodeKind::Pi => {
-                    f.write_str("pi")?;
-                    continue;
-                }
-                NodeKind::Add(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("+"), Tree(a, SUM)]),
-                NodeKind::Sub(a, b) => (SUM, vec![Tree(b, PRODUCT), Text("-"), Tree(a, SUM)]),
-                NodeKind::Mul(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("*"), Tree(a, PRODUCT)]),
-                NodeKind::Div(a, b) => (PRODUCT, vec![Tree(b, UNARY), Text("/"), Tree(a, PRODUCT)]),
-                NodeKind::Neg(a) => (UNARY, vec![Tree(a, UNARY), Text("-")]),
-                NodeKind::Pow(a, n) => (UNARY + 1, vec![Power(*n), Tree(a, ATOM)]),
-                NodeKind::Sqrt(a) => (ATOM, vec![Text(")"), Tree(a, 0), Text("sqrt(")]),
-            };
-            if strength < least {
-                tasks.push(Text(")"));
-                tasks.append(&mut parts);
-                tasks.push(Text("("));
-            } else {
-                tasks.append(&mut parts);
             }
         }
         Ok(())

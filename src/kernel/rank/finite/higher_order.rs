@@ -76,47 +76,8 @@ impl HigherOrder {
             .iter()
             .map(|c| in_space(exact, &space, &c.twist))
             .collect();
-        // Within a joint in the order of the poses.
-        let order = |c: usize| {
-            let column = &closure.columns[c];
-            pose.columns
-                .iter()
-                .position(|p| (p.joint, p.freedom) == (column.joint, column.freedom))
-        };
-        let walks: Vec<Vec<(usize, bool)>> = closure
-            .contours
-            .iter()
-            .map(|contour| {
-                let mut walk = Vec::new();
-                for &(j, forward) in &contour.joints {
-                    let mut own: Vec<usize> =
-                        (0..f).filter(|&c| closure.columns[c].joint == j).collect();
-                    own.sort_by_key(|&c| order(c));
-                    if !forward {
-                        own.reverse();
-                    }
-                    walk.extend(own.into_iter().map(|c| (c, forward)));
-                }
-                walk
-            })
-            .collect();
-        // [J | 1], reduced.
-        let mut matrix = vec![vec![0; f + rows]; rows];
-        for (k, walk) in walks.iter().enumerate() {
-            for &(c, forward) in walk {
-                for (i, &t) in twists[c].iter().enumerate() {
-                    matrix[6 * k + i][c] = if forward { t } else { field.neg(t) };
-                }
-            }
-        }
-        for (row, coupling) in matrix[6 * walks.len()..].iter_mut().zip(&closure.couplings) {
-            for &(c, x) in &coupling.entries {
-                row[c] = x;
-            }
-        }
-        for (i, row) in matrix.iter_mut().enumerate() {
-            row[f + i] = field.one();
-        }
+        let walks = walks(closure, pose);
+        let mut matrix = beside_unit(field, closure, &twists, &walks);
         let pivots = reduce(field, &mut matrix, f);
         if pivots.len() != rank {
             return Ok(None);
@@ -386,6 +347,58 @@ fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue])
 
 fn unit(f: Field, j: usize) -> [Residue; 3] {
     [0, 1, 2].map(|i| if i == j { f.one() } else { 0 })
+}
+
+/// The contours as columns with their directions, within a joint in the order of the poses.
+fn walks(closure: &Closure<Residue>, pose: &Pose) -> Vec<Vec<(usize, bool)>> {
+    let order = |c: usize| {
+        let column = &closure.columns[c];
+        pose.columns
+            .iter()
+            .position(|p| (p.joint, p.freedom) == (column.joint, column.freedom))
+    };
+    let walks = closure.contours.iter().map(|contour| {
+        let mut walk = Vec::new();
+        for &(j, forward) in &contour.joints {
+            let columns = 0..closure.columns.len();
+            let mut own: Vec<usize> = columns.filter(|&c| closure.columns[c].joint == j).collect();
+            own.sort_by_key(|&c| order(c));
+            if !forward {
+                own.reverse();
+            }
+            walk.extend(own.into_iter().map(|c| (c, forward)));
+        }
+        walk
+    });
+    walks.collect()
+}
+
+/// [J | 1].
+fn beside_unit(
+    field: Field,
+    closure: &Closure<Residue>,
+    twists: &[Vec<Residue>],
+    walks: &[Vec<(usize, bool)>],
+) -> Vec<Vec<Residue>> {
+    let f = closure.columns.len();
+    let rows = 6 * walks.len() + closure.couplings.len();
+    let mut matrix = vec![vec![0; f + rows]; rows];
+    for (k, walk) in walks.iter().enumerate() {
+        for &(c, forward) in walk {
+            for (i, &t) in twists[c].iter().enumerate() {
+                matrix[6 * k + i][c] = if forward { t } else { field.neg(t) };
+            }
+        }
+    }
+    for (row, coupling) in matrix[6 * walks.len()..].iter_mut().zip(&closure.couplings) {
+        for &(c, x) in &coupling.entries {
+            row[c] = x;
+        }
+    }
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row[f + i] = field.one();
+    }
+    matrix
 }
 
 /// Reduced row echelon form in place, by the first `width` columns; the pivots' columns, whose rows come first.

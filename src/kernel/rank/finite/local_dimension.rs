@@ -103,6 +103,14 @@ impl DimensionsFound {
             regular,
         }
     }
+
+    fn between(from: usize, to: usize) -> DimensionsFound {
+        DimensionsFound {
+            from,
+            to,
+            regular: false,
+        }
+    }
 }
 
 /// Equations beside those of the contours: their values and rows at some coordinates.
@@ -296,13 +304,7 @@ impl DimensionSearch {
             match self.smooth(pose, &flat.kernel, scale)? {
                 Some(true) => return Some(DimensionsFound::exactly(n, true)),
                 Some(false) => {}
-                None => {
-                    return Some(DimensionsFound {
-                        from: 0,
-                        to: n,
-                        regular: false,
-                    });
-                }
+                None => return Some(DimensionsFound::between(0, n)),
             }
         }
         // Not everything extends, so at most a hypersurface does.
@@ -326,15 +328,12 @@ impl DimensionSearch {
             quadrics.dimension(&seeds).min(at_most)
         };
         let from = self.along_branches(pose, &flat, &directions, scale, depth);
-        Some(DimensionsFound {
-            from,
-            to: if self.poses < self.budget {
-                sampled.max(from)
-            } else {
-                at_most
-            },
-            regular: false,
-        })
+        let to = if self.poses < self.budget {
+            sampled.max(from)
+        } else {
+            at_most
+        };
+        Some(DimensionsFound::between(from, to))
     }
 
     /// The largest dimension found along branches in some directions, as far as the budget goes.
@@ -361,13 +360,7 @@ impl DimensionSearch {
             let Some(Some(branch)) = found else { continue };
             // A curve through the pose is a motion, if it goes on.
             if best == 0 {
-                let onward: Vec<f64> = branch
-                    .far
-                    .iter()
-                    .zip(&branch.near)
-                    .map(|(f, n)| f - n)
-                    .collect();
-                if self.goes_on(pose, &branch.far, &onward, 1) != Some(true) {
+                if self.goes_on(pose, &branch.far, &branch.onward(), 1) != Some(true) {
                     continue;
                 }
                 best = 1;
@@ -413,6 +406,14 @@ impl DimensionSearch {
 struct Branch {
     near: Vec<f64>,
     far: Vec<f64>,
+}
+
+impl Branch {
+    /// The way from the one to the other.
+    fn onward(&self) -> Vec<f64> {
+        let both = self.far.iter().zip(&self.near);
+        both.map(|(f, n)| f - n).collect()
+    }
 }
 
 /// Whether two coordinates lie in nearly the same direction.

@@ -65,6 +65,28 @@ pub enum How {
     },
 }
 
+impl Proof {
+    /// Why a pose is a regular one, whose J has a rank of that `dimension`.
+    fn why(self, dimension: usize) -> String {
+        match self {
+            Proof::Groups => {
+                format!("J has the full rank {dimension} of the groups its contours move in")
+            }
+            Proof::Resting => format!(
+                "with what rests locked, J has the full rank {dimension} of the groups its contours move in"
+            ),
+            Proof::Bonds => "chains of joints move in whole groups of displacements".to_owned(),
+            Proof::Multiplicity => {
+                "nothing stops it up to the order beyond which nothing can".to_owned()
+            }
+            Proof::Contours => {
+                "each contour moves as it does at first order, and none holds what others hold"
+                    .to_owned()
+            }
+        }
+    }
+}
+
 /// The finite mobility of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Finite {
@@ -151,23 +173,7 @@ impl Finite {
             }
             How::Rigid => "nothing moves even instantaneously".to_owned(),
             How::Submersion { dimension, by } => {
-                let why = match by {
-                    Proof::Groups => {
-                        format!("J has the full rank {dimension} of the groups its contours move in")
-                    }
-                    Proof::Resting => format!(
-                        "with what rests locked, J has the full rank {dimension} of the groups its contours move in"
-                    ),
-                    Proof::Bonds => "chains of joints move in whole groups of displacements".to_owned(),
-                    Proof::Multiplicity => {
-                        "nothing stops it up to the order beyond which nothing can".to_owned()
-                    }
-                    Proof::Contours => {
-                        "each contour moves as it does at first order, and none holds what others hold"
-                            .to_owned()
-                    }
-                };
-                format!("{why}, so this pose is a regular one")
+                format!("{}, so this pose is a regular one", by.why(dimension))
             }
             How::Stopped { order, motions } => {
                 let what = match motions {
@@ -234,14 +240,11 @@ impl Finite {
     /// The finite mobility of two independent parts, or of a part and its idle freedoms.
     pub(super) fn and(self, other: Finite) -> Finite {
         use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
+        let from = self.mobility + other.mobility;
+        let to = self.at_most() + other.at_most();
         let how = match (self.how, other.how) {
-            (Rounded { .. }, _) | (_, Rounded { .. }) => Rounded {
-                to: self.at_most() + other.at_most(),
-            },
-            (Undecided { .. }, _) | (_, Undecided { .. }) => Undecided {
-                from: self.mobility + other.mobility,
-                to: self.at_most() + other.at_most(),
-            },
+            (Rounded { .. }, _) | (_, Rounded { .. }) => Rounded { to },
+            (Undecided { .. }, _) | (_, Undecided { .. }) => Undecided { from, to },
             (Rigid, how) | (how, Rigid) => how,
             (
                 Submersion { dimension, by },
@@ -253,9 +256,7 @@ impl Finite {
                 dimension: dimension + more,
                 by: by.max(too),
             },
-            (Bound { .. }, _) | (_, Bound { .. }) => Bound {
-                to: self.at_most() + other.at_most(),
-            },
+            (Bound { .. }, _) | (_, Bound { .. }) => Bound { to },
             (
                 Traced { poses, regular },
                 Traced {
@@ -293,7 +294,7 @@ impl Finite {
             | (Submersion { .. }, how @ Stopped { .. }) => how,
         };
         Finite {
-            mobility: self.mobility + other.mobility,
+            mobility: from,
             how,
             numeric: self.numeric || other.numeric,
         }

@@ -31,7 +31,9 @@ pub(super) fn passed(
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
     rank: usize,
-    (pose, series, stopped): (&Pose, &HigherOrder, usize),
+    pose: &Pose,
+    series: &HigherOrder,
+    stopped: usize,
 ) -> Result<Option<Finite>, ExactError> {
     let n = closure.columns.len() - rank;
     let flat = Flat::new(pose, Some(n));

@@ -15,7 +15,7 @@ use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::rounding_bound::bound;
 use crate::rank::numeric::scaling::NumericRank;
-use crate::rank::numeric::values::{ROUND_OFF, relative_values};
+use crate::rank::numeric::values::{ROUND_OFF, Values, relative_values};
 use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::rank::rounded::moves::{moves, understood};
 use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest};
@@ -262,19 +262,8 @@ pub(in crate::rank) fn verdict_on(
         resolved: scene.is_some(),
     };
     let size = size(mechanism);
-    let (units, reach) = match (tolerance, &found.rounded) {
-        (Some(t), _) => (
-            Units {
-                length: t * size,
-                direction: t,
-            },
-            Reach::relative(t, size),
-        ),
-        (None, Some(r)) => {
-            let units = units(file, r);
-            (units, Reach::of_units(units, size))
-        }
-        (None, None) => return Ok(found),
+    let Some((units, reach)) = allowed(file, found.rounded.as_ref(), tolerance, size) else {
+        return Ok(found);
     };
     let Some(values) = relative_values(&real)? else {
         return Ok(found);
@@ -290,17 +279,8 @@ pub(in crate::rank) fn verdict_on(
     };
     let rank = scene.map_or(as_written, |s| s.1);
     if above >= rank.min(as_written) {
-        found.numeric = Some(values.at(rank));
-        found.meant = match (values.left_over(rank), tolerance, scene) {
-            (Some(near), None, _) => {
-                found.numeric = Some(values.at(near));
-                Meant::Undecided { near }
-            }
-            // No rounding can have made what the digits say is there in truth.
-            (_, _, Some((_, rank))) if above > rank => Meant::Undecided { near: rank },
-            (_, _, Some((s, rank))) => snapped(s, rank),
-            _ => Meant::AsWritten,
-        };
+        let (at, meant) = counted(&values, above, rank, scene, tolerance);
+        (found.numeric, found.meant) = (Some(values.at(at)), meant);
         return Ok(found);
     }
     let near = match tolerance {
@@ -314,9 +294,45 @@ pub(in crate::rank) fn verdict_on(
         _ if tolerance.is_none() && values.gap(near, ROUND_OFF) < CLEAR => Meant::Undecided {
             near: values.left_over(above).unwrap_or(above),
         },
-        _ => meant(mechanism, state, near, (units, reach), tolerance.is_some())?,
+        _ => meant(mechanism, state, near, units, reach, tolerance.is_some())?,
     };
     Ok(found)
+}
+
+/// What coordinates may be off by, and how far joints may be moved: as the tolerance asks, or as the digits say; none where
+/// every digit is exact.
+fn allowed(
+    file: &Mechanism,
+    rounded: Option<&Rounded>,
+    tolerance: Option<f64>,
+    size: f64,
+) -> Option<(Units, Reach)> {
+    if let Some(t) = tolerance {
+        let units = Units {
+            length: t * size,
+            direction: t,
+        };
+        return Some((units, Reach::relative(t, size)));
+    }
+    let units = units(file, rounded?);
+    Some((units, Reach::of_units(units, size)))
+}
+
+/// The verdict where no rounding can have made the singular values that the rank counts, and the rank to show them at.
+fn counted(
+    values: &Values,
+    above: usize,
+    rank: usize,
+    scene: Option<(&Scene, usize)>,
+    tolerance: Option<f64>,
+) -> (usize, Meant) {
+    match (values.left_over(rank), tolerance, scene) {
+        (Some(near), None, _) => (near, Meant::Undecided { near }),
+        // No rounding can have made what the digits say is there in truth.
+        (_, _, Some(_)) if above > rank => (rank, Meant::Undecided { near: rank }),
+        (_, _, Some((s, _))) => (rank, snapped(s, rank)),
+        _ => (rank, Meant::AsWritten),
+    }
 }
 
 /// The verdict that a scene is meant.
@@ -358,7 +374,8 @@ fn meant(
     mechanism: &Mechanism,
     state: StateId,
     rank: usize,
-    (units, reach): (Units, Reach),
+    units: Units,
+    reach: Reach,
     asked: bool,
 ) -> Result<Meant, NoAnswer> {
     if asked {
@@ -412,7 +429,7 @@ mod tests {
                 direction: unit,
             };
             let reach = Reach::of_units(units, size(&m));
-            let found = meant(&m, StateId::FREE, 2, (units, reach), false).unwrap();
+            let found = meant(&m, StateId::FREE, 2, units, reach, false).unwrap();
             assert_eq!(
                 matches!(found, Meant::Near { .. }),
                 near,

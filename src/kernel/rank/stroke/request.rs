@@ -217,6 +217,15 @@ impl<'a> AskedStroke<'a> {
     }
 }
 
+/// The joint and the freedom of a name such as `joint:rz`; without a freedom where all of it is a joint's name, or no joint has
+/// the first part.
+fn joint_and_freedom<'n>(m: &Mechanism, name: &'n str) -> (&'n str, Option<&'n str>) {
+    match (m.joint(name), name.rsplit_once(':')) {
+        (None, Some((id, freedom))) if m.joint(id).is_some() => (id, Some(freedom)),
+        _ => (name, None),
+    }
+}
+
 /// The column that moves and those that are held.
 fn drive(
     m: &Mechanism,
@@ -251,11 +260,7 @@ fn drive(
     };
     let chosen = match asked {
         Some(name) => {
-            let split = name.rsplit_once(':');
-            let (id, freedom) = match (m.joint(name), split) {
-                (None, Some((id, freedom))) if m.joint(id).is_some() => (id, Some(freedom)),
-                _ => (name, None),
-            };
+            let (id, freedom) = joint_and_freedom(m, name);
             let joint = m.joint(id).ok_or_else(|| AskedError::NoJoint {
                 name: name.to_owned(),
                 could: could(m, pose, &names),

@@ -62,7 +62,9 @@ impl Ways {
         diagram: &Diagram,
         steps: &Steps,
         tally: &Tally<C>,
-        (layer, node, rest): (usize, u32, Key),
+        layer: usize,
+        node: u32,
+        rest: Key,
     ) -> Span {
         let name = (index(layer), node, rest);
         if let Some(&known) = self.at.get(&name) {

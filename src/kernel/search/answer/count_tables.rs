@@ -32,8 +32,7 @@ impl<C: Count> Tally<C> {
         let mut out = Vec::with_capacity(diagram.layers.len() + 1);
         for l in (0..diagram.layers.len()).rev() {
             let bound = bound.map(|b| &b[l][..]);
-            let below = (&tables[..], &numbers);
-            let (here, named, used) = layer(diagram, steps, (l, bound), below, left)?;
+            let (here, named, used) = layer(diagram, steps, l, bound, &tables, &numbers, left)?;
             left = left.saturating_sub(used);
             out.push(std::mem::replace(&mut tables, here));
             numbers = named;
@@ -64,8 +63,7 @@ pub fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -> Optio
     let mut held = 0;
     for l in (0..diagram.layers.len()).rev() {
         let left = bytes.saturating_sub(held);
-        let below = (&tables[..], &numbers);
-        (tables, numbers, held) = layer(diagram, steps, (l, None), below, left)?;
+        (tables, numbers, held) = layer(diagram, steps, l, None, &tables, &numbers, left)?;
     }
     Some(tables.into_iter().next().unwrap_or_default())
 }
@@ -162,12 +160,14 @@ impl Shifts {
     }
 }
 
-/// The tables of layer `l` from those of the one below, with the bytes they take; `None` where these are too many.
+/// The tables of layer `l` from those of the one below and the numbers of their keys, with the bytes they take; `None` where these are too many.
 fn layer<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
-    (l, bound): (usize, Option<&[u64]>),
-    (below, numbers): (&[Table<C>], &Numbers),
+    l: usize,
+    bound: Option<&[u64]>,
+    below: &[Table<C>],
+    numbers: &Numbers,
     bytes: usize,
 ) -> Option<(Vec<Table<C>>, Numbers, usize)> {
     let layer = &diagram.layers[l];
@@ -251,9 +251,10 @@ mod tests {
         let steps = Steps::of_keys(vec![keys.clone(); variables]);
         let (mut tables, mut numbers) = terminals::<u128>(&diagram, &steps);
         for l in (0..variables).rev() {
-            let below = (&tables[..], &numbers);
             let bound = Some(&[1, u64::MAX][..]);
-            (tables, numbers, _) = layer(&diagram, &steps, (l, bound), below, 1 << 20).unwrap();
+            let room = 1 << 20;
+            (tables, numbers, _) =
+                layer(&diagram, &steps, l, bound, &tables, &numbers, room).unwrap();
             let dearest = Key(keys[3].0 * (variables - l) as u128);
             assert_eq!(numbers.keys, [Key::default(), keys[1], dearest]);
             assert_eq!(numbers.places, [vec![0, 1], vec![2]]);

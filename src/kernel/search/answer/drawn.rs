@@ -38,6 +38,6 @@ fn sample_with<'a, C: Count + 'a>(
     let keys = question.steps.only(kinds);
     let tally = Tally::<C>::new(diagram, &keys, None, question.conditions.memory / 4);
     let wanted = |k: Key| !filter || question.wanted(k);
-    let drawn = tally.map(|t| Sample::new(diagram, &question.steps, (keys, t), seed, wanted));
+    let drawn = tally.map(|t| Sample::new(diagram, &question.steps, keys, t, seed, wanted));
     Box::new(drawn.into_iter().flatten())
 }

@@ -57,6 +57,15 @@ pub enum Reach {
     Above(u64),
 }
 
+/// What a list is of, before anything is known of the variants.
+#[derive(Debug, Clone, Copy)]
+pub struct ListLimits {
+    /// How far it goes.
+    pub reach: Reach,
+    /// The cost above which no variant is wanted.
+    pub ceiling: u64,
+}
+
 /// Given layer, node, the remaining key and the choices so far; says whether to look at what follows.
 pub type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
 
@@ -80,18 +89,18 @@ impl<C: Count> fmt::Debug for Cheapest<'_, C> {
 }
 
 impl<'d, C: Count> Cheapest<'d, C> {
-    /// The first variants whose key passes `wanted`, as it does for no cost above `ceiling`, in the order of `rank`, which is by
+    /// The first variants whose key passes `wanted`, as it does for no cost above the ceiling, in the order of `rank`, which is by
     /// cost first. Of those that begin alike none is given where `enter` refuses the beginning.
     pub fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
-        (reach, ceiling): (Reach, u64),
+        limits: ListLimits,
         wanted: impl Fn(Key) -> bool,
         rank: impl Fn(Key) -> R,
         bytes: usize,
         enter: Enter<'d>,
     ) -> Self {
-        let (tally, mut keys, is_all) = enough(diagram, steps, reach, ceiling, wanted, bytes);
+        let (tally, mut keys, is_all) = enough(diagram, steps, limits, wanted, bytes);
         keys.sort_by_key(|&k| rank(k));
         Cheapest {
             diagram,
@@ -101,7 +110,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
             key: Key::default(),
             path: Vec::new(),
             choices: vec![0; steps.keys.len()],
-            left: match reach {
+            left: match limits.reach {
                 Reach::Variants(top) => top,
                 Reach::Above(_) => usize::MAX,
             },
@@ -119,7 +128,7 @@ impl<'d, C: Count> Cheapest<'d, C> {
     fn steps_from(&mut self, layer: usize, node: u32, rest: Key) -> Span {
         let (diagram, tally) = (self.diagram, &self.tally);
         self.ways
-            .from(diagram, self.steps, tally, (layer, node, rest))
+            .from(diagram, self.steps, tally, layer, node, rest)
     }
 
     /// Forgets steps where they are too many, but for those on the way.
@@ -209,8 +218,7 @@ impl<C> Cheapest<'_, C> {
 fn enough<C: Count>(
     diagram: &Diagram,
     steps: &Steps,
-    reach: Reach,
-    ceiling: u64,
+    limits: ListLimits,
     wanted: impl Fn(Key) -> bool,
     bytes: usize,
 ) -> (Tally<C>, Vec<Key>, bool) {
@@ -222,8 +230,9 @@ fn enough<C: Count>(
     let chosen = steps.keys.iter().flatten().map(|k| k.cost()).max();
     let ends = diagram.terminals.iter();
     let end = ends.map(|&r| steps.redundancy(r).cost()).max();
+    let ceiling = limits.ceiling;
     let ceiling = ceiling.min(chosen.unwrap_or(0) * steps.keys.len() as u64 + end.unwrap_or(0));
-    let (top, mut slack) = match reach {
+    let (top, mut slack) = match limits.reach {
         Reach::Variants(top) => (BigUint::from(top), 0),
         Reach::Above(slack) => (BigUint::zero(), slack),
     };
@@ -309,7 +318,8 @@ impl<'d, C: Count> Sample<'d, C> {
     pub fn new(
         diagram: &'d Diagram,
         steps: &'d Steps,
-        (told, tally): (Steps, Tally<C>),
+        told: Steps,
+        tally: Tally<C>,
         seed: u64,
         wanted: impl Fn(Key) -> bool,
     ) -> Self {

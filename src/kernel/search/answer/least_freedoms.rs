@@ -131,8 +131,13 @@ fn spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
     choice.spans.iter().map(span).collect()
 }
 
-/// A node, and those that variants with no more have come to: twice the number, and one more for those with less.
-type State = (u32, Vec<u32>);
+/// A node that a variant has come to, beside others.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Arrived {
+    node: u32,
+    /// Those that variants with no more have come to: twice the number, and one more for those with less.
+    others: Vec<u32>,
+}
 
 /// The variants of a diagram without others that have less.
 fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagram> {
@@ -141,13 +146,16 @@ fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagra
     }
     let once = question.conditions.state.is_none();
     let room = MOST.min(question.conditions.nodes);
-    let mut states: Vec<State> = vec![(0, Vec::new())];
+    let mut states = vec![Arrived {
+        node: 0,
+        others: Vec::new(),
+    }];
     let mut layers = Vec::with_capacity(diagram.layers.len());
     let mut met = 1;
     for (depth, layer) in diagram.layers.iter().enumerate() {
         let last = depth + 1 == diagram.layers.len();
-        let mut known: HashMap<State, u32> = HashMap::new();
-        let mut below: Vec<State> = Vec::new();
+        let mut known: HashMap<Arrived, u32> = HashMap::new();
+        let mut below: Vec<Arrived> = Vec::new();
         let mut edges = Vec::with_capacity(states.len() * layer.choices);
         for state in &states {
             for choice in 0..layer.choices {
@@ -179,7 +187,7 @@ fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagra
     }
     let ends = states
         .iter()
-        .map(|(end, _)| diagram.terminals.get(*end as usize).copied());
+        .map(|state| diagram.terminals.get(state.node as usize).copied());
     Some(minimal(layers, ends.collect::<Option<_>>()?))
 }
 
@@ -188,19 +196,19 @@ fn carried(
     layer: &Layer,
     order: &Order,
     once: bool,
-    (node, others): &State,
+    state: &Arrived,
     choice: usize,
     last: bool,
-) -> Option<State> {
+) -> Option<Arrived> {
     let edge = |node: u32, choice: usize| {
         let to = layer.edges[node as usize * layer.choices + choice];
         (to != DEAD).then_some(to)
     };
-    let to = edge(*node, choice)?;
+    let to = edge(state.node, choice)?;
     let within = &order.within[layer.variable][choice];
-    let mut out = Vec::with_capacity(others.len() + within.len());
+    let mut out = Vec::with_capacity(state.others.len() + within.len());
     let mut put = |to: Option<u32>, less: bool| out.extend(to.map(|t| t << 1 | u32::from(less)));
-    for other in others {
+    for other in &state.others {
         let (at, less) = (other >> 1, other & 1 == 1);
         put(edge(at, choice), less);
         if !once {
@@ -211,9 +219,11 @@ fn carried(
     }
     if once {
         let next = &order.next[layer.variable][choice];
-        next.iter().for_each(|&c| put(edge(*node, c), true));
+        next.iter().for_each(|&c| put(edge(state.node, c), true));
     } else {
-        within.iter().for_each(|&(c, l)| put(edge(*node, c), l));
+        within
+            .iter()
+            .for_each(|&(c, l)| put(edge(state.node, c), l));
     }
     // All that follows is open to the one with less, too; and at the end nothing follows.
     if out.contains(&(to << 1 | 1)) || last && out.iter().any(|o| o & 1 == 1) {
@@ -224,5 +234,8 @@ fn carried(
     out.dedup();
     let less: Vec<u32> = out.iter().filter(|o| *o & 1 == 1).copied().collect();
     out.retain(|o| o & 1 == 1 || less.binary_search(&(o | 1)).is_err());
-    Some((to, if last { Vec::new() } else { out }))
+    Some(Arrived {
+        node: to,
+        others: if last { Vec::new() } else { out },
+    })
 }

@@ -35,10 +35,11 @@ pub(in crate::search) struct Proof {
 pub(in crate::search) fn up_to(
     question: &Question,
     missing: &Missing,
-    (most, known): (&BigUint, Option<i64>),
+    most: &BigUint,
+    mut known: Option<i64>,
     build: &mut dyn FnMut(&mut Ceiling<'_>) -> Diagram,
 ) -> Proof {
-    let (mut up_to, mut known) = (None, known);
+    let mut up_to = None;
     let mut next = missing.root();
     while let Some(cost) = next {
         let mut ceiling = Ceiling::new(missing, cost);

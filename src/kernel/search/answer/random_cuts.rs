@@ -11,7 +11,7 @@
 
 use crate::search::answer::counts::limited;
 use crate::search::answer::estimate::{Drawn, Estimate};
-use crate::search::answer::keys::Key;
+use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
@@ -46,18 +46,24 @@ pub(in crate::search) fn estimate(
     filter: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Estimate> {
-    let keep = (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST);
+    let kinds = if filter {
+        limited(question)
+    } else {
+        <_>::default()
+    };
+    let of = Cuts {
+        question,
+        stages,
+        limits,
+        missing,
+        steps: question.steps.only(kinds),
+        filter,
+        keep: (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST),
+        cancelled,
+    };
     let cuts = (0..CUTS).into_par_iter().map(|cut| {
         let random = ChaCha8Rng::seed_from_u64(seed.rotate_left(16) ^ cut as u64);
-        let cut = one_cut(
-            question,
-            (stages, limits),
-            missing,
-            (keep, random),
-            filter,
-            cancelled,
-        )?;
-        cut.is_finite().then_some(cut)
+        of.one(random).filter(|cut| cut.is_finite())
     });
     let sums: Vec<f64> = cuts.collect::<Option<_>>()?;
     #[allow(clippy::cast_precision_loss, reason = "cuts are few")]
@@ -75,36 +81,76 @@ pub(in crate::search) fn estimate(
     })
 }
 
-/// The weighted number of variants of one random cut.
-fn one_cut(
-    question: &Question,
-    (stages, limits): (&[Stage], &Limits),
-    missing: &Missing,
-    (keep, mut random): (usize, ChaCha8Rng),
+/// The number of ways to a node, by what is told apart of them.
+type WaysTo = BTreeMap<Key, f64>;
+
+/// What all cuts have in common.
+struct Cuts<'a> {
+    question: &'a Question,
+    stages: &'a [Stage],
+    limits: &'a Limits,
+    missing: &'a Missing,
+    /// What is told apart of choices.
+    steps: Steps,
+    /// Whether the conditions on mobility and changes apply too.
     filter: bool,
-    cancelled: &(dyn Fn() -> bool + Sync),
-) -> Option<f64> {
-    let (field, space) = (question.exact.field(), &question.least.whole.space);
-    let kinds = if filter {
-        limited(question)
-    } else {
-        <_>::default()
-    };
-    let steps = question.steps.only(kinds);
-    let mut nodes = Nodes::root(limits.already);
-    // By node and what is told apart of the ways to it, their number.
-    let mut ways = vec![BTreeMap::from([(Key::default(), 1.0)])];
-    for (done, stage) in stages.iter().enumerate() {
-        if cancelled() {
-            return None;
+    /// Nodes kept of a layer.
+    keep: usize,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Cuts<'_> {
+    /// The weighted number of variants of one random cut; none where it was cancelled, or where memory does not suffice.
+    fn one(&self, mut random: ChaCha8Rng) -> Option<f64> {
+        let mut nodes = Nodes::root(self.limits.already);
+        let mut ways = vec![WaysTo::from([(Key::default(), 1.0)])];
+        for (done, stage) in self.stages.iter().enumerate() {
+            if (self.cancelled)() {
+                return None;
+            }
+            let (mut next, mut edges) = self.layer(done, stage, &nodes)?;
+            let mut carried = self.carried(stage, &ways, &edges, next.len());
+            let size = |(i, ways): (usize, &WaysTo)| {
+                let matrix = next.matrix(i).len();
+                let share = self.missing.share(done + 1, &next.spent[i], matrix);
+                share * ways.values().sum::<f64>()
+            };
+            let sizes: Vec<f64> = carried.iter().enumerate().map(size).collect();
+            let drawn = draw(&sizes, self.keep, &mut random);
+            let kept: Vec<usize> = drawn.iter().map(|(i, _)| *i).collect();
+            retain(&mut next, &kept, &mut edges);
+            ways = drawn
+                .into_iter()
+                .map(|(i, chance)| {
+                    let mut ways = std::mem::take(&mut carried[i]);
+                    ways.values_mut().for_each(|n| *n /= chance);
+                    ways
+                })
+                .collect();
+            nodes = next;
         }
-        let choices = space.variables[stage.variable].choices.len();
-        let room = (usize::MAX, limits.bytes / CUTS);
-        let mut merge = Merge::new(room, Stop::Exhausted, nodes.len() * choices);
-        let over = Over::new(field, space, stage, limits);
-        for part in expand(&over, choices, &nodes, 0..nodes.len()) {
-            let fails = |spent: &_, size, _| missing.least(done + 1, spent, size).is_none();
-            merge.take(&part, &nodes, |_| 0, fails);
+        Some(self.variants(&nodes, &ways))
+    }
+
+    /// Choices of a stage's variable.
+    fn choices(&self, stage: &Stage) -> usize {
+        let space = &self.question.least.whole.space;
+        space.variables[stage.variable].choices.len()
+    }
+
+    /// The nodes behind a stage, but for those that have no completion, and the edges to them; none where memory does not suffice.
+    fn layer(&self, done: usize, stage: &Stage, nodes: &Nodes) -> Option<(Nodes, Vec<u32>)> {
+        let (field, space) = (
+            self.question.exact.field(),
+            &self.question.least.whole.space,
+        );
+        let choices = self.choices(stage);
+        let (bytes, edges) = (self.limits.bytes / CUTS, nodes.len() * choices);
+        let mut merge = Merge::new(usize::MAX, bytes, Stop::Exhausted, edges);
+        let over = Over::new(field, space, stage, self.limits);
+        for part in expand(&over, choices, nodes, 0..nodes.len()) {
+            let fails = |spent: &_, size, _| self.missing.least(done + 1, spent, size).is_none();
+            merge.take(&part, nodes, |_| 0, fails);
         }
         if merge.stop != Stop::Exhausted {
             return None;
@@ -113,39 +159,34 @@ fn one_cut(
         if let Some(passed) = over.passing(&next) {
             retain(&mut next, &passed, &mut edges);
         }
-        let mut carried = vec![BTreeMap::new(); next.len()];
+        Some((next, edges))
+    }
+
+    /// The ways to the nodes behind a stage, from those to the nodes before it.
+    fn carried(&self, stage: &Stage, ways: &[WaysTo], edges: &[u32], next: usize) -> Vec<WaysTo> {
+        let steps = &self.steps.keys[stage.variable];
+        let choices = self.choices(stage);
+        let mut carried = vec![WaysTo::new(); next];
         for (e, &to) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
-            let step = steps.keys[stage.variable][e % choices];
             for (key, n) in &ways[e / choices] {
                 *carried[to as usize]
-                    .entry(Key(key.0 + step.0))
+                    .entry(Key(key.0 + steps[e % choices].0))
                     .or_insert(0.0) += n;
             }
         }
-        let size = |(i, ways): (usize, &BTreeMap<Key, f64>)| {
-            let share = missing.share(done + 1, &next.spent[i], next.matrix(i).len());
-            share * ways.values().sum::<f64>()
-        };
-        let sizes: Vec<f64> = carried.iter().enumerate().map(size).collect();
-        let drawn = draw(&sizes, keep, &mut random);
-        let kept: Vec<usize> = drawn.iter().map(|(i, _)| *i).collect();
-        retain(&mut next, &kept, &mut edges);
-        ways = drawn
-            .into_iter()
-            .map(|(i, chance)| {
-                let mut ways = std::mem::take(&mut carried[i]);
-                ways.values_mut().for_each(|n| *n /= chance);
-                ways
-            })
-            .collect();
-        nodes = next;
+        carried
     }
-    let ends = nodes.spent.iter().zip(&ways).flat_map(|(spent, ways)| {
-        let end = question.steps.redundancy(spent.redundancy()).0;
-        ways.iter().map(move |(key, n)| (Key(key.0 + end), n))
-    });
-    let wanted = ends.filter(|(key, _)| !filter || question.wanted(*key));
-    Some(wanted.map(|(_, n)| n).sum())
+
+    /// The number of variants that come to the last nodes.
+    fn variants(&self, nodes: &Nodes, ways: &[WaysTo]) -> f64 {
+        let question = self.question;
+        let ends = nodes.spent.iter().zip(ways).flat_map(|(spent, ways)| {
+            let end = question.steps.redundancy(spent.redundancy()).0;
+            ways.iter().map(move |(key, n)| (Key(key.0 + end), n))
+        });
+        let wanted = ends.filter(|(key, _)| !self.filter || question.wanted(*key));
+        wanted.map(|(_, n)| n).sum()
+    }
 }
 
 /// Some of a number of things, ascending, each with its chance of being drawn: in proportion to its size, or 1 where that

@@ -106,7 +106,7 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
             let removes = columns.len() - own.len();
             if removes > 0 && gain(exact, &wrenches, &columns) == removes {
                 let cost_milli =
-                    costs.change((&present, joint.drive), to.as_ref(), unloading.as_ref());
+                    costs.change(&present, joint.drive, to.as_ref(), unloading.as_ref());
                 list.push(Suggestion {
                     joint: j,
                     to,

@@ -2,7 +2,7 @@
 
 use crate::search::answer::counts::fits;
 use crate::search::answer::drawn::sample_of;
-use crate::search::answer::k_best::{Assignment, Cheapest, Enter, Reach};
+use crate::search::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::build::Diagrams;
@@ -38,8 +38,8 @@ fn in_order<'a>(
     diagrams: &'a Diagrams,
     top: usize,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let between = move |diagram: &'a Diagram, costs| {
-        let all = between(question, diagram, top, costs, every());
+    let between = move |diagram: &'a Diagram, least, most| {
+        let all = between(question, diagram, top, least, most, every());
         all.filter(move |v| is_first_image(question, diagram, v))
     };
     let all = &diagrams.admissible;
@@ -48,11 +48,10 @@ fn in_order<'a>(
         cost_milli,
     }) = &diagrams.cheapest
     else {
-        return Box::new(between(all, (i64::MIN, i64::MAX)));
+        return Box::new(between(all, i64::MIN, i64::MAX));
     };
-    let first = between(diagram, (i64::MIN, *cost_milli));
-    let dearer =
-        std::iter::once_with(move || between(all, (cost_milli.saturating_add(1), i64::MAX)));
+    let first = between(diagram, i64::MIN, *cost_milli);
+    let dearer = std::iter::once_with(move || between(all, cost_milli.saturating_add(1), i64::MAX));
     Box::new(first.chain(dearer.flatten()))
 }
 
@@ -83,23 +82,30 @@ pub(in crate::search) fn distinct<'a>(
     enter: Enter<'a>,
 ) -> (Box<dyn Iterator<Item = Assignment> + 'a>, bool) {
     let wanted = |k: Key| question.wanted(k);
-    let range = (Reach::Above(slack), u64::MAX);
-    in_steps(question, diagram, steps, range, wanted, enter)
+    let limits = ListLimits {
+        reach: Reach::Above(slack),
+        ceiling: u64::MAX,
+    };
+    in_steps(question, diagram, steps, limits, wanted, enter)
 }
 
-/// The variants of a diagram with costs in thousandths from one to another, but for those whose beginnings `enter`
+/// The variants of a diagram with costs in thousandths from `least` to `most`, but for those whose beginnings `enter`
 /// refuses.
 fn between<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
     top: usize,
-    (least, most): (i64, i64),
+    least: i64,
+    most: i64,
     enter: Enter<'a>,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
     let costs = |k: Key| (least..=most).contains(&question.steps.milli(k.cost()));
     let wanted = |k: Key| question.wanted(k) && costs(k);
-    let range = (Reach::Variants(top), question.steps.above(most));
-    in_steps(question, diagram, &question.steps, range, wanted, enter).0
+    let limits = ListLimits {
+        reach: Reach::Variants(top),
+        ceiling: question.steps.above(most),
+    };
+    in_steps(question, diagram, &question.steps, limits, wanted, enter).0
 }
 
 /// The variants of a diagram whose keys pass a test, in the order of some steps, and whether there are none beyond.
@@ -107,18 +113,18 @@ fn in_steps<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
     steps: &'a Steps,
-    range: (Reach, u64),
+    limits: ListLimits,
     wanted: impl Fn(Key) -> bool,
     enter: Enter<'a>,
 ) -> (Box<dyn Iterator<Item = Assignment> + 'a>, bool) {
     let rank = |k: Key| question.rank(k);
     let room = question.conditions.memory / 4;
     if fits(question) {
-        let all = Cheapest::<u128>::new(diagram, steps, range, wanted, rank, room, enter);
+        let all = Cheapest::<u128>::new(diagram, steps, limits, wanted, rank, room, enter);
         let is_all = all.is_all();
         (Box::new(all), is_all)
     } else {
-        let all = Cheapest::<BigUint>::new(diagram, steps, range, wanted, rank, room, enter);
+        let all = Cheapest::<BigUint>::new(diagram, steps, limits, wanted, rank, room, enter);
         let is_all = all.is_all();
         (Box::new(all), is_all)
     }

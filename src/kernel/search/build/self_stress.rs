@@ -88,8 +88,8 @@ pub(in crate::search) fn in_self_stress_space(
     let stages = adding(field, order, &added);
     let over = |stage| Added::new(field, stage, limits);
     let stages: Vec<Added<'_>> = stages.into_iter().map(over).collect();
-    let within = (limits, already, None);
-    let built = diagram::build(&model.space, &stages, within, cancelled, progress);
+    let space = &model.space;
+    let built = diagram::build(space, &stages, limits, already, None, cancelled, progress);
     let stop = built.stop;
     let smallest = minimal(built.layers, built.terminals);
     Some(Diagram { stop, ..smallest })

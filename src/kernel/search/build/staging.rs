@@ -6,7 +6,7 @@ use crate::model::mechanism::{JointId, LinkId};
 use crate::search::build::orders::Orders;
 use crate::search::build::orders::one_diagram;
 use crate::search::diagram::frontier::{At, plan};
-use crate::search::diagram::output_motion::lookahead;
+use crate::search::diagram::output_motion::{NodeParts, lookahead};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::{self, Collapse, Stage};
 use crate::search::diagram::state_copies::{Lane, Move, ways};
@@ -138,7 +138,8 @@ fn admissible(
         let ways = ways(
             &question.mechanism,
             &model.space,
-            (alone, added),
+            alone,
+            added,
             live,
             &kept,
             &question.grasps,
@@ -206,12 +207,16 @@ fn look_ahead(question: &Question, model: &Model, stages: &mut [Stage], same_joi
         let mine = step.pending.iter().filter(|&&q| q < couplings);
         let pending: Vec<_> = mine.copied().collect();
         let others = step.live.len() + step.pending.len() - live.len() - pending.len();
+        let of_node = NodeParts {
+            live: &live,
+            pending: &pending,
+        };
         let (kept, allowed) = (&question.kept.0, model.kept.len());
         let mut test = lookahead(
             &question.exact,
             &question.mechanism,
             model.space.dim,
-            (&live, &pending),
+            of_node,
             &left,
             kept,
             allowed,

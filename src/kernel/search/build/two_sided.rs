@@ -132,7 +132,7 @@ fn halves(
                 meeting: None,
             });
         };
-        advance(space, side, (room, bytes), cancelled, told)?;
+        advance(space, side, room, bytes, cancelled, told)?;
         total += side.nodes.len();
     }
     let pairs = front.nodes.len().checked_mul(back.nodes.len())?;
@@ -154,11 +154,12 @@ fn halves(
     put_together(front.layers, &back.layers, sets, limits.nodes)
 }
 
-/// Carries a side over its next stage, within so many nodes and bytes.
+/// Carries a side over its next stage, to no more than `room` nodes within so many bytes.
 fn advance(
     space: &Space,
     side: &mut Side<'_>,
-    within: (usize, usize),
+    room: usize,
+    bytes: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Option<()> {
@@ -168,9 +169,9 @@ fn advance(
     let merge = next(
         stage,
         choices,
-        within.1,
+        bytes,
         &side.nodes,
-        Merge::new(within, Stop::Exhausted, edges),
+        Merge::new(room, bytes, Stop::Exhausted, edges),
         |_, _, _| false,
         cancelled,
         told,

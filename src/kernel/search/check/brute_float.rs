@@ -66,7 +66,7 @@ impl Approximate {
             let joint = &mechanism.joints[j];
             let option = &joint.options[choice.option];
             let inserted = choice.unloading.map(|u| &joint.unloading[u]);
-            let mut columns = columns(&Reals, &motion, mechanism, j, (option, inserted))?.concat();
+            let mut columns = columns(&Reals, &motion, mechanism, j, option, inserted)?.concat();
             if let Some(scaling) = &scaling {
                 columns.iter_mut().for_each(|c| scaling.unit(c));
             }

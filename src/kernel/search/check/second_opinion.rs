@@ -122,7 +122,8 @@ struct Said {
 pub fn second_opinion(
     question: &Question,
     written: &Written,
-    (listed, admissible): (Vec<Assignment>, Vec<Assignment>),
+    listed: Vec<Assignment>,
+    admissible: Vec<Assignment>,
     determinate: &Counts,
     seed: u64,
 ) -> Result<SecondOpinion, ExactError> {

@@ -110,7 +110,7 @@ pub(in crate::search) struct Merge {
 
 impl Merge {
     /// A layer that takes so many nodes and bytes, and whose edges are about as many as `edges`.
-    pub(in crate::search) fn new((room, bytes): (usize, usize), stop: Stop, edges: usize) -> Self {
+    pub(in crate::search) fn new(room: usize, bytes: usize, stop: Stop, edges: usize) -> Self {
         Merge {
             room,
             bytes,

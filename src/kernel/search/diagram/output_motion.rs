@@ -24,18 +24,22 @@ pub struct Lookahead {
     pub allowed: usize,
 }
 
-/// Makes the test for nodes whose live links are `live` (root, link) and whose `pending` couplings come after, as in
-/// [`crate::search::diagram::frontier::Step`], when the joints `left`, with their present spans, are still to come.
+/// What the coordinates of a node are of, as in [`crate::search::diagram::frontier::Step`].
+#[derive(Clone, Copy)]
+pub(crate) struct NodeParts<'a> {
+    /// The live links as (root, link).
+    pub(crate) live: &'a [(LinkId, LinkId)],
+    /// The pending couplings, which come after them.
+    pub(crate) pending: &'a [usize],
+}
+
+/// Makes the test for nodes with some parts, when the joints `left`, with their present spans, are still to come.
 #[must_use]
-#[allow(
-    clippy::too_many_arguments,
-    reason = "the parts of a node, and what is asked of it"
-)]
 pub(crate) fn lookahead(
     exact: &ExactField,
     mechanism: &Mechanism,
     dim: usize,
-    (live, pending): (&[(LinkId, LinkId)], &[usize]),
+    NodeParts { live, pending }: NodeParts<'_>,
     left: &[(JointId, Vec<Vec<Residue>>)],
     kept: &[LinkId],
     allowed: usize,

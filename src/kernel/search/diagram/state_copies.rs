@@ -10,6 +10,7 @@
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::search::diagram::frontier::{At, Step, plan};
+use crate::search::question::grasp::Grasp;
 use crate::search::question::space::{Choice, Space};
 
 /// Where a joint is added, and where what it makes redundant counts.
@@ -79,15 +80,15 @@ pub(in crate::search) struct Ways {
 }
 
 /// The ways on for the variables `alone` of the free state and `added` by the searched one, from a node with the live links
-/// `live` as (root, link); `kept` are links whose motion in the free state counts, and `held` the links to be held with those
-/// that may hold them.
+/// `live` as (root, link); `kept` are links whose motion in the free state counts, and `held` what is to be held.
 pub(in crate::search) fn ways(
     mechanism: &Mechanism,
     space: &Space,
-    (alone, added): (&[usize], &[usize]),
+    alone: &[usize],
+    added: &[usize],
     live: &[(LinkId, LinkId)],
     kept: &[LinkId],
-    held: &[(LinkId, Vec<LinkId>)],
+    held: &[Grasp],
 ) -> Ways {
     let joints = |v: &usize| space.variables[*v].joints.iter().copied().enumerate();
     let faces: Vec<JointId> = added
@@ -131,7 +132,7 @@ pub(in crate::search) fn ways(
             components.iter().map(of).collect::<Vec<_>>()
         })
         .collect();
-    let hold = held.iter().flat_map(|(l, by)| by.iter().chain([l]));
+    let hold = held.iter().flat_map(|g| g.jaws.iter().chain([&g.body]));
     let kept = kept.iter().filter(|_| !alone.is_empty());
     let pinned: Vec<LinkId> = hold
         .map(|&l| copy(l, state))
@@ -142,7 +143,7 @@ pub(in crate::search) fn ways(
     let place = |l: &LinkId| end.iter().position(|x| x.1 == copy(*l, state));
     let held = held
         .iter()
-        .map(|(l, by)| (place(l), by.iter().map(place).collect()))
+        .map(|g| (place(&g.body), g.jaws.iter().map(place).collect()))
         .collect();
     let mut stages: Vec<(usize, Vec<Move>)> = Vec::new();
     for ((v, member, joint, lane), step) in list.into_iter().zip(steps.iter().cloned()) {

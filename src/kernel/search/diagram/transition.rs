@@ -52,6 +52,14 @@ impl Children {
     }
 }
 
+/// A stage, with how it carries a node on.
+#[derive(Clone, Copy)]
+pub(in crate::search) struct GrownStage<'a> {
+    pub(in crate::search) stage: &'a Stage,
+    /// See [`crate::search::diagram::choice_inclusion`].
+    pub(in crate::search) growth: &'a [Grown],
+}
+
 /// Scratch space of one thread.
 pub(in crate::search) struct Worker {
     arithmetic: Arithmetic,
@@ -144,16 +152,17 @@ impl Worker {
         u32::try_from(directions - bridged).expect("few directions")
     }
 
-    /// All children of a node, in order of choices. `growth` is the stage's, see [`crate::search::diagram::choice_inclusion`].
+    /// All children of a node, in order of choices.
     pub(in crate::search) fn children(
         &mut self,
         space: &Space,
-        (stage, growth): (&Stage, &[Grown]),
+        over: GrownStage<'_>,
         matrix: &[Residue],
         spent: &Spent,
         limits: &Limits,
         out: &mut Children,
     ) {
+        let GrownStage { stage, growth } = over;
         let choices = &space.variables[stage.variable].choices;
         let Some((first, rest)) = stage.moves.split_first() else {
             // The variable does not matter here: every choice leads to the same node.

@@ -38,7 +38,8 @@ pub const WHOLE: u32 = 50_000;
 pub fn at_tolerance(
     question: &mut Question,
     digits: Digits,
-    (list, seed): (usize, u64),
+    list: usize,
+    seed: u64,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<AtTolerance, ExactError> {
     let judge = Judge::new(question, digits)?;
@@ -46,7 +47,7 @@ pub fn at_tolerance(
     let size = question.size();
     let found = match size.to_u32().filter(|n| *n <= WHOLE) {
         Some(n) => whole(question, &judge, n, cancelled),
-        None => sampled::search(question, &judge, (list, seed), cancelled),
+        None => sampled::search(question, &judge, list, seed, cancelled),
     };
     let motion = judge.motion();
     drop(judge);

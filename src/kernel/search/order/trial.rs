@@ -14,7 +14,7 @@ use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::state_copies::Move;
-use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::transition::{Children, GrownStage, Worker};
 use crate::search::question::space::{Choice, Space};
 use std::rc::Rc;
 
@@ -99,18 +99,22 @@ impl<'m> Trials<'m> {
             joints.map(|(i, &joint)| Move::common(i, trial.planner.add(At { joint, lane: 0 })));
         let stage = Stage::plain(variable, moves.collect());
         let mut children = Children::new(of.choices.len());
-        let growth = grown(self.field, &self.space, &stage);
+        let growth = &grown(self.field, &self.space, &stage);
+        let over = GrownStage {
+            stage: &stage,
+            growth,
+        };
         for i in 0..trial.nodes.len() {
             self.worker.children(
                 &self.space,
-                (&stage, &growth),
+                over,
                 trial.nodes.matrix(i),
                 &trial.nodes.spent[i],
                 &self.limits,
                 &mut children,
             );
         }
-        let mut merge = Merge::new((WIDEST, usize::MAX), Stop::Exhausted, children.found.len());
+        let mut merge = Merge::new(WIDEST, usize::MAX, Stop::Exhausted, children.found.len());
         merge.take(&children, &trial.nodes, |_| 0, |_, _, _| false);
         let width = merge.next.len() as u64;
         trial.work += width * width;

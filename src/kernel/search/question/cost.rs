@@ -44,12 +44,13 @@ impl CostTable {
         }
     }
 
-    /// The cost of a change of a joint, driven or not, above that of the present one: another joint in its place, an unloading
+    /// The cost of a change of a joint, of a driven one with `drive`, above that of the present one: another joint in its place, an unloading
     /// joint with its link beside it, or both.
     #[must_use]
     pub fn change(
         &self,
-        (present, drive): (&JointOption, bool),
+        present: &JointOption,
+        drive: bool,
         to: Option<&JointOption>,
         unloading: Option<&JointOption>,
     ) -> i64 {

@@ -11,7 +11,13 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::redundancy::motion::{motions, twist};
 
 /// A body to be held, with the links that may hold it.
-pub type Grasp = (LinkId, Vec<LinkId>);
+#[derive(Debug, Clone)]
+pub struct Grasp {
+    /// The body.
+    pub body: LinkId,
+    /// The links.
+    pub jaws: Vec<LinkId>,
+}
 
 /// Whether a link has a joint in the free state.
 #[must_use]
@@ -55,8 +61,11 @@ pub fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp
         object || mechanism.search.hold.contains(l) && !is_free(mechanism, *l)
     };
     let links = mechanism.link_ids().filter(wanted);
-    let each = links.map(|l| (l, jaws(mechanism, state, l)));
-    each.filter(|(_, jaws)| !jaws.is_empty()).collect()
+    let each = links.map(|body| Grasp {
+        body,
+        jaws: jaws(mechanism, state, body),
+    });
+    each.filter(|g| !g.jaws.is_empty()).collect()
 }
 
 /// The bodies that a motion moves against all the links that may hold them.
@@ -78,10 +87,10 @@ pub fn loose(
         let motion = closure.link_motion(exact, mechanism, l);
         kernel.iter().map(|k| twist(exact, &motion, k)).collect()
     };
-    let held = |(body, jaws): &Grasp| {
-        let own = twists(*body);
-        jaws.iter().any(|&j| twists(j) == own)
+    let held = |g: &Grasp| {
+        let own = twists(g.body);
+        g.jaws.iter().any(|&j| twists(j) == own)
     };
     let loose = grasps.iter().filter(|g| !held(g));
-    Ok(loose.map(|(body, _)| *body).collect())
+    Ok(loose.map(|g| g.body).collect())
 }

@@ -140,10 +140,10 @@ impl ComparedJoints {
             if to[j.index()].is_some() {
                 continue;
             }
-            let from = (self.spots[j.index()], &joint.joint_type);
+            let from = self.spots[j.index()];
             let is_image = |&k: &JointId| {
                 let close = || {
-                    let miss = carrier.miss(from, self.spots[k.index()]);
+                    let miss = carrier.miss(from, &joint.joint_type, self.spots[k.index()]);
                     miss.distance < self.near && miss.angle < NEAR
                 };
                 to[k.index()].is_none() && self.are_alike(j, k) && close()

@@ -155,7 +155,7 @@ fn choices(
     for unloading in std::iter::once(None).chain(unloading.map(|(u, _)| Some(u))) {
         for (i, option) in joint.options.iter().enumerate().filter(offered) {
             let inserted = unloading.map(|u| &joint.unloading[u]);
-            let [mut columns, added] = columns(exact, motion, mechanism, id, (option, inserted))?;
+            let [mut columns, added] = columns(exact, motion, mechanism, id, option, inserted)?;
             // W is the free state's: a contact is absent there, its unloading joint is not.
             let absent = if external { columns.len() } else { 0 };
             columns.extend(added);
@@ -187,7 +187,8 @@ fn choices(
                 freedoms,
                 changes: u32::from(i != 0) + u32::from(unloading.is_some()),
                 cost_milli: costs.change(
-                    (&joint.options[0], joint.drive),
+                    &joint.options[0],
+                    joint.drive,
                     (i != 0).then_some(option),
                     inserted,
                 ),
@@ -207,7 +208,8 @@ pub(in crate::search) fn columns<S: Scalars>(
     motion: &MotionSpace<S::Number>,
     mechanism: &Mechanism,
     joint: JointId,
-    (option, inserted): (&JointOption, Option<&JointOption>),
+    option: &JointOption,
+    inserted: Option<&JointOption>,
 ) -> Result<[Vec<Vec<S::Number>>; 2], ExactError> {
     let twists = |o: &JointOption| joint_twists(s, motion, &o.frame, &o.joint_type);
     let own = twists(option)?

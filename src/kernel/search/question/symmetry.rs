@@ -2,7 +2,7 @@
 //! figures: links and joints, each with its options, exactly.
 
 use crate::closure::mirror::Plane;
-use crate::closure::symmetry_image::{Carrier, Spot};
+use crate::closure::symmetry_image::{Carrier, PlacedType, Spot};
 use crate::closure::turn::Turn;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::coupling::{CoupledFreedom, Coupling};
@@ -165,17 +165,18 @@ fn by_carrier(
                 JointType::Fixed => JointType::Custom(vec![Freedom::Tz, Freedom::Rx, Freedom::Ry]),
                 ref other => other.clone(),
             };
-            let (from, to) = (motion(one), motion(other));
-            if !carrier.carries(
-                exact,
-                &mechanism.mode,
-                (&one.frame, &from),
-                (&other.frame, &to),
-            )? {
-                let miss = carrier.miss(
-                    (Spot::of(&one.frame), &one.joint_type),
-                    Spot::of(&other.frame),
-                );
+            let (one_type, other_type) = (motion(one), motion(other));
+            let from = PlacedType {
+                frame: &one.frame,
+                joint_type: &one_type,
+            };
+            let to = PlacedType {
+                frame: &other.frame,
+                joint_type: &other_type,
+            };
+            if !carrier.carries(exact, &mechanism.mode, from, to)? {
+                let (from, to) = (Spot::of(&one.frame), Spot::of(&other.frame));
+                let miss = carrier.miss(from, &one.joint_type, to);
                 return Err(MirrorError::Off {
                     first: a.id.clone(),
                     second: b.id.clone(),

@@ -260,7 +260,7 @@ fn every_condition_means_the_same_by_singular_values() {
     ];
     for request in asked {
         let (mut search, truth) = ready("gripper-10", &request);
-        let found = search.at_tolerance(FINE, (0, 1), &|| false).unwrap();
+        let found = search.at_tolerance(FINE, 0, 1, &|| false).unwrap();
         assert_eq!(found.determinate.sure, truth.determinate, "{request:?}");
         assert_eq!(found.admissible.sure, truth.admissible, "{request:?}");
         assert!(found.is_whole() && found.admissible.is_narrow());
@@ -285,7 +285,7 @@ fn a_large_space_is_sampled_and_its_cheapest_are_found() {
     };
     let (mut search, truth) = ready("two-bennetts", &request);
     assert!(search.size() > WHOLE.into(), "{}", search.size());
-    let found = search.at_tolerance(FINE, (5, 1), &|| false).unwrap();
+    let found = search.at_tolerance(FINE, 5, 1, &|| false).unwrap();
     let sampled = found.sampled.clone().unwrap();
     let size: f64 = search.size().to_string().parse().unwrap();
     let share = |n: &Counts| n.to_string().parse::<f64>().unwrap() / size;
@@ -306,6 +306,6 @@ fn a_large_space_is_sampled_and_its_cheapest_are_found() {
     assert_eq!(cheapest, exact);
     assert!(sampled.all_below.unwrap() >= cheapest[4]);
     // Ended at once, nothing is known.
-    let none = search.at_tolerance(FINE, (5, 1), &|| true).unwrap();
+    let none = search.at_tolerance(FINE, 5, 1, &|| true).unwrap();
     assert_eq!((none.looked, &none.admissible.most), (0, &search.size()));
 }

@@ -42,7 +42,8 @@ impl InStateSeen {
     pub(super) fn of(
         question: &Question,
         realized: &Mechanism,
-        (state, external): (StateId, [i32; 2]),
+        state: StateId,
+        external: [i32; 2],
         digits: Digits,
     ) -> Option<InStateSeen> {
         let own = range(realized, state, digits)?;
@@ -125,16 +126,16 @@ fn range(m: &Mechanism, state: StateId, digits: Digits) -> Option<RankRange> {
 fn holds(
     m: &Mechanism,
     state: StateId,
-    (body, jaws): &Grasp,
+    grasp: &Grasp,
     own: RankRange,
     digits: Digits,
 ) -> Option<Answer> {
     let closure = Closure::new(&Reals, m, state).ok()?;
     let (scaling, matrix) = (Scaling::of(&closure), scaled(&closure));
     let rows = matrix.nrows();
-    let of_body = closure.link_motion(&Reals, m, *body);
+    let of_body = closure.link_motion(&Reals, m, grasp.body);
     let mut answer = Answer::No;
-    for &jaw in jaws {
+    for &jaw in &grasp.jaws {
         let of_jaw = closure.link_motion(&Reals, m, jaw);
         let relative = |(c, (a, b)): (usize, (&Vec<f64>, &Vec<f64>))| {
             let twist: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();

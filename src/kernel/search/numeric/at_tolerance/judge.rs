@@ -156,12 +156,7 @@ impl<'s> Judge<'s> {
                     surplus(of_state.most) - int32(rows) + int32(free.least),
                     surplus(of_state.least) - int32(rows) + int32(free.most),
                 ];
-                InStateSeen::of(
-                    self.question,
-                    &realized,
-                    (asked.state, external),
-                    self.digits,
-                )
+                InStateSeen::of(self.question, &realized, asked.state, external, self.digits)
             });
             let Some(seen) = seen else {
                 return Judged {

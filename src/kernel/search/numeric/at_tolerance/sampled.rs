@@ -20,11 +20,12 @@ const AT_ONCE: usize = 2048;
 /// Of a normal distribution, 95 % is within so many standard deviations.
 const NORMAL_95: f64 = 1.959_963_985;
 
-/// Looks for the `list` cheapest admissible variants in order, and at a sample.
+/// Looks for the `wanted` cheapest admissible variants in order, and at a sample.
 pub(super) fn search(
     question: &Question,
     judge: &Judge<'_>,
-    (wanted, seed): (usize, u64),
+    wanted: usize,
+    seed: u64,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> AtTolerance {
     let mut met = Met::default();
