@@ -5,6 +5,9 @@ mod blocks;
 mod both_ends;
 mod certify;
 mod costs;
+#[allow(dead_code, reason = "the benchmark of growth has them all")]
+#[path = "../../benches/growth/families.rs"]
+mod families;
 mod held;
 pub(crate) mod ideas;
 mod inside;

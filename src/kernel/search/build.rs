@@ -10,12 +10,12 @@ pub(in crate::search) mod staging;
 pub(in crate::search) mod two_sided;
 
 use crate::search::answer::counts::total;
-use crate::search::answer::estimate::Estimate;
+use crate::search::answer::estimate::{Estimate, WITHIN};
 use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::answer::proven_cheapest::cost_of;
 use crate::search::answer::proven_cheapest::up_to;
 use crate::search::answer::random_cuts;
-use crate::search::answer::samples::{Samples, WITHIN};
+use crate::search::answer::samples::Samples;
 use crate::search::build::at_most::at_most;
 use crate::search::build::orders::{Orders, orders};
 use crate::search::build::self_stress::{in_self_stress_space, nothing};

@@ -1,12 +1,14 @@
 //! What tests alone need of the inside of a search, and nothing else may use.
 
-use super::answer::k_best::{Assignment, Cheapest, ListLimits, Reach};
+use super::answer::ideas::ideas_in_steps;
+use super::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
+use super::answer::keys::Key;
 use super::build::orders::orders;
 use super::build::self_stress::in_self_stress_space;
 use super::build::spanning_halves::Halves;
 use super::build::staging::{Staged, laid};
 use super::build::two_sided::two_sided;
-use super::build::{build, one_end};
+use super::build::{Diagrams, build, one_end};
 use super::diagram::minimize::minimal;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
@@ -70,19 +72,57 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
 #[must_use]
 pub fn cheapest_in_room(question: &Question, room: usize, top: usize) -> Vec<Assignment> {
     let found = build(question, &|| false, &mut |_| {});
+    let mut all = cheapest(question, &found, top, Box::new(|_, _, _, _| true));
+    all.ways.room = room;
+    all.collect()
+}
+
+fn cheapest<'d>(
+    question: &'d Question,
+    found: &'d Diagrams,
+    top: usize,
+    enter: Enter<'d>,
+) -> Cheapest<'d, u128> {
     let limits = ListLimits {
         reach: Reach::Variants(top),
         ceiling: u64::MAX,
     };
-    let mut all = Cheapest::<u128>::new(
+    Cheapest::new(
         &found.admissible,
         &question.steps,
         limits,
         |_| true,
         |k| k,
         usize::MAX,
-        Box::new(|_, _, _, _| true),
-    );
-    all.ways.room = room;
-    all.collect()
+        enter,
+    )
+}
+
+/// How long a list is, and how many steps down a diagram it took.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Walked {
+    /// Variants or ideas.
+    pub listed: usize,
+    /// Steps, each from a node to one in the next layer.
+    pub steps: usize,
+}
+
+/// What it takes to list the cheapest admissible variants.
+#[must_use]
+pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) -> Walked {
+    let mut steps = 0;
+    let enter = |_: usize, _: usize, _: Key, _: &[usize]| {
+        steps += 1;
+        true
+    };
+    let listed = cheapest(question, found, top, Box::new(enter)).count();
+    Walked { listed, steps }
+}
+
+/// What it takes to list the first ideas.
+#[must_use]
+pub fn walked_for_ideas(question: &Question, found: &Diagrams, top: usize) -> Walked {
+    let mut steps = 0;
+    let listed = ideas_in_steps(question, found, top, &mut steps).len();
+    Walked { listed, steps }
 }

@@ -1,10 +1,12 @@
 //! What is known where the diagram of all variants does not fit the budget: the cheapest, proven, and about how many there
 //! are.
 
+use super::families::scissor_lift;
 use crate::common::{ozols, text};
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
+use ozols::search::answer::estimate::Drawn;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::build::Diagrams;
 use ozols::search::question::conditions::Conditions;
@@ -159,6 +161,10 @@ fn estimates_are_near_the_count_and_right_on_average() {
                     e.standard_error > 0.0 && e.standard_error < 0.2 * e.mean,
                     "{e:?}"
                 );
+                if let Drawn::Samples { of, .. } = e.drawn {
+                    // As many are drawn as tell one percent.
+                    assert!(e.reach() < 0.0102 || of == 200_000, "{e:?}");
+                }
                 sums[i] += e.mean;
                 variances[i] += e.standard_error.powi(2);
             }
@@ -170,6 +176,35 @@ fn estimates_are_near_the_count_and_right_on_average() {
             assert!(off.abs() < 4.0, "{i}: {} for {}", sums[i] / n, counts[i]);
         }
     }
+}
+
+/// Of what is not ruled out for lifts one in a hundred is admissible or fewer: cuts tell more of them than samples.
+#[test]
+fn rare_variants_are_estimated_by_cuts() {
+    let text = scissor_lift(5);
+    let (whole, all) = search(&text, Conditions::default());
+    let count = whole.counts(&all.admissible, true).to_string();
+    let count: f64 = count.parse().unwrap();
+    let (mut misses, mut sum, mut variance) = (0, 0.0, 0.0);
+    for seed in 0..24 {
+        let conditions = Conditions {
+            nodes: 300,
+            estimate: Some(seed),
+            ..Conditions::default()
+        };
+        let (_, d) = search(&text, conditions);
+        let e = d.estimates[1].as_ref().unwrap();
+        assert!(matches!(e.drawn, Drawn::Cuts(_)), "{e:?}");
+        let most = e.at_most.as_ref().unwrap().to_string();
+        assert!(most.parse::<f64>().unwrap() > 10.0 * count, "{e:?}");
+        assert!(e.reach() < 0.03, "{e:?} for {count}");
+        misses += usize::from(!(e.between[0]..=e.between[1]).contains(&count));
+        sum += e.mean - count;
+        variance += e.standard_error.powi(2);
+    }
+    // Of 24 intervals with a confidence of 95 % more than 5 miss once in a thousand times.
+    assert!(misses <= 5, "{misses} of 24");
+    assert!(sum.abs() < 4.0 * variance.sqrt(), "{sum} {variance}");
 }
 
 #[test]

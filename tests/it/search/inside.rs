@@ -3,10 +3,13 @@
 use crate::common::built_in;
 use ozols::builtin;
 use ozols::redundancy::analysis::exact_field;
+use ozols::search::build::{Diagrams, build};
 use ozols::search::diagram::Diagram;
 use ozols::search::question::Question;
 use ozols::search::question::conditions::Conditions;
-use ozols::search::testing::{cheapest_in_room, in_both_spaces};
+use ozols::search::testing::{
+    Walked, cheapest_in_room, in_both_spaces, walked_for_ideas, walked_for_variants,
+};
 
 #[test]
 fn self_stresses_give_the_smallest_diagram_of_the_motions_of_links() {
@@ -50,4 +53,41 @@ fn a_list_in_little_room_is_the_same() {
     let [little, all] = [1, usize::MAX].map(|room| cheapest_in_room(&question, room, 3000));
     assert_eq!(little.len(), 3000);
     assert_eq!(little, all);
+}
+
+/// A list ten times as long takes no more steps than k log k says.
+#[test]
+fn steps_of_a_list_grow_no_faster_than_its_length_and_its_logarithm() {
+    type Walk = fn(&Question, &Diagrams, usize) -> Walked;
+    let (mut seen, walks): (_, [Walk; 2]) = (0, [walked_for_variants, walked_for_ideas]);
+    for name in [
+        "gripper-10",
+        "gripper-10-redesign",
+        "four-bar",
+        "scissor-lift-3",
+        "stewart",
+    ] {
+        let m = built_in(name);
+        let exact = exact_field(&m, 0).unwrap();
+        let question = Question::new(exact, &m, Conditions::default()).unwrap();
+        let found = build(&question, &|| false, &mut |_| {});
+        for walk in walks {
+            let lists = [10, 100, 1_000, 10_000].map(|k| walk(&question, &found, k));
+            for pair in lists.windows(2) {
+                let [short, long] = pair.iter().map(|w| w.listed as f64).collect::<Vec<_>>()[..]
+                else {
+                    unreachable!()
+                };
+                println!("{name} {pair:?}");
+                if long < 2.0 * short {
+                    continue;
+                }
+                seen += 1;
+                let most = long / short * (long.ln() / short.ln());
+                let grew = pair[1].steps as f64 / pair[0].steps as f64;
+                assert!(grew <= most, "{name}: {pair:?}");
+            }
+        }
+    }
+    assert!(seen > 10, "{seen}");
 }

@@ -4,7 +4,7 @@ use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
-use std::collections::HashMap;
+use hashbrown::HashMap;
 
 /// Where the steps from a node lie: the first, and one past the last.
 pub(in crate::search) type Span = (u32, u32);

@@ -3,6 +3,9 @@
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 
+/// How far the interval of an estimate is to reach on either side, in parts of the mean, where that takes no more than a second or so.
+pub(in crate::search) const WITHIN: f64 = 0.01;
+
 /// An estimate of a number of variants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {

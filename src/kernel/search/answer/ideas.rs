@@ -54,6 +54,16 @@ fn minimal<'d>(question: &Question, diagrams: &'d Diagrams) -> Cow<'d, Diagram> 
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
 /// pattern; then for each idea two passes over the part of the diagram that it uses.
 pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+    ideas_in_steps(question, diagrams, top, &mut 0)
+}
+
+/// The same, and how many steps down the diagram were taken to find them.
+pub(in crate::search) fn ideas_in_steps(
+    question: &Question,
+    diagrams: &Diagrams,
+    top: usize,
+    steps_down: &mut usize,
+) -> Vec<Idea> {
     let diagram = &*minimal(question, diagrams);
     let patterns = patterns(question);
     let weights = weights(&question.mechanism, &question.space);
@@ -64,7 +74,7 @@ pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> 
     } else {
         question.steps.clone()
     };
-    let firsts = firsts(question, diagram, &patterns, &steps, top);
+    let firsts = firsts(question, diagram, &patterns, &steps, top, steps_down);
     let one = |first| {
         let first = preferred::preferred(question, diagram, &patterns, &weights, first);
         idea(question, diagram, &patterns, first)
@@ -79,6 +89,7 @@ fn firsts(
     patterns: &Patterns,
     steps: &Steps,
     top: usize,
+    steps_down: &mut usize,
 ) -> Vec<Assignment> {
     if top == 0 {
         return Vec::new();
@@ -90,6 +101,7 @@ fn firsts(
     loop {
         let mut entered: BTreeSet<(usize, usize, Key, Pattern)> = BTreeSet::new();
         let enter = |depth: usize, node: usize, rest: Key, choices: &[usize]| {
+            *steps_down += 1;
             let chosen = order[..depth].iter().map(|&v| (v, choices[v]));
             entered.insert((depth, node, rest, patterns.sum(chosen)))
         };

@@ -17,9 +17,9 @@ use crate::search::diagram::{DEAD, Diagram, Layer, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::Symmetry;
 use crate::search::question::space::{Choice, Variable};
+use hashbrown::HashMap;
+use hashbrown::hash_map::Entry;
 use num_bigint::BigUint;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 /// What another variant must not have more of, to make one with more freedoms idle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

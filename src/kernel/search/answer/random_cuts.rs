@@ -10,7 +10,7 @@
 //! of Mathematical Statistics 20 (1949).
 
 use crate::search::answer::counts::limited;
-use crate::search::answer::estimate::{Drawn, Estimate};
+use crate::search::answer::estimate::{Drawn, Estimate, WITHIN};
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::{Merge, Nodes};
@@ -30,13 +30,17 @@ const CUTS: usize = 16;
 const STUDENT: f64 = 2.131;
 /// Nodes kept of a layer at least.
 const FEWEST: usize = 256;
+/// Nodes kept of a layer where so few do not tell the number well enough: they take a second or so.
+const WIDE: usize = 1024;
+/// More than what is needed if the first cuts are right, for they are not quite.
+const MARGIN: f64 = 1.2;
 
 /// Estimates how many variants the diagram of some stages has; `filter` applies the conditions on mobility and changes
 /// too. `None` where it was cancelled, where memory does not suffice, and where no cut has any variant, or too many for a
 /// floating-point number.
 ///
 /// # Complexity
-/// That of a diagram of half as many nodes as the limits allow, or of some thousand nodes a layer.
+/// That of a diagram of half as many nodes as the limits allow, or of some ten thousand nodes a layer.
 pub(in crate::search) fn estimate(
     question: &Question,
     stages: &[Stage],
@@ -51,7 +55,7 @@ pub(in crate::search) fn estimate(
     } else {
         <_>::default()
     };
-    let of = Cuts {
+    let mut of = Cuts {
         question,
         stages,
         limits,
@@ -61,24 +65,29 @@ pub(in crate::search) fn estimate(
         keep: (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST),
         cancelled,
     };
-    let cuts = (0..CUTS).into_par_iter().map(|cut| {
-        let random = ChaCha8Rng::seed_from_u64(seed.rotate_left(16) ^ cut as u64);
-        of.one(random).filter(|cut| cut.is_finite())
-    });
-    let sums: Vec<f64> = cuts.collect::<Option<_>>()?;
-    #[allow(clippy::cast_precision_loss, reason = "cuts are few")]
-    let n = CUTS as f64;
-    let mean = sums.iter().sum::<f64>() / n;
-    let spread: f64 = sums.iter().map(|x| (x / mean - 1.0).powi(2)).sum();
-    let standard_error = mean * (spread / (n * (n - 1.0))).sqrt();
-    (mean > 0.0).then_some(Estimate {
-        mean,
-        standard_error,
-        between: [-1.0, 1.0].map(|side| (mean + side * STUDENT * standard_error).max(0.0)),
-        at_most: None,
-        drawn: Drawn::Cuts(CUTS),
-        seed,
-    })
+    let first = of.estimate(seed);
+    let reach = first.as_ref().map_or(f64::INFINITY, Estimate::reach);
+    // How far sums lie apart falls about as the nodes kept grow.
+    let wider = wider(of.keep, reach);
+    if wider == of.keep || reach <= WITHIN || cancelled() {
+        return first;
+    }
+    of.keep = wider;
+    of.estimate(seed).or(first)
+}
+
+/// Nodes to keep of a layer for an interval [`WITHIN`] the mean where so many give one that reaches so far: no fewer, and no more
+/// than [`WIDE`] where these are fewer.
+fn wider(keep: usize, reach: f64) -> usize {
+    #[allow(clippy::cast_precision_loss, reason = "layers are far smaller")]
+    let wanted = keep as f64 * MARGIN * reach / WITHIN;
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "no more than is clamped"
+    )]
+    let wanted = wanted.ceil() as usize;
+    wanted.clamp(keep, keep.max(WIDE))
 }
 
 /// The number of ways to a node, by what is told apart of them.
@@ -100,6 +109,30 @@ struct Cuts<'a> {
 }
 
 impl Cuts<'_> {
+    /// The mean of some cuts; none where one was cancelled, or has too many for a floating-point number, and where none has any variant.
+    fn estimate(&self, seed: u64) -> Option<Estimate> {
+        let cuts = (0..CUTS).into_par_iter().map(|cut| {
+            // Cuts of another width are others.
+            let seed = seed.rotate_left(16) ^ ((self.keep as u64) << 8) ^ cut as u64;
+            let random = ChaCha8Rng::seed_from_u64(seed);
+            self.one(random).filter(|cut| cut.is_finite())
+        });
+        let sums: Vec<f64> = cuts.collect::<Option<_>>()?;
+        #[allow(clippy::cast_precision_loss, reason = "cuts are few")]
+        let n = CUTS as f64;
+        let mean = sums.iter().sum::<f64>() / n;
+        let spread: f64 = sums.iter().map(|x| (x / mean - 1.0).powi(2)).sum();
+        let standard_error = mean * (spread / (n * (n - 1.0))).sqrt();
+        (mean > 0.0).then_some(Estimate {
+            mean,
+            standard_error,
+            between: [-1.0, 1.0].map(|side| (mean + side * STUDENT * standard_error).max(0.0)),
+            at_most: None,
+            drawn: Drawn::Cuts(CUTS),
+            seed,
+        })
+    }
+
     /// The weighted number of variants of one random cut; none where it was cancelled, or where memory does not suffice.
     fn one(&self, mut random: ChaCha8Rng) -> Option<f64> {
         let mut nodes = Nodes::root(self.limits.already);

@@ -9,7 +9,7 @@
 
 use crate::search::answer::counts::total;
 use crate::search::answer::drawn::sample_of;
-use crate::search::answer::estimate::{Drawn, Estimate};
+use crate::search::answer::estimate::{Drawn, Estimate, WITHIN};
 use crate::search::answer::k_best::Assignment;
 use crate::search::build::at_most::AtMost;
 use crate::search::question::Question;
@@ -21,8 +21,6 @@ use rayon::prelude::*;
 const PILOT: usize = 1_000;
 /// Samples drawn then, at least and at most.
 const SAMPLES: [usize; 2] = [10_000, 200_000];
-/// How far the interval is to reach on either side, in parts of the mean.
-pub(in crate::search) const WITHIN: f64 = 0.01;
 /// Samples looked at before it is asked whether all is cancelled.
 const BATCH: usize = 500;
 /// Standard deviations on either side of the mean that hold a normal variable with a chance of 95 %.

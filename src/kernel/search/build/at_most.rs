@@ -15,8 +15,9 @@ use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
+use hashbrown::HashMap;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// A diagram with every variant, and how to tell which of its variants are none.
 pub(in crate::search) struct AtMost {

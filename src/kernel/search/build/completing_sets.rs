@@ -2,8 +2,8 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
+use hashbrown::HashMap;
 use rayon::prelude::*;
-use std::collections::HashMap;
 
 /// A set of nodes of one half.
 pub(in crate::search) type Set = Box<[u64]>;

@@ -18,8 +18,8 @@ use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::Spent;
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Meeting, Progress, Stop, next};
 use crate::search::question::space::Space;
+use hashbrown::HashMap;
 use rayon::prelude::*;
-use std::collections::HashMap;
 
 /// Pairs of nodes tried at most, for each node of the budget.
 const PAIRS: usize = 500;

@@ -5,8 +5,8 @@
 
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::diagram::{DEAD, Diagram, Layer};
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use hashbrown::HashMap;
+use hashbrown::hash_map::Entry;
 
 /// A whole diagram of such layers and terminals, minimal, its nodes numbered breadth first from the root.
 ///
@@ -31,10 +31,10 @@ pub(in crate::search) fn minimal(
     for (i, layer) in layers.iter_mut().enumerate().rev() {
         let edges = layer.edges.iter_mut().filter(|e| **e != DEAD);
         edges.for_each(|e| *e = named[*e as usize]);
+        let rows = std::mem::take(&mut layer.edges);
         let mut known: HashMap<&[u32], u32> = HashMap::new();
-        let mut kept = Vec::new();
         named = Vec::with_capacity(layer.nodes);
-        for row in layer.edges.chunks_exact(layer.choices) {
+        for row in rows.chunks_exact(layer.choices) {
             if i > 0 && row.iter().all(|&e| e == DEAD) {
                 named.push(DEAD);
                 continue;
@@ -42,13 +42,12 @@ pub(in crate::search) fn minimal(
             named.push(match known.entry(row) {
                 Entry::Occupied(o) => *o.get(),
                 Entry::Vacant(v) => {
-                    kept.extend_from_slice(row);
-                    *v.insert(index(kept.len() / layer.choices - 1))
+                    layer.edges.extend_from_slice(row);
+                    *v.insert(index(layer.edges.len() / layer.choices - 1))
                 }
             });
         }
-        layer.nodes = kept.len() / layer.choices;
-        layer.edges = kept;
+        layer.nodes = layer.edges.len() / layer.choices;
     }
     number_from_the_root(&mut layers, &mut terminals);
     Diagram::whole(layers, terminals)

@@ -6,8 +6,8 @@
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy};
 use crate::search::diagram::{DEAD, Diagram, Layer};
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use hashbrown::HashMap;
+use hashbrown::hash_map::Entry;
 
 /// The product of two whole diagrams over the same variables in the same order, the smallest there is; none where it takes more
 /// nodes than allowed before it is made that.

@@ -7,7 +7,7 @@ use crate::search::answer::keys::Key;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
-use std::collections::HashMap;
+use hashbrown::HashMap;
 
 /// Variants of an idea that are compared, at most.
 const COMPARED: usize = 4096;
