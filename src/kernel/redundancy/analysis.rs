@@ -174,14 +174,20 @@ fn chosen(
         } => {
             // What was found is as good as doubles; what is written is read at the tolerance asked for.
             let tolerance = moved.map_or(verdict.tolerance, |_| NEAR);
-            let (by, known) = (Elimination::Svd, Some(finite));
             let found = NumericRank {
                 rank: *rank,
                 ..verdict.numeric.unwrap_or_default()
             };
             StateAnalysis {
-                certainty: by.certainty(found, verdict.tolerance),
-                ..numerically(near, state, by, found, tolerance, known)?
+                certainty: Elimination::Svd.certainty(found, verdict.tolerance),
+                ..numerically(
+                    near,
+                    state,
+                    Elimination::Svd,
+                    found,
+                    tolerance,
+                    Some(finite),
+                )?
             }
         }
         Meant::Undecided { near } => StateAnalysis {
@@ -194,19 +200,7 @@ fn chosen(
             ..exactly(mechanism, state, Some(finite))?
         },
     };
-    let (meant, snapped) = match verdict.meant {
-        Meant::Snapped {
-            mechanism,
-            moved,
-            understood,
-            ..
-        } => {
-            let each = || moved.iter().map(|x| x.words(&mechanism)).collect();
-            let words = understood.map_or_else(each, |all| vec![all]);
-            (Some(mechanism), words)
-        }
-        _ => (None, Vec::new()),
-    };
+    let (meant, snapped) = snapped(verdict.meant);
     Ok(StateAnalysis {
         choice: Some(line),
         meant,
@@ -214,6 +208,22 @@ fn chosen(
         as_written,
         ..whole
     })
+}
+
+/// The mechanism that was snapped, and what was, a sentence each.
+fn snapped(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
+    let Meant::Snapped {
+        mechanism,
+        moved,
+        understood,
+        ..
+    } = meant
+    else {
+        return (None, Vec::new());
+    };
+    let each = || moved.iter().map(|x| x.words(&mechanism)).collect();
+    let words = understood.map_or_else(each, |all| vec![all]);
+    (Some(mechanism), words)
 }
 
 /// By a floating-point rank; where it differs from the exact one, all else comes from singular values.
@@ -376,7 +386,6 @@ fn exactly(
         .iter()
         .map(|&j| int(closure.dim) - int(freedoms_of(&closure, j)))
         .sum();
-    let idle = idle_motions(exact, mechanism, &closure, &kernel, &outputs);
     Ok(StateAnalysis {
         state: mechanism.states[state].clone(),
         links: links.len(),
@@ -399,12 +408,10 @@ fn exactly(
         least_rows: Some(least_rows),
         per_contour: shares(exact, &closure),
         per_coupling: coupling_shares(exact, mechanism, &closure),
-        external: if state == StateId::FREE {
-            None
-        } else {
-            Some(external(exact, mechanism, &closure, &kernel)?)
-        },
-        idle,
+        external: (state != StateId::FREE)
+            .then(|| external(exact, mechanism, &closure, &kernel))
+            .transpose()?,
+        idle: idle_motions(exact, mechanism, &closure, &kernel, &outputs),
         self_stresses: self_stresses(exact, mechanism, &closure)?,
         left_out: closure.left_out.clone(),
         method: modular::Modular.name(),

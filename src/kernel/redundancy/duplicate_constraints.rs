@@ -6,7 +6,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::method::Certainty;
-use crate::rank::rounded::verdict::verdict;
+use crate::rank::rounded::verdict::{RankVerdict, verdict};
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
 use crate::redundancy::moved::{moved, turned_back};
 use crate::redundancy::other_poses::{Where, redundant_where};
@@ -107,11 +107,7 @@ pub fn held_twice(
     }
     let meant = verdict(m, state, None)?;
     let geometry = meant.mechanism().unwrap_or(m);
-    let gap = meant
-        .numeric
-        .map_or(FLAT, |n| (n.kept * n.dropped.max(1e-13)).sqrt());
-    // Between what is kept and what is dropped, where coordinates are rounded.
-    let tolerance = gap.max(FLAT);
+    let tolerance = tolerance(&meant);
     let elsewhere = match inside {
         Some(inside) => out.look_elsewhere(geometry, tolerance, inside)?,
         None => None,
@@ -138,16 +134,21 @@ pub fn held_twice(
             out.cheapest = as_built(m, &lasting, &releases);
             let back = |r: &Release| taken_back(m, &pose, r);
             let chosen = lasting.cheapest(&theirs);
-            let first: Vec<(i64, Release)> = chosen
-                .iter()
-                .map(|&i| (FIRST, back(&theirs[i].1)))
-                .collect();
+            let first = chosen.iter().map(|&i| (FIRST, back(&theirs[i].1)));
             rows.splice(0..0, first);
             out.releases = releases.iter().map(|(c, r)| (*c, back(r))).collect();
         }
     }
     out.list = stressed.duplicates(&rows, &out.releases);
     Ok(out)
+}
+
+/// Relative singular values that count as zero: between what is kept and what is dropped, where coordinates are rounded.
+fn tolerance(meant: &RankVerdict) -> f64 {
+    let gap = meant
+        .numeric
+        .map_or(FLAT, |n| (n.kept * n.dropped.max(1e-13)).sqrt());
+    gap.max(FLAT)
 }
 
 /// A release at a moved pose in the pose of the file.

@@ -4,6 +4,7 @@
 //! hash table.
 
 pub(in crate::search) mod adding;
+pub(in crate::search) mod allowance;
 pub(in crate::search) mod between;
 pub(in crate::search) mod choice_inclusion;
 pub(in crate::search) mod completion;
@@ -20,6 +21,7 @@ pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
 
 use crate::linalg::modp::{Field, Residue};
+use crate::search::diagram::allowance::Allowance;
 use crate::search::diagram::choice_inclusion::{Grown, grown};
 use crate::search::diagram::completion::Ceiling;
 pub use crate::search::diagram::layer::DEAD;
@@ -55,6 +57,24 @@ pub struct Progress {
     pub layer: usize,
     /// How far halves have met, while they do.
     pub meeting: Option<Meeting>,
+}
+
+impl Progress {
+    /// In a layer behind so many variables, with nodes before it and in it.
+    pub(in crate::search) fn in_layer(
+        done: usize,
+        of: usize,
+        before: usize,
+        layer: usize,
+    ) -> Progress {
+        Progress {
+            done,
+            of,
+            nodes: before + layer,
+            layer,
+            meeting: None,
+        }
+    }
 }
 
 /// Edges of one layer: `edges[node * choices + choice]`, an index into the next layer or [`DEAD`].
@@ -133,74 +153,37 @@ pub(super) fn build(
     let mut nodes = Nodes::root(already);
     let mut ways = vec![1.0];
     let mut layers = Vec::with_capacity(stages.len());
-    let (mut total, mut largest, mut stop, mut held) = (1, 1, Stop::Exhausted, 0);
-    let mut allowed = limits.bytes;
-    let fewest = CUT.min(limits.nodes);
+    let (mut largest, mut stop) = (1, Stop::Exhausted);
+    let mut allowance = Allowance::new(limits);
     for (done, stage) in stages.iter().enumerate() {
         let choices = &space.variables[stage.variable()].choices;
-        let room = limits.nodes.saturating_sub(total).max(fewest);
-        let bytes = allowed.saturating_sub(held + nodes.bytes());
-        let merge = Merge::new(room, bytes, stop, nodes.len() * choices.len());
+        let total = allowance.nodes;
         let merge = next(
             stage,
             choices,
-            allowed,
+            allowance.bytes,
             &nodes,
-            merge,
+            allowance.layer(&nodes, nodes.len() * choices.len(), stop),
             |spent, size, least| {
                 let ceiling = ceiling.as_mut();
                 ceiling.is_some_and(|c| c.is_above(done + 1, spent, size, least))
             },
             cancelled,
-            &mut |layer| {
-                progress(Progress {
-                    done,
-                    of: stages.len(),
-                    nodes: total + layer,
-                    layer,
-                    meeting: None,
-                });
-            },
+            &mut |layer| progress(Progress::in_layer(done, stages.len(), total, layer)),
         );
-        let Merge {
-            stop: now,
-            refused,
-            mut next,
-            mut edges,
-            ..
-        } = merge;
-        stop = now;
+        stop = merge.stop;
+        let (refused, mut next, mut edges) = (merge.refused, merge.next, merge.edges);
         if refused {
-            // The system refused memory: lower the limit to half of what is in use.
-            let now = held + nodes.bytes() + next.bytes() + size_of::<u32>() * edges.len();
-            allowed = allowed.min(now / 2);
+            allowance.lower(&nodes, &next, edges.len());
         }
         if let Some(passed) = stage.passing(&next) {
             retain(&mut next, &passed, &mut edges);
         }
-        let keep = match stop {
-            Stop::Exhausted => usize::MAX,
-            // Share what is left of the budget among the layers to come.
-            Stop::NodeBudget | Stop::NotCounted => {
-                (limits.nodes.saturating_sub(total) / (stages.len() - done)).max(fewest)
-            }
-            Stop::Memory => {
-                let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices.len();
-                let left = allowed.saturating_sub(held) / (stages.len() - done);
-                (left / each).max(CUT)
-            }
-            Stop::Interrupted => CUT,
-        };
-        let mut carried = carried(&ways, &edges, choices.len(), next.len());
-        if next.len() > keep {
-            let kept = worth_keeping(&next, &carried, keep);
-            retain(&mut next, &kept, &mut edges);
-            carried = kept.iter().map(|&i| carried[i]).collect();
-        }
-        ways = carried;
-        total += next.len();
+        let keep = allowance.keep(&next, choices.len(), stop, stages.len() - done);
+        ways = carried(&ways, &edges, choices.len(), next.len());
+        ways = cut_down(&mut next, &mut edges, ways, keep);
         largest = largest.max(next.len());
-        held += size_of::<u32>() * edges.len();
+        allowance.take(next.len(), edges.len());
         layers.push(Layer {
             variable: stage.variable(),
             nodes: nodes.len(),
@@ -213,7 +196,7 @@ pub(super) fn build(
         layers,
         terminals: nodes.spent.iter().map(Spent::redundancy).collect(),
         stop,
-        nodes: total,
+        nodes: allowance.nodes,
         largest_layer: largest,
     }
 }
@@ -245,6 +228,16 @@ fn carried(ways: &[f64], edges: &[u32], choices: usize, next: usize) -> Vec<f64>
         }
     }
     out
+}
+
+/// Cuts a layer down to so many nodes; gives the ways to those that are kept.
+fn cut_down(next: &mut Nodes, edges: &mut [u32], ways: Vec<f64>, keep: usize) -> Vec<f64> {
+    if next.len() <= keep {
+        return ways;
+    }
+    let kept = worth_keeping(next, &ways, keep);
+    retain(next, &kept, edges);
+    kept.iter().map(|&i| ways[i]).collect()
 }
 
 /// What carries nodes over a variable.

@@ -10,7 +10,7 @@ pub mod rounded_rank;
 pub mod space;
 pub mod symmetry;
 
-use crate::closure::contour::contour_basis;
+use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
@@ -54,6 +54,56 @@ pub struct Question {
     pub(in crate::search) blocks: [Vec<Block>; 2],
 }
 
+/// The links whose motion may be kept: outputs and what is to be held, as far as they are in the free state.
+fn kept(mechanism: &Mechanism) -> Vec<LinkId> {
+    let outputs = mechanism
+        .link_ids()
+        .filter(|&l| mechanism.links[l].role == Role::Output);
+    let mut kept: Vec<LinkId> = outputs
+        .chain(mechanism.search.hold.iter().copied())
+        .filter(|&l| is_free(mechanism, l))
+        .collect();
+    kept.sort_unstable();
+    kept.dedup();
+    kept
+}
+
+/// How many joints of the free state are in none of its contours.
+fn open(mechanism: &Mechanism, contours: &[Contour]) -> usize {
+    let joints = contours.iter().flat_map(|c| &c.joints);
+    let closed = joints.map(|(j, _)| j).unique();
+    mechanism.joints_in(StateId::FREE).count() - closed.count()
+}
+
+/// The frame, the links that are kept to the end, and those of joints that come after the common ones.
+fn pinned(mechanism: &Mechanism, space: &Space, to_end: &[LinkId]) -> Vec<LinkId> {
+    let mut pinned = vec![mechanism.frame()];
+    pinned.extend(to_end);
+    let later = space.variables.iter().filter(|v| v.alone || v.external);
+    let later = later.flat_map(|v| &v.joints);
+    pinned.extend(later.flat_map(|&j| mechanism.joints[j].links));
+    pinned.sort_unstable();
+    pinned.dedup();
+    pinned
+}
+
+/// The blocks of the variables of the free state, and those of the common ones between links that are `pinned`.
+fn both_blocks(
+    mechanism: &Mechanism,
+    space: &Space,
+    pinned: &[LinkId],
+    contours: &[Contour],
+) -> [Vec<Block>; 2] {
+    let variables = |wanted: fn(&Variable) -> bool| -> Vec<usize> {
+        let all = 0..space.variables.len();
+        all.filter(|&v| wanted(&space.variables[v])).collect()
+    };
+    let free = variables(|v| !v.external);
+    let common = variables(|v| !v.external && !v.alone);
+    [(free, &[][..]), (common, pinned)]
+        .map(|(of, pinned)| blocks(mechanism, space, &of, pinned, contours))
+}
+
 impl Question {
     /// Makes a question ready; a mechanism given by reference is copied.
     ///
@@ -78,23 +128,10 @@ impl Question {
             &costs,
         )?;
         let steps = Steps::new(&space, &costs);
-        let outputs = mechanism
-            .link_ids()
-            .filter(|&l| mechanism.links[l].role == Role::Output);
-        let mut kept: Vec<LinkId> = outputs
-            .chain(mechanism.search.hold.iter().copied())
-            .filter(|&l| is_free(&mechanism, l))
-            .collect();
-        kept.sort_unstable();
-        kept.dedup();
+        let kept = kept(&mechanism);
         let present = joint_motion(&exact, &mechanism, StateId::FREE, &kept)?;
         let contours = contour_basis(&mechanism, StateId::FREE);
-        let closed = contours
-            .iter()
-            .flat_map(|c| &c.joints)
-            .map(|(j, _)| j)
-            .unique();
-        let open = mechanism.joints_in(StateId::FREE).count() - closed.count();
+        let open = open(&mechanism, &contours);
         if open > OPEN {
             return Err(SearchError::Open { open });
         }
@@ -102,21 +139,12 @@ impl Question {
         let rows = i64::try_from(rows).unwrap_or(i64::MAX);
         let searched = conditions.state.iter();
         let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));
-        let mut pinned = vec![mechanism.frame()];
-        pinned.extend(kept.iter().filter(|_| conditions.keep_output));
-        let later = space.variables.iter().filter(|v| v.alone || v.external);
-        let later = later.flat_map(|v| &v.joints);
-        pinned.extend(later.flat_map(|&j| mechanism.joints[j].links));
-        pinned.sort_unstable();
-        pinned.dedup();
-        let variables = |wanted: fn(&Variable) -> bool| -> Vec<usize> {
-            let all = 0..space.variables.len();
-            all.filter(|&v| wanted(&space.variables[v])).collect()
+        let to_end = if conditions.keep_output {
+            &kept[..]
+        } else {
+            &[]
         };
-        let free = variables(|v| !v.external);
-        let common = variables(|v| !v.external && !v.alone);
-        let blocks = [(free, &[][..]), (common, &pinned[..])]
-            .map(|(of, pinned)| blocks(&mechanism, &space, &of, pinned, &contours));
+        let pinned = pinned(&mechanism, &space, to_end);
         Ok(Question {
             least: LeastModel::new(
                 &exact,
@@ -126,8 +154,8 @@ impl Question {
                 conditions.whole_twists,
             )?,
             grasps: grasps.collect(),
+            blocks: both_blocks(&mechanism, &space, &pinned, &contours),
             pinned,
-            blocks,
             mechanism,
             conditions,
             space,

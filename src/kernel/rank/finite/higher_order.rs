@@ -10,6 +10,7 @@
 //! nonzero minor, so both are proven where J has its true rank modulo the prime. With m = n nothing moves: for n = 1 that is
 //! shakiness of order d - 1, for d = 2 the second-order test of Connelly & Whiteley 1996.
 
+mod gap;
 mod line;
 
 pub use line::Line;
@@ -21,7 +22,8 @@ use crate::geom::scalars::Scalars;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
 use crate::motion::pose::Pose;
-use crate::rank::finite::higher_order::line::{Solved, cross};
+use crate::rank::finite::higher_order::gap::gaps;
+use crate::rank::finite::higher_order::line::Solved;
 use crate::rank::finite::power_series::{Monomials, accumulate};
 
 /// Entries of J² up to which series are asked at all.
@@ -125,7 +127,7 @@ impl HigherOrder {
             let gaps: Vec<Vec<Residue>> = self
                 .walks
                 .iter()
-                .flat_map(|walk| self.gap(walk, &q, &monomials))
+                .flat_map(|walk| gaps(self.field, &self.twists, walk, &q, &monomials))
                 .collect();
             for t in monomials.of_degree(degree) {
                 for (i, row) in self.solve.iter().enumerate() {
@@ -218,112 +220,6 @@ impl HigherOrder {
         }
         q
     }
-
-    /// The six gaps of a contour as series.
-    fn gap(
-        &self,
-        walk: &[(usize, bool)],
-        q: &[Vec<Residue>],
-        monomials: &Monomials,
-    ) -> Vec<Vec<Residue>> {
-        let f = self.field;
-        let terms = monomials.count();
-        let zero = || vec![0; terms];
-        let mut turn: [[Vec<Residue>; 3]; 3] = [(); 3].map(|()| [(); 3].map(|()| zero()));
-        for (i, row) in turn.iter_mut().enumerate() {
-            row[i][0] = f.one();
-        }
-        let mut shift: [Vec<Residue>; 3] = [(); 3].map(|()| zero());
-        // Σ of series times numbers.
-        let combined = |series: &[Vec<Residue>; 3], by: [Residue; 3]| {
-            let mut out = vec![0; terms];
-            for (s, b) in series.iter().zip(by).filter(|(_, b)| *b != 0) {
-                for (o, &x) in out.iter_mut().zip(s) {
-                    *o = f.add(*o, f.mul(x, b));
-                }
-            }
-            out
-        };
-        for &(c, forward) in walk {
-            if q[c].iter().all(|&x| x == 0) {
-                continue;
-            }
-            let t = &self.twists[c];
-            let angle: Vec<Residue> = if forward {
-                q[c].clone()
-            } else {
-                q[c].iter().map(|&x| f.neg(x)).collect()
-            };
-            let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
-            let mut steps: Vec<(Vec<Residue>, [Residue; 3])> = vec![(angle.clone(), v)];
-            let mut turned = None;
-            if w != [0; 3] {
-                let square = f.sum_of_products(w.map(|x| (x, x)));
-                // sin, 1 - cos and angle - sin of an axis that is no unit vector.
-                let mut series = [angle.clone(), zero(), zero()];
-                let (mut power, mut factor) = (angle.clone(), f.one());
-                for n in 2..=monomials.degree() {
-                    power = monomials.product(f, &power, &angle);
-                    factor = f.mul(factor, f.inv(f.from_i64(n as i64)));
-                    let mut by = factor;
-                    let (kind, half) = if n % 2 == 1 {
-                        (0, n / 2)
-                    } else {
-                        (1, n / 2 - 1)
-                    };
-                    for _ in 0..half {
-                        by = f.neg(f.mul(by, square));
-                    }
-                    accumulate(f, &mut series[kind], &power, by);
-                    if n % 2 == 1 {
-                        let mut by = factor;
-                        for _ in 0..n / 2 - 1 {
-                            by = f.neg(f.mul(by, square));
-                        }
-                        accumulate(f, &mut series[2], &power, by);
-                    }
-                }
-                let [sine, cosine, rest] = series;
-                let once = cross(f, w, v);
-                steps.push((cosine.clone(), once));
-                steps.push((rest, cross(f, w, once)));
-                turned = Some((sine, cosine));
-            }
-            for (row, shift) in turn.iter_mut().zip(&mut shift) {
-                for (series, direction) in &steps {
-                    if *direction != [0; 3] {
-                        let carried = combined(row, *direction);
-                        let moved = monomials.product(f, series, &carried);
-                        accumulate(f, shift, &moved, f.one());
-                    }
-                }
-                if let Some((sine, cosine)) = &turned {
-                    // Columns of ŵ are w × e_j; a row times ŵ is row × w.
-                    let hat = |j: usize| cross(f, w, unit(f, j));
-                    let once: [Vec<Residue>; 3] = [0, 1, 2].map(|j| combined(row, hat(j)));
-                    let twice: [Vec<Residue>; 3] = [0, 1, 2].map(|j| combined(&once, hat(j)));
-                    for j in 0..3 {
-                        let a = monomials.product(f, sine, &once[j]);
-                        let b = monomials.product(f, cosine, &twice[j]);
-                        accumulate(f, &mut row[j], &a, f.one());
-                        accumulate(f, &mut row[j], &b, f.one());
-                    }
-                }
-            }
-        }
-        let half = f.inv(f.from_i64(2));
-        let skew = |a: &[Residue], b: &[Residue]| -> Vec<Residue> {
-            let differences = a.iter().zip(b).map(|(&a, &b)| f.sub(a, b));
-            differences.map(|x| f.mul(half, x)).collect()
-        };
-        let mut out = vec![
-            skew(&turn[2][1], &turn[1][2]),
-            skew(&turn[0][2], &turn[2][0]),
-            skew(&turn[1][0], &turn[0][1]),
-        ];
-        out.extend(shift);
-        out
-    }
 }
 
 /// A twist of a motion space with all its six components.
@@ -343,10 +239,6 @@ fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue])
             [w, v].concat()
         }
     }
-}
-
-fn unit(f: Field, j: usize) -> [Residue; 3] {
-    [0, 1, 2].map(|i| if i == j { f.one() } else { 0 })
 }
 
 /// The contours as columns with their directions, within a joint in the order of the poses.

@@ -379,8 +379,7 @@ impl DimensionSearch {
             return best;
         }
         // Nothing changes along the motion: J is short of rank all along it, and the displacements tell its dimension.
-        let f = pose.columns.len();
-        let part = Matrix::from_fn(f, same.len(), |r, c| {
+        let part = Matrix::from_fn(pose.columns.len(), same.len(), |r, c| {
             same[c].near[r] / norm(&same[c].near).max(1e-300)
         });
         if let Some(svd) = svd(&part) {

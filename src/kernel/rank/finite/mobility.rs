@@ -277,9 +277,8 @@ impl Finite {
             },
             (how @ Singular { .. }, Submersion { .. } | Stopped { .. })
             | (Submersion { .. } | Stopped { .. }, how @ Singular { .. }) => how,
-            (how @ Traced { .. }, Submersion { .. }) | (Submersion { .. }, how @ Traced { .. }) => {
-                how
-            }
+            (how @ (Traced { .. } | Stopped { .. }), Submersion { .. })
+            | (Submersion { .. }, how @ (Traced { .. } | Stopped { .. })) => how,
             (
                 Stopped { order, motions },
                 Stopped {
@@ -290,8 +289,6 @@ impl Finite {
                 order: order.max(other),
                 motions: motions + more,
             },
-            (how @ Stopped { .. }, Submersion { .. })
-            | (Submersion { .. }, how @ Stopped { .. }) => how,
         };
         Finite {
             mobility: from,

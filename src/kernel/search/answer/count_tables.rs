@@ -160,6 +160,17 @@ impl Shifts {
     }
 }
 
+/// Puts the places where there are sums in order: few are sorted, many found by looking through all.
+fn put_in_order<C>(met: &mut Vec<u32>, sums: &[Option<C>]) {
+    if met.len() * 8 < sums.len() {
+        met.sort_unstable();
+    } else {
+        met.clear();
+        let all = sums.iter().enumerate().filter(|(_, s)| s.is_some());
+        met.extend(all.map(|(i, _)| number(i)));
+    }
+}
+
 /// The tables of layer `l` from those of the one below and the numbers of their keys, with the bytes they take; `None` where these are too many.
 fn layer<C: Count>(
     diagram: &Diagram,
@@ -204,14 +215,7 @@ fn layer<C: Count>(
                 }
             }
         }
-        // Few are sorted, many found by looking through all.
-        if met.len() * 8 < sums.len() {
-            met.sort_unstable();
-        } else {
-            met.clear();
-            let all = sums.iter().enumerate().filter(|(_, s)| s.is_some());
-            met.extend(all.map(|(i, _)| number(i)));
-        }
+        put_in_order(&mut met, &sums);
         let entry = |&to: &u32| Some((shifts.keys[to as usize], sums[to as usize].take()?));
         let mut table: Table<C> = Vec::new();
         table.try_reserve_exact(met.len()).ok()?;

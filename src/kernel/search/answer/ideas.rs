@@ -82,6 +82,16 @@ pub(in crate::search) fn ideas_in_steps(
     firsts.into_iter().map(one).collect()
 }
 
+/// Ideas that are brought in order together: their cost in thousandths, and how many such groups of that cost come before.
+type CostGroup = (i64, usize);
+
+/// The group of an idea of a cost that comes after those found.
+fn group(cost: i64, found: &[(CostGroup, Assignment)]) -> CostGroup {
+    let before = found.iter().rev();
+    let before = before.take_while(|((c, _), _)| *c == cost).count();
+    (cost, before / TOGETHER)
+}
+
 /// Of each of the first ideas a variant, the cheapest and of these the one with least weight.
 fn firsts(
     question: &Question,
@@ -106,7 +116,7 @@ fn firsts(
             entered.insert((depth, node, rest, patterns.sum(chosen)))
         };
         let mut seen = BTreeSet::new();
-        let mut found: Vec<((i64, usize), Assignment)> = Vec::new();
+        let mut found: Vec<(CostGroup, Assignment)> = Vec::new();
         let (list, mut ended) = distinct(question, diagram, steps, slack, Box::new(enter));
         for v in list {
             if !seen.insert(patterns.idea(&v)) {
@@ -116,10 +126,7 @@ fn firsts(
                 key: key(question, diagram, &v.choices),
                 ..v
             };
-            let cost = question.steps.milli(v.key.cost());
-            let before = found.iter().rev();
-            let before = before.take_while(|((c, _), _)| *c == cost).count();
-            let group = (cost, before / TOGETHER);
+            let group = group(question.steps.milli(v.key.cost()), &found);
             if found.len() >= top && group > found[top - 1].0 {
                 ended = true;
                 break;

@@ -86,49 +86,101 @@ pub fn relaxations(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
     let conditions = &question.conditions;
-    let most = nodes.saturating_mul(MORE).max(NODES);
-    // None where it takes too many nodes.
-    let counted = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
-        let mut eased = conditions.clone();
-        eased.nodes = eased.nodes.min(most);
+    let easing = Easing {
+        question,
+        nodes: nodes.saturating_mul(MORE).max(NODES),
+        cancelled,
+    };
+    let mut out = Vec::new();
+    out.extend(easing.redundant()?);
+    if let Some(state) = conditions.state {
+        out.extend(easing.in_state(state)?);
+    }
+    if conditions.max_mobility.is_some()
+        && let Some(c) = easing.some(&|r| r.max_mobility = None)?
+        && let Some((least, n)) = c.by_mobility.iter().next()
+    {
+        out.push((Relaxation::Mobility(*least), n.clone()));
+    }
+    if conditions.max_changes.is_some()
+        && let Some(c) = easing.some(&|r| r.max_changes = None)?
+        && let Some((least, n)) = c.by_changes.iter().next()
+    {
+        out.push((Relaxation::Changes(*least), n.clone()));
+    }
+    if conditions.keep_output
+        && let Some(c) = easing.some(&|r| r.keep_output = false)?
+    {
+        out.push((Relaxation::OutputChange, c.total));
+    }
+    Ok(out)
+}
+
+/// A question that is asked again with conditions eased.
+struct Easing<'a> {
+    question: &'a Question,
+    /// Nodes of a diagram at most.
+    nodes: usize,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Easing<'_> {
+    /// The counts under other conditions; none where it takes too many nodes.
+    fn counted(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
+        let question = self.question;
+        let mut eased = question.conditions.clone();
+        eased.nodes = eased.nodes.min(self.nodes);
         (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
         change(&mut eased);
         let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
-        let built = build_whole(&other, cancelled);
+        let built = build_whole(&other, self.cancelled);
         Ok(built.map(|d| counts(&other, &d.admissible, true)))
-    };
-    let some = |change: &dyn Fn(&mut Conditions)| -> Result<Option<Counts>, SearchError> {
-        Ok(counted(change)?.filter(|c| !c.total.is_zero()))
-    };
-    let mut out = Vec::new();
-    // No variant has more redundant constraints than rows.
-    let rows = u32::try_from(6 * question.mechanism.joints.len()).unwrap_or(u32::MAX);
-    // Diagrams grow with what is allowed, so a little more is tried first: twice as much more each time, until it takes too many nodes.
-    let further = |allowed: u32| {
+    }
+
+    /// The same; none where there is no variant, either.
+    fn some(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
+        Ok(self.counted(change)?.filter(|c| !c.total.is_zero()))
+    }
+
+    /// Bounds beyond what is allowed. Diagrams grow with them, so a little more is tried first: twice as much more each time, until it
+    /// takes too many nodes.
+    fn further(&self, allowed: u32) -> impl Iterator<Item = u32> {
+        // No variant has more redundant constraints than rows.
+        let rows = u32::try_from(6 * self.question.mechanism.joints.len()).unwrap_or(u32::MAX);
         let more = std::iter::successors(Some(1u32), |m| m.checked_mul(2));
         let bounds = more.map(move |m| allowed.saturating_add(m));
         bounds.take_while(move |b| *b < 2 * rows)
-    };
-    for bound in further(conditions.max_redundant) {
-        let Some(c) = counted(&|r| r.max_redundant = bound)? else {
-            break;
-        };
-        if let Some((least, n)) = c.by_redundant.iter().next() {
-            out.push((Relaxation::Redundant(*least), n.clone()));
-            break;
-        }
     }
-    // The least bound that is enough, doubling what is allowed and then halving the gap.
-    let least = |allowed: u32, set: &dyn Fn(&mut InState, u32)| -> Result<_, SearchError> {
+
+    /// More redundant constraints within the mechanism.
+    fn redundant(&self) -> Result<Option<(Relaxation, BigUint)>, SearchError> {
+        for bound in self.further(self.question.conditions.max_redundant) {
+            let Some(c) = self.counted(&|r| r.max_redundant = bound)? else {
+                break;
+            };
+            if let Some((least, n)) = c.by_redundant.iter().next() {
+                return Ok(Some((Relaxation::Redundant(*least), n.clone())));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The least bound of the searched state that is enough, with how many variants it leaves: what is allowed is doubled, and then
+    /// the gap halved.
+    fn least(
+        &self,
+        allowed: u32,
+        set: &dyn Fn(&mut InState, u32),
+    ) -> Result<Option<(u32, BigUint)>, SearchError> {
         let with = |most: u32| {
-            counted(&|r: &mut Conditions| {
+            self.counted(&|r: &mut Conditions| {
                 if let Some(s) = &mut r.state {
                     set(s, most);
                 }
             })
         };
         let mut few = allowed;
-        for bound in further(allowed) {
+        for bound in self.further(allowed) {
             let Some(mut found) = with(bound)? else {
                 break;
             };
@@ -147,14 +199,17 @@ pub fn relaxations(
             return Ok(Some((enough, found.total)));
         }
         Ok(None)
-    };
-    if let Some(state) = conditions.state {
+    }
+
+    /// More redundant constraints that the searched state adds, and objects that it does not hold.
+    fn in_state(&self, state: InState) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
+        let mut out = Vec::new();
         if let Some(allowed) = state.max_external {
-            let found = least(allowed, &|s, most| s.max_external = Some(most))?;
+            let found = self.least(allowed, &|s, most| s.max_external = Some(most))?;
             out.extend(found.map(|(n, total)| (Relaxation::External(n), total)));
         }
         if let Some(allowed) = state.max_harmful {
-            let found = least(allowed, &|s, most| s.max_harmful = Some(most))?;
+            let found = self.least(allowed, &|s, most| s.max_harmful = Some(most))?;
             out.extend(found.map(|(n, total)| (Relaxation::Harmful(n), total)));
         }
         let loose = |r: &mut Conditions| {
@@ -163,27 +218,10 @@ pub fn relaxations(
             }
         };
         if state.hold_objects
-            && let Some(c) = some(&loose)?
+            && let Some(c) = self.some(&loose)?
         {
             out.push((Relaxation::LooseObject, c.total));
         }
+        Ok(out)
     }
-    if conditions.max_mobility.is_some()
-        && let Some(c) = some(&|r| r.max_mobility = None)?
-        && let Some((least, n)) = c.by_mobility.iter().next()
-    {
-        out.push((Relaxation::Mobility(*least), n.clone()));
-    }
-    if conditions.max_changes.is_some()
-        && let Some(c) = some(&|r| r.max_changes = None)?
-        && let Some((least, n)) = c.by_changes.iter().next()
-    {
-        out.push((Relaxation::Changes(*least), n.clone()));
-    }
-    if conditions.keep_output
-        && let Some(c) = some(&|r| r.keep_output = false)?
-    {
-        out.push((Relaxation::OutputChange, c.total));
-    }
-    Ok(out)
 }

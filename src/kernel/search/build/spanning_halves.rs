@@ -119,15 +119,9 @@ impl<'a> Halves<'a> {
         };
         // The coordinates of contours that tell apart what is in the space that both reach.
         let dimension = shared(&self.spaces, at, of_back);
-        let mut both = Echelon::new(self.field);
         let of_one = (0..one.nodes.len()).flat_map(ones);
         let of_two = (0..two.nodes.len()).flat_map(twos);
-        for row in of_one.chain(of_two) {
-            if both.rank() == dimension {
-                break;
-            }
-            both.insert(&row[..contours]);
-        }
+        let both = spanned(self.field, of_one.chain(of_two), contours, dimension);
         if both.rank() < dimension {
             return Some(vec![none(two.nodes.len()); one.nodes.len()]);
         }
@@ -153,6 +147,23 @@ impl<'a> Halves<'a> {
         };
         completed(one.nodes.len(), completing, cancelled, told)
     }
+}
+
+/// What the coordinates of contours of some rows span, as far as a dimension that they cannot exceed.
+fn spanned(
+    field: Field,
+    rows: impl Iterator<Item = Vec<Residue>>,
+    contours: usize,
+    dimension: usize,
+) -> Echelon {
+    let mut span = Echelon::new(field);
+    for row in rows {
+        if span.rank() == dimension {
+            break;
+        }
+        span.insert(&row[..contours]);
+    }
+    span
 }
 
 /// Dimension of the space of contours that both the first variables and the others reach, after so many of the front and of the back.

@@ -45,6 +45,19 @@ fn is_way(joined: &Move) -> bool {
     joined.lane != Lane::Common
 }
 
+/// What is allowed of the diagram of determinate variants.
+fn limits(question: &Question, model: &Model) -> Limits {
+    Limits {
+        already: model.already,
+        internal: question.conditions.max_redundant,
+        external: None,
+        harmful: None,
+        nodes: question.conditions.nodes,
+        // Two primes with two diagrams each take half, and what is counted on them the rest.
+        bytes: question.conditions.memory / 8,
+    }
+}
+
 /// Lays out both diagrams of some rows.
 pub(in crate::search) fn laid<'a>(
     question: &'a Question,
@@ -59,15 +72,7 @@ pub(in crate::search) fn laid<'a>(
         &[],
         &[],
     );
-    let limits = Limits {
-        already: model.already,
-        internal: question.conditions.max_redundant,
-        external: None,
-        harmful: None,
-        nodes: question.conditions.nodes,
-        // Two primes with two diagrams each take half, and what is counted on them the rest.
-        bytes: question.conditions.memory / 8,
-    };
+    let limits = limits(question, model);
     let all = 0..question.space.variables.len();
     let (free, added): (Vec<usize>, Vec<usize>) =
         all.partition(|&v| !question.space.variables[v].external);

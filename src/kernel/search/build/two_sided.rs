@@ -123,15 +123,7 @@ fn halves(
         };
         let room = limits.nodes.checked_sub(total)?;
         let bytes = limits.bytes.checked_sub(side.bytes() + other.bytes())?;
-        let told = &mut |layer: usize| {
-            told(Progress {
-                done,
-                of,
-                nodes: total + layer,
-                layer,
-                meeting: None,
-            });
-        };
+        let told = &mut |layer: usize| told(Progress::in_layer(done, of, total, layer));
         advance(space, side, room, bytes, cancelled, told)?;
         total += side.nodes.len();
     }

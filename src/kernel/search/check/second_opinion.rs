@@ -10,7 +10,7 @@ use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::{Approximate, RankedRows};
-use crate::search::numeric::at_tolerance::{below, choices};
+use crate::search::numeric::at_tolerance::{any_choices, choices};
 use crate::search::question::Question;
 use crate::search::question::as_written::Written;
 use crate::search::question::rounded_rank::{Digits, RankRange};
@@ -104,11 +104,60 @@ struct Expected {
     in_state: Option<usize>,
 }
 
+impl Expected {
+    /// Of a variant that is looked at by exact arithmetic.
+    fn looked(question: &Question, exact: &Matrices, choices: Vec<usize>) -> Expected {
+        let seen = exact.look(&choices);
+        let of_state = i64::from(seen.external) + i64::from(seen.internal);
+        let of_state = usize::try_from(of_state).ok();
+        Expected {
+            choices,
+            internal: seen.internal as usize,
+            motion: Some(seen.motion),
+            in_state: question.conditions.state.and(of_state),
+        }
+    }
+
+    /// Of a variant that was counted.
+    fn counted(question: &Question, v: Assignment) -> Expected {
+        let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
+        let of_state = usize::try_from(of_state).ok();
+        let keep_output = question.conditions.keep_output;
+        Expected {
+            choices: v.choices,
+            internal: v.key.internal() as usize,
+            motion: keep_output.then(|| question.present_motion()),
+            in_state: question.conditions.state.and(of_state),
+        }
+    }
+}
+
 /// What one variant's singular values say.
 struct Said {
     undecided: bool,
     narrowest: f64,
     against: Option<Contradiction>,
+}
+
+impl Asked {
+    fn of(said: &[Said]) -> Asked {
+        Asked {
+            asked: said.len(),
+            undecided: said.iter().filter(|s| s.undecided).count(),
+            contradicted: said.iter().filter(|s| s.against.is_some()).count(),
+        }
+    }
+}
+
+/// Some of all variants, drawn from `seed`; of few all.
+fn drawn(question: &Question, seed: u64) -> Vec<Vec<usize>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    match question.size().to_u32().filter(|n| *n <= WHOLE) {
+        Some(n) => (0..n).map(|number| choices(question, number)).collect(),
+        None => (0..DRAWN)
+            .map(|_| any_choices(question, &mut random))
+            .collect(),
+    }
 }
 
 /// Asks singular values of a geometry about the variants `listed`, some that `admissible` gives and some drawn of all
@@ -135,49 +184,15 @@ pub fn second_opinion(
         digits.tolerance,
     )?;
     let exact = Matrices::new(question);
-    let looked = |choices: Vec<usize>| {
-        let seen = exact.look(&choices);
-        let internal = seen.internal as usize;
-        let of_state = i64::from(seen.external) + i64::from(seen.internal);
-        Expected {
-            choices,
-            internal,
-            motion: Some(seen.motion),
-            in_state: question
-                .conditions
-                .state
-                .and(usize::try_from(of_state).ok()),
-        }
-    };
-    let counted = |v: Assignment| {
-        let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
-        Expected {
-            choices: v.choices,
-            internal: v.key.internal() as usize,
-            motion: question
-                .conditions
-                .keep_output
-                .then(|| question.present_motion()),
-            in_state: question
-                .conditions
-                .state
-                .and(usize::try_from(of_state).ok()),
-        }
-    };
+    let looked = |choices: Vec<usize>| Expected::looked(question, &exact, choices);
+    let counted = |v: Assignment| Expected::counted(question, v);
     let nothing = vec![0; question.space.variables.len()];
     let mut first = vec![looked(nothing.clone())];
     first.extend(listed.into_iter().map(counted));
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let radix: Vec<usize> = question.steps.keys.iter().map(Vec::len).collect();
-    let mut one = || -> Vec<usize> { radix.iter().map(|&n| below(&mut random, n)).collect() };
-    let drawn: Vec<Vec<usize>> = match question.size().to_u32().filter(|n| *n <= WHOLE) {
-        Some(n) => (0..n).map(|number| choices(question, number)).collect(),
-        None => (0..DRAWN).map(|_| one()).collect(),
-    };
     let kinds = [
         first,
         admissible.into_iter().map(counted).collect(),
-        drawn.into_par_iter().map(looked).collect(),
+        drawn(question, seed).into_par_iter().map(looked).collect(),
     ];
     let mut narrowest = f64::INFINITY;
     let mut contradiction = None;
@@ -186,19 +201,14 @@ pub fn second_opinion(
             .into_par_iter()
             .filter_map(|e| compare(question, &of_file, e, digits))
             .collect();
-        let mut out = Asked {
-            asked: said.len(),
-            ..Asked::default()
-        };
+        let asked = Asked::of(&said);
         for s in said {
-            out.undecided += usize::from(s.undecided);
-            out.contradicted += usize::from(s.against.is_some());
             narrowest = narrowest.min(s.narrowest);
             if contradiction.is_none() {
                 contradiction = s.against;
             }
         }
-        out
+        asked
     });
     let present = of_file.range(&nothing, RankedRows::Free, digits);
     let below_present = present

@@ -30,17 +30,9 @@ pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
         let mut here = replaced(joint, joint.options.get(option));
         if let Some(u) = unloading.and_then(|u| joint.unloading.get(u)) {
             let pad = LinkId::new(links.len());
-            let mut series = replaced(joint, Some(u));
-            series.id = format!("{} unloading", joint.id);
-            (series.drive, series.drive_freedom) = (false, None);
-            if external {
-                series.states = None;
-            }
             // The pad stays on the mechanism when the body it held is gone.
             let [a, b] = joint.links.map(&stays);
             let end = usize::from(external && b && !a);
-            series.links[end] = joint.links[end];
-            series.links[1 - end] = pad;
             here.links[end] = pad;
             links.push(Link {
                 id: format!("{} pad", joint.id),
@@ -52,7 +44,7 @@ pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
             for contour in contours.iter_mut().filter(|c| c.contains(&before)) {
                 contour.push(at);
             }
-            inserted.push(series);
+            inserted.push(in_series(joint, u, external, end, pad));
         }
         joints.push(here);
     }
@@ -76,6 +68,25 @@ pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
         expected: Vec::new(),
         claims: Vec::new(),
     }
+}
+
+/// An unloading joint in series with another, from the link at one end of it to a pad; that of a contact is there in every state.
+fn in_series(
+    joint: &Joint,
+    unloading: &JointOption,
+    external: bool,
+    end: usize,
+    pad: LinkId,
+) -> Joint {
+    let mut series = replaced(joint, Some(unloading));
+    series.id = format!("{} unloading", joint.id);
+    (series.drive, series.drive_freedom) = (false, None);
+    if external {
+        series.states = None;
+    }
+    series.links[end] = joint.links[end];
+    series.links[1 - end] = pad;
+    series
 }
 
 /// A realized variant with its kept links fixed to the frame: what its contours lock beyond the variant's own is

@@ -9,7 +9,7 @@
 
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::stage::Stage;
-use crate::search::diagram::state_copies::Lane;
+use crate::search::diagram::state_copies::{Lane, Move};
 use crate::search::question::space::Space;
 use std::collections::BTreeMap;
 
@@ -81,22 +81,14 @@ impl Missing {
         end: usize,
     ) -> Missing {
         let common = |s: &Stage| s.moves.iter().all(|m| m.lane == Lane::Common);
-        let gaps = |s: &Stage| -> usize {
-            let closing = |step: &crate::search::diagram::frontier::Step| {
-                usize::from(step.closing) * space.dim + step.coupled
-            };
-            s.moves.iter().map(|m| closing(&m.step)).sum()
-        };
-        let rows: usize = stages.iter().map(gaps).sum();
+        let moves = stages.iter().flat_map(|s| &s.moves);
+        let rows: usize = moves.map(|m| m.step.directions(space.dim)).sum();
         let allowed = limits.internal.min(u32::try_from(rows).unwrap_or(u32::MAX));
         let spare = allowed as usize;
         let mut width = vec![0];
         for stage in stages {
-            let last = stage.moves.last().map(|m| &m.step);
-            let of = |s: &crate::search::diagram::frontier::Step| {
-                (s.width - usize::from(s.closing) - s.coupled) * space.dim
-            };
-            width.push(last.map_or(width[width.len() - 1], of));
+            let of = |m: &Move| m.step.kept() * space.dim;
+            width.push(stage.moves.last().map_or(width[width.len() - 1], of));
         }
         // Where the searched state's ways begin, nodes are written out several times: from there on only costs count.
         let known = stages.iter().take_while(|s| common(s)).count();
@@ -120,29 +112,10 @@ impl Missing {
                 .collect();
         }
         for (t, stage) in stages[..known].iter().enumerate().rev() {
-            let choices = &space.variables[stage.variable].choices;
-            let (mut cheapest, mut passing) = (Vec::new(), Vec::new());
-            for dimension in 0..=width[t] + spare {
-                let (mut best, mut sum) = (None::<i64>, 0.0);
-                for choice in choices {
-                    let carried = stage.moves.iter().try_fold(dimension, |r, m| {
-                        let step = &m.step;
-                        let gaps = usize::from(step.closing) * space.dim + step.coupled;
-                        let left = step.width - usize::from(step.closing) - step.coupled;
-                        let r = (r + choice.spans[m.member].len()).checked_sub(gaps)?;
-                        Some(r.min(left * space.dim + spare))
-                    });
-                    let Some(r) = carried else { continue };
-                    let at = r.min(least[t + 1].len() - 1);
-                    if let Some(rest) = least[t + 1][at] {
-                        let cost = rest + choice.cost_milli;
-                        best = Some(best.map_or(cost, |b| b.min(cost)));
-                        sum += share[t + 1][at];
-                    }
-                }
-                cheapest.push(best);
-                passing.push(sum);
-            }
+            let dimensions = 0..=width[t] + spare;
+            let all =
+                dimensions.map(|r| through(space, stage, r, spare, &least[t + 1], &share[t + 1]));
+            let (cheapest, passing): (Vec<_>, Vec<f64>) = all.unzip();
             // Long products underflow to 0, and a probability must stay positive.
             let most = passing.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
             let scaled = passing.iter().map(|x| (x / most).max(SMALLEST));
@@ -184,4 +157,32 @@ impl Missing {
     pub(in crate::search) fn share(&self, stages: usize, spent: &Spent, size: usize) -> f64 {
         self.share[stages][self.at(stages, spent, size)]
     }
+}
+
+/// The least cost of a completion of nodes of a dimension before a stage, and the sum of the shares of the choices that do not fail,
+/// from the least costs and the shares after it.
+fn through(
+    space: &Space,
+    stage: &Stage,
+    dimension: usize,
+    spare: usize,
+    least: &[Option<i64>],
+    share: &[f64],
+) -> (Option<i64>, f64) {
+    let (mut best, mut sum) = (None::<i64>, 0.0);
+    for choice in &space.variables[stage.variable].choices {
+        let carried = stage.moves.iter().try_fold(dimension, |r, m| {
+            let gaps = m.step.directions(space.dim);
+            let r = (r + choice.spans[m.member].len()).checked_sub(gaps)?;
+            Some(r.min(m.step.kept() * space.dim + spare))
+        });
+        let Some(r) = carried else { continue };
+        let at = r.min(least.len() - 1);
+        if let Some(rest) = least[at] {
+            let cost = rest + choice.cost_milli;
+            best = Some(best.map_or(cost, |b| b.min(cost)));
+            sum += share[at];
+        }
+    }
+    (best, sum)
 }

@@ -49,7 +49,29 @@ pub struct Step {
     pub pending: Vec<usize>,
 }
 
+/// Live links, as (root, link), by components with their roots first.
+pub(in crate::search) fn components(live: &[(LinkId, LinkId)]) -> Vec<Vec<LinkId>> {
+    let mut out: Vec<Vec<LinkId>> = Vec::new();
+    for &(root, link) in live {
+        match out.iter_mut().find(|c| c[0] == root) {
+            Some(c) => c.push(link),
+            None => out.push(vec![root, link]),
+        }
+    }
+    out
+}
+
 impl Step {
+    /// Directions of its gaps, for twists of `dim` components.
+    pub(in crate::search) fn directions(&self, dim: usize) -> usize {
+        usize::from(self.closing) * dim + self.coupled
+    }
+
+    /// New blocks without the gaps.
+    pub(in crate::search) fn kept(&self) -> usize {
+        self.width - usize::from(self.closing) - self.coupled
+    }
+
     /// Writes the row that a twist of the joint, with its entries for couplings behind it, becomes.
     pub(in crate::search) fn image(
         &self,
@@ -159,113 +181,145 @@ impl<'m> Planner<'m> {
         let mechanism = self.mechanism;
         let (count, frame) = (mechanism.links.len(), mechanism.frame());
         let is_frame = |l: &LinkId| l.index() % count == frame.index();
-        let mut components = std::mem::take(&mut self.components);
-        let pending = std::mem::take(&mut self.pending);
-        let (joint, [u, v]) = (joined.joint, ends(mechanism, &joined));
-        // Every live link's twist relative to its root, in the old coordinates.
-        let mut relative: BTreeMap<LinkId, Combination> = BTreeMap::new();
-        let mut next = 0;
-        for c in &components {
-            relative.insert(c[0], Combination::new());
-            for &l in &c[1..] {
-                relative.insert(l, Combination::from([(Source::Block(next), 1)]));
-                next += 1;
-            }
-        }
-        for l in [u, v] {
-            if !components.iter().any(|c| c.contains(&l)) {
-                components.push(vec![l]);
-                relative.insert(l, Combination::new());
-            }
-        }
-        let home = |l: LinkId, cs: &[Vec<LinkId>]| {
-            cs.iter()
-                .position(|c| c.contains(&l))
-                .expect("both links have one")
-        };
-        let (a, b) = (home(u, &components), home(v, &components));
-        // The rates of pending couplings come after the links' twists.
-        let mut waiting: Vec<(usize, Combination)> = pending
-            .iter()
-            .map(|&q| {
-                next += 1;
-                (q, Combination::from([(Source::Block(next - 1), 1)]))
-            })
-            .collect();
-        let twist = Combination::from([(Source::Joint, 1)]);
-        // The frame stays the root wherever it is, so that its component's coordinates are absolute.
-        let (u, v, a, b, forward) = if components[b].iter().any(is_frame) {
-            (v, u, b, a, false)
-        } else {
-            (u, v, a, b, true)
-        };
-        let twist = if forward {
-            twist
-        } else {
-            plus(&Combination::new(), -1, &twist)
-        };
-        let closing = a == b;
-        let mut rows: Vec<Combination> = Vec::new();
-        if closing {
-            let across = plus(&relative[&v], -1, &relative[&u]);
-            rows.push(plus(&across, -1, &twist));
-        } else {
-            // Old root of b relative to the root of a: out to u, over the joint, back from v.
-            let shift = plus(&plus(&relative[&u], 1, &twist), -1, &relative[&v]);
-            let moved = components[b].clone();
-            for l in &moved {
-                let r = plus(&shift, 1, &relative[l]);
-                relative.insert(*l, r);
-            }
-            components[a].extend(moved);
-            components.remove(b);
-        }
-        let coupled = couple(mechanism, joined, &mut waiting, &mut rows);
-        for l in ends(mechanism, &joined) {
+        let components = std::mem::take(&mut self.components);
+        let mut joining = Joining::new(components, &self.pending);
+        let ends = ends(mechanism, &joined);
+        let closing = joining.join(ends, is_frame);
+        let coupled = couple(mechanism, joined, &mut joining.waiting, &mut joining.rows);
+        for l in ends {
             self.left.entry(l).and_modify(|n| *n -= 1);
         }
-        let live = |l: &LinkId| self.left.get(l).is_some_and(|n| *n > 0);
-        for c in &mut components {
-            if let Some(i) = c.iter().position(is_frame) {
-                c.swap(0, i);
-            }
-            c.retain(live);
-        }
-        components.retain(|c| !c.is_empty());
-        let mut names = Vec::new();
-        for c in &components {
-            let root = relative[&c[0]].clone();
-            for l in &c[1..] {
-                rows.push(plus(&relative[l], -1, &root));
-                names.push((c[0], *l));
-            }
-        }
-        rows.extend(waiting.iter().map(|(_, rate)| rate.clone()));
-        let pending: Vec<usize> = waiting.iter().map(|(q, _)| *q).collect();
-        let (mut blocks, mut from_joint, mut rates) = (Vec::new(), Vec::new(), Vec::new());
-        for (new, row) in rows.iter().enumerate() {
+        joining.forget(|l| self.left.get(l).is_some_and(|n| *n > 0), is_frame);
+        let live = joining.settle();
+        self.components = joining.components;
+        self.pending = joining.waiting.iter().map(|(q, _)| *q).collect();
+        let (mut blocks, mut twist, mut rates) = (Vec::new(), Vec::new(), Vec::new());
+        for (new, row) in joining.rows.iter().enumerate() {
             for (source, sign) in row {
                 match source {
                     Source::Block(old) => blocks.push((new, *old, *sign > 0)),
-                    Source::Joint => from_joint.push((new, *sign > 0)),
+                    Source::Joint => twist.push((new, *sign > 0)),
                     Source::Rate(i) => rates.push((new, *i, *sign > 0)),
                 }
             }
         }
-        self.components = components;
-        self.pending.clone_from(&pending);
         Step {
-            joint,
+            joint: joined.joint,
             closing,
             coupled,
             blocks,
-            twist: from_joint,
+            twist,
             rates,
-            old_width: next,
-            width: rows.len(),
-            live: names,
-            pending,
+            old_width: joining.old_width,
+            width: joining.rows.len(),
+            live,
+            pending: self.pending.clone(),
         }
+    }
+}
+
+/// A joint while it is added: what the new coordinates are made of.
+struct Joining {
+    /// Live links, component by component, root first.
+    components: Vec<Vec<LinkId>>,
+    /// The twist of every live link relative to its root.
+    relative: BTreeMap<LinkId, Combination>,
+    /// The rates of pending couplings.
+    waiting: Vec<(usize, Combination)>,
+    /// Number of old blocks.
+    old_width: usize,
+    /// The new coordinates as far as they are known, gaps first.
+    rows: Vec<Combination>,
+}
+
+impl Joining {
+    /// Nothing joined yet: all in the old coordinates.
+    fn new(components: Vec<Vec<LinkId>>, pending: &[usize]) -> Joining {
+        let mut old_width = 0;
+        let mut next = || {
+            old_width += 1;
+            Combination::from([(Source::Block(old_width - 1), 1)])
+        };
+        let mut relative: BTreeMap<LinkId, Combination> = BTreeMap::new();
+        for c in &components {
+            relative.insert(c[0], Combination::new());
+            relative.extend(c[1..].iter().map(|&l| (l, next())));
+        }
+        // The rates of pending couplings come after the links' twists.
+        let waiting = pending.iter().map(|&q| (q, next())).collect();
+        Joining {
+            components,
+            relative,
+            waiting,
+            old_width,
+            rows: Vec::new(),
+        }
+    }
+
+    /// Merges the components of a joint's links, or closes a contour within one; says whether it does that.
+    fn join(&mut self, ends: [LinkId; 2], is_frame: impl Fn(&LinkId) -> bool) -> bool {
+        for l in ends {
+            if !self.components.iter().any(|c| c.contains(&l)) {
+                self.components.push(vec![l]);
+                self.relative.insert(l, Combination::new());
+            }
+        }
+        let home = |l: LinkId| {
+            let mut all = self.components.iter();
+            all.position(|c| c.contains(&l))
+                .expect("both links have one")
+        };
+        let [u, v] = ends;
+        let (a, b) = (home(u), home(v));
+        let twist = Combination::from([(Source::Joint, 1)]);
+        // The frame stays the root wherever it is, so that its component's coordinates are absolute.
+        let (u, v, a, b, twist) = if self.components[b].iter().any(is_frame) {
+            (v, u, b, a, plus(&Combination::new(), -1, &twist))
+        } else {
+            (u, v, a, b, twist)
+        };
+        if a == b {
+            let across = plus(&self.relative[&v], -1, &self.relative[&u]);
+            self.rows.push(plus(&across, -1, &twist));
+            return true;
+        }
+        // Old root of b relative to the root of a: out to u, over the joint, back from v.
+        let out = plus(&self.relative[&u], 1, &twist);
+        let shift = plus(&out, -1, &self.relative[&v]);
+        let moved = self.components[b].clone();
+        for l in &moved {
+            let r = plus(&shift, 1, &self.relative[l]);
+            self.relative.insert(*l, r);
+        }
+        self.components[a].extend(moved);
+        self.components.remove(b);
+        false
+    }
+
+    /// Forgets links that are not live any more; the frame becomes the root where it is.
+    fn forget(&mut self, live: impl Fn(&LinkId) -> bool, is_frame: impl Fn(&LinkId) -> bool) {
+        for c in &mut self.components {
+            if let Some(i) = c.iter().position(&is_frame) {
+                c.swap(0, i);
+            }
+            c.retain(&live);
+        }
+        self.components.retain(|c| !c.is_empty());
+    }
+
+    /// Writes the rows of live links, and behind them those of pending couplings; the links, as (root, link).
+    fn settle(&mut self) -> Vec<(LinkId, LinkId)> {
+        let mut names = Vec::new();
+        for c in &self.components {
+            let root = &self.relative[&c[0]];
+            for l in &c[1..] {
+                self.rows.push(plus(&self.relative[l], -1, root));
+                names.push((c[0], *l));
+            }
+        }
+        let rates = self.waiting.iter().map(|(_, rate)| rate.clone());
+        self.rows.extend(rates);
+        names
     }
 }
 

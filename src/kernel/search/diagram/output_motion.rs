@@ -6,8 +6,9 @@
 
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon::{Echelon, relations, transpose};
-use crate::linalg::modp::Residue;
+use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::search::diagram::frontier::components;
 use std::collections::BTreeMap;
 
 /// The test for the nodes of one layer: rows of a node, carried by `map`, span a space with `base` + (dimensions past
@@ -44,120 +45,29 @@ pub(crate) fn lookahead(
     kept: &[LinkId],
     allowed: usize,
 ) -> Lookahead {
-    let f = exact.field();
-    let frame = mechanism.frame();
+    let (field, frame) = (exact.field(), mechanism.frame());
     // Components of outer links, root first: those of the node, and single links it does not have yet.
-    let mut components: Vec<Vec<LinkId>> = Vec::new();
-    for &(root, link) in live {
-        match components.iter_mut().find(|c| c[0] == root) {
-            Some(c) => c.push(link),
-            None => components.push(vec![root, link]),
-        }
-    }
-    let single = |l: LinkId, components: &mut Vec<Vec<LinkId>>| {
+    let mut components = components(live);
+    for &l in kept.iter().chain([&frame]) {
         if !components.iter().any(|c| c.contains(&l)) {
             components.push(vec![l]);
         }
-    };
-    kept.iter()
-        .chain([&frame])
-        .for_each(|&l| single(l, &mut components));
-    let outer: Vec<LinkId> = components
-        .iter()
-        .flatten()
-        .copied()
-        .filter(|&l| l != frame)
-        .collect();
-    let mut inner: Vec<LinkId> = left
-        .iter()
-        .flat_map(|(j, _)| mechanism.joints[*j].links)
-        .collect();
-    inner.retain(|l| !outer.contains(l) && *l != frame);
-    inner.sort_unstable();
-    inner.dedup();
-    let mut unmet: Vec<usize> = left
-        .iter()
-        .flat_map(|(j, _)| mechanism.couplings_of(*j).map(|(q, _)| q))
-        .filter(|q| !pending.contains(q))
-        .collect();
-    unmet.sort_unstable();
-    unmet.dedup();
-    // Inner links and couplings first, so that elimination leaves constraints on outer ones alone at the end.
-    let first = inner.len() * dim + unmet.len();
-    let inner_places = inner.iter().enumerate().map(|(i, &l)| (l, i * dim));
-    let outer_places = outer.iter().enumerate().map(|(i, &l)| (l, first + i * dim));
-    let place: BTreeMap<LinkId, usize> = inner_places.chain(outer_places).collect();
-    let unmet_at = |q: usize| Some(inner.len() * dim + unmet.iter().position(|&x| x == q)?);
-    let pending_at =
-        |q: usize| Some(first + outer.len() * dim + pending.iter().position(|&x| x == q)?);
-    let width = first + outer.len() * dim + pending.len();
-    let mut constraints = Echelon::new(f);
-    for (j, span) in left {
-        let [u, v] = mechanism.joints[*j].links;
-        let annihilator = if span.is_empty() {
-            (0..dim)
-                .map(|c| (0..dim).map(|i| if i == c { f.one() } else { 0 }).collect())
-                .collect()
-        } else {
-            relations(f, &transpose(span))
-        };
-        for wrench in annihilator {
-            let mut row = vec![0; width];
-            for (link, plus) in [(u, false), (v, true)] {
-                if let Some(&at) = place.get(&link) {
-                    f.accumulate(&mut row[at..at + dim], &wrench[..dim], plus);
-                }
-            }
-            // The entries of a coupling's two joints are opposite: that of a joint to come is less what is pending, or less
-            // that of the other joint to come.
-            for (i, (q, end)) in mechanism.couplings_of(*j).enumerate() {
-                let plus = !pending.contains(&q) && end == 0;
-                if let Some(at) = pending_at(q).or_else(|| unmet_at(q)) {
-                    f.accumulate(&mut row[at..=at], &wrench[dim + i..=dim + i], plus);
-                }
-            }
-            constraints.insert(&row);
-        }
     }
-    let locks: Vec<Vec<Residue>> = constraints
-        .reduced()
-        .into_iter()
-        .filter(|r| r[..first].iter().all(|&x| x == 0))
-        .collect();
-    // Image of "these links move with unit component c": the locks it meets, then the kept links' twists.
-    let image = |links: &[(LinkId, bool)], c: usize| {
-        let mut out = vec![0; locks.len() + kept.len() * dim];
-        for &(l, plus) in links {
-            let Some(&at) = place.get(&l) else { continue };
-            for (o, lock) in out.iter_mut().zip(&locks) {
-                *o = if plus {
-                    f.add(*o, lock[at + c])
-                } else {
-                    f.sub(*o, lock[at + c])
-                };
-            }
-            for (k, _) in kept.iter().enumerate().filter(|(_, k)| **k == l) {
-                let o = &mut out[locks.len() + k * dim + c];
-                *o = if plus {
-                    f.add(*o, f.one())
-                } else {
-                    f.sub(*o, f.one())
-                };
-            }
-        }
-        out
+    let places = RowPlaces::new(mechanism, dim, &components, left, pending);
+    let locks = locks(field, mechanism, left, &places);
+    let images = LinkImages {
+        field,
+        places: &places,
+        locks: &locks,
+        kept,
     };
-    // Whole components move freely unless they hold the frame.
-    let mut free = Echelon::new(f);
-    for component in components.iter().filter(|c| !c.contains(&frame)) {
-        let together: Vec<(LinkId, bool)> = component.iter().map(|&l| (l, true)).collect();
-        (0..dim).for_each(|c| {
-            free.insert(&image(&together, c));
-        });
-    }
-    let taken = free.pivots();
-    let total = locks.len() + kept.len() * dim;
+    let free = images.free(&components, frame);
+    let (taken, total) = (free.pivots(), images.width());
     let open: Vec<usize> = (0..total).filter(|i| !taken.contains(i)).collect();
+    let seen = |mut v: Vec<Residue>| -> Vec<Residue> {
+        free.reduce(&mut v);
+        open.iter().map(|&i| v[i]).collect()
+    };
     let mut map = Vec::new();
     for &(root, link) in live {
         let component = components
@@ -169,21 +79,16 @@ pub(crate) fn lookahead(
             // Coordinates are relative to the root; the frame itself rests.
             moved.extend(component.iter().map(|&l| (l, false)));
         }
-        for c in 0..dim {
-            let mut v = image(&moved, c);
-            free.reduce(&mut v);
-            map.push(open.iter().map(|&i| v[i]).collect());
-        }
+        map.extend((0..dim).map(|c| seen(images.image(&moved, c))));
     }
     for &q in pending {
         // A unit of the rate: the locks it meets; the rest of its block is zeros.
         for c in 0..dim {
             let mut v = vec![0; total];
-            if let Some(at) = pending_at(q).filter(|_| c == 0) {
+            if let Some(at) = places.pending(q).filter(|_| c == 0) {
                 v.iter_mut().zip(&locks).for_each(|(o, lock)| *o = lock[at]);
             }
-            free.reduce(&mut v);
-            map.push(open.iter().map(|&i| v[i]).collect());
+            map.push(seen(v));
         }
     }
     Lookahead {
@@ -191,6 +96,180 @@ pub(crate) fn lookahead(
         locks: open.iter().filter(|&&i| i < locks.len()).count(),
         base: taken.iter().filter(|&&i| i >= locks.len()).count(),
         allowed,
+    }
+}
+
+/// Where the links and couplings that constraints are about stand in a row of them: inner ones first, so that elimination leaves
+/// constraints on outer ones alone at the end.
+struct RowPlaces<'a> {
+    dim: usize,
+    /// Links but for the frame: those between joints to come alone, and then the outer ones.
+    links: BTreeMap<LinkId, usize>,
+    /// Couplings of joints to come alone, behind the inner links.
+    unmet: Vec<usize>,
+    unmet_from: usize,
+    /// Couplings behind the outer links.
+    pending: &'a [usize],
+    pending_from: usize,
+}
+
+impl<'a> RowPlaces<'a> {
+    /// For components of outer links and the joints to come.
+    fn new(
+        mechanism: &Mechanism,
+        dim: usize,
+        components: &[Vec<LinkId>],
+        left: &[(JointId, Vec<Vec<Residue>>)],
+        pending: &'a [usize],
+    ) -> RowPlaces<'a> {
+        let frame = mechanism.frame();
+        let outer = components.iter().flatten().copied();
+        let outer: Vec<LinkId> = outer.filter(|&l| l != frame).collect();
+        let mut inner: Vec<LinkId> = left
+            .iter()
+            .flat_map(|(j, _)| mechanism.joints[*j].links)
+            .collect();
+        inner.retain(|l| !outer.contains(l) && *l != frame);
+        inner.sort_unstable();
+        inner.dedup();
+        let mut unmet: Vec<usize> = left
+            .iter()
+            .flat_map(|(j, _)| mechanism.couplings_of(*j).map(|(q, _)| q))
+            .filter(|q| !pending.contains(q))
+            .collect();
+        unmet.sort_unstable();
+        unmet.dedup();
+        let unmet_from = inner.len() * dim;
+        let first = unmet_from + unmet.len();
+        let inner_places = inner.iter().enumerate().map(|(i, &l)| (l, i * dim));
+        let outer_places = outer.iter().enumerate().map(|(i, &l)| (l, first + i * dim));
+        RowPlaces {
+            dim,
+            links: inner_places.chain(outer_places).collect(),
+            unmet,
+            unmet_from,
+            pending,
+            pending_from: first + outer.len() * dim,
+        }
+    }
+
+    /// Where the outer links begin.
+    fn first(&self) -> usize {
+        self.unmet_from + self.unmet.len()
+    }
+
+    fn width(&self) -> usize {
+        self.pending_from + self.pending.len()
+    }
+
+    /// The place of a coupling of joints to come alone.
+    fn unmet(&self, q: usize) -> Option<usize> {
+        Some(self.unmet_from + self.unmet.iter().position(|&x| x == q)?)
+    }
+
+    /// The place of a pending coupling.
+    fn pending(&self, q: usize) -> Option<usize> {
+        Some(self.pending_from + self.pending.iter().position(|&x| x == q)?)
+    }
+}
+
+/// What the joints to come ask of outer links and pending couplings, whatever inner ones do.
+fn locks(
+    f: Field,
+    mechanism: &Mechanism,
+    left: &[(JointId, Vec<Vec<Residue>>)],
+    places: &RowPlaces<'_>,
+) -> Vec<Vec<Residue>> {
+    let (dim, pending, first) = (places.dim, places.pending, places.first());
+    let mut constraints = Echelon::new(f);
+    for (j, span) in left {
+        let [u, v] = mechanism.joints[*j].links;
+        for wrench in annihilator(f, dim, span) {
+            let mut row = vec![0; places.width()];
+            for (link, plus) in [(u, false), (v, true)] {
+                if let Some(&at) = places.links.get(&link) {
+                    f.accumulate(&mut row[at..at + dim], &wrench[..dim], plus);
+                }
+            }
+            // The entries of a coupling's two joints are opposite: that of a joint to come is less what is pending, or less
+            // that of the other joint to come.
+            for (i, (q, end)) in mechanism.couplings_of(*j).enumerate() {
+                let plus = !pending.contains(&q) && end == 0;
+                if let Some(at) = places.pending(q).or_else(|| places.unmet(q)) {
+                    f.accumulate(&mut row[at..=at], &wrench[dim + i..=dim + i], plus);
+                }
+            }
+            constraints.insert(&row);
+        }
+    }
+    constraints
+        .reduced()
+        .into_iter()
+        .filter(|r| r[..first].iter().all(|&x| x == 0))
+        .collect()
+}
+
+/// What a joint with a span bears: all forces and moments where it has no freedom.
+fn annihilator(f: Field, dim: usize, span: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
+    if span.is_empty() {
+        (0..dim)
+            .map(|c| (0..dim).map(|i| if i == c { f.one() } else { 0 }).collect())
+            .collect()
+    } else {
+        relations(f, &transpose(span))
+    }
+}
+
+/// What becomes of motions of links: the locks they meet, then the kept links' twists.
+struct LinkImages<'a> {
+    field: Field,
+    places: &'a RowPlaces<'a>,
+    locks: &'a [Vec<Residue>],
+    kept: &'a [LinkId],
+}
+
+impl LinkImages<'_> {
+    fn width(&self) -> usize {
+        self.locks.len() + self.kept.len() * self.places.dim
+    }
+
+    /// Image of "these links move with unit component c".
+    fn image(&self, links: &[(LinkId, bool)], c: usize) -> Vec<Residue> {
+        let (f, locks, dim) = (self.field, self.locks, self.places.dim);
+        let mut out = vec![0; self.width()];
+        for &(l, plus) in links {
+            let Some(&at) = self.places.links.get(&l) else {
+                continue;
+            };
+            for (o, lock) in out.iter_mut().zip(locks) {
+                *o = if plus {
+                    f.add(*o, lock[at + c])
+                } else {
+                    f.sub(*o, lock[at + c])
+                };
+            }
+            for (k, _) in self.kept.iter().enumerate().filter(|(_, k)| **k == l) {
+                let o = &mut out[locks.len() + k * dim + c];
+                *o = if plus {
+                    f.add(*o, f.one())
+                } else {
+                    f.sub(*o, f.one())
+                };
+            }
+        }
+        out
+    }
+
+    /// Images of what moves freely: whole components, unless they hold the frame.
+    fn free(&self, components: &[Vec<LinkId>], frame: LinkId) -> Echelon {
+        let mut free = Echelon::new(self.field);
+        for component in components.iter().filter(|c| !c.contains(&frame)) {
+            let together: Vec<(LinkId, bool)> = component.iter().map(|&l| (l, true)).collect();
+            for c in 0..self.places.dim {
+                free.insert(&self.image(&together, c));
+            }
+        }
+        free
     }
 }
 

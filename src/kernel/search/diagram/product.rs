@@ -58,14 +58,7 @@ pub(in crate::search) fn product(parts: [&Diagram; 2], limits: &Limits) -> Optio
         });
         nodes = next;
     }
-    let together = |[x, y]: &[u32; 2]| {
-        let (x, y) = (a.terminals[*x as usize], b.terminals[*y as usize]);
-        Redundancy {
-            internal: x.internal + y.internal,
-            external: x.external + y.external,
-            harmful: x.harmful + y.harmful,
-        }
-    };
+    let together = |[x, y]: &[u32; 2]| together(a.terminals[*x as usize], b.terminals[*y as usize]);
     let terminals: Vec<Redundancy> = nodes.iter().map(together).collect();
     // Each part keeps to the limit by itself; together they may not.
     if let Some(last) = layers.last_mut() {
@@ -76,4 +69,13 @@ pub(in crate::search) fn product(parts: [&Diagram; 2], limits: &Limits) -> Optio
             .for_each(|e| *e = DEAD);
     }
     Some(minimal(layers, terminals))
+}
+
+/// What is redundant in two parts.
+fn together(x: Redundancy, y: Redundancy) -> Redundancy {
+    Redundancy {
+        internal: x.internal + y.internal,
+        external: x.external + y.external,
+        harmful: x.harmful + y.harmful,
+    }
 }

@@ -9,9 +9,10 @@
 
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
-use crate::search::diagram::frontier::{At, Step, plan};
+use crate::search::diagram::frontier::{At, Step, components, plan};
 use crate::search::question::grasp::Grasp;
 use crate::search::question::space::{Choice, Space};
+use std::ops::Range;
 
 /// Where a joint is added, and where what it makes redundant counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,16 +91,7 @@ pub(in crate::search) fn ways(
     kept: &[LinkId],
     held: &[Grasp],
 ) -> Ways {
-    let joints = |v: &usize| space.variables[*v].joints.iter().copied().enumerate();
-    let faces: Vec<JointId> = added
-        .iter()
-        .flat_map(|v| joints(v).map(move |(member, j)| (v, member, j)))
-        .filter(|(v, member, _)| {
-            let mut choices = space.variables[**v].choices.iter();
-            choices.any(|c| c.faces.get(*member).is_some_and(Option::is_some))
-        })
-        .map(|(.., j)| j)
-        .collect();
+    let faces = faces(space, added);
     let free = (!alone.is_empty()).then_some(Lane::Free);
     let lanes: Vec<Lane> = free
         .into_iter()
@@ -107,25 +99,12 @@ pub(in crate::search) fn ways(
         .chain((0..faces.len()).map(Lane::Friction))
         .collect();
     let state = usize::from(free.is_some());
-    let mut list: Vec<(usize, usize, JointId, usize)> = Vec::new();
-    for (variables, lanes) in [(alone, 0..state), (added, state..lanes.len())] {
-        for &v in variables {
-            for (member, j) in joints(&v) {
-                list.extend(lanes.clone().map(|lane| (v, member, j, lane)));
-            }
-        }
-    }
-    let at = |&(.., joint, lane): &(usize, usize, JointId, usize)| At { joint, lane };
-    let order: Vec<At> = list.iter().map(at).collect();
+    let mut list = additions(space, alone, 0..state);
+    list.extend(additions(space, added, state..lanes.len()));
+    let order: Vec<At> = list.iter().map(|a| a.at).collect();
     let n = mechanism.links.len();
     let copy = |l: LinkId, lane: usize| LinkId::new(lane * n + l.index());
-    let mut components: Vec<Vec<LinkId>> = Vec::new();
-    for &(root, link) in live {
-        match components.iter_mut().find(|c| c[0] == root) {
-            Some(c) => c.push(link),
-            None => components.push(vec![root, link]),
-        }
-    }
+    let components = components(live);
     let start: Vec<Vec<LinkId>> = (0..lanes.len())
         .flat_map(|lane| {
             let of = |c: &Vec<LinkId>| c.iter().map(|&l| copy(l, lane)).collect();
@@ -145,26 +124,73 @@ pub(in crate::search) fn ways(
         .iter()
         .map(|g| (place(&g.body), g.jaws.iter().map(place).collect()))
         .collect();
-    let mut stages: Vec<(usize, Vec<Move>)> = Vec::new();
-    for ((v, member, joint, lane), step) in list.into_iter().zip(steps.iter().cloned()) {
-        let lane = lanes[lane];
-        let own = matches!(lane, Lane::Friction(f) if faces[f] == joint);
+    let moves = list.into_iter().zip(steps.iter().cloned());
+    let moves = moves.map(|(a, step)| {
+        let lane = lanes[a.at.lane];
         let next = Move {
-            member,
+            member: a.member,
             step,
             lane,
-            own,
+            own: matches!(lane, Lane::Friction(f) if faces[f] == a.at.joint),
         };
+        (a.variable, next)
+    });
+    Ways {
+        copies: lanes.len(),
+        stages: by_variable(moves),
+        held,
+    }
+}
+
+/// A joint to be added in a lane.
+#[derive(Clone, Copy)]
+struct Addition {
+    variable: usize,
+    /// Position of the joint within its variable.
+    member: usize,
+    at: At,
+}
+
+/// The joints of variables, each in all of some lanes.
+fn additions(space: &Space, variables: &[usize], lanes: Range<usize>) -> Vec<Addition> {
+    let mut list = Vec::new();
+    for &variable in variables {
+        let joints = space.variables[variable].joints.iter();
+        for (member, &joint) in joints.enumerate() {
+            list.extend(lanes.clone().map(|lane| Addition {
+                variable,
+                member,
+                at: At { joint, lane },
+            }));
+        }
+    }
+    list
+}
+
+/// The joints of variables that are faces in some choice.
+fn faces(space: &Space, variables: &[usize]) -> Vec<JointId> {
+    let faces = variables.iter().flat_map(|&v| {
+        let variable = &space.variables[v];
+        let is_face = |member: usize| {
+            let mut choices = variable.choices.iter();
+            choices.any(|c| c.faces.get(member).is_some_and(Option::is_some))
+        };
+        let joints = variable.joints.iter().copied().enumerate();
+        joints.filter(move |(member, _)| is_face(*member))
+    });
+    faces.map(|(_, j)| j).collect()
+}
+
+/// The moves of each variable, which come one after another.
+fn by_variable(moves: impl Iterator<Item = (usize, Move)>) -> Vec<(usize, Vec<Move>)> {
+    let mut stages: Vec<(usize, Vec<Move>)> = Vec::new();
+    for (v, next) in moves {
         match stages.last_mut() {
             Some((known, moves)) if *known == v => moves.push(next),
             _ => stages.push((v, vec![next])),
         }
     }
-    Ways {
-        copies: lanes.len(),
-        stages,
-        held,
-    }
+    stages
 }
 
 #[cfg(test)]

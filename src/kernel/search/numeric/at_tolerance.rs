@@ -11,7 +11,7 @@ mod judge;
 mod sampled;
 
 pub use found::{AtTolerance, Bracket, Sampled, Share};
-pub(in crate::search) use found::{below, choices};
+pub(in crate::search) use found::{any_choices, choices};
 
 use crate::geom::exact::ExactError;
 use crate::search::answer::keys::Key;

@@ -65,7 +65,28 @@ pub(in crate::search) fn blocks(
     for l in left.iter().flat_map(|(_, links)| links) {
         *holds.entry(*l).or_insert(0) += 1;
     }
-    // What meets all the rest in one link, or in none, says nothing about the motion of the rest.
+    let mut out = at_one_link(&mut left, holds);
+    let mut at: BTreeMap<LinkId, Vec<usize>> = BTreeMap::new();
+    for (of, links) in &left {
+        let shared = links.iter().filter(|l| **l != mechanism.frame());
+        shared.for_each(|&l| at.entry(l).or_default().push(of[0]));
+    }
+    let rest = left.into_iter().map(|(of, _)| of);
+    let beside = tied(rest.chain(at.into_values()));
+    out.extend(
+        beside
+            .into_iter()
+            .map(|variables| Block { variables, lane: 0 }),
+    );
+    out
+}
+
+/// Takes out the blocks that meet all the rest in one link, or in none: they say nothing about the motion of the rest. `left` are
+/// variables with their links, and `holds` says how many of them, and of what is asked for, hold a link.
+fn at_one_link(
+    left: &mut Vec<(Vec<usize>, BTreeSet<LinkId>)>,
+    mut holds: BTreeMap<LinkId, usize>,
+) -> Vec<Block> {
     let mut out: Vec<Block> = Vec::new();
     loop {
         let before = left.len();
@@ -83,22 +104,9 @@ pub(in crate::search) fn blocks(
             shared > 1
         });
         if left.len() == before {
-            break;
+            return out;
         }
     }
-    let mut at: BTreeMap<LinkId, Vec<usize>> = BTreeMap::new();
-    for (of, links) in &left {
-        let shared = links.iter().filter(|l| **l != mechanism.frame());
-        shared.for_each(|&l| at.entry(l).or_default().push(of[0]));
-    }
-    let rest = left.into_iter().map(|(of, _)| of);
-    let beside = tied(rest.chain(at.into_values()));
-    out.extend(
-        beside
-            .into_iter()
-            .map(|variables| Block { variables, lane: 0 }),
-    );
-    out
 }
 
 #[cfg(test)]

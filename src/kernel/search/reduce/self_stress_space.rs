@@ -15,6 +15,7 @@ use crate::linalg::echelon::{Echelon, combination};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::search::question::space::{Space, Variable};
+use std::ops::Range;
 
 /// A vector of the added motions of a choice.
 type Added = Vec<Residue>;
@@ -147,6 +148,48 @@ impl Basis {
     }
 }
 
+/// What of vectors is not what the present joints do.
+struct BesidePresent {
+    present: Echelon,
+    width: usize,
+    /// The coordinates that are left.
+    open: Vec<usize>,
+}
+
+impl BesidePresent {
+    /// Of what the present joints do, in vectors of a width.
+    fn new(field: Field, all: impl Iterator<Item = Added>, width: usize) -> BesidePresent {
+        let mut present = Echelon::new(field);
+        all.for_each(|c| {
+            present.insert(&c);
+        });
+        let pivots = present.pivots();
+        let open = (0..width).filter(|i| !pivots.contains(i)).collect();
+        BesidePresent {
+            present,
+            width,
+            open,
+        }
+    }
+
+    /// What is left of the units of some coordinates.
+    fn units(&self, field: Field, coordinates: Range<usize>) -> Echelon {
+        let mut span = Echelon::new(field);
+        for i in coordinates {
+            let mut unit = vec![0; self.width];
+            unit[i] = field.one();
+            span.insert(&self.left(unit));
+        }
+        span
+    }
+
+    /// What is left of a vector.
+    fn left(&self, mut column: Vec<Residue>) -> Vec<Residue> {
+        self.present.reduce(&mut column);
+        self.open.iter().map(|&i| column[i]).collect()
+    }
+}
+
 /// Independent vectors, and for each the last variable that reaches it.
 #[derive(Default)]
 struct Reached {
@@ -155,6 +198,20 @@ struct Reached {
 }
 
 impl Reached {
+    /// Of what the choices of variables add, its coordinates from `first` on, beyond what is known: from the last variable on, what
+    /// each is the last to reach.
+    fn last(added: &[Vec<Vec<Added>>], first: usize, mut known: Echelon) -> Reached {
+        let mut out = Reached::default();
+        for (t, choices) in added.iter().enumerate().rev() {
+            for v in choices.iter().flatten() {
+                if known.insert(&v[first..]) {
+                    out.push(v[first..].to_vec(), t);
+                }
+            }
+        }
+        out.turned()
+    }
+
     fn push(&mut self, vector: Vec<Residue>, by: usize) {
         self.vectors.push(vector);
         self.by.push(by);
@@ -191,76 +248,36 @@ impl SelfStressSpace {
         if !order.iter().all(|&v| is_contained(field, space, v)) {
             return None;
         }
-        let mut present = Echelon::new(field);
-        for &v in order {
-            of_choice(v, 0).iter().for_each(|c| {
-                present.insert(c);
-            });
-        }
+        let present = order.iter().flat_map(|&v| of_choice(v, 0));
         let width = rows.closing() + kept.len() * space.dim;
-        let pivots = present.pivots();
-        let open: Vec<usize> = (0..width).filter(|i| !pivots.contains(i)).collect();
-        let left = |mut column: Vec<Residue>| -> Vec<Residue> {
-            present.reduce(&mut column);
-            open.iter().map(|&i| column[i]).collect()
-        };
+        let beside = BesidePresent::new(field, present, width);
         // Motions of the kept links, and what the choices add.
-        let mut links = Echelon::new(field);
-        for i in rows.closing()..width {
-            let mut unit = vec![0; width];
-            unit[i] = field.one();
-            links.insert(&left(unit));
-        }
+        let links = beside.units(field, rows.closing()..width);
+        let left = |column| beside.left(column);
         let of_variable = |&v: &usize| -> Vec<Vec<Added>> {
             let choices = 0..space.variables[v].choices.len();
             choices
-                .map(|c| of_choice(v, c).into_iter().map(&left).collect())
+                .map(|c| of_choice(v, c).into_iter().map(left).collect())
                 .collect()
         };
         let added: Vec<Vec<Vec<Added>>> = order.iter().map(of_variable).collect();
-        let self_stresses = open.len() - links.rank();
-        // From the last variable on, what each is the last to reach.
-        let mut known = links.clone();
-        let mut contours = Reached::default();
-        for (t, choices) in added.iter().enumerate().rev() {
-            for v in choices.iter().flatten() {
-                if known.insert(v) {
-                    contours.push(v.clone(), t);
-                }
-            }
-        }
-        let contours = contours.turned();
+        let self_stresses = beside.open.len() - links.rank();
+        let contours = Reached::last(&added, 0, links.clone());
         let count = contours.vectors.len();
         let mut both = contours.vectors.clone();
         both.extend(links.reduced());
         let basis = Basis::new(field, &both);
         let in_basis = |choices: &Vec<Vec<Added>>| -> Vec<Vec<Added>> {
-            choices
-                .iter()
-                .map(|c| c.iter().map(|v| basis.factors(v)).collect())
+            let each = choices.iter();
+            each.map(|c| c.iter().map(|v| basis.factors(v)).collect())
                 .collect()
         };
         let added: Vec<Vec<Vec<Added>>> = added.iter().map(in_basis).collect();
-        let mut known = Echelon::new(field);
-        let mut kept = Reached::default();
-        for (t, choices) in added.iter().enumerate().rev() {
-            for v in choices.iter().flatten() {
-                if known.insert(&v[count..]) {
-                    kept.push(v[count..].to_vec(), t);
-                }
-            }
-        }
-        let kept = kept.turned();
+        let kept = Reached::last(&added, count, Echelon::new(field));
         let of_links = Basis::new(field, &kept.vectors);
         let stage = |(t, choices): (usize, &Vec<Vec<Added>>)| -> Vec<Vec<Added>> {
             let first = contours.by.partition_point(|&by| by < t);
-            let choice = |c: &Vec<Added>| {
-                let mut span = Echelon::new(field);
-                c.iter().for_each(|v| {
-                    span.insert(&from(first, count, v, &of_links));
-                });
-                span.reduced()
-            };
+            let choice = |c: &Vec<Added>| spanned(field, first, count, c, &of_links);
             choices.iter().map(choice).collect()
         };
         let added: Vec<_> = added.iter().enumerate().map(stage).collect();
@@ -307,6 +324,21 @@ impl SelfStressSpace {
 fn from(first: usize, contours: usize, vector: &[Residue], of_links: &Basis) -> Added {
     let links = of_links.factors(&vector[contours..]);
     [&vector[first..contours], &links].concat()
+}
+
+/// What the vectors of a choice span in those coordinates.
+fn spanned(
+    field: Field,
+    first: usize,
+    contours: usize,
+    vectors: &[Added],
+    of_links: &Basis,
+) -> Vec<Added> {
+    let mut span = Echelon::new(field);
+    for v in vectors {
+        span.insert(&from(first, contours, v, of_links));
+    }
+    span.reduced()
 }
 
 /// Whether every choice of a variable has the motions of the present joints.

@@ -220,6 +220,12 @@ pub struct Sampled {
     pub all_below: Option<i64>,
 }
 
+/// The choices of a variant drawn at random, each with the same chance.
+pub(in crate::search) fn any_choices(question: &Question, random: &mut ChaCha8Rng) -> Vec<usize> {
+    let all = question.steps.keys.iter();
+    all.map(|keys| below(random, keys.len())).collect()
+}
+
 /// A number below `n`, each with the same chance.
 pub(in crate::search) fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
     let n = n.max(1) as u64;

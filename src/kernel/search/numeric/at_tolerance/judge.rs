@@ -3,6 +3,7 @@
 use super::answer::Answer;
 use super::in_state::InStateSeen;
 use crate::geom::exact::ExactError;
+use crate::model::mechanism::StateId;
 use crate::rank::numeric::Elimination;
 use crate::search::answer::keys::Key;
 use crate::search::check::brute;
@@ -81,18 +82,15 @@ impl<'s> Judge<'s> {
     /// One decomposition where it has too many redundant constraints, two otherwise; with a state some more.
     pub(super) fn judge(&self, choices: &[usize]) -> Judged {
         let limit = self.question.conditions.max_redundant;
-        let doubtful = || {
-            let key = Standing::Doubtful(brute::key(self.question, choices, Redundancy::default()));
-            Judged {
+        let Some(free) = self.all.range(choices, RankedRows::Free, self.digits) else {
+            let key = self.standing(choices, false, Redundancy::default());
+            return Judged {
                 determinate: key,
                 admissible: key,
-            }
-        };
-        let Some(free) = self.all.range(choices, RankedRows::Free, self.digits) else {
-            return doubtful();
+            };
         };
         let int = |x: usize| u32::try_from(x).unwrap_or(u32::MAX);
-        let [rows, state_rows] = self.all.equations();
+        let [rows, _] = self.all.equations();
         let (least, most) = (int(rows - free.most), int(rows - free.least));
         if least > limit {
             return Judged {
@@ -101,68 +99,31 @@ impl<'s> Judge<'s> {
             };
         }
         let sure = most <= limit;
-        let standing = |sure: bool, redundancy: Redundancy| {
-            let key = brute::key(self.question, choices, redundancy);
-            if sure {
-                Standing::Sure(key)
-            } else {
-                Standing::Doubtful(key)
-            }
-        };
         let within = Redundancy {
             internal: least,
             ..Redundancy::default()
         };
         // Of a range the figures are doubtful too.
-        let determinate = standing(sure && least == most, within);
+        let determinate = self.standing(choices, sure && least == most, within);
+        let doubtful = || Judged {
+            determinate,
+            admissible: self.standing(choices, false, within),
+        };
         let mut good = Answer::of(sure && least == most, true);
         if self.question.conditions.keep_output {
-            let kept = self.all.range(choices, RankedRows::WithKept, self.digits);
-            let Some(kept) = kept else {
-                return Judged {
-                    determinate,
-                    admissible: standing(false, within),
-                };
+            let Some(keeps) = self.keeps_output(choices, free) else {
+                return doubtful();
             };
-            let [from, to] = motion(free, kept);
-            let [had, at_most] = self.motion;
-            good = good.and(Answer::of(
-                from == to && had == at_most && from == had,
-                from <= at_most && had <= to,
-            ));
+            good = good.and(keeps);
         }
-        let wanted = |internal| {
-            let redundancy = Redundancy {
-                internal,
-                ..Redundancy::default()
-            };
-            self.question
-                .wanted(brute::key(self.question, choices, redundancy))
-        };
+        let wanted = |internal| self.is_wanted(choices, internal);
         let mut which = least..=most.min(limit);
         good = good.and(Answer::of(which.clone().all(wanted), which.any(wanted)));
         let mut found = within;
-        if let Some(asked) = self
-            .question
-            .conditions
-            .state
-            .filter(|_| good != Answer::No)
-        {
-            let realized = variant_mechanism::realize(self.question, choices);
-            let of_state = self.all.range(choices, RankedRows::State, self.digits);
-            let seen = of_state.and_then(|of_state| {
-                let surplus = |rank: usize| int32(state_rows) - int32(rank);
-                let external = [
-                    surplus(of_state.most) - int32(rows) + int32(free.least),
-                    surplus(of_state.least) - int32(rows) + int32(free.most),
-                ];
-                InStateSeen::of(self.question, &realized, asked.state, external, self.digits)
-            });
-            let Some(seen) = seen else {
-                return Judged {
-                    determinate,
-                    admissible: standing(false, within),
-                };
+        let asked = self.question.conditions.state;
+        if let Some(asked) = asked.filter(|_| good != Answer::No) {
+            let Some(seen) = self.in_state(asked.state, choices, free) else {
+                return doubtful();
             };
             good = good.and(seen.meets(&asked));
             (found.external, found.harmful) = seen.figures();
@@ -171,10 +132,54 @@ impl<'s> Judge<'s> {
             determinate,
             admissible: match good {
                 Answer::No => Standing::No,
-                Answer::Perhaps => standing(false, found),
-                Answer::Yes => standing(true, found),
+                Answer::Perhaps => self.standing(choices, false, found),
+                Answer::Yes => self.standing(choices, true, found),
             },
         }
+    }
+
+    /// How a variant with some redundancy stands that meets the conditions, for sure or perhaps.
+    fn standing(&self, choices: &[usize], sure: bool, redundancy: Redundancy) -> Standing {
+        let key = brute::key(self.question, choices, redundancy);
+        if sure {
+            Standing::Sure(key)
+        } else {
+            Standing::Doubtful(key)
+        }
+    }
+
+    /// Whether the kept links of a variant move as they do in the mechanism as it is; none where the values do not converge.
+    fn keeps_output(&self, choices: &[usize], free: RankRange) -> Option<Answer> {
+        let kept = self.all.range(choices, RankedRows::WithKept, self.digits)?;
+        let [from, to] = motion(free, kept);
+        let [had, at_most] = self.motion;
+        Some(Answer::of(
+            from == to && had == at_most && from == had,
+            from <= at_most && had <= to,
+        ))
+    }
+
+    /// Whether a variant meets the conditions on mobility and changes with so many redundant constraints.
+    fn is_wanted(&self, choices: &[usize], internal: u32) -> bool {
+        let redundancy = Redundancy {
+            internal,
+            ..Redundancy::default()
+        };
+        self.question
+            .wanted(brute::key(self.question, choices, redundancy))
+    }
+
+    /// What is seen of a variant in the searched state; none where the values do not converge.
+    fn in_state(&self, state: StateId, choices: &[usize], free: RankRange) -> Option<InStateSeen> {
+        let [rows, state_rows] = self.all.equations();
+        let realized = variant_mechanism::realize(self.question, choices);
+        let of_state = self.all.range(choices, RankedRows::State, self.digits)?;
+        let surplus = |rank: usize| int32(state_rows) - int32(rank);
+        let external = [
+            surplus(of_state.most) - int32(rows) + int32(free.least),
+            surplus(of_state.least) - int32(rows) + int32(free.most),
+        ];
+        InStateSeen::of(self.question, &realized, state, external, self.digits)
     }
 }
 

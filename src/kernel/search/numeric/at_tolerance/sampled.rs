@@ -1,7 +1,7 @@
 //! Spaces too large to be looked at whole: the cheapest variants in order, and a sample of all.
 
-use super::found::{AtTolerance, BLOCK, Met, Sampled, Share, VariantList, below, order};
-use super::judge::{Judge, Standing};
+use super::found::{AtTolerance, BLOCK, Met, Sampled, Share, VariantList, any_choices, order};
+use super::judge::{Judge, Judged, Standing};
 use crate::search::answer::k_best::Assignment;
 use crate::search::diagram::Stop;
 use crate::search::numeric::in_order::InOrder;
@@ -28,66 +28,20 @@ pub(super) fn search(
     seed: u64,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> AtTolerance {
+    let looking = Looking {
+        question,
+        judge,
+        cancelled,
+    };
     let mut met = Met::default();
-    let mut list: Vec<Assignment> = Vec::new();
-    let look = |all: Vec<Vec<usize>>| -> Vec<_> {
-        let one = |choices: Vec<usize>| {
-            (!cancelled()).then(|| {
-                let judged = judge.judge(&choices);
-                (choices, judged)
-            })
-        };
-        let all = all.into_par_iter().with_min_len(BLOCK).map(one);
-        all.collect::<Vec<_>>().into_iter().flatten().collect()
-    };
-    let cost = |choices: &[usize]| {
-        let chosen = question.steps.keys.iter().zip(choices);
-        chosen.map(|(keys, &c)| keys[c].cost()).sum::<u64>()
-    };
-    // The cost of the first variant not looked at.
-    let mut next_cost = None;
-    if let Some(all) = InOrder::new(&question.steps) {
-        let mut all = all.peekable();
-        while list.len() < wanted && (met.looked as usize) < IN_ORDER && !cancelled() {
-            let block: Vec<Vec<usize>> = all.by_ref().take(AT_ONCE).collect();
-            if block.is_empty() {
-                break;
-            }
-            for (choices, judged) in look(block) {
-                met.add(&judged);
-                if let Standing::Sure(key) = judged.admissible {
-                    list.push(Assignment { choices, key });
-                }
-            }
-        }
-        next_cost = all.peek().map(|c| cost(c));
-    }
+    let (mut list, next_cost) = looking.in_order(wanted, &mut met);
     let visited = usize::try_from(met.looked).unwrap_or(usize::MAX);
     list.sort_by(|a, b| {
         (order(question, a.key), &a.choices).cmp(&(order(question, b.key), &b.choices))
     });
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let radix: Vec<usize> = question.steps.keys.iter().map(Vec::len).collect();
-    let mut one = || -> Vec<usize> { radix.iter().map(|&n| below(&mut random, n)).collect() };
-    let drawn = look((0..DRAWN).map(|_| one()).collect());
-    let mut seen = BTreeSet::new();
-    let mut shares = [[0usize; 2]; 2];
-    for (choices, judged) in &drawn {
-        for (standing, [sure, may]) in [judged.determinate, judged.admissible]
-            .iter()
-            .zip(&mut shares)
-        {
-            *sure += usize::from(matches!(standing, Standing::Sure(_)));
-            *may += usize::from(*standing != Standing::No);
-        }
-        // Those below were counted already.
-        if next_cost.is_none_or(|next| cost(choices) > next) && seen.insert(choices) {
-            met.add(judged);
-        }
-    }
-    let [determinate, admissible] = shares.map(|[sure, may]| share(sure, may, drawn.len()));
+    let (drawn, [determinate, admissible]) = looking.sample(seed, next_cost, &mut met);
     let sampled = Sampled {
-        drawn: drawn.len(),
+        drawn,
         seed,
         determinate,
         admissible,
@@ -109,6 +63,82 @@ pub(super) fn search(
             Stop::NodeBudget
         },
         list: VariantList::Variants(list),
+    }
+}
+
+/// A question whose variants are looked at.
+struct Looking<'a> {
+    question: &'a Question,
+    judge: &'a Judge<'a>,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Looking<'_> {
+    /// Judges variants, those that are come to before it is cancelled.
+    fn look(&self, all: Vec<Vec<usize>>) -> Vec<(Vec<usize>, Judged)> {
+        let one = |choices: Vec<usize>| {
+            (!(self.cancelled)()).then(|| {
+                let judged = self.judge.judge(&choices);
+                (choices, judged)
+            })
+        };
+        let all = all.into_par_iter().with_min_len(BLOCK).map(one);
+        all.collect::<Vec<_>>().into_iter().flatten().collect()
+    }
+
+    /// The cost of a variant, in steps.
+    fn cost(&self, choices: &[usize]) -> u64 {
+        let chosen = self.question.steps.keys.iter().zip(choices);
+        chosen.map(|(keys, &c)| keys[c].cost()).sum()
+    }
+
+    /// Looks at variants in order of cost until so many are sure to be admissible; gives these, and the cost of the first that was not
+    /// looked at.
+    fn in_order(&self, wanted: usize, met: &mut Met) -> (Vec<Assignment>, Option<u64>) {
+        let mut list: Vec<Assignment> = Vec::new();
+        let Some(all) = InOrder::new(&self.question.steps) else {
+            return (list, None);
+        };
+        let mut all = all.peekable();
+        while list.len() < wanted && (met.looked as usize) < IN_ORDER && !(self.cancelled)() {
+            let block: Vec<Vec<usize>> = all.by_ref().take(AT_ONCE).collect();
+            if block.is_empty() {
+                break;
+            }
+            for (choices, judged) in self.look(block) {
+                met.add(&judged);
+                if let Standing::Sure(key) = judged.admissible {
+                    list.push(Assignment { choices, key });
+                }
+            }
+        }
+        let next_cost = all.peek().map(|c| self.cost(c));
+        (list, next_cost)
+    }
+
+    /// Looks at a sample of all: how many were drawn, and the shares of the determinate and the admissible among them. Those that are
+    /// dearer than what was looked at in order are met here.
+    fn sample(&self, seed: u64, next_cost: Option<u64>, met: &mut Met) -> (usize, [Share; 2]) {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let one = |_| any_choices(self.question, &mut random);
+        let drawn = self.look((0..DRAWN).map(one).collect());
+        let mut seen = BTreeSet::new();
+        let mut shares = [[0usize; 2]; 2];
+        for (choices, judged) in &drawn {
+            for (standing, [sure, may]) in [judged.determinate, judged.admissible]
+                .iter()
+                .zip(&mut shares)
+            {
+                *sure += usize::from(matches!(standing, Standing::Sure(_)));
+                *may += usize::from(*standing != Standing::No);
+            }
+            // Those below were counted already.
+            if next_cost.is_none_or(|next| self.cost(choices) > next) && seen.insert(choices) {
+                met.add(judged);
+            }
+        }
+        let shares = shares.map(|[sure, may]| share(sure, may, drawn.len()));
+        (drawn.len(), shares)
     }
 }
 

@@ -1,0 +1,78 @@
+//! How many nodes and bytes a diagram may still take while it is built.
+
+use crate::search::diagram::layer::{CUT, Merge, Nodes};
+use crate::search::diagram::redundancy_so_far::Limits;
+use crate::search::diagram::stop::Stop;
+
+/// What a diagram may take, and what it has taken.
+pub(in crate::search) struct Allowance<'a> {
+    limits: &'a Limits,
+    /// Bytes allowed: less than the limits say where the system refused that many.
+    pub(in crate::search) bytes: usize,
+    /// Nodes so far.
+    pub(in crate::search) nodes: usize,
+    /// Bytes of the edges so far.
+    edges: usize,
+}
+
+impl<'a> Allowance<'a> {
+    /// Of a diagram that has its root.
+    pub(in crate::search) fn new(limits: &'a Limits) -> Self {
+        Allowance {
+            limits,
+            bytes: limits.bytes,
+            nodes: 1,
+            edges: 0,
+        }
+    }
+
+    /// Nodes that are left.
+    fn left(&self) -> usize {
+        self.limits.nodes.saturating_sub(self.nodes)
+    }
+
+    /// Nodes that a layer keeps at least.
+    fn fewest(&self) -> usize {
+        CUT.min(self.limits.nodes)
+    }
+
+    /// A layer to be put together behind some nodes, with about so many edges.
+    pub(in crate::search) fn layer(&self, nodes: &Nodes, edges: usize, stop: Stop) -> Merge {
+        let room = self.left().max(self.fewest());
+        let bytes = self.bytes.saturating_sub(self.edges + nodes.bytes());
+        Merge::new(room, bytes, stop, edges)
+    }
+
+    /// The system refused memory for a layer: lowers the limit to half of what is in use.
+    pub(in crate::search) fn lower(&mut self, nodes: &Nodes, next: &Nodes, edges: usize) {
+        let now = self.edges + nodes.bytes() + next.bytes() + size_of::<u32>() * edges;
+        self.bytes = self.bytes.min(now / 2);
+    }
+
+    /// How many nodes of a layer are kept, where so many layers with it are to come.
+    pub(in crate::search) fn keep(
+        &self,
+        next: &Nodes,
+        choices: usize,
+        stop: Stop,
+        layers: usize,
+    ) -> usize {
+        match stop {
+            Stop::Exhausted => usize::MAX,
+            // Share what is left of the budget among the layers to come.
+            Stop::NodeBudget | Stop::NotCounted => (self.left() / layers).max(self.fewest()),
+            Stop::Memory => {
+                let each = next.bytes() / next.len().max(1) + size_of::<u32>() * choices;
+                let left = self.bytes.saturating_sub(self.edges) / layers;
+                (left / each).max(CUT)
+            }
+            Stop::Interrupted => CUT,
+        }
+    }
+
+    /// Takes a layer with so many nodes and edges to them.
+    pub(in crate::search) fn take(&mut self, nodes: usize, edges: usize) {
+        self.nodes += nodes;
+        self.edges += size_of::<u32>() * edges;
+    }
+}
