@@ -9,6 +9,7 @@ mod numbers;
 mod other_files;
 mod output;
 mod small;
+mod too_many;
 mod watch;
 
 use crate::common::{count, out, run, text};

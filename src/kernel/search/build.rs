@@ -15,7 +15,7 @@ use crate::search::answer::proven_cheapest::UpTo;
 use crate::search::answer::proven_cheapest::cost_of;
 use crate::search::answer::proven_cheapest::up_to;
 use crate::search::answer::random_cuts;
-use crate::search::answer::samples::Samples;
+use crate::search::answer::samples::SetSamples;
 use crate::search::build::at_most::at_most;
 use crate::search::build::orders::{Orders, orders};
 use crate::search::build::self_stress::{in_self_stress_space, nothing};
@@ -234,7 +234,8 @@ fn estimated(
     let order = &staged.order;
     let of = at_most(question, model, order, limits, keep_output, cancelled);
     let samples = of.as_ref();
-    let samples = samples.and_then(|of| Samples::begin(question, of, seed, admissible, cancelled));
+    let samples =
+        samples.and_then(|of| SetSamples::begin(question, of, seed, admissible, cancelled));
     let Some(samples) = samples else {
         return by_cuts();
     };

@@ -1,7 +1,6 @@
 //! What is wrong with a mechanism file is said with its line, the item and the remedy.
 
 use super::{four_bar, refused};
-use ozols::builtin;
 use std::fs;
 
 /// Asserts that a file is refused at the line where `line_with` first stands, with these words.
@@ -396,68 +395,4 @@ fn outputs_that_have_no_place_are_refused_by_their_names() {
         &["cannot write", "there is no folder", "make it first"],
     );
     assert!(!said.contains("os error"), "{said}");
-}
-
-/// What is beyond a limit is refused, and not left out.
-#[test]
-fn error_too_many_entries() {
-    let many = |n: usize, entry: &str| vec![entry; n].join(", ");
-    for (what, text) in [
-        (
-            "options",
-            with(
-                "options = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]",
-                &format!("options = [{}]", many(65, "\"spherical\"")),
-            ),
-        ),
-        (
-            "states",
-            four_bar()
-                + &format!(
-                    "[ranking]\nterms = [{{ term = \"cost\" }}]\nstates = [{}]\n",
-                    many(101, "\"free\"")
-                ),
-        ),
-        (
-            "limits",
-            four_bar()
-                + &format!(
-                    "[ranking]\nterms = [{{ term = \"cost\" }}]\nlimits = [{}]\n",
-                    many(101, "{ term = \"cost\", max = 9 }")
-                ),
-        ),
-        (
-            "forces",
-            four_bar()
-                + &format!(
-                    "[workload]\nforce = [{}]\n",
-                    many(
-                        10_001,
-                        "{ link = \"3\", force = [1, 0, 0], point = [0, 0, 0] }"
-                    )
-                ),
-        ),
-        (
-            "moments",
-            four_bar()
-                + &format!(
-                    "[workload]\nmoment = [{}]\n",
-                    many(10_001, "{ link = \"3\", moment = [0, 0, 1] }")
-                ),
-        ),
-    ] {
-        let line = format!("{what} = [")
-            .replace("forces", "force")
-            .replace("moments", "moment");
-        bad_file("many.toml", &text, &line, &[what, "more than the"]);
-    }
-    let drive = builtin::text("torsion-module").unwrap();
-    let line = drive.lines().find(|l| l.starts_with("diameters")).unwrap();
-    let text = drive.replace(line, &format!("diameters = [{}]", many(10_001, "3")));
-    bad_file(
-        "many.toml",
-        &text,
-        "diameters = [",
-        &["10001 diameters, more than the 10000"],
-    );
 }

@@ -239,7 +239,7 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
         mean / least < 1.2 && most / mean < 4.0,
         "{least} {mean} {most}"
     );
-    assert_eq!(estimate["samples"]["of"], 10_000);
+    assert!(estimate["samples"]["of"].as_u64().unwrap() >= 10_000);
     let [least, most] = [&v["admissible"], &estimate["at_most"]].map(|n| {
         let n: u64 = n.as_str().unwrap().parse().unwrap();
         ozols_grouped(n)

@@ -31,7 +31,7 @@ const MARGIN: f64 = 1.2;
 const TAIL: f64 = 0.025;
 
 /// Samples of a larger set, of which some are drawn: they say how many more are needed.
-pub(in crate::search) struct Samples<'a> {
+pub(in crate::search) struct SetSamples<'a> {
     of: &'a AtMost,
     at_most: BigUint,
     /// The same as a number.
@@ -42,7 +42,7 @@ pub(in crate::search) struct Samples<'a> {
     odds: f64,
 }
 
-impl<'a> Samples<'a> {
+impl<'a> SetSamples<'a> {
     /// Draws the first samples of a set; `filter` applies the conditions on mobility and changes, too. None where it was cancelled, where
     /// memory does not suffice, and where the set is too large for a floating-point number.
     ///
@@ -58,7 +58,7 @@ impl<'a> Samples<'a> {
         let at_most = total(question, &of.diagram, filter);
         let all = at_most.to_f64().filter(|x| x.is_finite())?;
         let variants = sample_of(question, &of.diagram, seed, filter);
-        let mut out = Samples {
+        let mut out = SetSamples {
             of,
             at_most,
             all,
