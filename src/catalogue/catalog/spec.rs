@@ -391,6 +391,7 @@ impl Spec {
         if t.span() < 1.0 {
             return Err(SpecError::Widths);
         }
+        within("least_force", t.least_force, 0, 1_000_000)?;
         within("force_ratio", t.force_ratio, 1, 1_000_000)?;
         for side in t.room {
             within("room", side, 0, 1_000_000)?;

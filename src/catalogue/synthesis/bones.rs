@@ -35,6 +35,8 @@ pub struct Bones {
     pub hinged: Vec<bool>,
     /// Of a gripper that is all round the part: how near to the middle of it joints may be.
     pub round: Option<f64>,
+    /// Jaws in all, those included that are images of these.
+    pub sides: usize,
 }
 
 /// What links do, and how joints are placed.
@@ -85,7 +87,19 @@ impl Bones {
             turns: plan.turns,
             hinged: plan.hinged,
             round: plan.round,
+            sides: plan.jaws.len(),
         }
+    }
+
+    /// The force of each jaw where the drive goes so far for a millimetre of the opening, by work: N for 1 N of the drive, or for 1 Nm
+    /// where it turns.
+    #[must_use]
+    pub fn force(&self, rate: f64) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let pairs = self.sides as f64 / 2.0;
+        // Lengths are in millimetres.
+        let metre = if self.turns { 1000.0 } else { 1.0 };
+        metre * rate / pairs
     }
 
     /// Whether every jaw turns about a hinge in the frame.

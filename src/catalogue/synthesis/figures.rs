@@ -99,15 +99,12 @@ pub(super) fn of_stroke<M: StrokeMotion>(
     let sketch = judge.motion.sketch();
     let (limits, bones) = (*sketch.limits(), sketch.bones());
     let jaws_hinged = bones.hinged.clone();
-    #[allow(clippy::cast_precision_loss, reason = "two or three")]
-    let pairs = bones.jaws.len() as f64 / 2.0;
-    // Newtons for a newton metre where the drive turns: lengths are in millimetres.
-    let metre = if bones.turns { 1000.0 } else { 1.0 };
+    let [least, greatest] = stroke.rates.map(|rate| bones.force(rate));
     let shortfall = limits.shortfall(&stroke, bones.swings());
-    let margin = judge.margin(at, BEYOND * limits.task.span());
     let travel = (stroke.drive[1] - stroke.drive[0]).abs();
     let opened = stroke.reached[1] - stroke.reached[0];
-    let of = |rate: f64| metre * rate / pairs;
+    let mean = bones.force(travel / opened);
+    let margin = judge.margin(at, BEYOND * limits.task.span());
     let motion = |(&hinged, turn): (&bool, &f64)| match turn {
         t if *t < STILL => JawMotion::Parallel,
         _ if hinged => JawMotion::Swinging,
@@ -118,11 +115,7 @@ pub(super) fn of_stroke<M: StrokeMotion>(
         openings: stroke.reached,
         closes: -way.signum(),
         travel,
-        force: [
-            of(stroke.rates[0]),
-            of(travel / opened),
-            of(stroke.rates[1]),
-        ],
+        force: [least, mean, greatest],
         jaws: jaws.map(motion).collect(),
         ends: stroke.ends,
         transmission: stroke.transmission.min(stroke.forces.transmission),

@@ -204,12 +204,20 @@ impl LayoutSketch for Skeleton<'_> {
         if !moving {
             return Some(sum);
         }
-        let motion = self.bones.motion(at, &self.contours.velocities(at)?);
+        let motion = self.bones.motion(
+            at,
+            &self.contours.velocities(at)?,
+            self.limits.task.least_force,
+        );
         Some(sum + motion.penalty).filter(|sum| *sum <= most)
     }
 
     fn looks(&self, at: &Vec<Point>) -> Option<Looks> {
-        let motion = self.bones.motion(at, &self.contours.velocities(at)?);
+        let motion = self.bones.motion(
+            at,
+            &self.contours.velocities(at)?,
+            self.limits.task.least_force,
+        );
         self.bones.looks(at, motion)
     }
 }

@@ -219,8 +219,13 @@ impl Bones {
         penalty
     }
 
-    /// The figures of the motion for a unit speed of the driver, and what they cost.
-    pub(super) fn motion(&self, at: &[Point], velocities: &[Velocity]) -> LayoutMotion {
+    /// The figures of the motion for a unit speed of the driver, and what they cost where each jaw is to have a force.
+    pub(super) fn motion(
+        &self,
+        at: &[Point],
+        velocities: &[Velocity],
+        least_force: f64,
+    ) -> LayoutMotion {
         let jaws = self.jaws.iter().zip(&self.tips);
         let tips: Vec<Point> = jaws.map(|(&j, tip)| velocities[j].at(*tip)).collect();
         let closing = tips.iter().zip(&self.inward).map(|(v, i)| dot(*v, *i));
@@ -247,13 +252,14 @@ impl Bones {
         };
         let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
         out.penalty += 8.0 * beyond(0.8 - out.straightness, 0.8) + 0.5 * beyond(even - 0.5, 1.0);
-        // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120.
-        let drive = if self.turns {
-            out.closing / 30.0
-        } else {
-            out.closing
+        // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120; less where the force asks for it.
+        let unit = if self.turns { 30.0 } else { 1.0 };
+        let wanted = match least_force {
+            0.0 => 1.5,
+            asked => (0.7 * self.force(1.0) / asked / unit).min(1.5),
         };
-        out.penalty += beyond((drive.max(1e-9) / 1.5).ln().abs() - 0.9, 0.5).min(20.0);
+        let drive = out.closing / unit;
+        out.penalty += beyond((drive.max(1e-9) / wanted).ln().abs() - 0.9, 0.5).min(20.0);
         let turning = velocities.iter().map(|v| v.turning.abs());
         let turning = turning.fold(0.0, f64::max);
         out.penalty += beyond(turning * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);

@@ -60,6 +60,9 @@ pub struct Task {
     pub grip: HeldFrom,
     /// How the jaws are to move.
     pub motion: AskedMotion,
+    /// The least force of a jaw over the stroke, at least: N for 1 N of a sliding drive, or for 1 Nm of a turning one; 0 where any
+    /// will do.
+    pub least_force: f64,
     /// The greatest force of a jaw over the least, over the stroke, at most.
     pub force_ratio: f64,
     /// Width and height of the box round pins and tips over the stroke at most, in mm; 0 where it may be of any size.
@@ -99,6 +102,7 @@ impl Default for Task {
             widest: 50.0,
             grip: HeldFrom::Outside,
             motion: AskedMotion::Any,
+            least_force: 0.0,
             force_ratio: 3.0,
             room: [0.0; 2],
             friction: Friction::default(),

@@ -43,6 +43,7 @@ fn good() -> StrokeFigures {
         reached: [0.0, 50.0],
         ends: [None; 2],
         rates: [0.5, 1.0],
+        force: 0.5,
         drive: [0.0, 40.0],
         transmission: 60.0,
         straightness: 0.9,
@@ -72,6 +73,20 @@ fn the_force_ratio_is_the_greatest_rate_over_the_least() {
         most: 3.0,
     };
     assert_eq!(lacks(Task::default(), &uneven), Some(said));
+}
+
+#[test]
+fn a_force_is_asked_of_each_jaw() {
+    let asked = |least_force| {
+        let task = Task {
+            least_force,
+            ..Task::default()
+        };
+        lacks(task, &good())
+    };
+    assert_eq!([asked(0.0), asked(0.5)], [None; 2]);
+    let (force, least) = (0.5, 0.6);
+    assert_eq!(asked(least), Some(Shortfall::Force { force, least }));
 }
 
 /// The first jaw keeps its attitude, the second does not.

@@ -50,6 +50,41 @@ fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
     );
 }
 
+/// Layouts are made for the force that is asked: what a default task leaves weak is laid out to pull as hard, with a longer travel.
+#[test]
+fn jaws_have_the_force_that_is_asked() {
+    let folder = tempdir().unwrap();
+    let built = |name: &str, more: &[&str]| {
+        let file = at(&folder, name);
+        let words = "catalog build --classics --input slide --widths 30..50 --ideas 0 --quiet -o";
+        let words: Vec<&str> = words.split(' ').chain([file.as_str()]).collect();
+        ok(&[&words, more].concat());
+        let sql = "SELECT id, least_force, travel, shortfall FROM grippers ORDER BY id";
+        rows(&file, &[sql])
+    };
+    let usual = built("usual.db", &[]);
+    let asked = built("asked.db", &["--least-force", "0.7"]);
+    let force = |r: &Value| r["least_force"].as_f64().unwrap();
+    let strong = |all: &[Value]| all.iter().filter(|r| force(r) >= 0.7).count();
+    assert!(strong(&usual) * 4 < usual.len(), "{usual:?}");
+    assert!(strong(&asked) * 4 > asked.len() * 3, "{asked:?}");
+    for row in &asked {
+        // As both are rounded to four digits.
+        assert!(!row["shortfall"].is_null() || force(row) >= 0.699, "{row}");
+        let weak = row["shortfall"]
+            .as_str()
+            .is_some_and(|s| s.contains("where 0.7 N are asked"));
+        assert!(!weak || force(row) < 0.7, "{row}");
+        // Work in is work out: two jaws over 20 mm of opening.
+        assert!(
+            row["travel"].as_f64().unwrap() >= 0.999 * 20.0 * force(row),
+            "{row}"
+        );
+    }
+    let words = ["catalog", "build", "--least-force=-1", "-o", "x.db"];
+    fails(&words, "least_force");
+}
+
 /// Every filter against a look at all rows.
 #[test]
 fn filters_leave_what_is_as_good() {

@@ -17,7 +17,7 @@ pub fn figures(paired: &PairedStructure, layout: &PairLayout) -> Option<LayoutFi
     of_sides(paired, None, layout)
 }
 
-/// Those of a gripper of three jaws: the drive works for three instead of two.
+/// Those of a gripper of three jaws.
 ///
 /// # Complexity
 /// As [`figures`].
@@ -25,7 +25,6 @@ pub fn figures(paired: &PairedStructure, layout: &PairLayout) -> Option<LayoutFi
 pub fn of_three(structure: &ThreefoldStructure, layout: &PairLayout) -> Option<LayoutFigures> {
     let two = of_sides(&structure.two, Some(structure), layout)?;
     Some(LayoutFigures {
-        force: two.force.map(|f| f * 2.0 / 3.0),
         jaws: vec![two.jaws[0]; SIDES],
         turns: vec![two.turns[0]; SIDES],
         ..two

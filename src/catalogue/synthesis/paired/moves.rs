@@ -183,12 +183,20 @@ impl LayoutSketch for PairSketch<'_> {
         if !moving {
             return Some(sum);
         }
-        let motion = self.bones.motion(&at.points, &velocities(self, at)?);
+        let motion = self.bones.motion(
+            &at.points,
+            &velocities(self, at)?,
+            self.limits.task.least_force,
+        );
         Some(sum + motion.penalty).filter(|sum| *sum <= most)
     }
 
     fn looks(&self, at: &PairPlaces) -> Option<Looks> {
-        let motion = self.bones.motion(&at.points, &velocities(self, at)?);
+        let motion = self.bones.motion(
+            &at.points,
+            &velocities(self, at)?,
+            self.limits.task.least_force,
+        );
         let (points, bones) = self.drawn(at);
         let mut looks = bones.looks(&points, motion)?;
         looks.penalty += self.pitch_penalty(at);

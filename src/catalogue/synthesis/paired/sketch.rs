@@ -7,7 +7,7 @@ use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::rules::{PairRule, PairRules};
 use crate::synthesis::paired::structure::PairedStructure;
-use crate::synthesis::paired::threefold::{Around, ThreefoldStructure};
+use crate::synthesis::paired::threefold::{Around, SIDES, ThreefoldStructure};
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::structure::REACH;
@@ -79,7 +79,10 @@ impl<'a> PairSketch<'a> {
             round: (paired.form.symmetry == Symmetry::HalfTurn).then_some(0.0),
         };
         let at_input = |j: &Joint| j.links == roles.input;
-        let bones = Bones::new(chain.links(), plan, pinned);
+        let mut bones = Bones::new(chain.links(), plan, pinned);
+        if threefold.is_some() {
+            bones.sides = SIDES;
+        }
         PairSketch {
             around: threefold.map(|t| Around::new(t, &rules, &bones)),
             bones,

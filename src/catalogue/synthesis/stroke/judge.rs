@@ -40,6 +40,8 @@ pub struct StrokeFigures {
     /// The drive's way by the opening where it is least and greatest, mm or rad a millimetre: by work, the force of each of two jaws
     /// over the drive's.
     pub rates: [f64; 2],
+    /// The least force of a jaw: N for 1 N of the drive, or for 1 Nm where it turns.
+    pub force: f64,
     /// The drive at both ends, from where it is drawn: mm or rad.
     pub drive: [f64; 2],
     /// The least angle between a rod and the motion across it at its ends, in degrees; 90 where there are no rods.
@@ -226,6 +228,7 @@ impl<M: StrokeMotion> Judge<M> {
             ends: way.ends,
             drive: way.drive,
             rates: g.rates.0,
+            force: self.motion.sketch().bones().force(g.rates.0[0]),
             transmission: g.transmission,
             straightness: g.straightness,
             turns: g.turns.iter().map(|t| t.span()).collect(),
@@ -324,6 +327,10 @@ impl Limits {
         let ratio = f.force_ratio().ln();
         let asked = (0.9 * task.force_ratio).max(1.0).ln();
         cost += 3.0 * beyond(ratio - asked, 0.2).min(10.0);
+        if task.least_force > 0.0 {
+            let lacks = (1.1 * task.least_force / f.force.max(1e-12)).ln();
+            cost += 3.0 * beyond(lacks, 0.2).min(10.0);
+        }
         cost += beyond(30.0 - f.transmission, 15.0);
         cost += 2.0 * beyond(0.6 - f.straightness, 0.5);
         cost += beyond(20.0 - f.forces.transmission, 10.0);

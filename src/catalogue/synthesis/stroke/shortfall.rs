@@ -33,6 +33,16 @@ pub enum Shortfall {
     /// A jaw opens while the others close.
     #[error("a jaw opens on a part of the stroke on which the jaws close")]
     WrongWay,
+    /// The force is too small somewhere.
+    #[error(
+        "a jaw has {force:.3} N for 1 N of the drive, or for 1 Nm of one that turns, where {least} N are asked"
+    )]
+    Force {
+        /// The least over the stroke, in N for 1 N or 1 Nm.
+        force: f64,
+        /// At least.
+        least: f64,
+    },
     /// The force changes too much.
     #[error("the greatest force of a jaw is {ratio:.1} times the least where {most} are allowed")]
     ForceRatio {
@@ -99,6 +109,10 @@ impl Limits {
         }
         if f.straightness <= 0.0 {
             return Some(Shortfall::WrongWay);
+        }
+        let (force, least) = (f.force, task.least_force);
+        if force < least {
+            return Some(Shortfall::Force { force, least });
         }
         let (ratio, most) = (f.force_ratio(), task.force_ratio);
         if ratio > most {

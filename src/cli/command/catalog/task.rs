@@ -15,6 +15,9 @@ pub(super) struct TaskArgs {
     /// How the jaws are to move: any, parallel or swinging; any by default.
     #[arg(long, value_name = "MOTION", value_parser = motion)]
     motion: Option<AskedMotion>,
+    /// The least force of a jaw over the stroke, at least: N for 1 N of a sliding drive, or for 1 Nm of a turning one; any by default.
+    #[arg(long, value_name = "N")]
+    least_force: Option<f64>,
     /// The greatest force of a jaw over the least, over the stroke, at most; 3 by default.
     #[arg(long, value_name = "X")]
     force_ratio: Option<f64>,
@@ -31,6 +34,7 @@ impl TaskArgs {
         }
         task.grip = self.grip.unwrap_or(task.grip);
         task.motion = self.motion.unwrap_or(task.motion);
+        task.least_force = self.least_force.unwrap_or(task.least_force);
         task.force_ratio = self.force_ratio.unwrap_or(task.force_ratio);
         task.room = self.room.unwrap_or(task.room);
     }
