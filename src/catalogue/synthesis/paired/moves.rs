@@ -180,8 +180,8 @@ impl LayoutSketch for PairSketch<'_> {
     fn penalty(&self, at: &PairPlaces, moving: bool, most: f64) -> Option<f64> {
         let (points, bones) = self.drawn(at);
         let sum = bones.penalty(&points, most)? + self.pitch_penalty(at);
-        if !moving {
-            return Some(sum);
+        if !moving || sum > most {
+            return (sum <= most).then_some(sum);
         }
         let motion = self.bones.motion(
             &at.points,
@@ -201,5 +201,41 @@ impl LayoutSketch for PairSketch<'_> {
         let mut looks = bones.looks(&points, motion)?;
         looks.penalty += self.pitch_penalty(at);
         Some(looks)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chains::pairs::classics::classics;
+    use crate::synthesis::paired::known::most_symmetric;
+    use crate::synthesis::paired::rules::PairRules;
+    use crate::synthesis::random::random;
+
+    /// Places that cost more than is wanted have no cost, whatever of it makes them dear: pitch circles, too.
+    #[test]
+    fn places_are_never_dearer_than_is_wanted() {
+        let mut geared = 0;
+        for classic in classics() {
+            let paired = most_symmetric(&classic.structure).unwrap();
+            let lay = paired.lays().swap_remove(0);
+            let Ok(rules) = PairRules::new(&paired, &lay) else {
+                continue;
+            };
+            let sketch = PairSketch::new(&paired, rules, Limits::default());
+            for start in 0..20 {
+                let at = sketch.first_places(&mut random(&classic.id, 1, start));
+                for moving in [false, true] {
+                    let Some(cost) = sketch.penalty(&at, moving, f64::INFINITY) else {
+                        continue;
+                    };
+                    assert_eq!(sketch.penalty(&at, moving, cost), Some(cost));
+                    let less = cost - 1e-6 * cost.max(1.0);
+                    assert_eq!(sketch.penalty(&at, moving, less), None, "{}", classic.id);
+                }
+                geared += usize::from(sketch.pitch_penalty(&at) > 0.0);
+            }
+        }
+        assert!(geared > 20, "{geared}");
     }
 }
