@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Functions with more lines of code than are read at a glance ([`GLANCE`]).
 const LONG_FUNCTIONS: usize = 5;
 /// Functions that take a parameter apart as a tuple: a struct with names says what belongs together.
-const TUPLE_PARAMETERS: usize = 2;
+const TUPLE_PARAMETERS: usize = 0;
 /// Names of types that stand in three files or more: such a name does not say which of them is meant.
 const SHARED_NAMES: usize = 0;
 /// Source files in one folder, without those of the folders in it.

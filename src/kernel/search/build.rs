@@ -306,8 +306,9 @@ pub(in crate::search) fn one_end(
 /// Nodes of a diagram before it is asked whether there is any variant at all, and built from both ends.
 const AT_ONCE: usize = 20_000;
 
-/// The diagram of a question: where it is not small and no state is searched, from both ends; where that does not fit the limits, or
-/// more redundant constraints are allowed than all variants have, from one; where that does not fit either, cut down.
+/// The diagram of a question: where it is not small and no state is searched, from both ends, or from one where that may take no longer;
+/// where it does not fit the limits from both, or more redundant constraints are allowed than all variants have, from one; where that
+/// does not fit either, cut down.
 fn built(
     question: &Question,
     model: &Model,
@@ -317,7 +318,7 @@ fn built(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let limits = &staged.limits;
-    let within = |limits, progress: &mut (dyn FnMut(Progress) + Send)| {
+    let within = |limits: &Limits, progress: &mut (dyn FnMut(Progress) + Send)| {
         within_limits(
             question, model, staged, limits, admissible, cancelled, progress,
         )
@@ -342,8 +343,19 @@ fn built(
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
         return nothing(model, order);
     }
+    let mut from_one_end = |nodes: usize, progress: &mut (dyn FnMut(Progress) + Send)| {
+        // What grows on and on is given up early.
+        let limits = Limits {
+            nodes: nodes.min(limits.nodes),
+            layer: nodes / 3,
+            ..limits.clone()
+        };
+        let found = (limits.nodes > few.nodes).then(|| within(&limits, progress))?;
+        is_whole(&found).then_some(found)
+    };
     let halves = Halves::new(question, model, order, limits, keep_output);
-    let whole = halves.and_then(|h| two_sided(&h, &model.space, cancelled, progress));
+    let space = &model.space;
+    let whole = halves.and_then(|h| two_sided(&h, space, cancelled, progress, &mut from_one_end));
     if let Some(whole) = whole {
         return whole;
     }
@@ -364,7 +376,7 @@ fn within_limits(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    if question.conditions.state.is_none() && std::env::var("CUTS").is_err() {
+    if question.conditions.state.is_none() {
         let keep_output = admissible && question.conditions.keep_output;
         let order = &staged.order;
         let added = in_self_stress_space(

@@ -64,7 +64,13 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     beside(question, |staged, keep_output| {
         let (order, limits) = (&staged.order, &staged.limits);
         let halves = Halves::new(question, model, order, limits, keep_output)?;
-        two_sided(&halves, &model.space, &|| false, &mut |_| {})
+        two_sided(
+            &halves,
+            &model.space,
+            &|| false,
+            &mut |_| {},
+            &mut |_, _| None,
+        )
     })
 }
 

@@ -74,14 +74,11 @@ fn steps_of_a_list_grow_no_faster_than_its_length_and_its_logarithm() {
         for walk in walks {
             let lists = [10, 100, 1_000, 10_000].map(|k| walk(&question, &found, k));
             for pair in lists.windows(2) {
-                let [short, long] = pair.iter().map(|w| w.listed as f64).collect::<Vec<_>>()[..]
-                else {
-                    unreachable!()
-                };
-                println!("{name} {pair:?}");
-                if long < 2.0 * short {
+                let (few, many) = (pair[0].listed, pair[1].listed);
+                if few < 2 || many < 2 * few {
                     continue;
                 }
+                let [short, long] = [few, many].map(|n| n as f64);
                 seen += 1;
                 let most = long / short * (long.ln() / short.ln());
                 let grew = pair[1].steps as f64 / pair[0].steps as f64;

@@ -48,6 +48,7 @@ fn is_way(joined: &Move) -> bool {
 /// What is allowed of the diagram of determinate variants.
 fn limits(question: &Question, model: &Model) -> Limits {
     Limits {
+        layer: usize::MAX,
         already: model.already,
         internal: question.conditions.max_redundant,
         external: None,

@@ -23,6 +23,8 @@ use rayon::prelude::*;
 
 /// Pairs of nodes tried at most, for each node of the budget.
 const PAIRS: usize = 500;
+/// Pairs of nodes that take about as long as a node from one end, for each row of a contour.
+const PAIRS_A_ROW: usize = 16;
 
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
@@ -63,8 +65,26 @@ impl<'a> Side<'a> {
     }
 }
 
+/// Both halves of a part, where they meet.
+struct Met<'a> {
+    front: Side<'a>,
+    back: Side<'a>,
+}
+
+impl Met<'_> {
+    fn pairs(&self) -> usize {
+        let [front, back] = [&self.front, &self.back].map(|side| side.nodes.len());
+        front.saturating_mul(back)
+    }
+
+    fn bytes(&self) -> usize {
+        self.front.bytes() + self.back.bytes()
+    }
+}
+
 /// The whole diagram of a question whose variants have no redundant constraints but those that all have, part by part; none where
-/// it does not fit the limits either, or where it is cancelled.
+/// it does not fit the limits either, or where it is cancelled. Where as many nodes as take about as long as the pairs of both halves
+/// may be enough from one end, `from_one_end` is asked for the diagram within so many.
 ///
 /// # Complexity
 /// O(n·m) joins for n and m nodes where the halves meet, which are about as many as half of the joints need.
@@ -73,21 +93,55 @@ pub(in crate::search) fn two_sided(
     space: &Space,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
+    from_one_end: &mut dyn FnMut(usize, &mut (dyn FnMut(Progress) + Send)) -> Option<Diagram>,
 ) -> Option<Diagram> {
     let of = question.parts.iter().map(|[front, _]| front.len()).sum();
+    let mut told = |done: usize, before: usize, now: Progress| {
+        progress(Progress {
+            done: done + now.done,
+            of,
+            nodes: before + now.nodes,
+            ..now
+        });
+    };
+    let (mut parts, mut done, mut total) = (Vec::new(), 0, 1);
+    for ends in &question.parts {
+        let told = &mut |now: Progress| told(done, total, now);
+        let met = halves(question, space, ends, cancelled, told)?;
+        done += ends[0].len();
+        total += met.front.nodes.len() + met.back.nodes.len();
+        parts.push(met);
+    }
+    let pairs = parts.iter().map(Met::pairs).fold(0, usize::saturating_add);
+    let held: usize = parts.iter().map(Met::bytes).sum();
+    let left = question.limits.bytes.checked_sub(held)?;
+    if pairs / PAIRS > question.limits.nodes || pairs / 8 > left / 4 {
+        return None;
+    }
+    if let Some(whole) = from_one_end(pairs / (PAIRS_A_ROW * space.dim), progress) {
+        return Some(whole);
+    }
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
-    for part in 0..question.parts.len() {
-        let done = layers.len();
-        let mut told = |now: Progress| {
+    for (part, met) in parts.into_iter().enumerate() {
+        let layer = met.front.nodes.len();
+        let told = &mut |done: usize| {
             progress(Progress {
-                done: done + now.done,
+                done: layers.len(),
                 of,
-                nodes: total + now.nodes,
-                ..now
+                nodes: total,
+                layer,
+                meeting: Some(Meeting { done, of: layer }),
             });
         };
-        let found = halves(question, space, part, cancelled, &mut told)?;
+        let ends = [met.front.half(), met.back.half()];
+        let sets = question.join(part, ends, cancelled, told)?;
+        let found = put_together(
+            met.front.layers,
+            &met.back.layers,
+            sets,
+            question.limits.nodes,
+        )?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
         if total > question.limits.nodes {
             return None;
@@ -100,16 +154,15 @@ pub(in crate::search) fn two_sided(
     Some(minimal(layers, vec![end; terminals]))
 }
 
-/// The layers of a part, to one node at the end; `told` hears how far it has come.
-fn halves(
-    question: &Halves<'_>,
+/// The halves of a part; `told` hears how far it has come.
+fn halves<'a>(
+    question: &'a Halves<'_>,
     space: &Space,
-    part: usize,
+    ends: &'a [Vec<Added<'a>>; 2],
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(Progress),
-) -> Option<Vec<Layer>> {
+) -> Option<Met<'a>> {
     let limits = question.limits;
-    let ends = &question.parts[part];
     let [mut front, mut back] = ends
         .each_ref()
         .map(|stages| Side::new(stages, question.already));
@@ -127,23 +180,7 @@ fn halves(
         advance(space, side, room, bytes, cancelled, told)?;
         total += side.nodes.len();
     }
-    let pairs = front.nodes.len().checked_mul(back.nodes.len())?;
-    let left = limits.bytes.checked_sub(front.bytes() + back.bytes())?;
-    if pairs / PAIRS > limits.nodes || pairs / 8 > left / 4 {
-        return None;
-    }
-    let layer = front.nodes.len();
-    let told = &mut |done: usize| {
-        told(Progress {
-            done: of,
-            of,
-            nodes: total,
-            layer,
-            meeting: Some(Meeting { done, of: layer }),
-        });
-    };
-    let sets = question.join(part, [front.half(), back.half()], cancelled, told)?;
-    put_together(front.layers, &back.layers, sets, limits.nodes)
+    Some(Met { front, back })
 }
 
 /// Carries a side over its next stage, to no more than `room` nodes within so many bytes.

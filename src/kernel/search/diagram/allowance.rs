@@ -38,7 +38,7 @@ impl<'a> Allowance<'a> {
 
     /// A layer to be put together behind some nodes, with about so many edges.
     pub(in crate::search) fn layer(&self, nodes: &Nodes, edges: usize, stop: Stop) -> Merge {
-        let room = self.left().max(self.fewest());
+        let room = self.left().min(self.limits.layer).max(self.fewest());
         let bytes = self.bytes.saturating_sub(self.edges + nodes.bytes());
         Merge::new(room, bytes, stop, edges)
     }
@@ -59,6 +59,8 @@ impl<'a> Allowance<'a> {
     ) -> usize {
         match stop {
             Stop::Exhausted => usize::MAX,
+            // It is wanted whole or not at all.
+            Stop::NodeBudget if self.limits.layer < usize::MAX => self.fewest(),
             // Share what is left of the budget among the layers to come.
             Stop::NodeBudget | Stop::NotCounted => (self.left() / layers).max(self.fewest()),
             Stop::Memory => {

@@ -15,6 +15,8 @@ pub struct Limits {
     pub harmful: Option<u32>,
     /// Nodes in all.
     pub nodes: usize,
+    /// Nodes of one layer; what has more is wanted whole or not at all.
+    pub layer: usize,
     /// Bytes held at a time, nodes and edges.
     pub bytes: usize,
 }

@@ -71,6 +71,7 @@ impl<'m> Trials<'m> {
             nodes: Rc::new(Nodes::root(0)),
         };
         let limits = Limits {
+            layer: usize::MAX,
             already: 0,
             internal,
             external: None,
