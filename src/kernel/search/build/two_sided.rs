@@ -121,29 +121,35 @@ pub(in crate::search) fn two_sided(
     if let Some(whole) = from_one_end(pairs / (PAIRS_A_ROW * space.dim), progress) {
         return Some(whole);
     }
+    joined(question, parts, cancelled, &mut |done, nodes, meeting| {
+        progress(Progress {
+            done,
+            of,
+            nodes,
+            layer: meeting.of,
+            meeting: Some(meeting),
+        });
+    })
+}
+
+/// The diagram of parts whose halves are there; `told` hears of the layers and nodes so far, and how far halves have met.
+fn joined(
+    question: &Halves<'_>,
+    parts: Vec<Met<'_>>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    told: &mut dyn FnMut(usize, usize, Meeting),
+) -> Option<Diagram> {
+    let most = question.limits.nodes;
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
     for (part, met) in parts.into_iter().enumerate() {
-        let layer = met.front.nodes.len();
-        let told = &mut |done: usize| {
-            progress(Progress {
-                done: layers.len(),
-                of,
-                nodes: total,
-                layer,
-                meeting: Some(Meeting { done, of: layer }),
-            });
-        };
+        let of = met.front.nodes.len();
+        let told = &mut |done: usize| told(layers.len(), total, Meeting { done, of });
         let ends = [met.front.half(), met.back.half()];
         let sets = question.join(part, ends, cancelled, told)?;
-        let found = put_together(
-            met.front.layers,
-            &met.back.layers,
-            sets,
-            question.limits.nodes,
-        )?;
+        let found = put_together(met.front.layers, &met.back.layers, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
-        if total > question.limits.nodes {
+        if total > most {
             return None;
         }
         layers.extend(found);
