@@ -82,6 +82,9 @@ impl Met<'_> {
     }
 }
 
+/// The diagram of a question from one end, within so many nodes; none where it does not fit them.
+type FromOneEnd<'a> = dyn FnMut(usize, &mut (dyn FnMut(Progress) + Send)) -> Option<Diagram> + 'a;
+
 /// The whole diagram of a question whose variants have no redundant constraints but those that all have, part by part; none where
 /// it does not fit the limits either, or where it is cancelled. Where as many nodes as take about as long as the pairs of both halves
 /// may be enough from one end, `from_one_end` is asked for the diagram within so many.
@@ -93,7 +96,7 @@ pub(in crate::search) fn two_sided(
     space: &Space,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
-    from_one_end: &mut dyn FnMut(usize, &mut (dyn FnMut(Progress) + Send)) -> Option<Diagram>,
+    from_one_end: &mut FromOneEnd<'_>,
 ) -> Option<Diagram> {
     let of = question.parts.iter().map(|[front, _]| front.len()).sum();
     let mut told = |done: usize, before: usize, now: Progress| {
