@@ -65,7 +65,8 @@ fn steps_of_a_list_grow_no_faster_than_its_length_and_its_logarithm() {
         "gripper-10-redesign",
         "four-bar",
         "scissor-lift-3",
-        "stewart",
+        "stewart-gough",
+        "gripper-slider-two-fingers",
     ] {
         let m = built_in(name);
         let exact = exact_field(&m, 0).unwrap();
