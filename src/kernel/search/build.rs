@@ -70,11 +70,6 @@ impl Diagrams {
 /// Builds a diagram under a ceiling.
 type Build<'a> = &'a mut dyn FnMut(&mut Ceiling<'_>) -> Diagram;
 
-/// Whether a diagram is cut down to its limits.
-fn is_cut(stop: Stop) -> bool {
-    matches!(stop, Stop::NodeBudget | Stop::Memory)
-}
-
 fn is_whole(of: &Diagram) -> bool {
     of.stop == Stop::Exhausted
 }
@@ -139,7 +134,7 @@ fn build_with(
             return uncounted(question, staged, cancelled, progress);
         }
         let whole = built(question, model, staged, admissible, cancelled, progress);
-        if !is_cut(whole.stop) {
+        if !whole.stop.is_cut() {
             return whole;
         }
         let build = &mut |limits: &Limits| {
@@ -175,7 +170,13 @@ fn build_with(
         )
     };
     prove(question, &mut out, second, kept, build);
-    out.estimates = estimates(question, &out, [&first, second], kept, cancelled);
+    out.estimates = estimates(
+        question,
+        [&out.determinate, &out.admissible],
+        [&first, second],
+        kept,
+        cancelled,
+    );
     out
 }
 
@@ -263,7 +264,7 @@ fn built(
         ..limits.clone()
     };
     let mut built = within(&few, progress);
-    if !is_cut(built.stop) {
+    if !built.stop.is_cut() {
         return built;
     }
     let keep_output = admissible && question.conditions.keep_output;

@@ -6,9 +6,8 @@ use crate::search::answer::random_cuts;
 use crate::search::answer::samples::SetSamples;
 use crate::search::build::at_most::at_most;
 use crate::search::build::staging::Staged;
-use crate::search::build::{Diagrams, is_cut, is_whole};
-use crate::search::diagram::Diagram;
 use crate::search::diagram::completion::Missing;
+use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::Question;
 use num_bigint::BigUint;
 
@@ -16,29 +15,29 @@ use num_bigint::BigUint;
 /// nodes of the admissible one.
 pub(super) fn estimates(
     question: &Question,
-    built: &Diagrams,
+    [determinate, admissible]: [&Diagram; 2],
     [first, second]: [&Staged<'_>; 2],
     kept: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> [Option<Estimate>; 2] {
     let seed = match question.conditions.estimate {
-        Some(seed) if is_cut(built.stop()) => seed,
+        Some(seed) if determinate.stop.or(admissible.stop).is_cut() => seed,
         _ => return [None, None],
     };
     let estimate = |staged, end, diagram: &Diagram, admissible, possible: Option<&BigUint>| {
-        if !is_cut(diagram.stop) {
+        if !diagram.stop.is_cut() {
             return None;
         }
         let found = estimated(question, staged, end, seed, admissible, cancelled)?;
         Some(found.bounded(&total(question, diagram, admissible), possible))
     };
-    let determinate = estimate(first, 0, &built.determinate, false, None);
-    let possible = match &determinate {
+    let first = estimate(first, 0, determinate, false, None);
+    let possible = match &first {
         Some(e) => e.at_most.clone(),
-        None => is_whole(&built.determinate).then(|| total(question, &built.determinate, false)),
+        None => (determinate.stop == Stop::Exhausted).then(|| total(question, determinate, false)),
     };
-    let admissible = estimate(second, kept, &built.admissible, true, possible.as_ref());
-    [determinate, admissible]
+    let second = estimate(second, kept, admissible, true, possible.as_ref());
+    [first, second]
 }
 
 /// About how many variants there are, determinate or admissible ones: by samples of a larger set where there is no searched state and

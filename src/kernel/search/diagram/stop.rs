@@ -22,6 +22,11 @@ impl Stop {
         if self == Stop::Exhausted { other } else { self }
     }
 
+    /// Whether a diagram is cut down to its limits.
+    pub(in crate::search) fn is_cut(self) -> bool {
+        matches!(self, Stop::NodeBudget | Stop::Memory)
+    }
+
     /// The word for programs.
     #[must_use]
     pub fn word(self) -> &'static str {
