@@ -170,13 +170,8 @@ fn build_with(
         )
     };
     prove(question, &mut out, second, kept, build);
-    out.estimates = estimates(
-        question,
-        [&out.determinate, &out.admissible],
-        [&first, second],
-        kept,
-        cancelled,
-    );
+    let both = [&out.determinate, &out.admissible];
+    out.estimates = estimates(question, both, [&first, second], kept, cancelled);
     out
 }
 
