@@ -73,9 +73,7 @@ impl Field {
     #[must_use]
     pub fn mul(self, a: Residue, b: Residue) -> Residue {
         let t = u128::from(a) * u128::from(b);
-        let m = (t as u64).wrapping_mul(self.neg_inv);
-        let u = ((t + u128::from(m) * u128::from(self.p)) >> 64) as u64;
-        if u >= self.p { u - self.p } else { u }
+        self.reduced(t)
     }
 
     /// `a·x - b·y` with one reduction.
@@ -84,9 +82,7 @@ impl Field {
     pub fn cross(self, a: Residue, x: Residue, b: Residue, y: Residue) -> Residue {
         // Below 2p² < 2^64·p/2, so the quotient is below 3p/2.
         let t = u128::from(a) * u128::from(x) + u128::from(b) * u128::from(self.p - y);
-        let m = (t as u64).wrapping_mul(self.neg_inv);
-        let u = ((t + u128::from(m) * u128::from(self.p)) >> 64) as u64;
-        if u >= self.p { u - self.p } else { u }
+        self.reduced(t)
     }
 
     /// Σ a·b with one reduction.
@@ -99,6 +95,32 @@ impl Field {
             let t = t + u128::from(a) * u128::from(b);
             if t >= least { t - least } else { t }
         });
+        self.reduced(t)
+    }
+
+    /// Σ x·y with one reduction, over as many numbers as both have.
+    #[inline(always)]
+    #[must_use]
+    pub fn dot(self, x: &[Residue], y: &[Residue]) -> Residue {
+        // Four products are below 4p², which is below p·2^64: what the sum is kept below. Both together are below 2^128.
+        let least = u128::from(self.p) << 64;
+        let below = |t: u128| if t >= least { t - least } else { t };
+        let product = |(&a, &b): (&Residue, &Residue)| u128::from(a) * u128::from(b);
+        let (mut xs, mut ys) = (x.chunks_exact(4), y.chunks_exact(4));
+        let mut t = 0;
+        for (x, y) in xs.by_ref().zip(ys.by_ref()) {
+            let product = |i: usize| product((&x[i], &y[i]));
+            t = below(t + (product(0) + product(1)) + (product(2) + product(3)));
+        }
+        let done = x.len().min(y.len()) / 4 * 4;
+        let rest = x[done..].iter().zip(&y[done..]).map(product);
+        let t = below(t + rest.sum::<u128>());
+        self.reduced(t)
+    }
+
+    /// A sum of products below p·2^64, divided by 2^64.
+    #[inline(always)]
+    fn reduced(self, t: u128) -> Residue {
         let m = (t as u64).wrapping_mul(self.neg_inv);
         let u = ((t + u128::from(m) * u128::from(self.p)) >> 64) as u64;
         if u >= self.p { u - self.p } else { u }
@@ -375,7 +397,10 @@ mod tests {
                 let of = |x: u64, whole: bool| if whole { most } else { x % f.modulus() };
                 let pairs = pairs.iter().map(|&(a, b, whole)| (of(a, whole), of(b, whole)));
                 let slow = pairs.clone().fold(0, |sum, (a, b)| f.add(sum, f.mul(a, b)));
-                prop_assert_eq!(f.sum_of_products(pairs), slow);
+                prop_assert_eq!(f.sum_of_products(pairs.clone()), slow);
+                let (x, y): (Vec<_>, Vec<_>) = pairs.unzip();
+                prop_assert_eq!(f.dot(&x, &y), slow);
+                prop_assert_eq!(f.dot(&x, &[&y[..], &[1; 5]].concat()), slow);
             }
         }
     }

@@ -5,8 +5,10 @@ pub(in crate::search) mod budget;
 pub(in crate::search) mod completing_sets;
 mod estimates;
 pub mod orders;
+mod path_tree;
 pub(in crate::search) mod self_stress;
 pub(in crate::search) mod spanning_halves;
+mod spanning_paths;
 pub(in crate::search) mod staging;
 pub(in crate::search) mod two_sided;
 

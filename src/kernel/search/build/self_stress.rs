@@ -6,6 +6,7 @@
 
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::adding::{Adding, adding};
+use crate::search::diagram::choice_inclusion::Grown;
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::transition::{Children, Worker};
@@ -28,6 +29,16 @@ impl<'a> Added<'a> {
             stage,
             limits,
         }
+    }
+
+    /// What its choices add, one grown from another.
+    pub(in crate::search) fn growth(&self) -> &[Grown] {
+        &self.stage.growth
+    }
+
+    /// Coordinates of contours before it.
+    pub(in crate::search) fn contours(&self) -> usize {
+        self.stage.contours
     }
 }
 

@@ -12,7 +12,7 @@
 
 use crate::search::build::completing_sets::{Set, has, set};
 use crate::search::build::self_stress::Added;
-use crate::search::build::spanning_halves::{Half, Halves};
+use crate::search::build::spanning_halves::Halves;
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::Spent;
@@ -50,13 +50,6 @@ impl<'a> Side<'a> {
     /// Children that the next stage makes.
     fn effort(&self, space: &Space) -> usize {
         self.nodes.len() * space.variables[self.ahead().variable()].choices.len()
-    }
-
-    fn half(&self) -> Half<'_> {
-        Half {
-            nodes: &self.nodes,
-            taken: self.layers.len(),
-        }
     }
 
     fn bytes(&self) -> usize {
@@ -148,8 +141,7 @@ fn joined(
     for (part, met) in parts.into_iter().enumerate() {
         let of = met.front.nodes.len();
         let told = &mut |done: usize| told(layers.len(), total, Meeting { done, of });
-        let ends = [met.front.half(), met.back.half()];
-        let sets = question.join(part, ends, cancelled, told)?;
+        let sets = question.join(part, &met.front.nodes, &met.back.layers, cancelled, told)?;
         let found = put_together(met.front.layers, &met.back.layers, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
         if total > most {

@@ -11,7 +11,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::path_from_frame;
-use crate::linalg::echelon::{Echelon, combination};
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::search::question::space::{Space, Variable};
@@ -34,13 +34,6 @@ pub(in crate::search) struct SelfStressSpace {
     pub(in crate::search) kept: usize,
     /// Self-stresses that every variant has.
     pub(in crate::search) lasting: u32,
-    field: Field,
-    /// Vectors of the coordinates of contours and then of kept links, in coordinates that are the same for all orders.
-    vectors: Vec<Added>,
-    /// Those of contours, and all motions of kept links.
-    basis: Basis,
-    /// Those of kept links among all their motions.
-    of_links: Basis,
 }
 
 /// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
@@ -281,8 +274,6 @@ impl SelfStressSpace {
             choices.iter().map(choice).collect()
         };
         let added: Vec<_> = added.iter().enumerate().map(stage).collect();
-        let motion = |of: &Vec<Residue>| combination(field, &both[count..], of);
-        let motions: Vec<Added> = kept.vectors.iter().map(motion).collect();
         let before = |t: usize| count - contours.by.partition_point(|&by| by < t);
         Some(SelfStressSpace {
             contours: (0..=order.len()).map(before).collect(),
@@ -290,33 +281,7 @@ impl SelfStressSpace {
             kept: kept.vectors.len(),
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
             added,
-            field,
-            vectors: [contours.vectors, motions].concat(),
-            basis,
-            of_links,
         })
-    }
-
-    /// Coordinates of contours, before all variables.
-    fn count(&self) -> usize {
-        self.contours[0]
-    }
-
-    /// A vector in the coordinates before a variable, in those that are the same for all orders.
-    pub(in crate::search) fn shared(&self, variable: usize, vector: &[Residue]) -> Added {
-        let first = self.count() - self.contours[variable];
-        combination(self.field, &self.vectors[first..], vector)
-    }
-
-    /// A vector that the variables from one on reach, in the coordinates before it, from those that are the same for all orders.
-    pub(in crate::search) fn own(&self, variable: usize, shared: &[Residue]) -> Added {
-        let first = self.count() - self.contours[variable];
-        from(
-            first,
-            self.count(),
-            &self.basis.factors(shared),
-            &self.of_links,
-        )
     }
 }
 
