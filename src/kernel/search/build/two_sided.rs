@@ -23,8 +23,9 @@ use rayon::prelude::*;
 
 /// Pairs of nodes tried at most, for each node of the budget.
 const PAIRS: usize = 500;
-/// Pairs of nodes that take about as long as a node from one end, for each row of a contour.
-const PAIRS_A_ROW: usize = 16;
+/// Pairs of nodes that take about as long as a node from one end, for each square of the rows of a contour: so many numbers a node is
+/// eliminated with, where a pair takes a sum of products.
+const PAIRS_A_SQUARE: usize = 5;
 
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
@@ -114,7 +115,7 @@ pub(in crate::search) fn two_sided(
     if pairs / PAIRS > question.limits.nodes || pairs / 8 > left / 4 {
         return None;
     }
-    if let Some(whole) = from_one_end(pairs / (PAIRS_A_ROW * space.dim), progress) {
+    if let Some(whole) = from_one_end(pairs / (PAIRS_A_SQUARE * space.dim.pow(2)), progress) {
         return Some(whole);
     }
     joined(question, parts, cancelled, &mut |done, nodes, meeting| {
