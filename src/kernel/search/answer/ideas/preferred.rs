@@ -35,6 +35,7 @@ pub(super) fn preferred(
             .iter()
             .map(|v| v.iter().map(some).collect())
             .collect(),
+        to_come: patterns.to_come(diagram),
         least: HashMap::new(),
         states: 0,
         left: patterns.of_variant(&first),
@@ -70,6 +71,8 @@ struct Members<'a> {
     weights: &'a [u64],
     /// `[variable][choice]`: which numbers of a pattern it takes from, and how much.
     takes: Vec<Vec<Vec<(usize, u8)>>>,
+    /// What comes after each layer can take no more than so much of a pattern.
+    to_come: Vec<Pattern>,
     /// From a node with some of the pattern left, the least cost of a way to the end.
     least: HashMap<(usize, u32), HashMap<Pattern, Option<u64>>>,
     /// How many of these there are.
@@ -98,7 +101,8 @@ impl Members<'_> {
         )
     }
 
-    /// Where a choice leads from a node, and its cost, with its share taken from what is left of the pattern, if it has one.
+    /// Where a choice leads from a node, and its cost, with its share taken from what is left of the pattern, if it has one
+    /// and what comes later can take the rest.
     fn enter(&mut self, depth: usize, node: u32, choice: usize) -> Option<(u32, u64)> {
         let layer = &self.diagram.layers[depth];
         let to = layer.edges[node as usize * layer.choices + choice];
@@ -108,6 +112,11 @@ impl Members<'_> {
         }
         for &(i, n) in takes {
             self.left[i] -= n;
+        }
+        let mut left = self.left.iter().zip(&self.to_come[depth]);
+        if left.any(|(left, most)| left > most) {
+            self.leave(depth, choice);
+            return None;
         }
         Some((to, self.question.steps.keys[layer.variable][choice].cost()))
     }
