@@ -129,7 +129,7 @@ impl PathTree {
 }
 
 /// A vector on the path that is followed.
-struct Followed {
+struct PathVector {
     vector: usize,
     /// What is left of it, where that is something the front half does not reach, and where it starts with a one.
     beyond: Option<(usize, Vec<Residue>)>,
@@ -140,7 +140,7 @@ struct Followed {
 /// A tree, and the path that is followed.
 struct Growing<'a> {
     vectors: &'a Vectors,
-    path: Vec<Followed>,
+    path: Vec<PathVector>,
     /// The numbers of the vectors of the tree.
     known: HashMap<Vec<Residue>, usize>,
     tree: PathTree,
@@ -172,7 +172,7 @@ impl Growing<'_> {
             f.subtract_multiple(&mut left[*first..], &row[*first..]);
         }
         let here = left.split_off(self.vectors.beyond);
-        let mut followed = Followed {
+        let mut followed = PathVector {
             vector,
             beyond: None,
             edge: None,

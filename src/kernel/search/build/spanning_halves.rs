@@ -103,7 +103,7 @@ impl<'a> Halves<'a> {
         told: &mut dyn FnMut(usize),
     ) -> Option<Vec<Set>> {
         let f = self.field;
-        let at = At {
+        let at = MeetingPlace {
             first: self.contours[self.starts[part]],
             reached: self.contours[self.starts[part + 1] - back.len()],
             later: self.contours[self.starts[part + 1]],
@@ -155,13 +155,13 @@ impl<'a> Halves<'a> {
 }
 
 /// Coordinates of contours that are reached from the start of a part on, from where its halves meet, and from its end.
-struct At {
+struct MeetingPlace {
     first: usize,
     reached: usize,
     later: usize,
 }
 
-impl At {
+impl MeetingPlace {
     /// A vector with so many coordinates of contours, of which some may come after the part, in those that are reached where halves meet.
     fn within(&self, contours: usize, row: &[Residue]) -> Vec<Residue> {
         let (own, kept) = row.split_at(contours);
