@@ -169,10 +169,15 @@ impl<'a> Forms<'a> {
     /// Follows an edge that adds a vector; whether nothing moves kept links alone.
     fn follow(&mut self, vector: usize) -> bool {
         let rank = self.rank();
+        let vector = &self.vectors[vector * self.width..][..self.width];
+        // What the node spans by itself is so after any edges.
+        if vector[..self.missing()].iter().all(|&x| x == 0) {
+            self.ranks.push(rank);
+            return !self.kept || vector[self.missing()] == 0;
+        }
         if self.made == rank {
             self.make(rank);
         }
-        let vector = &self.vectors[vector * self.width..][..self.width];
         self.take(rank, vector);
         let left = self.missing() - rank;
         if let Some(form) = (0..left).find(|&form| self.value(rank, form, vector) != 0) {
