@@ -191,7 +191,7 @@ fn gain(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) 
     let f = exact.field();
     let mut span = Echelon::new(f);
     for t in twists {
-        let power = |w: &Vec<Residue>| f.sum_of_products(w.iter().copied().zip(t.iter().copied()));
+        let power = |w: &Vec<Residue>| f.dot(w, t);
         let powers: Vec<Residue> = wrenches.iter().map(power).collect();
         span.insert(&powers);
     }

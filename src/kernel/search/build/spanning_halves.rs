@@ -128,8 +128,7 @@ impl<'a> Halves<'a> {
         let behind = behind.iter().rev().map(|stage| {
             numbered(stage.growth(), |row| {
                 let row = at.within(stage.contours(), row);
-                let mut vector = Vec::new();
-                both.put(&row, &mut vector);
+                let mut vector = both.images(std::iter::once(&row[..]));
                 vector.extend(shared(&row));
                 vectors.all.push(vector);
                 vectors.all.len() - 1

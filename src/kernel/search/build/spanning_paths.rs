@@ -44,16 +44,24 @@ impl Annihilator {
         }
     }
 
-    /// Puts what the forms are on a vector behind what there is.
-    pub(super) fn put(&self, vector: &[Residue], out: &mut Vec<Residue>) {
-        let f = self.field;
-        if self.pivots.is_empty() {
-            out.extend(self.open.iter().map(|&at| vector[at]));
-            return;
+    /// What the forms are on some vectors, one vector after another.
+    pub(super) fn images<'v>(
+        &self,
+        vectors: impl ExactSizeIterator<Item = &'v [Residue]>,
+    ) -> Vec<Residue> {
+        let (f, pivots) = (self.field, self.pivots.len());
+        let mut out = Vec::with_capacity(vectors.len() * self.open.len());
+        let mut there = vec![0; pivots];
+        for vector in vectors {
+            for (there, &pivot) in there.iter_mut().zip(&self.pivots) {
+                *there = vector[pivot];
+            }
+            for (form, &at) in self.open.iter().enumerate() {
+                let form = &self.at_pivots[form * pivots..][..pivots];
+                out.push(f.add(vector[at], f.dot(form, &there)));
+            }
         }
-        let there: Vec<Residue> = self.pivots.iter().map(|&p| vector[p]).collect();
-        let forms = self.at_pivots.chunks_exact(there.len()).zip(&self.open);
-        out.extend(forms.map(|(form, &at)| f.add(vector[at], f.dot(form, &there))));
+        out
     }
 }
 
@@ -64,8 +72,7 @@ impl Annihilator {
 /// O(e·s·d) field operations for e edges, d coordinates, and s forms left where edges follow; O(e·d) where none do.
 pub(super) fn completing(tree: &PathTree, left: &Annihilator, kept: bool) -> Set {
     let mut out = none(tree.node_count());
-    let mut images = Vec::with_capacity(tree.vectors().len() * left.open.len());
-    tree.vectors().for_each(|v| left.put(v, &mut images));
+    let images = left.images(tree.vectors());
     let mut walk = Forms::new(left.field, &images, left.open.len(), kept);
     let missing = walk.missing();
     let mut at = 0;

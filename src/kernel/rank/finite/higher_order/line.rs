@@ -218,8 +218,7 @@ pub(super) fn line(
         let mut more = vec![0; of.twists.len()];
         for (i, row) in of.solve.iter().enumerate() {
             // Couplings are linear: they have no gap of higher order.
-            let terms = row.iter().zip(&gaps);
-            let sum = f.sum_of_products(terms.map(|(&a, &g)| (a, g)));
+            let sum = f.dot(row, &gaps);
             match of.pivots.get(i) {
                 Some(&p) => more[p] = f.neg(sum),
                 None if sum != 0 => {
@@ -253,11 +252,7 @@ pub(super) fn second(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
     pass(f, &mut walks, 1, |c| speeds[c]);
     let gaps = pass(f, &mut walks, 2, |_| 0);
     let left = of.solve[of.pivots.len()..].iter();
-    left.map(|row| {
-        let terms = row.iter().zip(&gaps);
-        f.sum_of_products(terms.map(|(&a, &g)| (a, g)))
-    })
-    .collect()
+    left.map(|row| f.dot(row, &gaps)).collect()
 }
 
 /// The contours before anything moves.
