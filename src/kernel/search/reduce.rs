@@ -2,5 +2,6 @@
 //! choices add to the present joints.
 
 pub(in crate::search) mod biconnected;
+pub(in crate::search) mod lifetimes;
 pub(in crate::search) mod plane_split;
 pub(in crate::search) mod self_stress_space;

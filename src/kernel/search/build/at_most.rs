@@ -6,7 +6,7 @@
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
 use crate::search::build::self_stress::space;
-use crate::search::diagram::adding::{Adding, adding};
+use crate::search::diagram::adding::{Adding, InUse, adding};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
@@ -29,7 +29,7 @@ pub(in crate::search) struct AtMost {
 
 /// Nodes of a layer: their number, bounded by memory, too.
 fn width(limits: &Limits, space: &SelfStressSpace, choices: usize) -> usize {
-    let numbers = space.contours[0] + space.kept;
+    let numbers = space.contours.len() + space.kept.len();
     let each = size_of::<u64>() * 2 * (numbers * numbers / 2 + numbers);
     let bytes = limits.bytes / 4 / (each * choices).max(1);
     (limits.nodes / 100).clamp(64, 4096).min(bytes).max(1)
@@ -55,7 +55,7 @@ pub(in crate::search) fn at_most(
         return None;
     }
     let choices = |s: &Adding| model.space.variables[s.variable].choices.len();
-    let stages = adding(field, order, &space);
+    let stages = adding(field, order, &space, InUse::NotEnded);
     let width = width(
         limits,
         &space,
@@ -101,14 +101,12 @@ impl AtMost {
     /// Whether a variant of the diagram is one indeed.
     pub(in crate::search) fn has(&self, choices: &[usize]) -> bool {
         let space = &self.space;
-        let (contours, width) = (space.contours[0], space.contours[0] + space.kept);
+        let contours = space.contours.len();
         let mut whole = Echelon::new(self.field);
         for (t, &variable) in self.order.iter().enumerate() {
-            for vector in &space.added[t][choices[variable]] {
-                let mut row = vec![0; width - vector.len()];
-                row.extend_from_slice(vector);
-                whole.insert(&row);
-            }
+            space.added[t][choices[variable]].iter().for_each(|vector| {
+                whole.insert(vector);
+            });
         }
         let pivots = whole.pivots();
         pivots.len() == contours && pivots.iter().all(|&p| p < contours)

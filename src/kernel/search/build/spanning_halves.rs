@@ -5,20 +5,20 @@
 //! kept links where nothing of both together is in the coordinates of these alone. Nodes of the back half need no space for that: what
 //! the choices on one way to each add will do, and ways that begin alike are looked at together.
 
-use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Set, completed};
 use crate::search::build::path_tree::{PathTree, Vectors, numbered, shortest};
 use crate::search::build::self_stress::{Added, space};
 use crate::search::build::spanning_paths::{Annihilator, completing};
 use crate::search::diagram::Layer;
-use crate::search::diagram::adding::{Adding, adding};
+use crate::search::diagram::adding::{Adding, InUse, adding};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::reduced_rows::Rows;
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::question::Question;
+use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::plane_split::Model;
-use crate::search::reduce::self_stress_space::SelfStressSpace;
+use std::collections::BTreeSet;
 
 /// Motions of kept links are told by one sum of their coordinates, each times a power of this: for one that is not nothing it is
 /// nothing as seldom as a number that is not nothing has the residue of nothing.
@@ -30,8 +30,8 @@ pub(in crate::search) struct Halves<'a> {
     pub(in crate::search) limits: &'a Limits,
     /// Redundant constraints that every variant has.
     pub(in crate::search) already: u32,
-    /// Coordinates of contours before each variable, and none after the last; then those of kept links.
-    contours: Vec<usize>,
+    /// When the coordinates of contours are in use, and how many there are of kept links.
+    contours: Vec<Lifetime>,
     kept: usize,
     /// Where each part starts, and the number of variables at the end.
     starts: Vec<usize>,
@@ -59,18 +59,19 @@ impl<'a> Halves<'a> {
         let orders = [order, &reversed];
         let spaces = [front, space(question, model, &reversed, keep_output)?];
         let all = order.len();
-        let shared = |t: &usize| shared(&spaces, *t, all - t);
-        let mut starts: Vec<usize> = (0..all).filter(|t| shared(t) == 0).collect();
+        let carried = |t: usize| spaces[0].contours.iter().any(|c| c.is_live_before(t));
+        let mut starts: Vec<usize> = (0..all).filter(|&t| !carried(t)).collect();
         starts.push(all);
-        let stages = [0, 1].map(|end| adding(field, orders[end], &spaces[end]));
+        let stages =
+            [0, 1].map(|end| adding(field, orders[end], &spaces[end], InUse::LiveContours));
         let parts = starts.windows(2).map(|at| {
             let ranges = [at[0]..at[1], all - at[1]..all - at[0]];
             [0, 1].map(|end| {
                 let part = stages[end][ranges[end].clone()].iter().cloned();
                 // Halves meet in what the kept links do, however wrong.
                 let added = part.map(|stage| {
-                    let collapse = None;
-                    Added::new(field, Adding { collapse, ..stage }, limits)
+                    let folding = None;
+                    Added::new(field, Adding { folding, ..stage }, limits)
                 });
                 added.collect()
             })
@@ -82,7 +83,7 @@ impl<'a> Halves<'a> {
             limits,
             already,
             contours: front.contours,
-            kept: front.kept,
+            kept: front.kept.len(),
             starts,
             parts,
         })
@@ -103,34 +104,30 @@ impl<'a> Halves<'a> {
         told: &mut dyn FnMut(usize),
     ) -> Option<Vec<Set>> {
         let f = self.field;
-        let at = MeetingPlace {
-            first: self.contours[self.starts[part]],
-            reached: self.contours[self.starts[part + 1] - back.len()],
-            later: self.contours[self.starts[part + 1]],
-        };
         let [stages, _] = &self.parts[part];
-        let (before, behind) = stages.split_at(stages.len() - back.len());
-        let both = Annihilator::new(f, at.both(f, before), at.reached - at.later);
-        let dimension = both.pivots.len();
+        let behind = &stages[stages.len() - back.len()..];
+        // Coordinates that the front half reaches, and those that only the back half does.
+        let meeting = self.starts[part + 1] - back.len();
+        let is_live = |&c: &usize| self.contours[c].is_live_before(meeting);
+        let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
+        let reached = behind.iter().flat_map(Added::contours).copied();
+        let beyond: BTreeSet<usize> = reached.filter(|c| !is_live(c)).collect();
         let weights: Vec<Residue> = (0..self.kept)
             .map(|i| f.pow(f.from_i64(WEIGHT), i as u64))
             .collect();
-        let shared = |row: &[Residue]| -> Vec<Residue> {
-            let kept = &row[at.reached - at.later..];
-            let contours = both.pivots.iter().map(|&p| row[p]);
-            contours.chain([f.dot(&weights, kept)]).collect()
-        };
         let mut vectors = Vectors {
             field: f,
-            beyond: both.open.len(),
+            beyond: beyond.len(),
             all: Vec::new(),
         };
         let behind = behind.iter().rev().map(|stage| {
             numbered(stage.growth(), |row| {
-                let row = at.within(stage.contours(), row);
-                let mut vector = both.images(std::iter::once(&row[..]));
-                vector.extend(shared(&row));
-                vectors.all.push(vector);
+                let (own, kept) = row.split_at(stage.contours().len());
+                let number = |c| stage.contours().binary_search(c).map_or(0, |at| own[at]);
+                let all = beyond.iter().chain(&live).map(number);
+                vectors
+                    .all
+                    .push(all.chain([f.dot(&weights, kept)]).collect());
                 vectors.all.len() - 1
             })
         });
@@ -144,51 +141,14 @@ impl<'a> Halves<'a> {
         };
         let of_node = |node: usize| {
             let mut rows = Rows::default();
-            rows.unpack(f, at.reached + self.kept, nodes.matrix(node));
-            let rows = rows.rows().map(|row| shared(&at.within(at.reached, row)));
-            let left = Annihilator::new(f, rows, dimension + 1);
+            rows.unpack(f, live.len() + self.kept, nodes.matrix(node));
+            let rows = rows.rows().map(|row| {
+                let (contours, kept) = row.split_at(live.len());
+                [contours, &[f.dot(&weights, kept)]].concat()
+            });
+            let left = Annihilator::new(f, rows, live.len() + 1);
             completing(&tree, &left, self.kept > 0)
         };
         completed(nodes.len(), of_node, cancelled, told)
     }
-}
-
-/// Coordinates of contours that are reached from the start of a part on, from where its halves meet, and from its end.
-struct MeetingPlace {
-    first: usize,
-    reached: usize,
-    later: usize,
-}
-
-impl MeetingPlace {
-    /// A vector with so many coordinates of contours, of which some may come after the part, in those that are reached where halves meet.
-    fn within(&self, contours: usize, row: &[Residue]) -> Vec<Residue> {
-        let (own, kept) = row.split_at(contours);
-        let mut out = vec![0; self.reached - contours];
-        out.extend_from_slice(&own[..contours - self.later]);
-        out.extend_from_slice(kept);
-        out
-    }
-
-    /// Vectors that span what both halves reach of contours.
-    fn both(&self, field: Field, front: &[Added<'_>]) -> Vec<Vec<Residue>> {
-        let mut span = Echelon::new(field);
-        for stage in front {
-            let contours = stage.contours();
-            for row in stage.growth().iter().flat_map(|g| &g.more) {
-                let mut whole = vec![0; self.first - contours];
-                whole.extend_from_slice(&row[..contours - self.later]);
-                span.insert(&whole);
-            }
-        }
-        let ahead = self.first - self.reached;
-        let rows = span.reduced().into_iter().zip(span.pivots());
-        let reached = rows.filter(|(_, pivot)| *pivot >= ahead);
-        reached.map(|(mut row, _)| row.split_off(ahead)).collect()
-    }
-}
-
-/// Dimension of the space of contours that both the first variables and the others reach, after so many of the front and of the back.
-fn shared([front, back]: &[SelfStressSpace; 2], taken: usize, of_back: usize) -> usize {
-    front.contours[taken] + back.contours[of_back] - front.contours[0]
 }

@@ -1,9 +1,11 @@
 //! What happens in each layer of a diagram in the space dual to self-stresses.
 
-use crate::linalg::modp::Field;
+use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::choice_inclusion::{Grown, one_from_another};
 use crate::search::diagram::stage::Collapse;
+use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
+use std::ops::Range;
 
 /// A variable of the diagram in the space dual to self-stresses.
 #[derive(Debug, Clone)]
@@ -12,14 +14,93 @@ pub(in crate::search) struct Adding {
     pub(in crate::search) variable: usize,
     /// Its choices, one grown from another.
     pub(in crate::search) growth: Vec<Grown>,
-    /// Coordinates before the stage.
+    /// The coordinates of contours in use, by their numbers; those of kept links come after these.
+    pub(in crate::search) contours: Vec<usize>,
+    /// Coordinates of both.
     pub(in crate::search) width: usize,
-    /// How many of them are of contours; those of kept links come after these.
-    pub(in crate::search) contours: usize,
+    /// Where each coordinate that there was before the stage stands among these; at the others nothing was added yet.
+    pub(in crate::search) places: Vec<usize>,
     /// The first of them, which no variable after this one reaches.
     pub(in crate::search) gap: usize,
     /// Simplification of motions of kept links that no variable after this one reaches.
-    pub(in crate::search) collapse: Option<Collapse>,
+    pub(in crate::search) folding: Option<Folding>,
+}
+
+/// Folds away how kept links go wrong.
+#[derive(Debug, Clone)]
+pub(in crate::search) struct Folding {
+    pub(in crate::search) collapse: Collapse,
+    /// Coordinates in which nothing is left then: so many ways to go wrong there cannot be.
+    pub(in crate::search) dropped: Range<usize>,
+}
+
+/// Which coordinates stages have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::search) enum InUse {
+    /// Those that variables up to it and from it on reach.
+    Live,
+    /// Those of contours that these reach, and all of kept links.
+    LiveContours,
+    /// Those that it or a later one reaches, and all of kept links.
+    NotEnded,
+}
+
+impl InUse {
+    fn of(self, space: &SelfStressSpace) -> [Vec<Lifetime>; 2] {
+        let live = [self != InUse::NotEnded, self == InUse::Live];
+        let from = |l: &Lifetime, live: bool| Lifetime {
+            from: if live { l.from } else { 0 },
+            to: l.to,
+        };
+        let of = |all: &[Lifetime], live: bool| all.iter().map(|l| from(l, live)).collect();
+        [of(&space.contours, live[0]), of(&space.kept, live[1])]
+    }
+}
+
+/// The coordinates of a stage: those of contours, those that tell which motions of kept links went wrong, and those of kept links.
+struct Layout {
+    /// The numbers of those of contours and of kept links, which there were before the stage, and which are in use.
+    before: [Vec<usize>; 2],
+    at: [Vec<usize>; 2],
+    wrong: Range<usize>,
+}
+
+impl Layout {
+    fn new(lifetimes: &[Vec<Lifetime>; 2], stage: usize, wrong: usize) -> Layout {
+        let of = |live: fn(Lifetime, usize) -> bool| {
+            lifetimes.each_ref().map(|all| -> Vec<usize> {
+                let live = all.iter().enumerate().filter(|(_, l)| live(**l, stage));
+                live.map(|(number, _)| number).collect()
+            })
+        };
+        let at = of(Lifetime::is_live_at);
+        Layout {
+            before: of(Lifetime::is_live_before),
+            wrong: at[0].len()..at[0].len() + wrong,
+            at,
+        }
+    }
+
+    fn width(&self) -> usize {
+        self.wrong.end + self.at[1].len()
+    }
+
+    /// Where the coordinates before the stage stand.
+    fn places(&self) -> Vec<usize> {
+        let place = |of: usize, number| self.at[of].binary_search(number).expect("in use still");
+        let [contours, kept] = &self.before;
+        let kept = kept.iter().map(|number| self.wrong.end + place(1, number));
+        let contours = contours.iter().map(|number| place(0, number));
+        contours.chain(self.wrong.clone()).chain(kept).collect()
+    }
+
+    /// A vector, of which the numbers of contours come before those of kept links.
+    fn row(&self, contours: &[Residue], kept: &[Residue]) -> Vec<Residue> {
+        let [at, links] = &self.at;
+        let wrong = std::iter::repeat_n(0, self.wrong.len());
+        let own = at.iter().map(|&i| contours[i]).chain(wrong);
+        own.chain(links.iter().map(|&i| kept[i])).collect()
+    }
 }
 
 /// The stages of a space for the variables in its order.
@@ -27,19 +108,43 @@ pub(in crate::search) fn adding(
     field: Field,
     order: &[usize],
     space: &SelfStressSpace,
+    in_use: InUse,
 ) -> Vec<Adding> {
+    let lifetimes = in_use.of(space);
+    let mut wrong = 0;
     let stage = |(t, &variable): (usize, &usize)| {
-        let spans: Vec<_> = space.added[t].iter().map(|c| &c[..]).collect();
-        let (contours, after) = (space.contours[t], space.contours[t + 1]);
-        let finished = after..after + space.finished[t];
-        let all = after..after + space.kept;
+        let layout = Layout::new(&lifetimes, t, wrong);
+        let spans = space.added[t].iter();
+        let spans: Vec<Vec<Vec<Residue>>> = spans
+            .map(|choice| {
+                let parts = choice.iter().map(|v| v.split_at(space.contours.len()));
+                parts.map(|(own, kept)| layout.row(own, kept)).collect()
+            })
+            .collect();
+        let spans: Vec<_> = spans.iter().map(Vec::as_slice).collect();
+        let ending = [0, 1].map(|of| {
+            let at = layout.at[of].iter();
+            at.filter(|&&number| lifetimes[of][number].to == t).count()
+        });
+        let (gap, width) = (ending[0], layout.width());
+        let left = layout.at[0].len() - gap;
+        let finished = left..left + wrong + ending[1];
+        // What went wrong reaches contours still, each motion in a way of its own.
+        wrong = match in_use {
+            InUse::Live => finished.len().min(left),
+            InUse::LiveContours | InUse::NotEnded => finished.len(),
+        };
         Adding {
             variable,
             growth: one_from_another(field, &spans),
-            width: contours + space.kept,
-            contours,
-            gap: contours - after,
-            collapse: (!finished.is_empty()).then(|| Collapse::at_rest(finished, all)),
+            width,
+            places: layout.places(),
+            gap,
+            folding: (!finished.is_empty()).then(|| Folding {
+                dropped: left + wrong..finished.end,
+                collapse: Collapse::at_rest(finished, left..width - gap),
+            }),
+            contours: layout.at.into_iter().next().unwrap_or_default(),
         }
     };
     order.iter().enumerate().map(stage).collect()

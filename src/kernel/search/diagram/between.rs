@@ -160,7 +160,7 @@ impl Between {
 
     /// Drops the coordinates that no later stage reaches; none where a contour stays redundant, or a kept link goes wrong.
     fn ended(mut self, over: &Passed<'_>) -> Option<Between> {
-        let (contours, gap) = (over.stage.contours, over.stage.gap);
+        let (contours, gap) = (over.stage.contours.len(), over.stage.gap);
         let in_contours = self.most.last().copied().unwrap_or(0);
         let goes_wrong = self.all.pivots.last().is_some_and(|&p| p >= contours);
         if goes_wrong || self.least > in_contours {

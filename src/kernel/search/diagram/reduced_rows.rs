@@ -1,6 +1,7 @@
 //! Rows of a matrix in reduced row echelon form, grown one vector at a time in memory that a thread keeps, and packed.
 
 use crate::linalg::modp::{Field, Residue};
+use std::ops::Range;
 
 /// Rows of a matrix in reduced row echelon form: each pivot is one and alone in its column.
 #[derive(Default)]
@@ -52,21 +53,25 @@ impl Rows {
 
     /// The rows that were packed; none where nothing was.
     pub(in crate::search) fn unpack(&mut self, f: Field, width: usize, packed: &[Residue]) {
+        let places: Vec<usize> = (0..width).collect();
+        self.spread(f, width, &places, packed);
+    }
+
+    /// The rows that were packed, each coordinate at its place of those of a width, ascending, and nothing at the others; none where nothing was.
+    pub(super) fn spread(&mut self, f: Field, width: usize, places: &[usize], packed: &[Residue]) {
         self.clear(width);
-        let (bits, mut numbers) = packed.split_at(width.div_ceil(64).min(packed.len()));
+        let (bits, mut numbers) = packed.split_at(places.len().div_ceil(64).min(packed.len()));
         let is_pivot = |i: usize| bits.get(i / 64).is_some_and(|b| b >> (i % 64) & 1 == 1);
-        self.pivots.extend((0..width).filter(|&i| is_pivot(i)));
-        for row in 0..self.pivots.len() {
-            let start = self.data.len();
-            self.data.resize(start + width, 0);
-            let pivot = self.pivots[row];
-            self.data[start + pivot] = f.one();
-            for i in (pivot + 1..width).filter(|&i| !is_pivot(i)) {
-                let Some((&x, rest)) = numbers.split_first() else {
-                    break;
-                };
-                (self.data[start + i], numbers) = (x, rest);
-            }
+        let of = |pivots: bool| (0..places.len()).filter(move |&i| is_pivot(i) == pivots);
+        self.pivots.extend(of(true).map(|i| places[i]));
+        let others: Vec<usize> = of(false).map(|i| places[i]).collect();
+        self.data.resize(self.pivots.len() * width, 0);
+        for (row, &pivot) in self.data.chunks_exact_mut(width.max(1)).zip(&self.pivots) {
+            row[pivot] = f.one();
+            let others = &others[others.partition_point(|&p| p < pivot)..];
+            let (own, rest) = numbers.split_at(others.len().min(numbers.len()));
+            others.iter().zip(own).for_each(|(&at, &x)| row[at] = x);
+            numbers = rest;
         }
     }
 
@@ -97,6 +102,32 @@ impl Rows {
         self.pivots.drain(..dropped);
         self.pivots.iter_mut().for_each(|p| *p -= coordinates);
         self.width = narrow;
+    }
+
+    /// Drops coordinates in which every row has nothing.
+    pub(super) fn drop_empty(&mut self, coordinates: &Range<usize>) {
+        let (width, dropped) = (self.width, coordinates.len());
+        if dropped == 0 {
+            return;
+        }
+        let (rows, mut end) = (self.pivots.len(), 0);
+        for row in (0..rows).map(|r| r * width) {
+            let empty = &self.data[row..][coordinates.clone()];
+            debug_assert!(empty.iter().all(|&x| x == 0), "nothing is lost");
+            let kept = [
+                row..row + coordinates.start,
+                row + coordinates.end..row + width,
+            ];
+            for part in kept {
+                let len = part.len();
+                self.data.copy_within(part, end);
+                end += len;
+            }
+        }
+        self.data.truncate(end);
+        let after = self.pivots.iter_mut().filter(|p| **p >= coordinates.end);
+        after.for_each(|p| *p -= dropped);
+        self.width -= dropped;
     }
 
     /// What two spans have in common.

@@ -227,7 +227,8 @@ impl Worker {
         limits: &Limits,
         out: &mut Children,
     ) {
-        self.base.unpack(self.arithmetic.field, stage.width, matrix);
+        let (f, places) = (self.arithmetic.field, &stage.places);
+        self.base.spread(f, stage.width, places, matrix);
         self.grow(&stage.growth);
         for choice in 0..stage.growth.len() {
             self.work.clone_from(&self.grown[choice]);
@@ -236,15 +237,16 @@ impl Worker {
                 .work
                 .pivots
                 .last()
-                .is_some_and(|&p| p >= stage.contours);
+                .is_some_and(|&p| p >= stage.contours.len());
             let mut now = spent.clone();
             now.add(Lane::Common, self.drop_gap(stage.gap, stage.gap));
             if goes_wrong || !now.within(limits) {
                 out.found.push(None);
                 continue;
             }
-            if let Some(collapse) = &stage.collapse {
-                self.collapse(collapse);
+            if let Some(folding) = &stage.folding {
+                self.collapse(&folding.collapse);
+                self.work.drop_empty(&folding.dropped);
             }
             self.work.packed(&mut self.vector);
             out.take(&self.vector, now, 1);

@@ -7,7 +7,7 @@
 //! them if it adds nothing that closes every contour and moves a kept link.
 //!
 //! The coordinates are ordered by the last variable that reaches them: what only the variables up to one reach comes before what
-//! later ones reach too, so that all that is forgotten after a variable stands in front.
+//! later ones reach too, so that all that is forgotten after a variable stands in front. Each starts as late as can be.
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::path_from_frame;
@@ -15,6 +15,7 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::search::question::space::{Space, Variable};
+use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shortened};
 use std::ops::Range;
 
 /// A vector of the added motions of a choice.
@@ -23,15 +24,13 @@ type Added = Vec<Residue>;
 /// What the choices of some variables add, in coordinates fit for their order.
 #[derive(Debug)]
 pub(in crate::search) struct SelfStressSpace {
-    /// For each variable in order and each of its choices, independent vectors of what it adds: first the coordinates of the
-    /// contours that are still reached there, then all those of kept links.
+    /// For each variable in order and each of its choices, independent vectors of what it adds: the coordinates of the contours, then
+    /// those of kept links.
     pub(in crate::search) added: Vec<Vec<Vec<Added>>>,
-    /// Coordinates of the contours before each variable; one more at the end, 0.
-    pub(in crate::search) contours: Vec<usize>,
-    /// Coordinates of kept links that no variable after it reaches, for each variable: they are the first ones.
-    pub(in crate::search) finished: Vec<usize>,
-    /// Coordinates of kept links.
-    pub(in crate::search) kept: usize,
+    /// When each coordinate of the contours is in use, by the last variable that reaches it.
+    pub(in crate::search) contours: Vec<Lifetime>,
+    /// When each coordinate of kept links is, likewise.
+    pub(in crate::search) kept: Vec<Lifetime>,
     /// Self-stresses that every variant has.
     pub(in crate::search) lasting: u32,
 }
@@ -216,11 +215,6 @@ impl Reached {
         self.by.reverse();
         self
     }
-
-    /// How many no variable after this one reaches.
-    fn up_to(&self, variable: usize) -> usize {
-        self.by.partition_point(|&t| t <= variable)
-    }
 }
 
 impl SelfStressSpace {
@@ -265,45 +259,34 @@ impl SelfStressSpace {
             each.map(|c| c.iter().map(|v| basis.factors(v)).collect())
                 .collect()
         };
-        let added: Vec<Vec<Vec<Added>>> = added.iter().map(in_basis).collect();
+        let mut added: Vec<Vec<Vec<Added>>> = added.iter().map(in_basis).collect();
         let kept = Reached::last(&added, count, Echelon::new(field));
         let of_links = Basis::new(field, &kept.vectors);
-        let stage = |(t, choices): (usize, &Vec<Vec<Added>>)| -> Vec<Vec<Added>> {
-            let first = contours.by.partition_point(|&by| by < t);
-            let choice = |c: &Vec<Added>| spanned(field, first, count, c, &of_links);
-            choices.iter().map(choice).collect()
-        };
-        let added: Vec<_> = added.iter().enumerate().map(stage).collect();
-        let before = |t: usize| count - contours.by.partition_point(|&by| by < t);
+        for vector in added.iter_mut().flatten().flatten() {
+            let links = of_links.factors(&vector[count..]);
+            vector.splice(count.., links);
+        }
+        let each = added.iter_mut().enumerate();
+        let mut vectors: Vec<AddedBy<'_>> = each
+            .flat_map(|(t, choices)| choices.iter_mut().flatten().map(move |v| (t, v)))
+            .collect();
+        let all = count + kept.vectors.len();
+        let contours = shortened(field, &mut vectors, 0..count, &contours.by);
+        let kept = shortened(field, &mut vectors, count..all, &kept.by);
+        for choice in added.iter_mut().flatten() {
+            let mut span = Echelon::new(field);
+            choice.iter().for_each(|v| {
+                span.insert(v);
+            });
+            *choice = span.reduced();
+        }
         Some(SelfStressSpace {
-            contours: (0..=order.len()).map(before).collect(),
-            finished: (0..order.len()).map(|t| kept.up_to(t)).collect(),
-            kept: kept.vectors.len(),
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
             added,
+            contours,
+            kept,
         })
     }
-}
-
-/// The coordinates of contours from the `first` on, and of kept links among those that are moved, of a vector with all of both.
-fn from(first: usize, contours: usize, vector: &[Residue], of_links: &Basis) -> Added {
-    let links = of_links.factors(&vector[contours..]);
-    [&vector[first..contours], &links].concat()
-}
-
-/// What the vectors of a choice span in those coordinates.
-fn spanned(
-    field: Field,
-    first: usize,
-    contours: usize,
-    vectors: &[Added],
-    of_links: &Basis,
-) -> Vec<Added> {
-    let mut span = Echelon::new(field);
-    for v in vectors {
-        span.insert(&from(first, contours, v, of_links));
-    }
-    span.reduced()
 }
 
 /// Whether every choice of a variable has the motions of the present joints.

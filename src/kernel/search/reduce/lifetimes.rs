@@ -1,0 +1,125 @@
+//! From which variable to which a coordinate is in use.
+//!
+//! Which coordinates a space has is free, and so is how many of them a node must be told in. Where no two coordinates have the same
+//! last vector that reaches them, nor the same first, each is in use as shortly as can be: between two variables there are then as
+//! many as there are dimensions that the variables before and those after both reach, and no choice of coordinates has fewer.
+//!
+//! # Sources
+//! Kschischang & Sorokine, "On the trellis structure of block codes", IEEE Trans. Inf. Theory 41 (1995): the trellis-oriented
+//! form of a generator matrix, whose rows have spans that start and end in different places.
+
+use crate::linalg::modp::{Field, Residue};
+use std::ops::Range;
+
+/// The first and the last variable of an order that reach a coordinate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::search) struct Lifetime {
+    pub(in crate::search) from: usize,
+    pub(in crate::search) to: usize,
+}
+
+impl Lifetime {
+    /// Whether variables before one, and this one or later ones, reach it.
+    pub(in crate::search) fn is_live_before(self, variable: usize) -> bool {
+        self.from < variable && variable <= self.to
+    }
+
+    /// Whether it is in use at a variable.
+    pub(in crate::search) fn is_live_at(self, variable: usize) -> bool {
+        self.from <= variable && variable <= self.to
+    }
+}
+
+/// A vector, and which variable adds it.
+pub(super) type AddedBy<'a> = (usize, &'a mut Vec<Residue>);
+
+/// Brings some coordinates of vectors, which come in the order of their variables, into a form in which each starts as late as can be, and
+/// tells when they are in use. `last` has the last variable that reaches each, ascending, and stays true.
+///
+/// # Complexity
+/// O(n·c·s) field operations for n vectors, c coordinates, and s of them that have not started where a vector reaches them.
+pub(super) fn shortened(
+    field: Field,
+    vectors: &mut [AddedBy<'_>],
+    coordinates: Range<usize>,
+    last: &[usize],
+) -> Vec<Lifetime> {
+    let mut from: Vec<Option<usize>> = vec![None; coordinates.len()];
+    for v in 0..vectors.len() {
+        let (variable, vector) = &vectors[v];
+        let starting = coordinates.clone().zip(&from);
+        let starting = starting.filter(|(at, from)| from.is_none() && vector[*at] != 0);
+        let mut starting = starting.map(|(at, _)| at);
+        let Some(own) = starting.next() else {
+            continue;
+        };
+        let scale = field.inv(vector[own]);
+        let others: Vec<(usize, Residue)> = starting
+            .map(|at| (at, field.mul(vector[at], scale)))
+            .collect();
+        from[own - coordinates.start] = Some(*variable);
+        // None before has a number there. The others end no sooner than this one, so that they end as they did.
+        for (_, vector) in vectors[v..].iter_mut().filter(|(_, v)| v[own] != 0) {
+            for &(at, times) in &others {
+                vector[at] = field.sub(vector[at], field.mul(times, vector[own]));
+            }
+        }
+    }
+    let times = from.into_iter().zip(last);
+    times
+        .map(|(from, &to)| Lifetime {
+            from: from.unwrap_or(to),
+            to,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Lifetime, shortened};
+    use crate::linalg::echelon::{rank, relations};
+    use crate::linalg::modp::{Field, Residue};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Vectors of a few small numbers, some variables without any, in coordinates of which each is the last vector's own that is new
+        /// from the end.
+        #[test]
+        fn between_variables_as_many_are_live_as_both_sides_reach(
+            drawn in prop::collection::vec((prop::collection::vec(-2i64..3, 5), 0usize..3), 0..14),
+        ) {
+            let f = Field::new((1 << 61) - 1);
+            let mut variable = 0;
+            let mut all: Vec<(usize, Vec<Residue>)> = Vec::new();
+            for (numbers, later) in drawn {
+                variable += later;
+                all.push((variable, numbers.iter().map(|&x| f.from_i64(x)).collect()));
+            }
+            let rows = |of: &[(usize, Vec<Residue>)]| rank(f, of.iter().map(|(_, v)| &v[..]));
+            // The last vectors that are new from the end are the coordinates: their own numbers are units.
+            let mut basis: Vec<usize> = (0..all.len()).rev().filter(|&i| rows(&all[i..]) > rows(&all[i + 1..])).collect();
+            basis.reverse();
+            let columns: Vec<Vec<Residue>> = basis.iter().map(|&i| all[i].1.clone()).collect();
+            let of = |v: &Vec<Residue>| {
+                let relation = relations(f, &[&[v.clone()], &columns[..]].concat());
+                relation[0][1..].iter().map(|&x| f.neg(x)).collect::<Vec<Residue>>()
+            };
+            let mut vectors: Vec<(usize, Vec<Residue>)> = all.iter().map(|(t, v)| (*t, of(v))).collect();
+            let last: Vec<usize> = basis.iter().map(|&i| all[i].0).collect();
+            let mut lent: Vec<_> = vectors.iter_mut().map(|(t, v)| (*t, v)).collect();
+            let lifetimes = shortened(f, &mut lent, 0..last.len(), &last);
+            for t in 0..variable + 2 {
+                let at = all.partition_point(|(of, _)| *of < t);
+                let both = rows(&all[..at]) + rows(&all[at..]) - rows(&all);
+                prop_assert_eq!(lifetimes.iter().filter(|l| l.is_live_before(t)).count(), both);
+            }
+            // They span what they did, and are nothing where a coordinate is not in use.
+            prop_assert_eq!(rows(&vectors), rows(&all));
+            for (t, v) in &vectors {
+                for (x, Lifetime { from, to }) in v.iter().zip(&lifetimes) {
+                    prop_assert!(*x == 0 || (from <= t && t <= to));
+                }
+            }
+        }
+    }
+}
