@@ -40,7 +40,8 @@ pub struct Question {
     pub(in crate::search) exact: ExactField,
     /// What its diagrams are built of.
     pub(in crate::search) least: LeastModel,
-    /// Rows of J in the free state.
+    /// The contours of the free state, and the rows of J in it.
+    pub(in crate::search) contours: Vec<Contour>,
     rows: i64,
     /// Links whose motion is kept, with their present joint motion.
     pub(in crate::search) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
@@ -149,12 +150,14 @@ impl Question {
             least: LeastModel::new(
                 &exact,
                 &mechanism,
+                &contours,
                 &space,
                 &present,
                 conditions.whole_twists,
             )?,
             grasps: grasps.collect(),
             blocks: both_blocks(&mechanism, &space, &pinned, &contours),
+            contours,
             pinned,
             mechanism,
             conditions,

@@ -135,22 +135,28 @@ impl Shifts {
         if (different.len() + 1) * below.len() > bytes / size_of::<(Key, u32)>() {
             return None;
         }
-        let shifted = |by: Key| below.iter().map(move |k| Key(k.0 + by.0));
-        let within = |by: Key| shifted(by).take_while(|k| k.cost() <= most);
-        let mut keys: Vec<Key> = different.iter().flat_map(|&by| within(by)).collect();
-        // These are a few ascending lists, one after another, which this sort merges.
-        keys.sort();
-        keys.dedup();
-        // Both ascend; what costs too much comes after all.
-        let places = |by: Key| {
-            let mut at = 0;
-            let place = |k: Key| {
-                at += keys[at..].iter().take_while(|x| **x < k).count();
-                number(at)
-            };
-            shifted(by).map(place).collect()
+        // Each shift's keys ascend: all are merged, and each is told where it comes to.
+        const END: Key = Key(u128::MAX);
+        let mut keys: Vec<Key> = Vec::with_capacity(below.len() + different.len());
+        let mut to: Vec<Vec<u32>> = vec![Vec::with_capacity(below.len()); different.len()];
+        let next = |by: Key, place: usize| {
+            let next = below.get(place).map(|k| Key(k.0 + by.0));
+            next.filter(|k| k.cost() <= most).unwrap_or(END)
         };
-        let to = different.iter().map(|&by| places(by)).collect();
+        let mut ahead: Vec<Key> = different.iter().map(|&by| next(by, 0)).collect();
+        while let Some(&key) = ahead.iter().min().filter(|k| **k != END) {
+            let place = number(keys.len());
+            for ((ahead, to), &by) in ahead.iter_mut().zip(&mut to).zip(&different) {
+                if *ahead == key {
+                    to.push(place);
+                    *ahead = next(by, to.len());
+                }
+            }
+            keys.push(key);
+        }
+        // What costs too much comes after all.
+        let beyond = number(keys.len());
+        to.iter_mut().for_each(|to| to.resize(below.len(), beyond));
         let of_choice = choices.iter().map(|c| different.partition_point(|x| x < c));
         Some(Shifts {
             of_choice: of_choice.collect(),

@@ -13,7 +13,7 @@ use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress};
 use crate::search::question::Question;
 use crate::search::reduce::plane_split::Model;
-use crate::search::reduce::self_stress_space::SelfStressSpace;
+use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
 
 /// A stage, within limits.
 pub(in crate::search) struct Added<'a> {
@@ -73,7 +73,9 @@ pub(in crate::search) fn space(
         &[]
     };
     let field = question.exact.field();
-    SelfStressSpace::new(field, &question.mechanism, &model.space, order, kept)
+    let (mechanism, space) = (&question.mechanism, &model.space);
+    let rows = ClosingRows::new(mechanism, space.dim, &question.contours, kept);
+    SelfStressSpace::new(field, &rows, space, order)
 }
 
 /// The diagram of a question without a searched state, for the variables in an order: the smallest there is, or what fits the limits;

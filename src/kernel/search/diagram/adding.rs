@@ -58,15 +58,15 @@ impl InUse {
 }
 
 /// The coordinates of a stage: those of contours, those that tell which motions of kept links went wrong, and those of kept links.
-struct Layout {
+struct StageCoordinates {
     /// The numbers of those of contours and of kept links, which there were before the stage, and which are in use.
     before: [Vec<usize>; 2],
     at: [Vec<usize>; 2],
     wrong: Range<usize>,
 }
 
-impl Layout {
-    fn new(lifetimes: &[Vec<Lifetime>; 2], stage: usize, wrong: usize) -> Layout {
+impl StageCoordinates {
+    fn new(lifetimes: &[Vec<Lifetime>; 2], stage: usize, wrong: usize) -> StageCoordinates {
         let of = |live: fn(Lifetime, usize) -> bool| {
             lifetimes.each_ref().map(|all| -> Vec<usize> {
                 let live = all.iter().enumerate().filter(|(_, l)| live(**l, stage));
@@ -74,7 +74,7 @@ impl Layout {
             })
         };
         let at = of(Lifetime::is_live_at);
-        Layout {
+        StageCoordinates {
             before: of(Lifetime::is_live_before),
             wrong: at[0].len()..at[0].len() + wrong,
             at,
@@ -113,21 +113,23 @@ pub(in crate::search) fn adding(
     let lifetimes = in_use.of(space);
     let mut wrong = 0;
     let stage = |(t, &variable): (usize, &usize)| {
-        let layout = Layout::new(&lifetimes, t, wrong);
+        let coordinates = StageCoordinates::new(&lifetimes, t, wrong);
         let spans = space.added[t].iter();
         let spans: Vec<Vec<Vec<Residue>>> = spans
             .map(|choice| {
                 let parts = choice.iter().map(|v| v.split_at(space.contours.len()));
-                parts.map(|(own, kept)| layout.row(own, kept)).collect()
+                parts
+                    .map(|(own, kept)| coordinates.row(own, kept))
+                    .collect()
             })
             .collect();
         let spans: Vec<_> = spans.iter().map(Vec::as_slice).collect();
         let ending = [0, 1].map(|of| {
-            let at = layout.at[of].iter();
+            let at = coordinates.at[of].iter();
             at.filter(|&&number| lifetimes[of][number].to == t).count()
         });
-        let (gap, width) = (ending[0], layout.width());
-        let left = layout.at[0].len() - gap;
+        let (gap, width) = (ending[0], coordinates.width());
+        let left = coordinates.at[0].len() - gap;
         let finished = left..left + wrong + ending[1];
         // What went wrong reaches contours still, each motion in a way of its own.
         wrong = match in_use {
@@ -138,13 +140,13 @@ pub(in crate::search) fn adding(
             variable,
             growth: one_from_another(field, &spans),
             width,
-            places: layout.places(),
+            places: coordinates.places(),
             gap,
             folding: (!finished.is_empty()).then(|| Folding {
                 dropped: left + wrong..finished.end,
                 collapse: Collapse::at_rest(finished, left..width - gap),
             }),
-            contours: layout.at.into_iter().next().unwrap_or_default(),
+            contours: coordinates.at.into_iter().next().unwrap_or_default(),
         }
     };
     order.iter().enumerate().map(stage).collect()

@@ -10,11 +10,11 @@
 //!
 //! What a variant is, its freedoms, W and certificate are those of the whole mechanism.
 
-use crate::closure::contour::contour_basis;
+use crate::closure::contour::Contour;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::Mechanism;
 use crate::rank::reduce::plane::{Rows, planes, seen};
 use crate::search::question::space::{Choice, Space};
 use crate::search::reduce::self_stress_space::ClosingRows;
@@ -40,7 +40,7 @@ pub(in crate::search) struct LeastModel {
 }
 
 impl LeastModel {
-    /// The least model of a space; `kept` are motions of links, six numbers each. With `whole_twists`
+    /// The least model of a space, with the contours of the free state; `kept` are motions of links, six numbers each. With `whole_twists`
     /// nothing is left out.
     ///
     /// # Errors
@@ -51,6 +51,7 @@ impl LeastModel {
     pub(in crate::search) fn new(
         exact: &ExactField,
         mechanism: &Mechanism,
+        contours: &[Contour],
         space: &Space,
         kept: &[Vec<Residue>],
         whole_twists: bool,
@@ -84,18 +85,18 @@ impl LeastModel {
             if !falls_apart(space, [&inside, &outside]) {
                 continue;
             }
-            let contours = contour_basis(mechanism, StateId::FREE).len();
             let settled = [&inside, &outside].map(Seen::is_settled);
             let (differing, settled) = match settled {
                 [true, _] => (outside, inside),
                 [false, true] => (inside, outside),
                 [false, false] => {
-                    let parts = [inside, outside].map(|part| part.model(f, contours, space, kept));
+                    let parts =
+                        [inside, outside].map(|part| part.model(f, contours.len(), space, kept));
                     return Ok(whole(Some(parts)));
                 }
             };
-            let mut whole = differing.model(f, contours, space, kept);
-            whole.already += redundant(f, mechanism, &settled.present(space));
+            let mut whole = differing.model(f, contours.len(), space, kept);
+            whole.already += redundant(f, mechanism, contours, &settled.present(space));
             return Ok(LeastModel { whole, parts: None });
         }
         Ok(whole(None))
@@ -103,8 +104,8 @@ impl LeastModel {
 }
 
 /// Redundant constraints among the present joints in some rows of the closure equations.
-fn redundant(f: Field, mechanism: &Mechanism, present: &Space) -> u32 {
-    let rows = ClosingRows::new(mechanism, present.dim, &[]);
+fn redundant(f: Field, mechanism: &Mechanism, contours: &[Contour], present: &Space) -> u32 {
+    let rows = ClosingRows::new(mechanism, present.dim, contours, &[]);
     let mut span = Echelon::new(f);
     for variable in &present.variables {
         for column in rows.columns(f, variable, 0) {

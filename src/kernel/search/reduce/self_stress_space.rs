@@ -9,8 +9,8 @@
 //! The coordinates are ordered by the last variable that reaches them: what only the variables up to one reach comes before what
 //! later ones reach too, so that all that is forgotten after a variable stands in front. Each starts as late as can be.
 
-use crate::closure::contour::{Contour, contour_basis};
-use crate::closure::tree::path_from_frame;
+use crate::closure::contour::Contour;
+use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -36,29 +36,35 @@ pub(in crate::search) struct SelfStressSpace {
 }
 
 /// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
-pub(super) struct ClosingRows<'m> {
+pub(in crate::search) struct ClosingRows<'m> {
     mechanism: &'m Mechanism,
     dim: usize,
-    contours: Vec<Contour>,
+    contours: &'m [Contour],
     /// Couplings of the free state, by their numbers.
     couplings: Vec<usize>,
     paths: Vec<Vec<(JointId, bool)>>,
 }
 
 impl<'m> ClosingRows<'m> {
-    pub(super) fn new(mechanism: &'m Mechanism, dim: usize, kept: &[LinkId]) -> Self {
+    /// Rows of the contours of the free state, and of these links.
+    pub(in crate::search) fn new(
+        mechanism: &'m Mechanism,
+        dim: usize,
+        contours: &'m [Contour],
+        kept: &[LinkId],
+    ) -> Self {
         let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
         let couplings = (0..mechanism.couplings.len()).filter(|&q| {
             let mut ends = mechanism.couplings[q].ends.iter();
             ends.all(|e| free.binary_search(&e.joint).is_ok())
         });
-        let path = |&l: &LinkId| path_from_frame(mechanism, StateId::FREE, l);
+        let tree = spanning_tree(mechanism, StateId::FREE);
         ClosingRows {
             mechanism,
             dim,
-            contours: contour_basis(mechanism, StateId::FREE),
+            contours,
             couplings: couplings.collect(),
-            paths: kept.iter().map(path).collect(),
+            paths: kept.iter().map(|&l| path_in(&tree, l)).collect(),
         }
     }
 
@@ -218,25 +224,23 @@ impl Reached {
 }
 
 impl SelfStressSpace {
-    /// Of the variables of a space in an order, where the motions of `kept` links matter; none where a choice lacks a motion that
-    /// the present joint has.
+    /// Of the variables of a space in an order, where the motions of the links that `rows` has matter; none where a choice lacks a motion
+    /// that the present joint has.
     ///
     /// # Complexity
     /// O(n·m²) field operations for n vectors of all choices with m rows.
     pub(in crate::search) fn new(
         field: Field,
-        mechanism: &Mechanism,
+        rows: &ClosingRows<'_>,
         space: &Space,
         order: &[usize],
-        kept: &[LinkId],
     ) -> Option<SelfStressSpace> {
-        let rows = ClosingRows::new(mechanism, space.dim, kept);
         let of_choice = |v: usize, c: usize| rows.columns(field, &space.variables[v], c);
         if !order.iter().all(|&v| is_contained(field, space, v)) {
             return None;
         }
         let present = order.iter().flat_map(|&v| of_choice(v, 0));
-        let width = rows.closing() + kept.len() * space.dim;
+        let width = rows.closing() + rows.paths.len() * space.dim;
         let beside = BesidePresent::new(field, present, width);
         // Motions of the kept links, and what the choices add.
         let links = beside.units(field, rows.closing()..width);
@@ -247,19 +251,16 @@ impl SelfStressSpace {
                 .map(|c| of_choice(v, c).into_iter().map(left).collect())
                 .collect()
         };
-        let added: Vec<Vec<Vec<Added>>> = order.iter().map(of_variable).collect();
+        let mut added: Vec<Vec<Vec<Added>>> = order.iter().map(of_variable).collect();
         let self_stresses = beside.open.len() - links.rank();
         let contours = Reached::last(&added, 0, links.clone());
         let count = contours.vectors.len();
         let mut both = contours.vectors.clone();
         both.extend(links.reduced());
         let basis = Basis::new(field, &both);
-        let in_basis = |choices: &Vec<Vec<Added>>| -> Vec<Vec<Added>> {
-            let each = choices.iter();
-            each.map(|c| c.iter().map(|v| basis.factors(v)).collect())
-                .collect()
-        };
-        let mut added: Vec<Vec<Vec<Added>>> = added.iter().map(in_basis).collect();
+        for vector in added.iter_mut().flatten().flatten() {
+            *vector = basis.factors(vector);
+        }
         let kept = Reached::last(&added, count, Echelon::new(field));
         let of_links = Basis::new(field, &kept.vectors);
         for vector in added.iter_mut().flatten().flatten() {
@@ -274,11 +275,7 @@ impl SelfStressSpace {
         let contours = shortened(field, &mut vectors, 0..count, &contours.by);
         let kept = shortened(field, &mut vectors, count..all, &kept.by);
         for choice in added.iter_mut().flatten() {
-            let mut span = Echelon::new(field);
-            choice.iter().for_each(|v| {
-                span.insert(v);
-            });
-            *choice = span.reduced();
+            *choice = spanned(field, choice);
         }
         Some(SelfStressSpace {
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
@@ -287,6 +284,15 @@ impl SelfStressSpace {
             kept,
         })
     }
+}
+
+/// A reduced basis of what vectors span.
+fn spanned(field: Field, vectors: &[Added]) -> Vec<Added> {
+    let mut span = Echelon::new(field);
+    vectors.iter().for_each(|v| {
+        span.insert(v);
+    });
+    span.reduced()
 }
 
 /// Whether every choice of a variable has the motions of the present joints.

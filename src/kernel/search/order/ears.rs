@@ -1,0 +1,167 @@
+//! Ways to go on in an order: joints not chosen yet, one after another, that begin and end at live links.
+//!
+//! # Sources
+//! Ears: Whitney, "Non-separable and planar graphs", Trans. AMS 34 (1932).
+
+use crate::model::mechanism::LinkId;
+use crate::search::order::trial::{Trial, Trials};
+use std::collections::{BTreeSet, VecDeque};
+
+/// Ways tried for the first contour, from each of its joints and both ways round.
+const STARTS: usize = 16;
+/// Ways tried for each further one.
+const EARS: usize = 6;
+
+/// The joints of some variables, and where they meet.
+pub(in crate::search) struct Joined {
+    variables: Vec<usize>,
+    /// The place of each variable's number in the canonical order.
+    places: Vec<usize>,
+    /// A joint's variable, and the links it is between, in that order.
+    edges: Vec<(usize, [LinkId; 2])>,
+    /// The edges at each link.
+    at: Vec<Vec<usize>>,
+}
+
+impl Joined {
+    /// Of variables in the canonical order.
+    pub(super) fn new(trials: &Trials<'_>, variables: &[usize]) -> Joined {
+        let edges: Vec<(usize, [LinkId; 2])> = variables
+            .iter()
+            .flat_map(|&v| trials.joined(v).map(move |links| (v, links)))
+            .collect();
+        let mut at = Vec::new();
+        for (e, (_, links)) in edges.iter().enumerate() {
+            for link in links.map(LinkId::index) {
+                at.resize_with(at.len().max(link + 1), Vec::new);
+                at[link].push(e);
+            }
+        }
+        let mut places = vec![0; variables.iter().max().map_or(0, |v| v + 1)];
+        for (place, &v) in variables.iter().enumerate() {
+            places[v] = place;
+        }
+        Joined {
+            variables: variables.to_vec(),
+            places,
+            edges,
+            at,
+        }
+    }
+
+    /// The place of a variable in the canonical order.
+    pub(super) fn place(&self, variable: usize) -> usize {
+        self.places[variable]
+    }
+
+    /// The variables of a trial, as bits by their places.
+    pub(super) fn taken(&self, trial: &Trial<'_>) -> Vec<u64> {
+        let mut taken = vec![0; self.variables.len().div_ceil(64)];
+        for place in trial.order.iter().map(|&v| self.places[v]) {
+            taken[place / 64] |= 1 << (place % 64);
+        }
+        taken
+    }
+
+    /// Ways to go on: ears, the shortest first, or where no contour is left the next joint; nothing more for a whole order.
+    pub(super) fn ears(&self, trial: &Trial<'_>) -> Vec<Vec<usize>> {
+        if trial.order.len() == self.variables.len() {
+            return vec![Vec::new()];
+        }
+        let taken = self.taken(trial);
+        let is_left = |e: usize| {
+            let place = self.places[self.edges[e].0];
+            taken[place / 64] >> (place % 64) & 1 == 0
+        };
+        let left: Vec<usize> = (0..self.edges.len()).filter(|&e| is_left(e)).collect();
+        let live: Vec<bool> = (0..self.at.len())
+            .map(|l| trial.planner.is_live(LinkId::new(l)))
+            .collect();
+        let is_live = |l: LinkId| live[l.index()];
+        let reaches = |e: &usize| self.edges[*e].1.iter().any(|&l| is_live(l));
+        let begun = left.iter().any(reaches);
+        let mut search = Search {
+            of: self,
+            back: vec![None; self.at.len()],
+        };
+        let mut out: Vec<Vec<usize>> = Vec::new();
+        for &e in &left {
+            let [a, b] = self.edges[e].1;
+            for (from, to) in [(a, b), (b, a)] {
+                if begun && !is_live(from) {
+                    continue;
+                }
+                let ends = |l: LinkId| if begun { is_live(l) } else { l == from };
+                if let Some(ear) = search.ear(e, to, is_left, ends)
+                    && !out.contains(&ear)
+                {
+                    out.push(ear);
+                }
+            }
+        }
+        // The sort is stable: ways of equal length stay in the canonical order.
+        out.sort_by_key(Vec::len);
+        out.truncate(if begun { EARS } else { STARTS });
+        if out.is_empty() {
+            let next = left.iter().find(|e| reaches(e)).or(left.first());
+            out.extend(next.map(|&e| vec![self.edges[e].0]));
+        }
+        out
+    }
+}
+
+/// A search for the shortest way, breadth first.
+struct Search<'a> {
+    of: &'a Joined,
+    /// The edge that each link was reached over; none between searches.
+    back: Vec<Option<usize>>,
+}
+
+impl Search<'_> {
+    /// The shortest way over an edge and on over those left from `to` until `ends` says so, as variables.
+    fn ear(
+        &mut self,
+        first: usize,
+        to: LinkId,
+        is_left: impl Fn(usize) -> bool,
+        ends: impl Fn(LinkId) -> bool,
+    ) -> Option<Vec<usize>> {
+        let (mut queue, mut reached) = (VecDeque::from([to]), vec![to]);
+        self.back[to.index()] = Some(first);
+        let mut found = None;
+        while let Some(at) = queue.pop_front() {
+            if ends(at) {
+                found = Some(self.way(first, at));
+                break;
+            }
+            for &e in &self.of.at[at.index()] {
+                let [a, b] = self.of.edges[e].1;
+                let next = if at == a { b } else { a };
+                if e != first && self.back[next.index()].is_none() && is_left(e) {
+                    self.back[next.index()] = Some(e);
+                    reached.push(next);
+                    queue.push_back(next);
+                }
+            }
+        }
+        reached.iter().for_each(|l| self.back[l.index()] = None);
+        found
+    }
+
+    /// The variables from the first edge on to a link.
+    fn way(&self, first: usize, mut link: LinkId) -> Vec<usize> {
+        let mut way = Vec::new();
+        while let Some(e) = self.back[link.index()] {
+            let (variable, [a, b]) = self.of.edges[e];
+            way.push(variable);
+            if e == first {
+                break;
+            }
+            link = if a == link { b } else { a };
+        }
+        way.reverse();
+        let mut seen = BTreeSet::new();
+        way.retain(|v| seen.insert(*v));
+        way
+    }
+}
