@@ -223,9 +223,9 @@ fn built(
 
 /// How many variants are determinate, and how many admissible.
 fn counted(search: &Search, diagrams: &Diagrams) -> (Counts, Counts) {
-    let mut counts = (
-        search.counts(&diagrams.determinate, false),
-        search.counts(&diagrams.admissible, true),
+    let mut counts = rayon::join(
+        || search.counts(&diagrams.determinate, false),
+        || search.counts(&diagrams.admissible, true),
     );
     // What is cut down elsewhere may have none of the cheapest.
     if let Some(best) = &diagrams.cheapest {
