@@ -6,16 +6,18 @@
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
 use crate::search::build::self_stress::space;
-use crate::search::diagram::adding::{Adding, InUse, adding};
+use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
+use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
 use hashbrown::HashMap;
+use itertools::Itertools;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -28,8 +30,8 @@ pub(in crate::search) struct AtMost {
 }
 
 /// Nodes of a layer: their number, bounded by memory, too.
-fn width(limits: &Limits, space: &SelfStressSpace, choices: usize) -> usize {
-    let numbers = space.contours.len() + space.kept.len();
+fn width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
+    let numbers = stages.iter().map(|s| s.width).max().unwrap_or(0);
     let each = size_of::<u64>() * 2 * (numbers * numbers / 2 + numbers);
     let bytes = limits.bytes / 4 / (each * choices).max(1);
     (limits.nodes / 100).clamp(64, 4096).min(bytes).max(1)
@@ -55,13 +57,10 @@ pub(in crate::search) fn at_most(
         return None;
     }
     let choices = |s: &Adding| model.space.variables[s.variable].choices.len();
-    let stages = adding(field, order, &space, InUse::NotEnded);
-    let width = width(
-        limits,
-        &space,
-        stages.iter().map(choices).max().unwrap_or(1),
-    );
-    let bounds = bounds(&stages);
+    let stages = adding(field, order, &space, Kept::All);
+    let most = stages.iter().map(choices).max().unwrap_or(1);
+    let width = width(limits, &stages, most);
+    let bounds = bounds(&stages, &space.contours);
     let mut nodes = vec![(Between::default(), 1.0)];
     let mut layers = Vec::with_capacity(order.len());
     for (stage, bounds) in stages.iter().zip(&bounds) {
@@ -113,17 +112,15 @@ impl AtMost {
     }
 }
 
-/// For each stage the coordinates before each place where contours end, from this stage on.
-fn bounds(stages: &[Adding]) -> Vec<Vec<usize>> {
-    let from = |t: usize| {
-        let gaps = stages[t..].iter().map(|s| s.gap).filter(|&g| g > 0);
-        gaps.scan(0, |sum, g| {
-            *sum += g;
-            Some(*sum)
-        })
-        .collect()
+/// For each stage, how many of its coordinates of contours there are up to each place where some end, from this stage on.
+fn bounds(stages: &[Adding], contours: &[Lifetime]) -> Vec<Vec<usize>> {
+    let ends: Vec<usize> = contours.iter().map(|c| c.to).dedup().collect();
+    let of_stage = |(t, stage): (usize, &Adding)| {
+        let to_come = ends.iter().filter(|&&end| end >= t);
+        let up_to = |end: &usize| stage.contours.partition_point(|&c| contours[c].to <= *end);
+        to_come.map(up_to).collect()
     };
-    (0..stages.len()).map(from).collect()
+    stages.iter().enumerate().map(of_stage).collect()
 }
 
 /// A child with the numbers that tell it from others; none where it has no future.

@@ -5,7 +5,7 @@
 //! come allows anyway are one in it. It holds for the free state, whose joints all have their present motion in every variant.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::adding::{Adding, InUse, adding};
+use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::choice_inclusion::Grown;
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
@@ -98,7 +98,7 @@ pub(in crate::search) fn in_self_stress_space(
     if already > limits.internal {
         return Some(nothing(model, order));
     }
-    let stages = adding(field, order, &added, InUse::Live);
+    let stages = adding(field, order, &added, Kept::Live);
     let over = |stage| Added::new(field, stage, limits);
     let stages: Vec<Added<'_>> = stages.into_iter().map(over).collect();
     let space = &model.space;

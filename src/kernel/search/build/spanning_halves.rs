@@ -11,7 +11,7 @@ use crate::search::build::path_tree::{PathTree, Vectors, numbered, shortest};
 use crate::search::build::self_stress::{Added, space};
 use crate::search::build::spanning_paths::{Annihilator, completing};
 use crate::search::diagram::Layer;
-use crate::search::diagram::adding::{Adding, InUse, adding};
+use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::reduced_rows::Rows;
 use crate::search::diagram::redundancy_so_far::Limits;
@@ -62,8 +62,7 @@ impl<'a> Halves<'a> {
         let carried = |t: usize| spaces[0].contours.iter().any(|c| c.is_live_before(t));
         let mut starts: Vec<usize> = (0..all).filter(|&t| !carried(t)).collect();
         starts.push(all);
-        let stages =
-            [0, 1].map(|end| adding(field, orders[end], &spaces[end], InUse::LiveContours));
+        let stages = [0, 1].map(|end| adding(field, orders[end], &spaces[end], Kept::All));
         let parts = starts.windows(2).map(|at| {
             let ranges = [at[0]..at[1], all - at[1]..all - at[0]];
             [0, 1].map(|end| {

@@ -34,27 +34,13 @@ pub(in crate::search) struct Folding {
     pub(in crate::search) dropped: Range<usize>,
 }
 
-/// Which coordinates stages have.
+/// Which coordinates of kept links stages have; of contours, those that variables up to a stage and from it on reach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::search) enum InUse {
-    /// Those that variables up to it and from it on reach.
+pub(in crate::search) enum Kept {
+    /// Those that such variables reach.
     Live,
-    /// Those of contours that these reach, and all of kept links.
-    LiveContours,
-    /// Those that it or a later one reaches, and all of kept links.
-    NotEnded,
-}
-
-impl InUse {
-    fn of(self, space: &SelfStressSpace) -> [Vec<Lifetime>; 2] {
-        let live = [self != InUse::NotEnded, self == InUse::Live];
-        let from = |l: &Lifetime, live: bool| Lifetime {
-            from: if live { l.from } else { 0 },
-            to: l.to,
-        };
-        let of = |all: &[Lifetime], live: bool| all.iter().map(|l| from(l, live)).collect();
-        [of(&space.contours, live[0]), of(&space.kept, live[1])]
-    }
+    /// All, so that motions that go wrong need not be folded away.
+    All,
 }
 
 /// The coordinates of a stage: those of contours, those that tell which motions of kept links went wrong, and those of kept links.
@@ -108,9 +94,16 @@ pub(in crate::search) fn adding(
     field: Field,
     order: &[usize],
     space: &SelfStressSpace,
-    in_use: InUse,
+    kept: Kept,
 ) -> Vec<Adding> {
-    let lifetimes = in_use.of(space);
+    let always = |l: &Lifetime| Lifetime { from: 0, to: l.to };
+    let lifetimes = [
+        space.contours.clone(),
+        match kept {
+            Kept::Live => space.kept.clone(),
+            Kept::All => space.kept.iter().map(always).collect(),
+        },
+    ];
     let mut wrong = 0;
     let stage = |(t, &variable): (usize, &usize)| {
         let coordinates = StageCoordinates::new(&lifetimes, t, wrong);
@@ -132,9 +125,9 @@ pub(in crate::search) fn adding(
         let left = coordinates.at[0].len() - gap;
         let finished = left..left + wrong + ending[1];
         // What went wrong reaches contours still, each motion in a way of its own.
-        wrong = match in_use {
-            InUse::Live => finished.len().min(left),
-            InUse::LiveContours | InUse::NotEnded => finished.len(),
+        wrong = match kept {
+            Kept::Live => finished.len().min(left),
+            Kept::All => finished.len(),
         };
         Adding {
             variable,

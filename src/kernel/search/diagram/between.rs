@@ -108,21 +108,28 @@ impl Between {
         self.least = self.least.min(other.least);
     }
 
+    /// The same in the coordinates of a stage, with a space of its own that any may have.
+    fn entered(&self, stage: &Adding) -> Between {
+        let widened = |rows: &Rows| rows.widened(stage.width, &stage.places);
+        Between {
+            all: widened(&self.all),
+            any: Some(widened(self.any())),
+            ..self.clone()
+        }
+    }
+
     /// What it becomes over a stage, for each of its choices; none where no space that it stands for has a future.
     pub(in crate::search) fn children(
         &self,
         arithmetic: &mut Arithmetic,
         over: &Passed<'_>,
     ) -> Vec<Option<Between>> {
-        let growth = &over.stage.growth;
+        let (growth, base) = (&over.stage.growth, self.entered(over.stage));
         let mut grown: Vec<Option<Between>> = vec![None; growth.len()];
         for g in growth {
             let mut next = match g.from {
                 Some(from) => grown[from].clone().unwrap_or_default(),
-                None => Between {
-                    any: Some(self.any().clone()),
-                    ..self.clone()
-                },
+                None => base.clone(),
             };
             next.add(arithmetic, &g.more, over.bounds);
             grown[g.choice] = Some(next);

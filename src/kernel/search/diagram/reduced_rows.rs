@@ -104,6 +104,19 @@ impl Rows {
         self.width = narrow;
     }
 
+    /// The rows with each coordinate at its place of those of a width, ascending, and nothing at the others.
+    pub(super) fn widened(&self, width: usize, places: &[usize]) -> Rows {
+        let mut data = vec![0; self.rank() * width];
+        for (row, own) in data.chunks_exact_mut(width.max(1)).zip(self.rows()) {
+            places.iter().zip(own).for_each(|(&at, &x)| row[at] = x);
+        }
+        Rows {
+            width,
+            pivots: self.pivots.iter().map(|&p| places[p]).collect(),
+            data,
+        }
+    }
+
     /// Drops coordinates in which every row has nothing.
     pub(super) fn drop_empty(&mut self, coordinates: &Range<usize>) {
         let (width, dropped) = (self.width, coordinates.len());

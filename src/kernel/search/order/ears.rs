@@ -80,7 +80,7 @@ impl Joined {
         let is_live = |l: LinkId| live[l.index()];
         let reaches = |e: &usize| self.edges[*e].1.iter().any(|&l| is_live(l));
         let begun = left.iter().any(reaches);
-        let mut search = Search {
+        let mut search = BreadthFirst {
             of: self,
             back: vec![None; self.at.len()],
         };
@@ -111,13 +111,13 @@ impl Joined {
 }
 
 /// A search for the shortest way, breadth first.
-struct Search<'a> {
+struct BreadthFirst<'a> {
     of: &'a Joined,
     /// The edge that each link was reached over; none between searches.
     back: Vec<Option<usize>>,
 }
 
-impl Search<'_> {
+impl BreadthFirst<'_> {
     /// The shortest way over an edge and on over those left from `to` until `ends` says so, as variables.
     fn ear(
         &mut self,
