@@ -101,7 +101,7 @@ mod tests {
             basis.reverse();
             let columns: Vec<Vec<Residue>> = basis.iter().map(|&i| all[i].1.clone()).collect();
             let of = |v: &Vec<Residue>| {
-                let relation = relations(f, &[&[v.clone()], &columns[..]].concat());
+                let relation = relations(f, &[std::slice::from_ref(v), &columns[..]].concat());
                 relation[0][1..].iter().map(|&x| f.neg(x)).collect::<Vec<Residue>>()
             };
             let mut vectors: Vec<(usize, Vec<Residue>)> = all.iter().map(|(t, v)| (*t, of(v))).collect();
