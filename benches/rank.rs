@@ -37,8 +37,10 @@ use ozols_dense::{Format, Matrix};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+/// A method, which finds a rank.
+type Function<'a> = Box<dyn FnMut() -> usize + 'a>;
 /// A method by name.
-type Timed<'a> = (&'static str, Box<dyn FnMut() -> usize + 'a>);
+type Timed<'a> = (&'static str, Function<'a>);
 
 /// Twice the geometry, in whole numbers: the mechanisms here have halves at most.
 struct Doubled;
@@ -198,7 +200,7 @@ fn bareiss(columns: &[Vec<i128>]) -> usize {
 }
 
 /// Best time of one call in seconds, of several functions that take turns.
-fn best(methods: &mut [Timed<'_>], rounds: usize) -> Vec<(f64, usize)> {
+fn best<N>(methods: &mut [(N, Function<'_>)], rounds: usize) -> Vec<(f64, usize)> {
     let mut out = vec![(f64::INFINITY, 0); methods.len()];
     let calls: Vec<u32> = methods
         .iter_mut()

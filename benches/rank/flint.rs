@@ -1,6 +1,6 @@
 //! The rank modulo a prime next to FLINT, through python-flint.
 
-use super::{Case, Timed, best, micro};
+use super::{Case, Function, best, cases, micro};
 use ozols::linalg::echelon;
 use ozols::linalg::modp::{Field, Residue};
 use ozols::rank::exact::modular;
@@ -86,37 +86,49 @@ pub(super) fn against_flint() {
     const MERSENNE_61: u64 = (1 << 61) - 1;
     const MERSENNE_31: u64 = (1 << 31) - 1;
     let case = Case::gripper();
-    let (field, big) = (case.exact.field(), Field::new(MERSENNE_61));
+    let big = Field::new(MERSENNE_61);
     let small = |x: &i128| x.rem_euclid(i128::from(MERSENNE_31)) as u64;
     let image = |c: &Vec<i128>| c.iter().map(small).collect();
-    let plain = |c: &Vec<Residue>| c.iter().map(|&x| field.to_u64(x)).collect();
-    let matrices = [
+    let written_out = |of: &Case| {
+        let field = of.exact.field();
+        let plain = |c: &Vec<Residue>| c.iter().map(|&x| field.to_u64(x)).collect();
+        (field.modulus(), of.dense.iter().map(plain).collect())
+    };
+    let larger: Vec<Case> = cases(&[10, 50]).collect();
+    let mut matrices: Vec<(u64, Vec<Vec<u64>>)> = vec![
         (MERSENNE_61, random(MERSENNE_61, 24, 30)),
-        (field.modulus(), case.dense.iter().map(plain).collect()),
+        written_out(&case),
         (MERSENNE_31, case.whole.iter().map(image).collect()),
     ];
+    matrices.extend(larger.iter().map(written_out));
     let to_field = |x: &u64| big.mul(big.from_i64(*x as i64), big.one());
     let dense: Vec<Vec<Residue>> = matrices[0]
         .1
         .iter()
         .map(|r| r.iter().map(to_field).collect())
         .collect();
-    let by_contour = || Box::new(|| modular::rank(&case.exact, &case.closure));
+    fn by_contour(of: &Case) -> Function<'_> {
+        Box::new(|| modular::rank(&of.exact, &of.closure))
+    }
     // Each stands against FLINT's of the same place.
-    let mut ours: Vec<Timed<'_>> = vec![
+    let mut ours: Vec<(String, Function<'_>)> = vec![
         (
-            "24 x 30 dense, 2^61 - 1: elimination",
+            "24 x 30 dense, 2^61 - 1: elimination".into(),
             Box::new(|| echelon::rank(big, dense.iter().map(Vec::as_slice))),
         ),
         (
-            "gripper 24 x 14, same prime: contour by contour",
-            by_contour(),
+            "gripper 24 x 14, same prime: contour by contour".into(),
+            by_contour(&case),
         ),
         (
-            "gripper 24 x 14, FLINT's 2^31 - 1: contour by contour",
-            by_contour(),
+            "gripper 24 x 14, FLINT's 2^31 - 1: contour by contour".into(),
+            by_contour(&case),
         ),
     ];
+    ours.extend(larger.iter().map(|of| {
+        let name = format!("{}: contour by contour", of.name);
+        (name, by_contour(of))
+    }));
     let before = flint(&matrices);
     let mine = best(&mut ours, 300);
     match (before, flint(&matrices)) {

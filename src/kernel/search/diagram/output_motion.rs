@@ -91,12 +91,31 @@ pub(crate) fn lookahead(
             map.push(seen(v));
         }
     }
+    let bound = open.iter().filter(|&&i| i < locks.len()).count();
+    let (map, locks_kept) = independent(field, map, bound);
     Lookahead {
         map,
-        locks: open.iter().filter(|&&i| i < locks.len()).count(),
+        locks: locks_kept,
         base: taken.iter().filter(|&&i| i >= locks.len()).count(),
         allowed,
     }
+}
+
+/// The coordinates of some images that are no combinations of those before them, and how many of the first ones these are: joints
+/// far ahead bind in as many ways as there are of them, and a node has a few numbers.
+fn independent(
+    field: Field,
+    images: Vec<Vec<Residue>>,
+    first: usize,
+) -> (Vec<Vec<Residue>>, usize) {
+    let mut span = Echelon::new(field);
+    let columns = transpose(&images);
+    let kept: Vec<usize> = (0..columns.len())
+        .filter(|&c| span.rank() < images.len() && span.insert(&columns[c]))
+        .collect();
+    let picked = |image: Vec<Residue>| kept.iter().map(|&c| image[c]).collect();
+    let first = kept.partition_point(|&c| c < first);
+    (images.into_iter().map(picked).collect(), first)
 }
 
 /// Where the links and couplings that constraints are about stand in a row of them: inner ones first, so that elimination leaves
