@@ -107,7 +107,7 @@ fn layout_as(
 ///
 /// # Complexity
 /// As [`layout`].
-pub fn layout_of_three(
+pub(crate) fn layout_of_three(
     structure: &ThreefoldStructure,
     limits: &Limits,
     seed: u64,

@@ -93,7 +93,7 @@ fn free_is_loaded(m: &Mechanism) -> bool {
 
 /// Whether the file loads any state.
 #[must_use]
-pub fn is_loaded(m: &Mechanism) -> bool {
+pub(crate) fn is_loaded(m: &Mechanism) -> bool {
     free_is_loaded(m) || m.state_ids().any(|s| grip_of(m, s).is_some())
 }
 
