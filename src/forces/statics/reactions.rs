@@ -14,7 +14,7 @@
 
 pub mod applied;
 pub mod contact;
-pub mod couplings;
+pub(crate) mod couplings;
 pub mod cycle;
 pub mod drives;
 mod equations;

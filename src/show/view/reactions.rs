@@ -2,7 +2,7 @@
 //! N, moments in N·m about the joints' points, each first link on second, in the joint's own frame.
 
 pub(crate) mod chart;
-pub mod couplings;
+pub(crate) mod couplings;
 pub mod stroke;
 pub mod text;
 
