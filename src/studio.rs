@@ -44,7 +44,7 @@ const GRACE: Duration = Duration::from_secs(3);
 
 /// A studio that is ready to be opened.
 #[derive(Debug)]
-pub struct Studio {
+pub(crate) struct Studio {
     listener: TcpListener,
     door: Arc<Door>,
     room: Arc<Room>,
@@ -55,7 +55,7 @@ impl Studio {
     ///
     /// # Errors
     /// Where the file cannot be read, or no port is free.
-    pub fn new(opening: Opening, request: Request) -> io::Result<Studio> {
+    pub(crate) fn new(opening: Opening, request: Request) -> io::Result<Studio> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let door = Arc::new(Door::new(listener.local_addr()?.port())?);
         let room = Arc::new(Room::new(opening, request)?);
@@ -68,7 +68,7 @@ impl Studio {
 
     /// The address of the page, with its token.
     #[must_use]
-    pub fn address(&self) -> String {
+    pub(crate) fn address(&self) -> String {
         self.door.address()
     }
 
@@ -76,7 +76,7 @@ impl Studio {
     ///
     /// # Errors
     /// Where threads cannot be made.
-    pub fn serve(self) -> io::Result<Option<std::path::PathBuf>> {
+    pub(crate) fn serve(self) -> io::Result<Option<std::path::PathBuf>> {
         let Studio {
             listener,
             door,

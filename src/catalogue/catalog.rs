@@ -11,7 +11,7 @@ pub mod general;
 mod insert;
 #[cfg(feature = "store")]
 pub mod neighbours;
-pub mod paired_row;
+pub(crate) mod paired_row;
 pub mod row;
 mod searched;
 pub mod spec;

@@ -6,17 +6,17 @@
 //! of whole ones.
 
 mod annealing;
-pub mod beside;
-pub mod bones;
+pub(crate) mod beside;
+pub(crate) mod bones;
 mod coordinate;
-pub mod elimination;
+pub(crate) mod elimination;
 pub mod figures;
 pub mod layout;
 pub mod layout_quality;
 pub mod limits;
 pub mod mechanism;
 pub mod paired;
-pub mod place;
+pub(crate) mod place;
 pub mod point;
 mod random;
 pub mod recognize;
@@ -26,5 +26,5 @@ pub mod sketch;
 pub mod stroke;
 pub mod structure;
 pub mod task;
-pub mod velocities;
+pub(crate) mod velocities;
 pub mod workload;

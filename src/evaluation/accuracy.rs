@@ -4,7 +4,7 @@
 //! geometry, size, scale, noise and tolerance until answers turn wrong; [`searching`] compares the ways of searching.
 //! Verdicts are the same on every run; only times differ.
 
-pub mod cases;
+pub(crate) mod cases;
 pub mod folder;
 pub mod lattice;
 mod pareto;

@@ -8,7 +8,7 @@ pub mod known_or_why;
 pub mod redesigns;
 pub mod row;
 pub mod space;
-pub mod stroke;
+pub(crate) mod stroke;
 pub mod summary;
 pub mod table;
 

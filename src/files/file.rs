@@ -8,7 +8,7 @@ pub mod costs;
 mod digits;
 mod doubted;
 pub mod edit;
-pub mod findings;
+pub(crate) mod findings;
 mod guessed_directions;
 #[doc(hidden)]
 pub mod leftover;

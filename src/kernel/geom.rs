@@ -2,7 +2,7 @@
 //! number field they lie in.
 
 pub mod exact;
-pub mod exact_vector;
+pub(crate) mod exact_vector;
 pub mod expr;
 pub mod extent;
 pub mod number_field;

@@ -4,7 +4,7 @@
 pub mod analysis;
 pub mod contour_shares;
 pub mod duplicate_constraints;
-pub mod external;
+pub(crate) mod external;
 pub mod figures;
 pub mod idle_animation;
 mod joint_wrench;
@@ -15,5 +15,5 @@ pub mod moved;
 pub mod other_poses;
 pub mod release;
 pub mod stress;
-pub mod stress_loads;
+pub(crate) mod stress_loads;
 pub mod with_drives_held;

@@ -11,7 +11,7 @@ pub mod build;
 pub mod check;
 pub mod diagram;
 pub mod numeric;
-pub mod order;
+pub(crate) mod order;
 pub mod question;
 mod reduce;
 #[doc(hidden)]

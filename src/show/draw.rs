@@ -15,12 +15,15 @@ mod subject;
 mod symbol;
 
 pub use crate::svg::plane::Rect;
+pub(crate) use kinematic::kinematic_with;
 pub use kinematic::moving::{Moved, kinematic_along, kinematic_moving};
-pub use kinematic::scene::{Scene, Shown, kinematic_scene};
-pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed, kinematic_with};
+pub(crate) use kinematic::scene::kinematic_scene;
+pub use kinematic::scene::{Scene, Shown};
+pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed};
 
 pub use place::view_direction::Sight;
-pub use scheme::{scheme, scheme_with};
+pub use scheme::scheme;
+pub(crate) use scheme::scheme_with;
 pub use sheet::STYLE as SHEET_STYLE;
 pub use sheet::{Drawing, Label};
 pub use subject::{Marks, Subject};

@@ -3,7 +3,7 @@
 pub mod accuracy;
 pub mod analysis;
 pub mod catalog;
-pub mod claims;
+pub(crate) mod claims;
 pub mod contract;
 pub mod drive;
 pub mod grip;

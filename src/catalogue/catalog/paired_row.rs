@@ -14,10 +14,10 @@ use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
 
 /// A row of a structure with slides, gears or slots.
-pub type PairedRow = StructureRow<PairedStructure, PairLayout>;
+pub(crate) type PairedRow = StructureRow<PairedStructure, PairLayout>;
 
 /// The row of one with three jaws.
-pub type ThreefoldRow = StructureRow<ThreefoldStructure, PairLayout>;
+pub(crate) type ThreefoldRow = StructureRow<ThreefoldStructure, PairLayout>;
 
 /// The row of a structure with slides, gears or slots.
 ///
@@ -26,7 +26,7 @@ pub type ThreefoldRow = StructureRow<ThreefoldStructure, PairLayout>;
 ///
 /// # Complexity
 /// A search for places and one of the variants.
-pub fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow, RowError> {
+pub(crate) fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow, RowError> {
     let menu = spec.menu()?;
     let laid = match layout(paired, &spec.limits(), spec.seed) {
         Err(why) => Err(why),
@@ -54,7 +54,10 @@ pub fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow,
 ///
 /// # Complexity
 /// As [`row_of_paired`].
-pub fn row_of_three(structure: &ThreefoldStructure, spec: &Spec) -> Result<ThreefoldRow, RowError> {
+pub(crate) fn row_of_three(
+    structure: &ThreefoldStructure,
+    spec: &Spec,
+) -> Result<ThreefoldRow, RowError> {
     let menu = spec.menu()?;
     let laid = match layout_of_three(structure, &spec.limits(), spec.seed) {
         Err(why) => Err(why),

@@ -15,10 +15,10 @@ use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// Most links of a structure: with more there are millions of structures.
-pub const MOST_LINKS: usize = 12;
+pub(crate) const MOST_LINKS: usize = 12;
 
 /// Most links of a structure with pairs.
-pub const MOST_PAIRED: usize = 8;
+pub(crate) const MOST_PAIRED: usize = 8;
 
 /// The widest part of a task, in mm: pins stand within some 100 mm of each other.
 const WIDEST: i64 = 200;
@@ -243,7 +243,7 @@ impl Spec {
     ///
     /// # Errors
     /// Where a word means nothing.
-    pub fn paired_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
+    pub(crate) fn paired_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
         if self.pairs()?.is_empty() || self.jaws != 2 {
             return Ok(Vec::new());
         }
@@ -262,7 +262,7 @@ impl Spec {
     ///
     /// # Errors
     /// Where a word means nothing.
-    pub fn threefold_pairs(&self) -> Result<bool, SpecError> {
+    pub(crate) fn threefold_pairs(&self) -> Result<bool, SpecError> {
         let (inputs, symmetries) = self.words()?;
         let threefold = symmetries.contains(&Symmetry::Threefold) && inputs.contains(&Input::Turn);
         let pairs = !self.pairs()?.is_empty();

@@ -64,7 +64,7 @@ impl Weighted {
 
     /// The same graph with its vertices in another order.
     #[must_use]
-    pub fn renumbered(&self, order: &[usize]) -> Weighted {
+    pub(crate) fn renumbered(&self, order: &[usize]) -> Weighted {
         let pairs = order
             .iter()
             .flat_map(|&u| order.iter().map(move |&v| (u, v)));
@@ -77,7 +77,7 @@ impl Weighted {
 
 /// A canonical numbering and the automorphisms.
 #[derive(Debug, Clone)]
-pub struct Canonical {
+pub(crate) struct Canonical {
     /// The graph so numbered: equal for two graphs exactly where they are isomorphic.
     pub graph: Weighted,
     /// Which vertex stands at each place.
@@ -91,7 +91,7 @@ pub struct Canonical {
 /// # Complexity
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.
 #[must_use]
-pub fn canonical(graph: &Weighted) -> Canonical {
+pub(crate) fn canonical(graph: &Weighted) -> Canonical {
     let n = graph.vertices;
     let mut search = LabelSearch {
         graph,

@@ -3,7 +3,7 @@
 use crate::chains::canonical::{Canonical, Weighted, canonical};
 
 /// Most links of a chain: sets of links are the bits of a word, and tables of all of them are made.
-pub const MOST_LINKS: usize = 20;
+pub(crate) const MOST_LINKS: usize = 20;
 
 /// A chain: links 0..n, and which are joined.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -12,7 +12,7 @@
 pub mod census;
 pub mod chain;
 pub mod classics;
-pub mod graphs;
+pub(crate) mod graphs;
 mod halves;
 pub mod kind;
 pub mod motion;

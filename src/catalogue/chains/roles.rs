@@ -123,7 +123,7 @@ impl<'a> Subject<'a> {
     /// Whether the part, hinged to both jaws, makes a truss of the whole and of nothing less; hinged to three, it is held more
     /// than once.
     #[must_use]
-    pub fn is_truss(&self, roles: &Roles) -> bool {
+    pub(crate) fn is_truss(&self, roles: &Roles) -> bool {
         let jaws = roles.jaws.iter().fold(0, |bits, &l| bits | 1 << l);
         let &[a, b] = &roles.jaws[..] else {
             return false;

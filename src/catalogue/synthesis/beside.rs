@@ -19,7 +19,12 @@ use sha2::{Digest, Sha256};
 /// # Complexity
 /// That of the figures of a stroke, twice.
 #[must_use]
-pub fn beside(structure: &Structure, layout: &Layout, seed: u64, number: u32) -> Option<Layout> {
+pub(crate) fn beside(
+    structure: &Structure,
+    layout: &Layout,
+    seed: u64,
+    number: u32,
+) -> Option<Layout> {
     let rules = Rules::free(structure)?;
     let digest = Sha256::digest(format!("{} {seed} beside {number}", structure.name()));
     let mut key = [0; 32];

@@ -5,17 +5,17 @@
 //! lengths (3, 4 and 5), radii are whole, so that layouts are exact as they stand.
 
 pub mod direction;
-pub mod equations;
+pub(crate) mod equations;
 pub mod figures;
-pub mod forces;
+pub(crate) mod forces;
 pub mod known;
 pub mod layout;
-pub mod mechanism;
-pub mod mechanism_of_three;
+pub(crate) mod mechanism;
+pub(crate) mod mechanism_of_three;
 mod moves;
 pub mod places;
-pub mod rows;
+pub(crate) mod rows;
 pub mod rules;
 pub mod sketch;
 pub mod structure;
-pub mod threefold;
+pub(crate) mod threefold;

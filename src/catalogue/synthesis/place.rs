@@ -41,7 +41,7 @@ impl Place {
 
 /// A point after a turn of 120° about the origin.
 #[must_use]
-pub fn third([x, y]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn third([x, y]: [f64; 2]) -> [f64; 2] {
     let half_root = 3.0_f64.sqrt() / 2.0;
     [-0.5 * x - half_root * y, half_root * x - 0.5 * y]
 }

@@ -7,7 +7,7 @@ pub type Point = [f64; 2];
 
 /// The middle of points.
 #[must_use]
-pub fn middle(points: &[Point]) -> Point {
+pub(crate) fn middle(points: &[Point]) -> Point {
     #[allow(clippy::cast_precision_loss, reason = "a few")]
     let n = points.len().max(1) as f64;
     points

@@ -161,7 +161,7 @@ impl Rules {
     }
 
     /// The pins that may be moved.
-    pub fn movable(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn movable(&self) -> impl Iterator<Item = usize> + '_ {
         let free = |i: &usize| matches!(self.rules[*i], Rule::Free | Rule::OnLine);
         (0..self.pins.len()).filter(free)
     }

@@ -222,7 +222,7 @@ fn share_sentence(survey: &Survey, front: &[&MethodPlace]) -> String {
 
 /// Mechanisms down, methods across: right, wrong by how much, or not applicable.
 #[must_use]
-pub fn matrix(survey: &Survey) -> Matrix {
+pub(crate) fn matrix(survey: &Survey) -> Matrix {
     let columns: Vec<String> = registry::ALL.iter().map(|m| m.name().to_owned()).collect();
     let rows = survey.cases.iter().map(Case::name).collect();
     let cell = |case: &Case, (method, reply): (&&dyn MobilityMethod, &Reply)| {

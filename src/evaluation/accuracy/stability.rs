@@ -16,7 +16,7 @@ mod size;
 mod sketch;
 pub mod special;
 mod study;
-pub mod sweep;
+pub(crate) mod sweep;
 mod tolerance;
 
 use super::BuiltIn;

@@ -110,7 +110,7 @@ impl Timing {
 
     /// Of something that takes so many seconds more.
     #[must_use]
-    pub fn plus(self, seconds: f64) -> Timing {
+    pub(crate) fn plus(self, seconds: f64) -> Timing {
         Timing {
             median: self.median + seconds,
             least: self.least + seconds,
@@ -159,7 +159,7 @@ impl Stopwatch {
     clippy::cast_sign_loss,
     reason = "counts are small"
 )]
-pub fn quantile(of: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(of: &[f64], share: f64) -> f64 {
     let mut of = of.to_vec();
     of.sort_by(f64::total_cmp);
     let Some(last) = of.len().checked_sub(1) else {

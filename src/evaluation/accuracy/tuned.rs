@@ -80,7 +80,7 @@ fn middle_of_best(numbers: &[usize]) -> usize {
 
 /// Every floating-point method at its best tolerance; the default one where no other is better.
 #[must_use]
-pub fn tuned(cases: &[Case]) -> Vec<Tuned> {
+pub(crate) fn tuned(cases: &[Case]) -> Vec<Tuned> {
     let methods = registry::ALL.iter().enumerate();
     let floats = methods.filter_map(|(n, m)| Some((n, Elimination::of(*m)?)));
     floats

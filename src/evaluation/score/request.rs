@@ -1,7 +1,7 @@
 //! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
 //! how its answer is checked.
 
-pub mod costs;
+pub(crate) mod costs;
 pub(in crate::score) mod error;
 pub(in crate::score) mod missing_options;
 pub(in crate::score) mod option_rules;

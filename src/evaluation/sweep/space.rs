@@ -6,11 +6,11 @@ use itertools::Itertools;
 use thiserror::Error;
 
 /// Most samples of a grid.
-pub const MOST: usize = 1_000_000;
+const MOST: usize = 1_000_000;
 /// Most numbers of a range on a grid.
-pub const FINEST: usize = 100_000;
+const FINEST: usize = 100_000;
 /// Most of a sequence: further numbers have no places in it.
-pub const MOST_SOBOL: usize = 1 << 16;
+const MOST_SOBOL: usize = 1 << 16;
 /// A sequence's fractions have this many: each is a short fraction of two, so that no decimals are made up.
 const FRACTIONS: usize = 1 << 16;
 

@@ -27,7 +27,7 @@ pub struct OverStroke {
 /// Why there is no stroke.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum StrokeError {
+pub(crate) enum StrokeError {
     /// The mechanism cannot be followed.
     #[error(transparent)]
     Asked(#[from] AskedError),

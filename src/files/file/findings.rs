@@ -6,10 +6,10 @@ use crate::geom::expr::{Expr, ExprError};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A problem and the path of the item it concerns.
-pub type Finding = (Vec<DocumentStep>, ProblemKind);
+pub(crate) type Finding = (Vec<DocumentStep>, ProblemKind);
 
 /// Most problems that are told; a file of a few megabytes can hold a hundred thousand, and each is looked up and drawn.
-pub const TOLD: usize = 100;
+pub(crate) const TOLD: usize = 100;
 
 /// Problems found so far, with where they stand: the first of them, and how many more there are. They are found where
 /// expressions are read, so this knows the numbers that have names, too.

@@ -292,7 +292,7 @@ pub struct Magnet {
 
 /// The electromagnets of a run with this spring.
 #[must_use]
-pub fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
+pub(crate) fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
     let swings = run.steps.iter().filter_map(|s| match &s.event {
         Event::Swing { disc, swing } => Some((s, *disc, swing)),
         Event::Dwell => None,

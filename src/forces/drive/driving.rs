@@ -95,7 +95,7 @@ pub struct Driving {
 
 /// The bar that a specification asks for.
 #[must_use]
-pub fn wanted(spec: &DriveSpec) -> Wanted {
+pub(crate) fn wanted(spec: &DriveSpec) -> Wanted {
     Wanted {
         twist: spec.twist,
         period: spec.period,

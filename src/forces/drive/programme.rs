@@ -114,7 +114,7 @@ impl Run {
 
 /// The discs that a programme lets go, in order.
 #[must_use]
-pub fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
+pub(crate) fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
     let disc = |s: &ProgrammeStep| match s {
         ProgrammeStep::Swing(disc) => Some(*disc),
         ProgrammeStep::Dwell(_) => None,

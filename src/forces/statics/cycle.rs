@@ -107,7 +107,7 @@ pub fn statics(
 ///
 /// # Errors
 /// As [`statics`].
-pub fn statics_at(
+pub(crate) fn statics_at(
     mechanism: &Mechanism,
     state: StateId,
     positions: &[f64],

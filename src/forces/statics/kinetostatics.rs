@@ -274,7 +274,7 @@ fn origin(pose: &Pose, body: BodyId) -> [f64; 2] {
 /// # Complexity
 /// O(n³) for n bodies.
 #[must_use]
-pub fn equilibrium(
+pub(crate) fn equilibrium(
     linkage: &Linkage,
     now: &Instant,
     bodies: &[BodyId],
@@ -375,7 +375,7 @@ fn summed<'u>(
 ///
 /// `None` where the equations are singular.
 #[must_use]
-pub fn whole(
+pub(crate) fn whole(
     linkage: &Linkage,
     d: &Decomposition,
     now: &Instant,
@@ -392,7 +392,7 @@ pub fn whole(
 ///
 /// `None` where a group's equations are singular.
 #[must_use]
-pub fn by_groups(
+pub(crate) fn by_groups(
     linkage: &Linkage,
     d: &Decomposition,
     now: &Instant,

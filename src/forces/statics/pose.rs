@@ -203,7 +203,7 @@ impl Linkage {
 
     /// What [`Linkage::rows`] times the accelerations comes to, less the drive's own acceleration.
     #[must_use]
-    pub fn bends(&self, pose: &Pose, v: &Pose, pair: PairId, drive: bool) -> Vec<f64> {
+    pub(crate) fn bends(&self, pose: &Pose, v: &Pose, pair: PairId, drive: bool) -> Vec<f64> {
         let p = &self.mechanism.pairs[pair];
         let now = self.now(pose, p);
         let [w0, w1] = p.bodies.map(|b| v[b][2]);

@@ -14,21 +14,21 @@
 
 pub mod applied;
 pub mod contact;
-pub mod couplings;
+pub(crate) mod couplings;
 pub mod cycle;
 pub mod drives;
 mod equations;
 mod family;
 pub mod follow;
 pub mod geometry;
-pub mod inertia;
-pub mod solution;
-pub mod solve;
-pub mod teeth;
+pub(crate) mod inertia;
+pub(crate) mod solution;
+pub(crate) mod solve;
+pub(crate) mod teeth;
 mod transmitted;
 mod unilateral;
-pub mod unsolved;
-pub mod wrench;
+pub(crate) mod unsolved;
+pub(crate) mod wrench;
 
 pub use contact::Contacts;
 pub use cycle::{Cycle, cycle};

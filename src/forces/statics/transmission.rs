@@ -48,7 +48,7 @@ pub struct Rates {
 ///
 /// # Complexity
 /// One singular value decomposition of J.
-pub fn rates(
+pub(crate) fn rates(
     mechanism: &Mechanism,
     pose: &Pose,
     joints: &[JointId],

@@ -167,7 +167,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
     }
 
     /// The same of several links.
-    pub fn link_motions<S: Scalars<Number = N>>(
+    pub(crate) fn link_motions<S: Scalars<Number = N>>(
         &self,
         s: &S,
         mechanism: &Mechanism,

@@ -12,7 +12,7 @@ use crate::model::mechanism::{Frame, Mode};
 
 /// Where a joint is, in numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spot {
+pub(crate) struct Spot {
     /// Its point.
     pub point: Vector,
     /// Its axis.
@@ -22,7 +22,7 @@ pub struct Spot {
 impl Spot {
     /// Of a joint's frame.
     #[must_use]
-    pub fn of(frame: &Frame) -> Spot {
+    pub(crate) fn of(frame: &Frame) -> Spot {
         Spot {
             point: real(&frame.point),
             axis: real(&frame.axis),
@@ -32,7 +32,7 @@ impl Spot {
 
 /// A type of joint at a place: what says which motions are allowed.
 #[derive(Debug, Clone, Copy)]
-pub struct PlacedType<'a> {
+pub(crate) struct PlacedType<'a> {
     /// Its frame.
     pub frame: &'a Frame,
     /// The type.
@@ -92,7 +92,7 @@ impl Miss {
 }
 
 /// What carries space over to itself, and a mechanism with it.
-pub trait Carrier {
+pub(crate) trait Carrier {
     /// Where it carries a joint, in numbers.
     fn image(&self, spot: Spot) -> Spot;
 
@@ -128,7 +128,7 @@ pub trait Carrier {
 
 /// What becomes of space: x goes to `linear`·x + `shift`, lengths stay.
 #[derive(Debug, Clone, Copy)]
-pub struct Map {
+pub(crate) struct Map {
     /// What becomes of x, y and z.
     pub(super) linear: [[Residue; 3]; 3],
     /// What becomes of the origin.

@@ -46,7 +46,7 @@ pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<TreeStep> {
 /// # Complexity
 /// O(n + m) for n links, m joints.
 #[must_use]
-pub fn path_from_frame(
+pub(crate) fn path_from_frame(
     mechanism: &Mechanism,
     state: StateId,
     link: LinkId,

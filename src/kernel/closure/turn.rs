@@ -10,7 +10,7 @@ use crate::model::mechanism::{JointId, Mechanism};
 
 /// Part of a turn about an axis.
 #[derive(Debug, Clone)]
-pub struct Turn {
+pub(crate) struct Turn {
     /// Points that it carries to each other, two or three: their middle is on the axis.
     round: Vec<ExactVector>,
     axis: ExactVector,
@@ -23,7 +23,7 @@ impl Turn {
     /// The turns that groups of joints may suggest: three points tell all; two the middle, and the axis is along a direction of
     /// their joints, between or across these, or along a direction of a joint that is its own image.
     #[must_use]
-    pub fn of_groups(mechanism: &Mechanism, groups: &[Vec<JointId>]) -> Vec<Turn> {
+    pub(crate) fn of_groups(mechanism: &Mechanism, groups: &[Vec<JointId>]) -> Vec<Turn> {
         let frame = |j: &JointId| &mechanism.joints[*j].frame;
         let directions = |j: JointId| {
             let [z, x] = [&frame(&j).axis, &frame(&j).reference];

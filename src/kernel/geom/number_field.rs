@@ -9,7 +9,7 @@
 //! Watkins & Zeitlin, "The minimal polynomial of cos(2π/n)", Amer. Math. Monthly 100 (1993).
 
 mod cosine;
-pub mod splitting;
+pub(crate) mod splitting;
 
 use std::collections::BTreeMap;
 

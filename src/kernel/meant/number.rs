@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 /// A vector of rational numbers.
-pub type Rational3 = [BigRational; 3];
+pub(crate) type Rational3 = [BigRational; 3];
 
 /// The decimal of so many places nearest to a number that is finite.
 pub(super) fn decimal(x: f64, places: u32) -> BigRational {

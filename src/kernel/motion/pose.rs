@@ -21,7 +21,7 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use ozols_dense::Matrix;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
-pub const CLOSED: f64 = 1e-12;
+const CLOSED: f64 = 1e-12;
 /// Singular values of J below this fraction of the largest count as zero at a pose that Newton's method has closed.
 pub const FLAT: f64 = 1e-6;
 
@@ -133,7 +133,7 @@ impl Pose {
 
     /// The same pose of measured geometry, with a relative error of its coordinates.
     #[must_use]
-    pub fn with_accuracy(mut self, accuracy: f64) -> Pose {
+    pub(crate) fn with_accuracy(mut self, accuracy: f64) -> Pose {
         self.accuracy = accuracy;
         self
     }

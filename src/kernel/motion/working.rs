@@ -8,7 +8,7 @@ use ozols_dense::{Matrix, svd};
 
 /// How far it is followed to either side, by the coordinate that moves most from step to step: radians, or fractions of
 /// [`Pose::length`].
-pub const FAR: f64 = 0.9;
+pub(crate) const FAR: f64 = 0.9;
 /// A closed pose farther from where first order leads than this share of the step is another motion.
 const ASTRAY: f64 = 0.5;
 

@@ -6,4 +6,4 @@ pub mod field;
 pub(in crate::rank) mod kernel;
 pub mod modular;
 pub mod rational;
-pub mod reconstruct;
+pub(crate) mod reconstruct;

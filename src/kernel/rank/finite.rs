@@ -1,9 +1,9 @@
 //! Finite (full-cycle) mobility: the dimension of the motion that is really there, beside the instantaneous f - rank J.
 
-pub mod at_rest;
+pub(crate) mod at_rest;
 pub mod bonds;
 mod contours;
-pub mod coordinates;
+pub(crate) mod coordinates;
 pub mod displacement_group;
 pub mod higher_order;
 mod idle_ways;

@@ -1,11 +1,11 @@
 //! What every way of saying how far a mechanism moves has in common; [`crate::rank::method::registry`] lists them.
 
 pub mod auto;
-pub mod finite_exact;
-pub mod formulas;
+pub(crate) mod finite_exact;
+pub(crate) mod formulas;
 pub mod generic;
 pub mod registry;
-pub mod sum_of_loops;
+pub(crate) mod sum_of_loops;
 
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};

@@ -90,7 +90,11 @@ impl Elimination {
     ///
     /// # Errors
     /// Where the singular values fail.
-    pub fn rank_of(self, matrix: &Matrix, tolerance: f64) -> Result<NumericRank, NumericError> {
+    pub(crate) fn rank_of(
+        self,
+        matrix: &Matrix,
+        tolerance: f64,
+    ) -> Result<NumericRank, NumericError> {
         let values = match self {
             Elimination::Lu32 => Format::Single.pivots(matrix),
             Elimination::Lu => Format::Double.pivots(matrix),
@@ -147,7 +151,7 @@ pub fn rank(closure: &Closure<f64>) -> Result<NumericRank, NumericError> {
 ///
 /// # Errors
 /// Where the decomposition fails.
-pub fn rank_with_tolerance(
+pub(crate) fn rank_with_tolerance(
     closure: &Closure<f64>,
     tolerance: f64,
 ) -> Result<NumericRank, NumericError> {

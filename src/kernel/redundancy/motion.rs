@@ -23,7 +23,11 @@ pub fn motions(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
 
 /// The twist of a link under a motion.
 #[must_use]
-pub fn twist(exact: &ExactField, link_motion: &[Vec<Residue>], speeds: &[Residue]) -> Vec<Residue> {
+pub(crate) fn twist(
+    exact: &ExactField,
+    link_motion: &[Vec<Residue>],
+    speeds: &[Residue],
+) -> Vec<Residue> {
     echelon::combination(exact.field(), link_motion, speeds)
 }
 
@@ -31,7 +35,7 @@ pub fn twist(exact: &ExactField, link_motion: &[Vec<Residue>], speeds: &[Residue
 ///
 /// # Errors
 /// Where a coordinate has no value in the field.
-pub fn joint_motion(
+pub(crate) fn joint_motion(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: StateId,

@@ -57,7 +57,7 @@ pub struct SelfStress {
 /// # Complexity
 /// One elimination of J by rows, see [`relations`].
 #[must_use]
-pub fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Vec<Residue>> {
+pub(crate) fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Vec<Residue>> {
     let columns = closure.dense(exact);
     let mut rows = if columns.is_empty() {
         vec![vec![0]; closure.rows()]
@@ -148,7 +148,7 @@ impl<'a> Stresses<'a> {
 ///
 /// # Complexity
 /// One elimination of J, O((6k)² f), and a few of the stresses.
-pub fn harmful_count(
+pub(crate) fn harmful_count(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -169,7 +169,7 @@ pub fn harmful_count(
 ///
 /// # Complexity
 /// One elimination of J, O((6k)² f), and one per joint and stress.
-pub fn self_stresses(
+pub(crate) fn self_stresses(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,

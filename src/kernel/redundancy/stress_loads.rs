@@ -45,7 +45,7 @@ impl Borne {
 }
 
 /// Shares of the joints in self-stresses, one after the other.
-pub struct Shares<'a> {
+pub(crate) struct Shares<'a> {
     mechanism: &'a Mechanism,
     closure: Closure<f64>,
     columns: Vec<Vec<f64>>,
@@ -68,7 +68,7 @@ impl<'a> Shares<'a> {
     ///
     /// # Errors
     /// Where a coordinate has no value.
-    pub fn new(mechanism: &'a Mechanism, of: &Closure<Residue>) -> Result<Self, ExactError> {
+    pub(crate) fn new(mechanism: &'a Mechanism, of: &Closure<Residue>) -> Result<Self, ExactError> {
         let closure = Closure::with_contours(&Reals, mechanism, of.state, of.contours.clone())?;
         let points: Vec<[f64; 3]> = mechanism
             .joints_in(of.state)

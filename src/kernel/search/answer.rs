@@ -1,8 +1,8 @@
 //! What is read off finished diagrams: counts, the cheapest in order, samples, ideas, single changes, and why there is nothing.
 
 pub(in crate::search) mod completions;
-pub mod count;
-pub mod count_tables;
+pub(crate) mod count;
+pub(crate) mod count_tables;
 pub mod counts;
 pub(in crate::search) mod drawn;
 pub mod estimate;
@@ -10,12 +10,12 @@ pub mod freedom_patterns;
 pub mod ideas;
 pub mod k_best;
 pub mod keys;
-pub mod least_freedoms;
+pub(crate) mod least_freedoms;
 pub mod orbit_counts;
 pub mod place;
-pub mod proven_cheapest;
+pub(crate) mod proven_cheapest;
 pub(in crate::search) mod random_cuts;
 pub(in crate::search) mod samples;
 pub mod single_changes;
-pub mod variants_in_order;
+pub(crate) mod variants_in_order;
 pub mod why_none;

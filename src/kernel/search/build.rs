@@ -91,7 +91,7 @@ pub fn build(
 }
 
 /// Builds both diagrams in given orders.
-pub fn build_in(
+pub(crate) fn build_in(
     question: &Question,
     orders: &Orders,
     cancelled: &(dyn Fn() -> bool + Sync),

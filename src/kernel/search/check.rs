@@ -2,7 +2,7 @@
 
 pub mod brute;
 pub mod brute_float;
-pub mod full_matrices;
+pub(crate) mod full_matrices;
 pub mod other_poses;
 pub mod pruned;
 pub mod second_opinion;

@@ -11,12 +11,12 @@ pub(in crate::search) mod completion;
 pub mod frontier;
 pub(in crate::search) mod layer;
 pub(in crate::search) mod minimize;
-pub mod output_motion;
+pub(crate) mod output_motion;
 pub(in crate::search) mod product;
 pub(in crate::search) mod reduced_rows;
-pub mod redundancy_so_far;
-pub mod stage;
-pub mod state_copies;
+pub(crate) mod redundancy_so_far;
+pub(crate) mod stage;
+pub(crate) mod state_copies;
 pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
 

@@ -4,11 +4,11 @@ pub mod as_written;
 pub mod conditions;
 pub mod cost;
 pub mod grasp;
-pub mod own_images;
+pub(crate) mod own_images;
 pub mod preference;
 pub mod rounded_rank;
 pub mod space;
-pub mod symmetry;
+pub(crate) mod symmetry;
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::exact::{ExactError, ExactField};

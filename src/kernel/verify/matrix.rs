@@ -88,7 +88,7 @@ impl MatrixOverRing {
     /// The nonzero entries, column by column, each times the common denominator of its row: the matrix of a multiple of each row, of
     /// integral combinations of the monomials. O(entries) greatest common divisors.
     #[must_use]
-    pub fn integral_rows(&self) -> Vec<Vec<Vec<BigInt>>> {
+    pub(crate) fn integral_rows(&self) -> Vec<Vec<Vec<BigInt>>> {
         let mut below = vec![BigInt::one(); self.rows];
         for (row, _, x) in self.entries() {
             below[row] = common_multiple(std::mem::take(&mut below[row]), &x.denominator());

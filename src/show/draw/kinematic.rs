@@ -64,7 +64,7 @@ pub fn kinematic_stressed(
 /// The kinematic scheme with room for the symbols of other joints in place of some, and for each swap the SVG elements
 /// that stand in the group of its joint (`data-joint`) instead of those there, marked as changed.
 #[must_use]
-pub fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+pub(crate) fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
     let mut drawn = Kinematic::new(subject, &Sight::default());
     let mut out = Vec::new();
     for swap in swaps {

@@ -49,7 +49,7 @@ pub fn scheme(subject: &Subject<'_>) -> Drawing {
 /// The structural scheme, and for each swap the SVG elements that stand in the group of its joint (`data-joint`) instead
 /// of those there, marked as changed.
 #[must_use]
-pub fn scheme_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+pub(crate) fn scheme_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
     let symbol = |s: &Swap<'_>| {
         let mut piece = Sheet::piece();
         let class = s.option.joint_type.class();

@@ -1,7 +1,7 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
-pub mod idle;
-pub mod least_rows;
+pub(crate) mod idle;
+pub(crate) mod least_rows;
 pub mod mechanism;
 pub mod mobility;
 pub mod next;

@@ -34,14 +34,14 @@ impl<'a> Claim<'a> {
 
 /// Those about a topic, in the order of the file.
 #[must_use]
-pub fn about(claims: &[claim::Claim], topic: Topic) -> Vec<Claim<'_>> {
+pub(crate) fn about(claims: &[claim::Claim], topic: Topic) -> Vec<Claim<'_>> {
     let of_topic = claims.iter().filter(|c| c.topic == topic);
     of_topic.map(Claim::new).collect()
 }
 
 /// A table of them under a line that counts them; empty where there are none.
 #[must_use]
-pub fn text(claims: &[Claim<'_>], width: Option<u16>) -> String {
+pub(crate) fn text(claims: &[Claim<'_>], width: Option<u16>) -> String {
     if claims.is_empty() {
         return String::new();
     }

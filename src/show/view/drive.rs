@@ -1,7 +1,7 @@
 //! A torsional drive: one value from which text, JSON and charts are made. SI units, angles in radians; the keys are a stable
 //! contract.
 
-pub mod cam;
+pub(crate) mod cam;
 pub mod charts;
 pub mod samples;
 pub mod text;

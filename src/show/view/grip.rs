@@ -226,7 +226,7 @@ impl<'a> Diameter<'a> {
     }
 
     /// Every reason why it is not held.
-    pub fn reasons(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn reasons(&self) -> impl Iterator<Item = &str> {
         let forces = self.load.as_ref().and_then(|l| l.reason.as_deref());
         self.obstacles.iter().map(String::as_str).chain(forces)
     }

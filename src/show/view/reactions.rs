@@ -1,8 +1,8 @@
 //! Joint reactions of any mechanism, in a pose or over a stroke: one value from which text, JSON and CSV are made. Forces in
 //! N, moments in N·m about the joints' points, each first link on second, in the joint's own frame.
 
-pub mod chart;
-pub mod couplings;
+pub(crate) mod chart;
+pub(crate) mod couplings;
 pub mod stroke;
 pub mod text;
 

@@ -4,7 +4,7 @@
 pub mod charts;
 pub mod csv;
 pub mod force_plans;
-pub mod link_motion;
+pub(crate) mod link_motion;
 pub mod text;
 
 use crate::statics::assur::{self, Decomposition};

@@ -5,7 +5,7 @@ use crate::chains::chain::Chain;
 use crate::chains::pairs::kind::PairKind;
 
 /// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.
-pub const MOST_LINKS: usize = 12;
+pub(crate) const MOST_LINKS: usize = 12;
 
 /// A chain: which links are joined, and by what.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -15,13 +15,13 @@ pub struct PairChain {
 
 /// Two links, the lesser first.
 #[must_use]
-pub fn ordered([u, v]: [usize; 2]) -> [usize; 2] {
+pub(crate) fn ordered([u, v]: [usize; 2]) -> [usize; 2] {
     [u.min(v), u.max(v)]
 }
 
 /// Where an automorphism takes two links, the lesser first.
 #[must_use]
-pub fn carried(links: [usize; 2], by: &[usize]) -> [usize; 2] {
+pub(crate) fn carried(links: [usize; 2], by: &[usize]) -> [usize; 2] {
     ordered(links.map(|l| by[l]))
 }
 
@@ -37,7 +37,7 @@ pub struct Joint {
 impl Joint {
     /// Whether it joins a link to another.
     #[must_use]
-    pub fn is_at(&self, link: usize) -> bool {
+    pub(crate) fn is_at(&self, link: usize) -> bool {
         self.links.contains(&link)
     }
 }
@@ -56,7 +56,7 @@ impl PairChain {
 
     /// A chain of hinges, of which one may slide instead, given by its links, the lesser first.
     #[must_use]
-    pub fn hinged(chain: &Chain, slide: Option<[usize; 2]>) -> PairChain {
+    pub(crate) fn hinged(chain: &Chain, slide: Option<[usize; 2]>) -> PairChain {
         let joints = chain.joints().into_iter().map(|(u, v)| {
             let links = [u, v];
             let slides = slide == Some(links);
@@ -108,7 +108,7 @@ impl PairChain {
 
     /// The chain of a code; `None` where it is none.
     #[must_use]
-    pub fn of_code(links: usize, code: &str) -> Option<PairChain> {
+    pub(crate) fn of_code(links: usize, code: &str) -> Option<PairChain> {
         let pairs = (0..links).flat_map(|v| (0..v).map(move |u| [u, v]));
         let mut letters = code.chars();
         let mut joints = Vec::new();

@@ -67,7 +67,7 @@ impl Level {
 /// # Complexity
 /// One canonical numbering for each two vertices of each smaller graph.
 #[must_use]
-pub fn biconnected_graphs(vertices: usize, most_edges: usize) -> Vec<Canonical> {
+pub(crate) fn biconnected_graphs(vertices: usize, most_edges: usize) -> Vec<Canonical> {
     let mut out = Vec::new();
     let mut level = Level::rings(vertices);
     for edges in vertices..=most_edges {

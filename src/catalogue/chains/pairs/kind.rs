@@ -36,14 +36,14 @@ impl PairKind {
 
     /// The kind of a weight of a graph's edge, where there is an edge.
     #[must_use]
-    pub fn of_weight(weight: u8) -> Option<PairKind> {
+    pub(crate) fn of_weight(weight: u8) -> Option<PairKind> {
         let at = usize::from(weight).checked_sub(1)?;
         PairKind::ALL.get(at).map(|kind| kind.0)
     }
 
     /// Whether it leaves one freedom; the others leave two.
     #[must_use]
-    pub fn is_lower(self) -> bool {
+    pub(crate) fn is_lower(self) -> bool {
         matches!(self, PairKind::Hinge | PairKind::Slide)
     }
 }

@@ -171,7 +171,7 @@ fn motions(field: Field, chain: &PairChain, places: &[(Joint, PairRows)]) -> Vec
 /// # Complexity
 /// An elimination of 3n columns for n links.
 #[must_use]
-pub fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
+pub(crate) fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
     let mut draw = Draw::new();
     let joints = chain.joints().into_iter();
     let places = joints.map(|j| (j, draw.place(j.pair))).collect_vec();
@@ -183,7 +183,7 @@ pub fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
 /// # Complexity
 /// As [`generic_motions`].
 #[must_use]
-pub fn motion(chain: &PairChain) -> Option<Vec<Velocity>> {
+pub(crate) fn motion(chain: &PairChain) -> Option<Vec<Velocity>> {
     let mut found = generic_motions(chain);
     found.pop().filter(|_| found.is_empty())
 }
@@ -235,7 +235,7 @@ fn symmetric_places(
 
 /// A symmetry: where it carries the links, in two or three steps back to themselves, and how.
 #[derive(Debug, Clone, Copy)]
-pub struct Swap<'a> {
+pub(crate) struct Swap<'a> {
     /// Where each link goes.
     pub links: &'a [usize],
     /// How places go there.
@@ -285,7 +285,7 @@ impl Swap<'_> {
 /// # Complexity
 /// An elimination of 3n columns for n links.
 #[must_use]
-pub fn motions_in_way(
+pub(crate) fn motions_in_way(
     chain: &PairChain,
     symmetry: Swap<'_>,
     frame: usize,
@@ -309,7 +309,7 @@ pub fn motions_in_way(
 
 /// A way in which joints that are their own images may lie, and the motion of the chain then.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SymmetricWay {
+pub(crate) struct SymmetricWay {
     /// A bit for each slide and slot that is its own mirror image, in the order of the joints: 1 for a slide across the line, or a
     /// line of action across it.
     pub bits: u32,
@@ -323,7 +323,11 @@ pub struct SymmetricWay {
 /// # Complexity
 /// An elimination of 3n columns for each way.
 #[must_use]
-pub fn symmetric_ways(chain: &PairChain, symmetry: Swap<'_>, frame: usize) -> Vec<SymmetricWay> {
+pub(crate) fn symmetric_ways(
+    chain: &PairChain,
+    symmetry: Swap<'_>,
+    frame: usize,
+) -> Vec<SymmetricWay> {
     let field = Field::new(PRIME);
     let ways = 0..symmetry.ways(chain);
     let all = ways.map(|way| (way, motions_in_way(chain, symmetry, frame, way)));
@@ -340,7 +344,7 @@ pub fn symmetric_ways(chain: &PairChain, symmetry: Swap<'_>, frame: usize) -> Ve
 /// # Complexity
 /// As there.
 #[must_use]
-pub fn symmetric_motions(
+pub(crate) fn symmetric_motions(
     chain: &PairChain,
     symmetry: Swap<'_>,
     frame: usize,

@@ -43,7 +43,7 @@ impl PairRoles {
 
     /// Whether input and jaws move in a motion, the jaws also against each other.
     #[must_use]
-    pub fn moves_in(&self, motion: &[Velocity]) -> bool {
+    pub(crate) fn moves_in(&self, motion: &[Velocity]) -> bool {
         let [a, b] = self.jaws;
         let [u, v] = self.input;
         [a, b, self.frame].iter().map(|&l| motion[l]).all_unique() && motion[u] != motion[v]
@@ -159,7 +159,7 @@ impl<'a> PairSubject<'a> {
 
     /// Every choice of roles that an involution keeps: frame and input joint are their own images, the jaws change places.
     #[must_use]
-    pub fn symmetric_roles(&self, swap: &[usize]) -> Vec<PairRoles> {
+    pub(crate) fn symmetric_roles(&self, swap: &[usize]) -> Vec<PairRoles> {
         let n = swap.len();
         let own = |j: &&Joint| j.pair.is_lower() && carried(j.links, swap) == j.links;
         let inputs = self.joints.iter().filter(own);
@@ -252,7 +252,7 @@ impl<'a> PairSubject<'a> {
 
     /// Pairs that are not hinges, those that `swap` carries to each other as one.
     #[must_use]
-    pub fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
+    pub(crate) fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
         let others = self.joints.iter().filter(|j| j.pair != PairKind::Hinge);
         let first = |j: &&Joint| carried(j.links, swap) >= j.links;
         others.filter(first).count()

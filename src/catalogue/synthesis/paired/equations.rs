@@ -69,7 +69,7 @@ pub(super) fn velocities(sketch: &PairSketch<'_>, at: &PairPlaces) -> Option<Vec
 
 /// The equations of a stroke: shift and turn of every moving link, the turn as millimetres at an arm of 50, and the drive.
 #[derive(Debug, Clone)]
-pub struct PairEquations<'a> {
+pub(crate) struct PairEquations<'a> {
     sketch: &'a PairSketch<'a>,
     pub(super) at: Option<PairPlaces>,
     links: Vec<LinkPose>,
@@ -78,7 +78,7 @@ pub struct PairEquations<'a> {
 impl<'a> PairEquations<'a> {
     /// Room for those of a sketch.
     #[must_use]
-    pub fn new(sketch: &'a PairSketch<'a>) -> PairEquations<'a> {
+    pub(crate) fn new(sketch: &'a PairSketch<'a>) -> PairEquations<'a> {
         PairEquations {
             links: sketch.at_rest.clone(),
             at: None,

@@ -22,7 +22,10 @@ pub fn figures(paired: &PairedStructure, layout: &PairLayout) -> Option<LayoutFi
 /// # Complexity
 /// As [`figures`].
 #[must_use]
-pub fn of_three(structure: &ThreefoldStructure, layout: &PairLayout) -> Option<LayoutFigures> {
+pub(crate) fn of_three(
+    structure: &ThreefoldStructure,
+    layout: &PairLayout,
+) -> Option<LayoutFigures> {
     let two = of_sides(&structure.two, Some(structure), layout)?;
     Some(LayoutFigures {
         jaws: vec![two.jaws[0]; SIDES],

@@ -171,7 +171,7 @@ impl PoseRows<'_> {
 
 /// The strokes of a paired structure.
 #[derive(Debug)]
-pub struct PairMotion<'a> {
+pub(crate) struct PairMotion<'a> {
     sketch: &'a PairSketch<'a>,
     walk: Walk<PairEquations<'a>>,
 }
@@ -179,7 +179,7 @@ pub struct PairMotion<'a> {
 impl<'a> PairMotion<'a> {
     /// Of a sketch.
     #[must_use]
-    pub fn new(sketch: &'a PairSketch<'a>) -> PairMotion<'a> {
+    pub(crate) fn new(sketch: &'a PairSketch<'a>) -> PairMotion<'a> {
         PairMotion {
             walk: Walk::new(PairEquations::new(sketch)),
             sketch,

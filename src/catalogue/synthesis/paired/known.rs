@@ -9,7 +9,7 @@ use itertools::Itertools;
 
 /// The well-known schemes that are structures, each once.
 #[must_use]
-pub fn known_schemes() -> Vec<PairedStructure> {
+pub(crate) fn known_schemes() -> Vec<PairedStructure> {
     let all = classics().iter().map(|c| &c.structure);
     let all = all.unique_by(|s| s.key());
     all.filter_map(most_symmetric).collect()

@@ -39,7 +39,7 @@ pub struct PairLayout {
 ///
 /// # Complexity
 /// Some thousand looks at places, of which some hundred are at a whole stroke, for each of the ways it may lie on itself.
-pub fn layout(
+pub(crate) fn layout(
     paired: &PairedStructure,
     limits: &Limits,
     seed: u64,
@@ -107,7 +107,7 @@ fn layout_as(
 ///
 /// # Complexity
 /// As [`layout`].
-pub fn layout_of_three(
+pub(crate) fn layout_of_three(
     structure: &ThreefoldStructure,
     limits: &Limits,
     seed: u64,

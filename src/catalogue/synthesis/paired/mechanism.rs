@@ -155,7 +155,7 @@ impl PairedStructure {
 
 /// The entries of the file.
 #[must_use]
-pub fn mechanism_file(
+pub(crate) fn mechanism_file(
     paired: &PairedStructure,
     layout: &PairLayout,
     menu: &Menu,

@@ -145,7 +145,7 @@ impl ThreeSides<'_> {
 
 /// The entries of the file of a gripper of three jaws.
 #[must_use]
-pub fn mechanism_file_of_three(
+pub(crate) fn mechanism_file_of_three(
     structure: &ThreefoldStructure,
     layout: &PairLayout,
     menu: &Menu,

@@ -151,7 +151,7 @@ impl PairRules {
     }
 
     /// The joints that may be placed, each for its image, too.
-    pub fn movable(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn movable(&self) -> impl Iterator<Item = usize> + '_ {
         let fixed = |i: usize| {
             let own = matches!(self.rules[i], PairRule::Own(_));
             let central = own && self.symmetry == Symmetry::HalfTurn;

@@ -52,7 +52,7 @@ impl<'a> PairSketch<'a> {
 
     /// Of a structure that may stand for three sides.
     #[must_use]
-    pub fn thrice(
+    pub(crate) fn thrice(
         paired: &'a PairedStructure,
         threefold: Option<&ThreefoldStructure>,
         rules: PairRules,

@@ -43,7 +43,7 @@ impl PairedForm {
 
     /// The symmetry in a word: "mirror", "mirror-but-input".
     #[must_use]
-    pub fn symmetry_name(self) -> String {
+    pub(crate) fn symmetry_name(self) -> String {
         let but = if self.one_sided { "-but-input" } else { "" };
         format!("{}{but}", self.symmetry.name())
     }
@@ -191,7 +191,7 @@ impl PairedStructure {
 
     /// The same with each jaw on a parallelogram, where it has one.
     #[must_use]
-    pub fn on_parallelograms(&self) -> Option<PairedStructure> {
+    pub(crate) fn on_parallelograms(&self) -> Option<PairedStructure> {
         let found = self.clone().on_parallelograms_if_any();
         found.form.parallel.then_some(found)
     }

@@ -14,7 +14,7 @@ use crate::synthesis::structure::short_id;
 use petgraph::unionfind::UnionFind;
 
 /// Sides.
-pub const SIDES: usize = 3;
+pub(crate) const SIDES: usize = 3;
 
 /// A gripper of three jaws.
 #[derive(Debug, Clone, PartialEq, Eq)]

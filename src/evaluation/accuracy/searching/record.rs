@@ -17,7 +17,7 @@ impl Share {
     /// Wrong ones of a hundred; none of none.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    pub fn percent_wrong(self) -> f64 {
+    pub(crate) fn percent_wrong(self) -> f64 {
         100.0 * (self.of - self.right) as f64 / self.of.max(1) as f64
     }
 }

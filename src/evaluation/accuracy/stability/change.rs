@@ -28,7 +28,7 @@ fn bare(mechanism: &Mechanism) -> Mechanism {
 
 /// Every length multiplied by 10^e, exactly.
 #[must_use]
-pub fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
+pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
     let mut m = bare(mechanism);
     let factor = power_of_ten(e);
     for joint in &mut m.joints {
@@ -40,7 +40,7 @@ pub fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
 
 /// Half the diagonal of the box round all joints; 0 where they are all in one place.
 #[must_use]
-pub fn size(mechanism: &Mechanism) -> f64 {
+pub(crate) fn size(mechanism: &Mechanism) -> f64 {
     diagonal(mechanism.joints.iter().map(|j| real(&j.frame.point))) / 2.0
 }
 
@@ -76,7 +76,7 @@ impl Noise {
 /// their length, so that coordinates that are zero move as well. Joints that are all in one place stay there. In planar mode points alone, for joints stay square to
 /// the plane there.
 #[must_use]
-pub fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism {
+pub(crate) fn shaken(mechanism: &Mechanism, level: f64, noise: &mut Noise) -> Mechanism {
     let mut m = bare(mechanism);
     let size = size(mechanism);
     let spatial = matches!(m.mode, Mode::Spatial);

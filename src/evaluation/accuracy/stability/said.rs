@@ -53,7 +53,7 @@ impl Said {
 
 /// Answers counted.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct AnswerCount {
+pub(crate) struct AnswerCount {
     /// How many of each of [`Said`].
     pub of: [usize; 4],
     /// The cases that are wrong and sure.
@@ -62,7 +62,7 @@ pub struct AnswerCount {
 
 impl AnswerCount {
     /// Counts an answer on a case.
-    pub fn add(&mut self, said: Said, case: impl FnOnce() -> String) {
+    pub(crate) fn add(&mut self, said: Said, case: impl FnOnce() -> String) {
         self.of[said as usize] += 1;
         if said == Said::Wrong {
             self.wrong.push(case());
@@ -71,7 +71,7 @@ impl AnswerCount {
 
     /// Right, left open or called not exact, wrong and sure.
     #[must_use]
-    pub fn three(&self) -> [usize; 3] {
+    pub(crate) fn three(&self) -> [usize; 3] {
         let [right, open, hedged, wrong] = self.of;
         [right, open + hedged, wrong]
     }
@@ -79,7 +79,7 @@ impl AnswerCount {
 
 /// Counts over a range, for each of several questions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Counts {
+pub(crate) struct Counts {
     /// The axis across, logarithmic.
     pub x: String,
     /// Its head in CSV.
@@ -93,7 +93,7 @@ pub struct Counts {
 impl Counts {
     /// All that was asked as one.
     #[must_use]
-    pub fn together(&self) -> Vec<AnswerCount> {
+    pub(crate) fn together(&self) -> Vec<AnswerCount> {
         let mut out = vec![AnswerCount::default(); self.values.len()];
         for (_, row) in &self.rows {
             for (sum, count) in out.iter_mut().zip(row) {
@@ -106,7 +106,7 @@ impl Counts {
 
     /// The shares of a row as three lines.
     #[must_use]
-    pub fn picture(&self, name: &str, title: &str, row: &[AnswerCount]) -> Picture {
+    pub(crate) fn picture(&self, name: &str, title: &str, row: &[AnswerCount]) -> Picture {
         let of = row.iter().map(|c| c.of.iter().sum::<usize>()).max();
         let names = ["right", "undecided, or not exact", "wrong and sure"];
         #[allow(clippy::cast_precision_loss, reason = "counts are small")]
@@ -143,7 +143,7 @@ impl Counts {
 
     /// One line for each row and value.
     #[must_use]
-    pub fn csv(&self) -> String {
+    pub(crate) fn csv(&self) -> String {
         let rows = self.rows.iter().flat_map(|(name, counts)| {
             self.values.iter().zip(counts).map(move |(x, c)| {
                 let n = |s: Said| c.of[s as usize].to_string();

@@ -6,7 +6,7 @@ use crate::format::phrase::list;
 
 /// Right answers of how many, and whose were not.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct RightTally {
+pub(crate) struct RightTally {
     /// Right ones.
     pub right: usize,
     /// All asked for.
@@ -17,7 +17,7 @@ pub struct RightTally {
 
 impl RightTally {
     /// Counts an answer on a case; cases come in ascending order.
-    pub fn add(&mut self, case: usize, right: bool) {
+    pub(crate) fn add(&mut self, case: usize, right: bool) {
         self.right += usize::from(right);
         self.of += 1;
         if !right && self.missed.last() != Some(&case) {
@@ -28,7 +28,7 @@ impl RightTally {
     /// The share of right ones, 0 of none.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    pub fn share(&self) -> f64 {
+    pub(crate) fn share(&self) -> f64 {
         self.right as f64 / self.of.max(1) as f64
     }
 
@@ -44,7 +44,7 @@ impl RightTally {
 
 /// Tallies over a range.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TallySweep {
+pub(crate) struct TallySweep {
     /// What is shown.
     pub title: String,
     /// The axis across, logarithmic.
@@ -61,7 +61,7 @@ pub struct TallySweep {
 
 /// Where a row does best.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Region {
+pub(crate) struct Region {
     /// The first value of the longest stretch.
     pub first: usize,
     /// Its last value.
@@ -72,7 +72,7 @@ pub struct Region {
 
 /// Bands about the values of a log axis, neighbours of one kind as one.
 #[must_use]
-pub fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
+pub(crate) fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
     let between = |a: usize, b: usize| (values[a] * values[b]).sqrt();
     let mut out: Vec<Band> = Vec::new();
     for (n, kind) in kinds.into_iter().enumerate().take(values.len()) {
@@ -93,7 +93,7 @@ pub fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Ve
 impl TallySweep {
     /// The longest stretch of values over which a row misses as few cases as it ever does, or `slack` more.
     #[must_use]
-    pub fn region(&self, row: usize, slack: usize) -> Option<Region> {
+    pub(crate) fn region(&self, row: usize, slack: usize) -> Option<Region> {
         let tallies = &self.rows[row].1;
         let asked = tallies.iter().filter(|t| t.of > 0);
         let fewest = asked.map(|t| t.missed.len()).min()?;
@@ -125,13 +125,13 @@ impl TallySweep {
 
     /// Whether the stretch is the whole range.
     #[must_use]
-    pub fn is_whole(&self, region: &Region) -> bool {
+    pub(crate) fn is_whole(&self, region: &Region) -> bool {
         region.first == 0 && region.last + 1 == self.values.len()
     }
 
     /// "in all cases", "in all cases but door-two-hinges", or "in 91 of 117 cases".
     #[must_use]
-    pub fn but(&self, missed: &[usize]) -> String {
+    pub(crate) fn but(&self, missed: &[usize]) -> String {
         match missed.len() {
             0 => "in all cases".to_owned(),
             1..=3 => {
@@ -144,13 +144,13 @@ impl TallySweep {
 
     /// The row of a name.
     #[must_use]
-    pub fn row(&self, name: &str) -> Option<usize> {
+    pub(crate) fn row(&self, name: &str) -> Option<usize> {
         self.rows.iter().position(|r| r.0 == name)
     }
 
     /// Where each row is right on all, on at least nine in ten, on fewer.
     #[must_use]
-    pub fn bands(&self) -> Bands {
+    pub(crate) fn bands(&self) -> Bands {
         Bands {
             title: self.title.clone(),
             subtitle: "Right: in all cases; in doubt: in nine of ten or more; wrong: in fewer."
@@ -171,7 +171,7 @@ impl TallySweep {
 
     /// The share of right answers as lines.
     #[must_use]
-    pub fn chart(&self, title: &str, subtitle: &str) -> Chart {
+    pub(crate) fn chart(&self, title: &str, subtitle: &str) -> Chart {
         Chart {
             title: title.to_owned(),
             subtitle: subtitle.to_owned(),
@@ -206,7 +206,7 @@ impl TallySweep {
 
     /// One line for each row and value.
     #[must_use]
-    pub fn csv(&self) -> String {
+    pub(crate) fn csv(&self) -> String {
         let rows = self.rows.iter().flat_map(|(name, tallies)| {
             self.values.iter().zip(tallies).map(move |(x, t)| {
                 let missed: Vec<&str> = t.missed.iter().map(|&c| self.cases[c].as_str()).collect();

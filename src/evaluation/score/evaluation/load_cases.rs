@@ -93,7 +93,7 @@ fn free_is_loaded(m: &Mechanism) -> bool {
 
 /// Whether the file loads any state.
 #[must_use]
-pub fn is_loaded(m: &Mechanism) -> bool {
+pub(crate) fn is_loaded(m: &Mechanism) -> bool {
     free_is_loaded(m) || m.state_ids().any(|s| grip_of(m, s).is_some())
 }
 
@@ -117,7 +117,7 @@ pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
 ///
 /// # Complexity
 /// That of following the stroke and of the grip's study.
-pub fn cases(m: &Mechanism, drives: &[Driven], states: &[StateId]) -> Result<Cases, CaseError> {
+pub(crate) fn cases(m: &Mechanism, drives: &[Driven], states: &[StateId]) -> Result<Cases, CaseError> {
     let mut out = Cases::default();
     let default = states_with_loads(m);
     let states = if states.is_empty() { &default } else { states };

@@ -1,6 +1,6 @@
 //! Names, numbers and quantities, with what is allowed of each.
 
-pub mod limits;
+pub(crate) mod limits;
 pub(in crate::file::read) mod names;
 pub(crate) mod number;
 pub mod parameters;

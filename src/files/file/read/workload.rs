@@ -1,9 +1,9 @@
 //! Reading the workload tables of a file, with or without a mechanism around them.
 
-pub mod drive;
-pub mod grip;
-pub mod joint_loads;
-pub mod loads;
+pub(crate) mod drive;
+pub(crate) mod grip;
+pub(crate) mod joint_loads;
+pub(crate) mod loads;
 pub mod motion;
 pub mod trajectory;
 

@@ -111,7 +111,7 @@ fn relative(found: f64, exact: f64) -> f64 {
 
 /// Errors of the three methods on one group; `None` where its equilibrium is singular.
 #[must_use]
-pub fn errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
+fn errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
     let reference = exact(g)?;
     let by_lu = solve(g);
     let found: [Option<GroupReactions>; 3] = [

@@ -19,7 +19,7 @@ pub use crate::statics::reactions::wrench::{FreedomColumn, Six, about, power, wr
 use crate::statics::reactions::wrench::{PosedFreedoms, within};
 
 /// Singular values below this fraction of the greatest count as zero.
-pub const TOLERANCE: f64 = 1e-9;
+pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// A pose of a mechanism in one state.
 #[derive(Debug, Clone)]

@@ -22,7 +22,7 @@ const PARALLEL: f64 = 1e-9;
 
 /// Velocities and accelerations of the links, as twists and their rates about the geometry's middle, lengths in its size.
 #[derive(Debug, Clone)]
-pub struct LinkMotions {
+pub(crate) struct LinkMotions {
     /// (ω; velocity of the link's point at the middle) by link.
     pub velocity: Vec<Six>,
     /// The rate of that twist by link.
@@ -82,7 +82,7 @@ fn least(matrix: &Matrix, right: &[f64], scale: f64) -> Result<Option<Vec<f64>>,
 ///
 /// # Complexity
 /// O((6k)²·f) for k contours and f freedoms.
-pub fn motion(
+pub(crate) fn motion(
     m: &Mechanism,
     geometry: &Geometry,
     drives: &[Driven],

@@ -11,7 +11,7 @@ const MAX_CANDIDATES: u64 = 1 << 20;
 
 /// A field with the images of its generators in a prime field, under every homomorphism there is.
 #[derive(Debug, Clone)]
-pub struct Splitting {
+pub(crate) struct Splitting {
     /// The prime field.
     pub field: Field,
     /// As many homomorphisms as the degree, each as the images of the generators.
@@ -21,7 +21,7 @@ pub struct Splitting {
 impl NumberField {
     /// Primes near 2^61 that split the field, with all homomorphisms. A search of 2^k primes each, for k radicands whose
     /// roots reciprocity does not provide.
-    pub fn splittings(&self) -> impl Iterator<Item = Splitting> + '_ {
+    pub(crate) fn splittings(&self) -> impl Iterator<Item = Splitting> + '_ {
         primes(self.modulus).filter_map(|field| self.split(field))
     }
 

@@ -50,7 +50,7 @@ pub fn rank(matrix: &MatrixOverRing) -> Option<usize> {
 
 /// [`rank`] as a method.
 #[derive(Debug, Clone, Copy)]
-pub struct Rational;
+pub(crate) struct Rational;
 
 impl MobilityMethod for Rational {
     fn about(&self) -> &'static About {

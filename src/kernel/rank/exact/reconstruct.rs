@@ -17,7 +17,7 @@ const SPARE_BITS: u64 = 24;
 ///
 /// Half of Euclid's algorithm on m and x: O(log² m) bit operations.
 #[must_use]
-pub fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
+pub(crate) fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
     let bound = (m / 2u32).sqrt();
     let (mut r0, mut r1) = (m.clone(), x.mod_floor(m));
     let (mut t0, mut t1) = (BigInt::zero(), BigInt::one());
@@ -40,7 +40,7 @@ pub fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
 
 /// The primes so far and their product.
 #[derive(Debug, Clone)]
-pub struct Modulus {
+pub(crate) struct Modulus {
     product: BigInt,
     primes: usize,
 }
@@ -57,12 +57,12 @@ impl Default for Modulus {
 impl Modulus {
     /// Number of primes. O(1).
     #[must_use]
-    pub fn primes(&self) -> usize {
+    pub(crate) fn primes(&self) -> usize {
         self.primes
     }
 
     /// Takes one more prime, after all unknowns have seen it. O(primes).
-    pub fn extend(&mut self, field: Field) {
+    pub(crate) fn extend(&mut self, field: Field) {
         self.product *= field.modulus();
         self.primes += 1;
     }
@@ -70,7 +70,7 @@ impl Modulus {
 
 /// A rational number of which residues come in.
 #[derive(Debug, Clone)]
-pub enum Unknown {
+pub(crate) enum Unknown {
     /// A fraction that all residues so far agree with.
     Settled(BigRational),
     /// The residue modulo the product of the primes so far.
@@ -86,7 +86,7 @@ impl Default for Unknown {
 impl Unknown {
     /// Takes the residue modulo one more prime; false where it contradicts the fraction settled on. `inverse` is that of
     /// the product of the primes before, in the field. O(primes) where open, O(size of the fraction) where settled.
-    pub fn see(
+    pub(crate) fn see(
         &mut self,
         field: Field,
         residue: Residue,
@@ -119,7 +119,7 @@ impl Unknown {
     ///
     /// `denominator` is tried first, and becomes a multiple of the one found: the numbers of a vector mostly share one,
     /// and a product is much cheaper than Euclid's algorithm. O(primes²) where open.
-    pub fn settle(&mut self, modulus: &Modulus, denominator: &mut BigInt) -> Settled {
+    pub(crate) fn settle(&mut self, modulus: &Modulus, denominator: &mut BigInt) -> Settled {
         let Unknown::Open(x) = self else {
             return Settled::Before;
         };
@@ -146,7 +146,7 @@ impl Unknown {
 
 /// How an attempt to settle on a fraction went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Settled {
+pub(crate) enum Settled {
     /// There was one already.
     Before,
     /// By the denominator at hand.

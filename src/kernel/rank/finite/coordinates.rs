@@ -5,7 +5,7 @@ use crate::rank::finite::tangent_cone::{Flat, Quadrics};
 
 /// How well the coordinates of a mechanism are known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Coordinates {
+pub(crate) enum Coordinates {
     /// Every digit holds.
     Exact,
     /// To a relative error: higher orders are not asked then, since rounding alone would stop a motion, and poses are followed to

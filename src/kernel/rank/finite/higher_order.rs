@@ -31,7 +31,7 @@ const LARGEST: usize = 40_000;
 /// Products of numbers that one question may cost.
 const WORK: usize = 6_000_000;
 /// Order up to which one motion is expanded where no bound says how far to go.
-pub const ORDER: usize = 64;
+pub(crate) const ORDER: usize = 64;
 /// Degree up to which series of several variables are expanded.
 const DEGREE: usize = 16;
 

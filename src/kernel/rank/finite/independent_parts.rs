@@ -24,7 +24,7 @@ use crate::rank::finite::idle_ways::lock_ways;
 /// # Complexity
 /// O(n log n) for contours of n joints in all.
 #[must_use]
-pub fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
+pub(crate) fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
     let of_contours = closure
         .contours
         .iter()
@@ -40,7 +40,7 @@ pub fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
 
 /// A mechanism of some of the joints alone, numbered as before; its frame is one of their links.
 #[must_use]
-pub fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
+pub(crate) fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
     let mut out = mechanism.clone();
     for j in mechanism.joint_ids() {
         if !joints.contains(&j) {

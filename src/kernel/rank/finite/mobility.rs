@@ -120,7 +120,7 @@ impl Finite {
 
     /// The same with a rank that is a numeric one.
     #[must_use]
-    pub fn by_numeric_rank(self) -> Finite {
+    pub(crate) fn by_numeric_rank(self) -> Finite {
         Finite {
             numeric: true,
             ..self

@@ -8,7 +8,7 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Qu
 
 /// Exact rank at the pose, then [`finite`], as a method.
 #[derive(Debug, Clone, Copy)]
-pub struct Exact;
+pub(crate) struct Exact;
 
 impl MobilityMethod for Exact {
     fn about(&self) -> &'static About {

@@ -8,11 +8,11 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Qu
 
 /// W = 6(n - 1) - Σ constraints.
 #[derive(Debug, Clone, Copy)]
-pub struct Spatial;
+pub(crate) struct Spatial;
 
 /// W = 3(n - 1) - Σ constraints in the plane.
 #[derive(Debug, Clone, Copy)]
-pub struct Planar;
+pub(crate) struct Planar;
 
 /// `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling; `freedoms` is Σ f_i.
 fn count(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i64 {

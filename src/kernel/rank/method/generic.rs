@@ -9,7 +9,7 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Qu
 
 /// W = D(n - 1) - the rank of the bars in general position.
 #[derive(Debug, Clone, Copy)]
-pub struct Generic;
+pub(crate) struct Generic;
 
 /// The (D, D) pebble game: bars are taken in as long as they are independent of those before.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Qu
 
 /// W = f - Σ rank of contour i, over a minimum cycle basis.
 #[derive(Debug, Clone, Copy)]
-pub struct Loops;
+pub(crate) struct Loops;
 
 impl MobilityMethod for Loops {
     fn about(&self) -> &'static About {

@@ -4,7 +4,7 @@ use num_bigint::BigUint;
 use std::ops::AddAssign;
 
 /// A number of variants.
-pub trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
+pub(crate) trait Count: Clone + Send + Sync + for<'a> AddAssign<&'a Self> {
     /// One variant.
     fn one() -> Self;
     /// As a number of any size.
@@ -39,7 +39,7 @@ impl Count for BigUint {
 
 /// A number below 2^(64 N), held in place: tables of counts that are added a million times allocate nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wide<const N: usize>([u64; N]);
+pub(crate) struct Wide<const N: usize>([u64; N]);
 
 impl<const N: usize> AddAssign<&Wide<N>> for Wide<N> {
     fn add_assign(&mut self, other: &Wide<N>) {

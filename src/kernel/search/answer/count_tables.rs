@@ -9,7 +9,7 @@ type Table<C> = Vec<(Key, C)>;
 
 /// For every node, its completions by key, keys ascending.
 #[derive(Debug, Clone)]
-pub struct Tally<C> {
+pub(crate) struct Tally<C> {
     /// `tables[layer][node]`; the last layer holds the terminals.
     pub tables: Vec<Vec<Table<C>>>,
 }
@@ -21,7 +21,7 @@ impl<C: Count> Tally<C> {
     /// # Complexity
     /// O(edges · table size + nodes · table size · log), with table sizes given by the kinds told apart.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         diagram: &Diagram,
         steps: &Steps,
         bound: Option<&[Vec<u64>]>,
@@ -44,7 +44,7 @@ impl<C: Count> Tally<C> {
 
     /// Counts of whole variants by key.
     #[must_use]
-    pub fn totals(&self) -> &[(Key, C)] {
+    pub(crate) fn totals(&self) -> &[(Key, C)] {
         self.tables
             .first()
             .and_then(|l| l.first())
@@ -58,7 +58,7 @@ impl<C: Count> Tally<C> {
 /// # Complexity
 /// As [`Tally::new`].
 #[must_use]
-pub fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -> Option<Table<C>> {
+pub(crate) fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -> Option<Table<C>> {
     let (mut tables, mut numbers) = terminals(diagram, steps);
     let mut held = 0;
     for l in (0..diagram.layers.len()).rev() {

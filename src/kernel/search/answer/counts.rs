@@ -109,7 +109,7 @@ impl Counts {
 
 /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
 #[must_use]
-pub fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
+pub(crate) fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     let all = Kinds {
         freedoms: true,
         changes: true,

@@ -53,7 +53,7 @@ fn minimal<'d>(question: &Question, diagrams: &'d Diagrams) -> Cow<'d, Diagram> 
 /// # Complexity
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
 /// pattern; then for each idea two passes over the part of the diagram that it uses.
-pub fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
+pub(crate) fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
     ideas_in_steps(question, diagrams, top, &mut 0)
 }
 

@@ -29,7 +29,7 @@ pub struct Assignment {
 /// Some passes over the part of the diagram that variants of that cost use, then O(variables) a variant, and less where many
 /// begin alike: what leads on from a node with some of a key left is looked up in the tables once. Memory is the tables and as
 /// much again, however many are asked for.
-pub struct Cheapest<'d, C> {
+pub(crate) struct Cheapest<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,
     tally: Tally<C>,
@@ -59,7 +59,7 @@ pub enum Reach {
 
 /// What a list is of, before anything is known of the variants.
 #[derive(Debug, Clone, Copy)]
-pub struct ListLimits {
+pub(crate) struct ListLimits {
     /// How far it goes.
     pub reach: Reach,
     /// The cost above which no variant is wanted.
@@ -67,7 +67,7 @@ pub struct ListLimits {
 }
 
 /// Given layer, node, the remaining key and the choices so far; says whether to look at what follows.
-pub type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
+pub(crate) type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
 
 /// A node on the way down, what is left of the key there, its steps, and which of them is the next.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +91,7 @@ impl<C: Count> fmt::Debug for Cheapest<'_, C> {
 impl<'d, C: Count> Cheapest<'d, C> {
     /// The first variants whose key passes `wanted`, as it does for no cost above the ceiling, in the order of `rank`, which is by
     /// cost first. Of those that begin alike none is given where `enter` refuses the beginning.
-    pub fn new<R: Ord>(
+    pub(crate) fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
         limits: ListLimits,
@@ -301,7 +301,7 @@ pub fn least_from(diagram: &Diagram, steps: &Steps) -> LeastCosts {
 
 /// Variants whose key passes a test, drawn without end, independently, each with the same chance.
 #[derive(Debug)]
-pub struct Sample<'d, C> {
+pub(crate) struct Sample<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,
     /// The steps the tally was made with; the variants' own keys are made from `steps`.
@@ -315,7 +315,7 @@ pub struct Sample<'d, C> {
 
 impl<'d, C: Count> Sample<'d, C> {
     /// Makes ready to draw; `told` must be the steps that the table of counts was made with.
-    pub fn new(
+    pub(crate) fn new(
         diagram: &'d Diagram,
         steps: &'d Steps,
         told: Steps,

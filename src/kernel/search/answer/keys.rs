@@ -6,7 +6,7 @@ use crate::search::question::space::{Choice, Space};
 
 /// Which properties of variants a tally tells apart.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Kinds {
+pub(crate) struct Kinds {
     /// Freedoms f.
     pub freedoms: bool,
     /// Number of changes.
@@ -135,7 +135,7 @@ impl Steps {
 
     /// The same with only the wanted kinds left.
     #[must_use]
-    pub fn only(&self, kinds: Kinds) -> Steps {
+    pub(crate) fn only(&self, kinds: Kinds) -> Steps {
         let keep = |k: &Key| {
             Key::new(
                 if kinds.cost { k.cost() } else { 0 },

@@ -23,7 +23,7 @@ use num_bigint::BigUint;
 
 /// What another variant must not have more of, to make one with more freedoms idle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Less {
+pub(crate) enum Less {
     /// Freedoms alone: what is minimal then has none that can be left out.
     Freedoms,
     /// Freedoms, at joints that are no dearer and no more of them changed: a ball may stand where a universal joint would do,
@@ -40,7 +40,7 @@ const MOST: usize = 1 << 18;
 /// # Complexity
 /// O(nodes of the diagram of minimal variants · choices²).
 #[must_use]
-pub fn count(question: &Question, diagrams: &Diagrams) -> Option<BigUint> {
+pub(crate) fn count(question: &Question, diagrams: &Diagrams) -> Option<BigUint> {
     let order = Order::new(question, Less::Freedoms);
     // Fewer freedoms by more changes may be more than there may be.
     let limited = question.conditions.max_changes.is_some() && !order.fewer_changes;

@@ -18,7 +18,7 @@ fn every<'a>() -> Enter<'a> {
 
 /// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
 /// `top` of them at most.
-pub fn cheapest<'a>(
+pub(crate) fn cheapest<'a>(
     question: &'a Question,
     diagrams: &'a Diagrams,
     top: usize,
@@ -140,7 +140,7 @@ pub(in crate::search) fn key(question: &Question, diagram: &Diagram, choices: &[
 
 /// Draws admissible variants, or orbits, without end, each with the same chance; none where what it takes to draw is more than the
 /// memory there is.
-pub fn sample<'a>(
+pub(crate) fn sample<'a>(
     question: &'a Question,
     diagrams: &'a Diagrams,
     seed: u64,

@@ -15,7 +15,7 @@ pub struct Orders {
 
 /// Finds the orders of both diagrams; they do not depend on the prime, and a twin over another may be given them.
 #[must_use]
-pub fn orders(question: &Question) -> Orders {
+pub(crate) fn orders(question: &Question) -> Orders {
     let nothing_is_built = is_none_possible(question);
     let order = |blocks: &[Block]| {
         if nothing_is_built {

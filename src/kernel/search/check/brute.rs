@@ -78,7 +78,7 @@ impl Matrices {
     /// The redundant constraints within the mechanism that are left with every joint at once free to do what any of its
     /// options allows, and the joints without a choice that would remove some of them.
     #[must_use]
-    pub fn freest(&self) -> (usize, Vec<JointId>) {
+    pub(crate) fn freest(&self) -> (usize, Vec<JointId>) {
         let free = self.all.rows[0];
         let within = |c: &Vec<Residue>| c[..free].to_vec();
         let all: Vec<Vec<Residue>> = self.all.columns().map(within).collect();

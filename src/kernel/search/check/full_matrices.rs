@@ -10,7 +10,7 @@ use crate::search::question::space::Variable;
 
 /// What a choice puts at each joint of its variable: twists, each with the joint's entries in the rows of its couplings
 /// behind it.
-pub type Spans<N> = Vec<Vec<Vec<N>>>;
+pub(crate) type Spans<N> = Vec<Vec<Vec<N>>>;
 
 /// What the rows of the matrices are: contours and couplings of the free state, motions of the kept links, and contours and
 /// couplings of the searched state, all of them once more.
@@ -91,7 +91,7 @@ impl RowLayout<'_> {
 /// Columns of every choice. Those of a variant, side by side, are its matrix: first the rows of the free state (contours,
 /// then couplings), then those of the kept links' motion, then those of the searched state.
 #[derive(Debug)]
-pub struct WrittenOut<N> {
+pub(crate) struct WrittenOut<N> {
     /// How many rows there are of each kind.
     pub rows: [usize; 3],
     /// `columns[variable][choice]`.
@@ -149,7 +149,7 @@ impl<N: Clone + Default> WrittenOut<N> {
     }
 
     /// The columns of a variant.
-    pub fn chosen<'a>(&'a self, choices: &'a [usize]) -> impl Iterator<Item = &'a Vec<N>> {
+    pub(crate) fn chosen<'a>(&'a self, choices: &'a [usize]) -> impl Iterator<Item = &'a Vec<N>> {
         let chosen = choices.iter().enumerate();
         chosen.flat_map(|(v, &c)| &self.columns[v][c])
     }

@@ -121,7 +121,7 @@ pub fn stroke(
 
 /// Looks at a variant, realized as `m`, in the poses of a stroke.
 #[must_use]
-pub fn over(
+pub(crate) fn over(
     question: &Question,
     stroke: &Stroke,
     variant: &Assignment,

@@ -92,7 +92,7 @@ fn in_series(
 /// A realized variant with its kept links fixed to the frame: what its contours lock beyond the variant's own is
 /// the kept links' motion.
 #[must_use]
-pub fn locked(question: &Question, realized: &Mechanism) -> Mechanism {
+pub(crate) fn locked(question: &Question, realized: &Mechanism) -> Mechanism {
     let mut out = realized.clone();
     let frame = realized.frame();
     let Some(any) = realized.joints.first() else {

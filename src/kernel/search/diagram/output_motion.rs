@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// The test for the nodes of one layer: rows of a node, carried by `map`, span a space with `base` + (dimensions past
 /// the first `locks` coordinates) kept motions.
 #[derive(Debug, Clone)]
-pub struct Lookahead {
+pub(crate) struct Lookahead {
     /// For each coordinate of a node, its image.
     pub map: Vec<Vec<Residue>>,
     /// Coordinates that must vanish for a motion to be possible.

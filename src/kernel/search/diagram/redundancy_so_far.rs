@@ -4,7 +4,7 @@ use crate::search::diagram::state_copies::Lane;
 
 /// When a partly built mechanism is given up, and when building stops; no number, no limit.
 #[derive(Debug, Clone)]
-pub struct Limits {
+pub(crate) struct Limits {
     /// Redundant constraints within the mechanism that every variant has.
     pub already: u32,
     /// Redundant constraints allowed within the mechanism.

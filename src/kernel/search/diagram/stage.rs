@@ -14,7 +14,7 @@ use std::ops::Range;
 /// motions fixed, so a motion either gives the link a present twist, which is kept, or it does not, and then all that
 /// counts is which motions of the live links do so. Nodes that differ in nothing else become equal.
 #[derive(Debug, Clone)]
-pub struct Collapse {
+pub(crate) struct Collapse {
     /// Coordinates of the finished links' twists relative to the frame.
     pub(in crate::search) places: Vec<usize>,
     /// Reduced basis of their present motions, in those coordinates in that order.
@@ -29,7 +29,7 @@ pub struct Collapse {
 impl Collapse {
     /// Of the links in these blocks of `dim` coordinates, with a reduced basis of their present motions.
     #[must_use]
-    pub fn new(blocks: &[usize], dim: usize, present: Vec<Vec<Residue>>) -> Collapse {
+    pub(crate) fn new(blocks: &[usize], dim: usize, present: Vec<Vec<Residue>>) -> Collapse {
         let places: Vec<usize> = blocks.iter().flat_map(|b| b * dim..(b + 1) * dim).collect();
         let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
         let fixed: Vec<usize> = present.iter().filter_map(pivot).collect();
@@ -58,7 +58,7 @@ impl Collapse {
 
 /// A variable of the diagram with the steps its joints take.
 #[derive(Debug, Clone)]
-pub struct Stage {
+pub(crate) struct Stage {
     /// Index of the variable in the space.
     pub variable: usize,
     /// How often a node is written out before the first joint is added, side by side.
@@ -76,7 +76,7 @@ pub struct Stage {
 impl Stage {
     /// A stage that adds joints and asks for nothing more.
     #[must_use]
-    pub fn plain(variable: usize, moves: Vec<Move>) -> Stage {
+    pub(crate) fn plain(variable: usize, moves: Vec<Move>) -> Stage {
         Stage {
             variable,
             copies: 1,
@@ -92,7 +92,7 @@ impl Stage {
 ///
 /// `order` lists the variables as they take part; `plan` has one step per joint in the same sequence.
 #[must_use]
-pub fn stages(space: &Space, order: &[usize], plan: &Plan) -> Vec<Stage> {
+pub(crate) fn stages(space: &Space, order: &[usize], plan: &Plan) -> Vec<Stage> {
     let mut steps = plan.steps.iter();
     order
         .iter()

@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// Where a joint is added, and where what it makes redundant counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lane {
+pub(crate) enum Lane {
     /// Both states.
     Common,
     /// The free state.
@@ -29,7 +29,7 @@ pub enum Lane {
 
 /// A joint added in a lane.
 #[derive(Debug, Clone)]
-pub struct Move {
+pub(crate) struct Move {
     /// Position of the joint within its variable.
     pub member: usize,
     /// What it does to a node.
@@ -43,7 +43,7 @@ pub struct Move {
 impl Move {
     /// A joint of both states.
     #[must_use]
-    pub fn common(member: usize, step: Step) -> Move {
+    pub(crate) fn common(member: usize, step: Step) -> Move {
         Move {
             member,
             step,
@@ -67,7 +67,7 @@ impl Move {
 
 /// What must be so at the end of the searched state: of each link that is to be held, the places of its twist and of the
 /// twists of what may hold it; `None` for the root, which rests.
-pub type Held = Vec<(Option<usize>, Vec<Option<usize>>)>;
+pub(crate) type Held = Vec<(Option<usize>, Vec<Option<usize>>)>;
 
 /// The stages after the common ones.
 #[derive(Debug)]

@@ -35,7 +35,7 @@ pub const WHOLE: u32 = 50_000;
 /// # Complexity
 /// Two or three decompositions of a matrix of 6k rows a variant, in parallel, [`WHOLE`] variants at most; memory is some
 /// 20 bytes for each admissible one.
-pub fn at_tolerance(
+pub(crate) fn at_tolerance(
     question: &mut Question,
     digits: Digits,
     list: usize,

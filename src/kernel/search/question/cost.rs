@@ -15,7 +15,7 @@ pub(crate) const CHANGE: i64 = 1000;
 /// Default cost of changing a driven joint besides, in thousandths: its motor is mounted and guided anew.
 pub(crate) const DRIVEN: i64 = 2000;
 /// Default cost of the extra link of an unloading joint, in thousandths.
-pub const LINK: i64 = 1000;
+const LINK: i64 = 1000;
 /// The costs in force for one mechanism, in thousandths.
 #[derive(Debug, Clone)]
 pub struct CostTable {

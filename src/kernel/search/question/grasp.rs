@@ -12,7 +12,7 @@ use crate::redundancy::motion::{motions, twist};
 
 /// A body to be held, with the links that may hold it.
 #[derive(Debug, Clone)]
-pub struct Grasp {
+pub(crate) struct Grasp {
     /// The body.
     pub body: LinkId,
     /// The links.
@@ -55,7 +55,7 @@ fn jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
 /// What is to be held in a state: each link that the file calls an object, where `objects` are asked for, and each that the
 /// search is to hold, if the state joins it to the mechanism.
 #[must_use]
-pub fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp> {
+pub(crate) fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp> {
     let wanted = |l: &LinkId| {
         let object = objects && mechanism.links[*l].role == Role::Object;
         object || mechanism.search.hold.contains(l) && !is_free(mechanism, *l)
@@ -75,7 +75,7 @@ pub fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp
 ///
 /// # Complexity
 /// One elimination of J of the state.
-pub fn loose(
+pub(crate) fn loose(
     exact: &ExactField,
     mechanism: &Mechanism,
     state: StateId,

@@ -16,7 +16,7 @@ const PIVOT: u64 = 1;
 
 /// For each variable the weight of changing its joints, less first.
 #[must_use]
-pub fn weights(mechanism: &Mechanism, space: &Space) -> Vec<u64> {
+pub(crate) fn weights(mechanism: &Mechanism, space: &Space) -> Vec<u64> {
     let of = |&j: &JointId| weight(mechanism, j);
     let variables = space.variables.iter();
     variables.map(|v| v.joints.iter().map(of).sum()).collect()
@@ -24,7 +24,7 @@ pub fn weights(mechanism: &Mechanism, space: &Space) -> Vec<u64> {
 
 /// The weight of changing a joint.
 #[must_use]
-pub fn weight(mechanism: &Mechanism, joint: JointId) -> u64 {
+pub(crate) fn weight(mechanism: &Mechanism, joint: JointId) -> u64 {
     let (frame, here) = (mechanism.frame(), &mechanism.joints[joint]);
     let driven = if here.drive { DRIVEN } else { 0 };
     let place = match here.links {

@@ -83,7 +83,7 @@ impl RankRange {
 
     /// Whether it may be this rank.
     #[must_use]
-    pub fn allows(&self, rank: usize) -> bool {
+    pub(crate) fn allows(&self, rank: usize) -> bool {
         (self.least..=self.most).contains(&rank)
     }
 }

@@ -6,7 +6,7 @@ use itertools::Itertools;
 
 /// "link 5 spins about the line through 4-5 and 5-1".
 #[must_use]
-pub fn words(mechanism: &Mechanism, motion: &Idle) -> String {
+pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
     let names = motion
         .links
         .iter()
@@ -36,7 +36,7 @@ pub fn words(mechanism: &Mechanism, motion: &Idle) -> String {
 
 /// Neighbours that read alike told once, with how often.
 #[must_use]
-pub fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
+pub(crate) fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
     let alike = motions.dedup_with_count();
     alike
         .map(|(n, text)| match n {

@@ -28,7 +28,7 @@ pub struct ContourRows {
 
 /// Those of a state; none where all rows are taken as they are, and where rounded coordinates do not decide the rank.
 #[must_use]
-pub fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<ContourRows> {
+pub(crate) fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<ContourRows> {
     let found = s.least_rows.as_ref().filter(|l| !LeastRows::is_all(l));
     let Some(found) = found.filter(|_| s.at_most().is_none()) else {
         return Vec::new();

@@ -168,18 +168,18 @@ impl State<'_> {
 
     /// Whether Malyshev's formula gives another mobility than the rank.
     #[must_use]
-    pub fn counting_is_wrong(&self) -> bool {
+    pub(crate) fn counting_is_wrong(&self) -> bool {
         i64::try_from(self.mobility) != Ok(self.formula_mobility)
     }
 
     /// Idle motions in words, those that read alike told once.
     #[must_use]
-    pub fn idle_motions(&self) -> Vec<String> {
+    pub(crate) fn idle_motions(&self) -> Vec<String> {
         idle::told_once(self.idle.iter().map(|i| i.text.clone()))
     }
 
     /// Which method was chosen and why, what it did to the coordinates, and last the primes.
-    pub fn method_lines(&self) -> impl Iterator<Item = String> {
+    pub(crate) fn method_lines(&self) -> impl Iterator<Item = String> {
         let choice = self.choice.iter().map(|c| format!("method: {c}"));
         let snapped = self.snapped.iter().map(|moved| format!("snapped: {moved}"));
         let written = self.as_written.iter().map(AsWritten::words);
@@ -264,7 +264,7 @@ impl Coupling<'_> {
 impl External {
     /// Where its σ comes from: "12 constraints - (1 - 0) - 0 lost mobilities".
     #[must_use]
-    pub fn formula(&self) -> String {
+    pub(crate) fn formula(&self) -> String {
         format!(
             "{} - ({} - {}) - {} lost {}",
             plural_of(&self.constraints.to_string(), "constraint"),

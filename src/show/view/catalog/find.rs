@@ -16,14 +16,14 @@ use serde::Serialize;
 
 /// A well-known scheme.
 #[derive(Debug, Clone, Serialize)]
-pub struct ClassicData {
+struct ClassicData {
     id: String,
     about: String,
 }
 
 /// An entry of a catalogue.
 #[derive(Debug, Clone, Serialize)]
-pub struct EntryData {
+struct EntryData {
     id: String,
     form: String,
 }

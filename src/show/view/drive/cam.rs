@@ -17,7 +17,7 @@ pub struct FeedMoment {
 
 /// The pieces of the push of a drive, each up to the next and the last up to the latch; none where nothing is fed.
 #[must_use]
-pub fn feed_moments(module: &Module) -> Vec<FeedMoment> {
+pub(crate) fn feed_moments(module: &Module) -> Vec<FeedMoment> {
     let pieces = module.feed.moments(module.latch.at).into_iter();
     let piece = |([from, _], moment): ([f64; 2], f64)| FeedMoment { from, moment };
     pieces.map(piece).collect()

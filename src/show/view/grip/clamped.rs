@@ -102,7 +102,7 @@ pub fn pose(g: &Gripping, row: &DiameterRow) -> String {
 
 /// Every reason why a part is not held, one a line.
 #[must_use]
-pub fn not_held(g: &Gripping, row: &DiameterRow) -> String {
+pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
     let friction = load(g).map_or(0.0, |l| l.friction);
     let forces = row.hardest.as_ref().and_then(|h| reason(h, friction));
     let all = row.obstacles.iter().map(ToString::to_string).chain(forces);

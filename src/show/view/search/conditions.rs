@@ -8,7 +8,7 @@ use itertools::Itertools;
 
 /// "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".
 #[must_use]
-pub fn in_state(search: &Search, one: bool) -> Vec<String> {
+pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
     let Some(s) = search.conditions.state else {
         return Vec::new();
     };
@@ -38,7 +38,7 @@ pub fn in_state(search: &Search, one: bool) -> Vec<String> {
 
 /// Why nothing can be found, whatever is chosen; nothing where that may be.
 #[must_use]
-pub fn hopeless(m: &Mechanism, why: &Hopeless) -> String {
+pub(crate) fn hopeless(m: &Mechanism, why: &Hopeless) -> String {
     let named = |joints: &[JointId]| {
         let ids = joints.iter().map(|&j| m.joints[j].id.as_str());
         list(&ids.collect_vec())

@@ -256,7 +256,7 @@ impl<'a> Measured<'a> {
 
 /// What follows the variants.
 #[derive(Debug, Serialize)]
-pub struct TailData<'a> {
+pub(crate) struct TailData<'a> {
     variants_complete: bool,
     variants_stop: Option<&'static str>,
     /// How many, from the first on, are proven to be the cheapest, where the search ended early.
@@ -275,7 +275,7 @@ pub struct TailData<'a> {
 
 /// Where there is no variant: what easing would leave, and what stands in the way of all.
 #[derive(Debug, Serialize)]
-pub struct NoneData<'a> {
+pub(crate) struct NoneData<'a> {
     relaxations: Vec<EasedData>,
     least_redundant: Option<usize>,
     unchanged: Vec<&'a str>,
@@ -285,7 +285,7 @@ pub struct NoneData<'a> {
 impl<'a> NoneData<'a> {
     /// Of an outcome without variants.
     #[must_use]
-    pub fn new(m: &'a Mechanism, eased: &[(Relaxation, BigUint)], why: &Hopeless) -> Self {
+    pub(crate) fn new(m: &'a Mechanism, eased: &[(Relaxation, BigUint)], why: &Hopeless) -> Self {
         let one = |(how, n): &(Relaxation, BigUint)| {
             let (condition, to) = condition(*how);
             EasedData {
@@ -324,7 +324,11 @@ enum Bound {
 impl<'a> TailData<'a> {
     /// Of variants that were given, as far as it went; `seconds` is how long all of it took.
     #[must_use]
-    pub fn new(variants: &Variants<'_>, none: Option<NoneData<'a>>, seconds: Option<f64>) -> Self {
+    pub(crate) fn new(
+        variants: &Variants<'_>,
+        none: Option<NoneData<'a>>,
+        seconds: Option<f64>,
+    ) -> Self {
         let summary = variants.summary();
         let stop = variants.cut_short();
         TailData {
@@ -345,7 +349,7 @@ impl<'a> TailData<'a> {
 
 /// The last of some JSON lines, where the variants are not all that was asked for.
 #[derive(Debug, Serialize)]
-pub struct EndData {
+pub(crate) struct EndData {
     stop: &'static str,
     given: usize,
     proven: usize,
@@ -358,7 +362,7 @@ pub struct EndData {
 impl EndData {
     /// Of variants that were given, as far as it went.
     #[must_use]
-    pub fn new(outcome: &Outcome, variants: &Variants<'_>) -> Self {
+    pub(crate) fn new(outcome: &Outcome, variants: &Variants<'_>) -> Self {
         EndData {
             stop: variants.stop().word(),
             given: variants.summary().given,

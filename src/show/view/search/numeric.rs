@@ -21,7 +21,7 @@ pub(in crate::view) fn from_to(bracket: &Bracket) -> String {
 
 /// How many admissible variants there are: "12", or "12 to 15".
 #[must_use]
-pub fn admissible(outcome: &Outcome) -> String {
+pub(crate) fn admissible(outcome: &Outcome) -> String {
     match &outcome.numeric {
         Some(found) => from_to(&found.admissible),
         None => grouped(&outcome.admissible.total),
@@ -49,7 +49,7 @@ pub(in crate::view) fn mobilities(found: &AtTolerance) -> BTreeSet<i64> {
 
 /// What is said of a search by singular values, a sentence a line; none of an exact one.
 #[must_use]
-pub fn lines(outcome: &Outcome) -> Vec<String> {
+pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let Some(found) = &outcome.numeric else {
         return Vec::new();
     };

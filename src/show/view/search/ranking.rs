@@ -15,7 +15,7 @@ const REASONS: usize = 10;
 
 /// What variants are ranked by, for the head of a list.
 #[must_use]
-pub fn head(p: &RankedPool) -> String {
+pub(crate) fn head(p: &RankedPool) -> String {
     let terms = match p.ranking.order {
         Order::Weighted => p
             .ranking
@@ -66,7 +66,7 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
 
 /// What a list of ranked variants rests on, a line each.
 #[must_use]
-pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
+pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let n = |x: usize| grouped(x);
     let poses = match p.poses {
         0 | 1 => String::new(),
@@ -124,14 +124,17 @@ pub fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
 }
 
 /// Why the first of a list of ranked variants are not in the order of cost, a line each.
-pub fn reasons<'a>(m: &'a Mechanism, p: &'a RankedPool) -> impl Iterator<Item = String> + 'a {
+pub(crate) fn reasons<'a>(
+    m: &'a Mechanism,
+    p: &'a RankedPool,
+) -> impl Iterator<Item = String> + 'a {
     let places = (1..=p.list.len()).take(REASONS);
     places.filter_map(|place| p.reason(m, place))
 }
 
 /// Heads of the columns of a list.
 #[must_use]
-pub fn columns(p: &RankedPool) -> Vec<&'static str> {
+pub(crate) fn columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter();
     let mut out: Vec<&str> = terms.filter_map(|(t, _)| t.heading()).collect();
     match p.ranking.order {
@@ -144,7 +147,7 @@ pub fn columns(p: &RankedPool) -> Vec<&'static str> {
 
 /// The cells of those columns.
 #[must_use]
-pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
+pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms
         .filter(|t| t.heading().is_some())
@@ -160,7 +163,7 @@ pub fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
 
 /// The ranking as data.
 #[derive(Debug, serde::Serialize)]
-pub struct RankingData<'a> {
+pub(crate) struct RankingData<'a> {
     order: &'static str,
     terms: Vec<TermData>,
     limits: Vec<LimitData>,
@@ -210,7 +213,7 @@ struct GripData<'a> {
 impl<'a> RankingData<'a> {
     /// Of a ranked pool.
     #[must_use]
-    pub fn new(m: &'a Mechanism, p: &'a RankedPool) -> Self {
+    pub(crate) fn new(m: &'a Mechanism, p: &'a RankedPool) -> Self {
         let terms = p.ranking.terms.iter().map(|(t, weight)| TermData {
             term: t.name(),
             weight: *weight,
@@ -256,7 +259,7 @@ impl<'a> RankingData<'a> {
 /// A ranked variant's own: each term's figure (the error in m), what the most loaded joints bear (forces in N, moments in
 /// N·m), place by cost, sum, front and reason.
 #[derive(Debug)]
-pub struct RankedData<'a> {
+pub(crate) struct RankedData<'a> {
     scores: &'a Scores,
     joints: &'a [Joint],
     by_cost: usize,
@@ -268,7 +271,7 @@ pub struct RankedData<'a> {
 impl<'a> RankedData<'a> {
     /// Of a ranked variant, with the reason of its place.
     #[must_use]
-    pub fn new(m: &'a Mechanism, r: &'a Ranked, reason: Option<String>) -> Self {
+    pub(crate) fn new(m: &'a Mechanism, r: &'a Ranked, reason: Option<String>) -> Self {
         RankedData {
             scores: &r.scores,
             joints: &m.joints,

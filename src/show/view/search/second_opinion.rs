@@ -60,7 +60,7 @@ fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
 
 /// Why counts are not exact though everything was looked at, a sentence a line; nothing where they are.
 #[must_use]
-pub fn against(outcome: &Outcome) -> Vec<String> {
+pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
     let Some(said) = &outcome.second else {
         return Vec::new();
     };
@@ -102,7 +102,7 @@ pub fn against(outcome: &Outcome) -> Vec<String> {
 
 /// What the second opinion is, a sentence a line; nothing where none was needed.
 #[must_use]
-pub fn lines(outcome: &Outcome) -> Vec<String> {
+pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let mut out = against(outcome);
     if let Some(said) = outcome.second.as_ref().filter(|s| s.agrees()) {
         out.push(agreed(said));

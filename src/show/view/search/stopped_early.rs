@@ -10,7 +10,7 @@ use serde::Serialize;
 
 /// Why a search ended early and what its counts and its list are; nothing of one that did not.
 #[must_use]
-pub fn stopped(outcome: &Outcome) -> Option<String> {
+pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
     let why = match outcome.stop {
         Stop::Exhausted => return None,
         Stop::NotCounted => "Not counted (--no-count)".to_owned(),
@@ -27,7 +27,7 @@ pub fn stopped(outcome: &Outcome) -> Option<String> {
 /// A number of variants as it is told: itself where it is exact, else at least that many, and at most how many and about how many where
 /// that is known.
 #[must_use]
-pub fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
+pub(crate) fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
     let own = grouped(counted);
     match estimate {
         _ if exact => own,
@@ -42,7 +42,7 @@ pub fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> St
 
 /// How numbers of variants are known that are not counted.
 #[must_use]
-pub fn estimated(outcome: &Outcome) -> Option<String> {
+pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     let [determinate, admissible] = outcome.estimates();
     let said = |e: &Estimate, what| {
         let [low, high] = e.between;
@@ -70,7 +70,7 @@ pub fn estimated(outcome: &Outcome) -> Option<String> {
 
 /// What a larger bound would cost, where one ended the search: nodes take time and memory in proportion.
 #[must_use]
-pub fn more(outcome: &Outcome) -> Option<String> {
+pub(crate) fn more(outcome: &Outcome) -> Option<String> {
     match outcome.stop {
         Stop::NodeBudget => {
             let nodes = outcome.request.nodes.saturating_mul(10);
@@ -87,7 +87,7 @@ pub fn more(outcome: &Outcome) -> Option<String> {
 
 /// How much of a list by cost is proven, though the search ended early.
 #[must_use]
-pub fn proven(summary: &Summary) -> Option<String> {
+pub(crate) fn proven(summary: &Summary) -> Option<String> {
     match summary.proven? {
         0 => None,
         n if n == summary.given => Some(format!("Proven the cheapest: all {n}")),

@@ -121,7 +121,7 @@ fn write_notes(
 
 /// The footnote of a marked variant.
 #[must_use]
-pub fn note(v: &Variant<'_>) -> Option<String> {
+pub(crate) fn note(v: &Variant<'_>) -> Option<String> {
     let position = v.position();
     if let Some((f, present)) = v.over_stroke().and_then(|s| s.other) {
         let output = match (f.output, present) {
@@ -165,7 +165,7 @@ const NOTES: usize = 20;
 
 /// What second opinions and other poses say, a line each.
 #[must_use]
-pub fn notes(summary: &Summary) -> Vec<String> {
+pub(crate) fn notes(summary: &Summary) -> Vec<String> {
     let mut out = Vec::new();
     if summary.is_asked() {
         out.push(opinions(summary));

@@ -16,7 +16,7 @@ const TOLD: usize = 3;
 
 /// Why an idea helps, as data.
 #[derive(Debug, Clone, Serialize)]
-pub struct WhyData {
+pub(crate) struct WhyData {
     /// One row for each change.
     lets: Vec<LetData>,
     /// Driven joints and pivots in the frame that stay as they are.
@@ -161,7 +161,7 @@ pub(in crate::view) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String 
 
 /// What is said of each of some ideas, line by line: of what, and that.
 #[must_use]
-pub fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
+pub(crate) fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
     let whys = Whys::new(outcome);
     let why = teller(&whys, &outcome.search.mechanism);
     let all = ideas.iter().copied().map(why);

@@ -12,7 +12,7 @@ use crate::file::schema::{DriveEntry, MechanismFile};
 use crate::model::drive::{Cam, Damping, DriveSpec};
 use crate::model::mechanism::Mechanism;
 use inertias::inertias;
-pub use programme::regular;
+pub(crate) use programme::regular;
 use programme::{MOST, programme};
 use push::push;
 

@@ -10,19 +10,19 @@ use thiserror::Error;
 /// Most forces, moments or misalignments.
 pub(in crate::file::read) const MAX_FORCES: usize = 10_000;
 /// Most steps of a stroke.
-pub const MAX_STEPS: usize = 100_000;
+pub(crate) const MAX_STEPS: usize = 100_000;
 /// Largest mass, inertia or speed.
 pub(in crate::file::read) const LARGEST: f64 = 1e12;
 
 /// A drive position in radians or the file's length unit: "1.5", "1.5rad", "360deg".
 #[must_use]
-pub fn position(text: &str) -> Option<f64> {
+pub(crate) fn position(text: &str) -> Option<f64> {
     with_units(text, &[("deg", 1f64.to_radians()), ("rad", 1.0)])
 }
 
 /// A drive speed in rad/s or the file's length unit per second: "6.28", "60rpm", "30deg/s".
 #[must_use]
-pub fn speed(text: &str) -> Option<f64> {
+pub(crate) fn speed(text: &str) -> Option<f64> {
     let rpm = std::f64::consts::TAU / 60.0;
     let units = [("rpm", rpm), ("deg/s", 1f64.to_radians()), ("rad/s", 1.0)];
     with_units(text, &units)

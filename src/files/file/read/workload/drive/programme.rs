@@ -10,7 +10,7 @@ pub(in crate::file::read) const MOST: usize = 10_000;
 
 /// So many swings, of both discs in turn or of the second alone, with a dwell after each where one is given.
 #[must_use]
-pub fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<ProgrammeStep> {
+pub(crate) fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<ProgrammeStep> {
     let mut steps = Vec::new();
     for i in 0..swings {
         // The second disc goes first, so that the first, which is ahead, is followed.
