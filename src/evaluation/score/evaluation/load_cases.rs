@@ -117,7 +117,11 @@ pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
 ///
 /// # Complexity
 /// That of following the stroke and of the grip's study.
-pub(crate) fn cases(m: &Mechanism, drives: &[Driven], states: &[StateId]) -> Result<Cases, CaseError> {
+pub(crate) fn cases(
+    m: &Mechanism,
+    drives: &[Driven],
+    states: &[StateId],
+) -> Result<Cases, CaseError> {
     let mut out = Cases::default();
     let default = states_with_loads(m);
     let states = if states.is_empty() { &default } else { states };

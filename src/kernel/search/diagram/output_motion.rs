@@ -70,10 +70,8 @@ pub(crate) fn lookahead(
     };
     let mut map = Vec::new();
     for &(root, link) in live {
-        let component = components
-            .iter()
-            .find(|c| c[0] == root)
-            .expect("live links are in components");
+        let mut of_root = components.iter().filter(|c| c[0] == root);
+        let component = of_root.next().expect("live links are in components");
         let mut moved = vec![(link, true)];
         if link == frame {
             // Coordinates are relative to the root; the frame itself rests.
@@ -91,11 +89,11 @@ pub(crate) fn lookahead(
             map.push(seen(v));
         }
     }
-    let bound = open.iter().filter(|&&i| i < locks.len()).count();
-    let (map, locks_kept) = independent(field, map, bound);
+    let bound = open.partition_point(|&i| i < locks.len());
+    let (map, locks_left) = independent(field, map, bound);
     Lookahead {
         map,
-        locks: locks_kept,
+        locks: locks_left,
         base: taken.iter().filter(|&&i| i >= locks.len()).count(),
         allowed,
     }
