@@ -19,6 +19,16 @@ impl Echelon {
         }
     }
 
+    /// The span of some vectors.
+    #[must_use]
+    pub fn of<V: AsRef<[Residue]>>(field: Field, vectors: impl IntoIterator<Item = V>) -> Self {
+        let mut span = Echelon::new(field);
+        for v in vectors {
+            span.insert(v.as_ref());
+        }
+        span
+    }
+
     /// Dimension of the span.
     #[must_use]
     pub fn rank(&self) -> usize {
@@ -81,11 +91,7 @@ impl Echelon {
 /// Dimension of the span of some vectors.
 #[must_use]
 pub fn rank<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]>) -> usize {
-    let mut e = Echelon::new(field);
-    for v in vectors {
-        e.insert(v);
-    }
-    e.rank()
+    Echelon::of(field, vectors).rank()
 }
 
 /// A vector without its zeros.

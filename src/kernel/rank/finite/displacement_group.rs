@@ -290,10 +290,7 @@ pub(in crate::rank) fn group_of(
         .reduced()
         .first()
         .map_or([0; 3], |t| [t[0], t[1], t[2]]);
-    let mut whole = Echelon::new(field);
-    basis.iter().for_each(|t| {
-        whole.insert(t);
-    });
+    let whole = Echelon::of(field, &basis);
     let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
     // Slides across the axis change nothing of what a turn slides along it; a slide along it makes any turn of the screw.
     let along = |t: &Vec<Residue>| exact.dot([t[0], t[1], t[2]], [t[3], t[4], t[5]]);

@@ -109,10 +109,7 @@ pub fn lock_idle(
             continue;
         }
         // Freedoms of the first joint that complete the common group to all of its own.
-        let mut span = Echelon::new(exact.field());
-        shared.iter().for_each(|t| {
-            span.insert(t);
-        });
+        let mut span = Echelon::of(exact.field(), &shared);
         let joint = &mut mechanism.joints[at[0]];
         let kept = joint.joint_type.freedoms().iter().zip(first);
         let kept = kept

@@ -138,7 +138,8 @@ impl Shifts {
         // Each shift's keys ascend: all are merged, and each is told where it comes to.
         const END: Key = Key(u128::MAX);
         let mut keys: Vec<Key> = Vec::with_capacity(below.len() + different.len());
-        let mut to: Vec<Vec<u32>> = vec![Vec::with_capacity(below.len()); different.len()];
+        let room = |_: &Key| Vec::with_capacity(below.len());
+        let mut to: Vec<Vec<u32>> = different.iter().map(room).collect();
         let next = |by: Key, place: usize| {
             let next = below.get(place).map(|k| Key(k.0 + by.0));
             next.filter(|k| k.cost() <= most).unwrap_or(END)

@@ -121,13 +121,7 @@ impl Order {
 
 /// The motion of each joint of a choice.
 fn spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
-    let span = |rows: &Vec<Vec<_>>| {
-        let mut out = Echelon::new(question.exact.field());
-        rows.iter().for_each(|r| {
-            out.insert(r);
-        });
-        out
-    };
+    let span = |rows: &Vec<Vec<_>>| Echelon::of(question.exact.field(), rows);
     choice.spans.iter().map(span).collect()
 }
 

@@ -101,13 +101,9 @@ impl AtMost {
     pub(in crate::search) fn has(&self, choices: &[usize]) -> bool {
         let space = &self.space;
         let contours = space.contours.len();
-        let mut whole = Echelon::new(self.field);
-        for (t, &variable) in self.order.iter().enumerate() {
-            space.added[t][choices[variable]].iter().for_each(|vector| {
-                whole.insert(vector);
-            });
-        }
-        let pivots = whole.pivots();
+        let chosen = space.added.iter().zip(&self.order);
+        let vectors = chosen.flat_map(|(added, &variable)| &added[choices[variable]]);
+        let pivots = Echelon::of(self.field, vectors).pivots();
         pivots.len() == contours && pivots.iter().all(|&p| p < contours)
     }
 }

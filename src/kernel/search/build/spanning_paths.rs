@@ -29,10 +29,7 @@ impl Annihilator {
         vectors: impl IntoIterator<Item = Vec<Residue>>,
         width: usize,
     ) -> Self {
-        let mut span = Echelon::new(field);
-        vectors.into_iter().for_each(|v| {
-            span.insert(&v);
-        });
+        let span = Echelon::of(field, vectors);
         let (rows, pivots) = (span.reduced(), span.pivots());
         let open: Vec<usize> = (0..width).filter(|at| !pivots.contains(at)).collect();
         let form = |&at: &usize| rows.iter().map(move |row| field.neg(row[at]));

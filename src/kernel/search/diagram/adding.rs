@@ -129,17 +129,19 @@ pub(in crate::search) fn adding(
             Kept::Live => finished.len().min(left),
             Kept::All => finished.len(),
         };
+        let places = coordinates.places();
+        let [contours, _] = coordinates.at;
         Adding {
             variable,
             growth: one_from_another(field, &spans),
+            contours,
             width,
-            places: coordinates.places(),
+            places,
             gap,
             folding: (!finished.is_empty()).then(|| Folding {
                 dropped: left + wrong..finished.end,
                 collapse: Collapse::at_rest(finished, left..width - gap),
             }),
-            contours: coordinates.at.into_iter().next().unwrap_or_default(),
         }
     };
     order.iter().enumerate().map(stage).collect()

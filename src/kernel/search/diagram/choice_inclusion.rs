@@ -51,16 +51,10 @@ pub(in crate::search) fn one_from_another(field: Field, spans: &[&[Vec<Residue>]
     order.sort_by_key(|&c| spans[c].len());
     let mut out: Vec<Grown> = Vec::with_capacity(spans.len());
     for (i, &choice) in order.iter().enumerate() {
-        let mut whole = Echelon::new(field);
-        spans[choice].iter().for_each(|t| {
-            whole.insert(t);
-        });
+        let whole = Echelon::of(field, spans[choice]);
         let contained = |c: &&usize| spans[**c].iter().all(|t| whole.contains(t));
         let from = order[..i].iter().rev().find(contained).copied();
-        let mut known = Echelon::new(field);
-        from.into_iter().flat_map(|c| spans[c]).for_each(|t| {
-            known.insert(t);
-        });
+        let mut known = Echelon::of(field, from.into_iter().flat_map(|c| spans[c]));
         let new = spans[choice].iter().filter(|t| known.insert(t));
         out.push(Grown {
             choice,

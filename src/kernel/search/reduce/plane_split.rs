@@ -106,12 +106,8 @@ impl LeastModel {
 /// Redundant constraints among the present joints in some rows of the closure equations.
 fn redundant(f: Field, mechanism: &Mechanism, contours: &[Contour], present: &Space) -> u32 {
     let rows = ClosingRows::new(mechanism, present.dim, contours, &[]);
-    let mut span = Echelon::new(f);
-    for variable in &present.variables {
-        for column in rows.columns(f, variable, 0) {
-            span.insert(&column);
-        }
-    }
+    let variables = present.variables.iter();
+    let span = Echelon::of(f, variables.flat_map(|v| rows.columns(f, v, 0)));
     u32::try_from(rows.closing() - span.rank()).unwrap_or(u32::MAX)
 }
 
@@ -128,11 +124,8 @@ struct Seen {
 impl Seen {
     fn new(f: Field, space: &Space, rows: Rows) -> Seen {
         let of_joint = |span: &Span| {
-            let mut out = Echelon::new(f);
-            span.iter().for_each(|twist| {
-                out.insert(&seen(f, &rows, twist));
-            });
-            out.reduced()
+            let seen = span.iter().map(|twist| seen(f, &rows, twist));
+            Echelon::of(f, seen).reduced()
         };
         let of_choice = |c: &Choice| c.spans.iter().map(of_joint).collect();
         let variables = space.variables.iter();
@@ -152,12 +145,8 @@ impl Seen {
 
     /// Rows that tell all motions apart: the pivots of their span, or any one row where nothing moves.
     fn used(&self, f: Field) -> Vec<usize> {
-        let mut all = Echelon::new(f);
         let twists = self.spans.iter().flatten().flatten().flatten();
-        twists.for_each(|t| {
-            all.insert(t);
-        });
-        let used = all.pivots();
+        let used = Echelon::of(f, twists).pivots();
         if used.is_empty() { vec![0] } else { used }
     }
 

@@ -157,10 +157,7 @@ struct BesidePresent {
 impl BesidePresent {
     /// Of what the present joints do, in vectors of a width.
     fn new(field: Field, all: impl Iterator<Item = Added>, width: usize) -> BesidePresent {
-        let mut present = Echelon::new(field);
-        all.for_each(|c| {
-            present.insert(&c);
-        });
+        let present = Echelon::of(field, all);
         let pivots = present.pivots();
         let open = (0..width).filter(|i| !pivots.contains(i)).collect();
         BesidePresent {
@@ -172,13 +169,12 @@ impl BesidePresent {
 
     /// What is left of the units of some coordinates.
     fn units(&self, field: Field, coordinates: Range<usize>) -> Echelon {
-        let mut span = Echelon::new(field);
-        for i in coordinates {
+        let units = coordinates.map(|i| {
             let mut unit = vec![0; self.width];
             unit[i] = field.one();
-            span.insert(&self.left(unit));
-        }
-        span
+            self.left(unit)
+        });
+        Echelon::of(field, units)
     }
 
     /// What is left of a vector.
@@ -275,7 +271,7 @@ impl SelfStressSpace {
         let contours = shortened(field, &mut vectors, 0..count, &contours.by);
         let kept = shortened(field, &mut vectors, count..all, &kept.by);
         for choice in added.iter_mut().flatten() {
-            *choice = spanned(field, choice);
+            *choice = Echelon::of(field, &*choice).reduced();
         }
         Some(SelfStressSpace {
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
@@ -286,15 +282,6 @@ impl SelfStressSpace {
     }
 }
 
-/// A reduced basis of what vectors span.
-fn spanned(field: Field, vectors: &[Added]) -> Vec<Added> {
-    let mut span = Echelon::new(field);
-    vectors.iter().for_each(|v| {
-        span.insert(v);
-    });
-    span.reduced()
-}
-
 /// Whether every choice of a variable has the motions of the present joints.
 fn is_contained(field: Field, space: &Space, variable: usize) -> bool {
     let [present, others @ ..] = &space.variables[variable].choices[..] else {
@@ -303,10 +290,7 @@ fn is_contained(field: Field, space: &Space, variable: usize) -> bool {
     others.iter().all(|choice| {
         let mut joints = choice.spans.iter().zip(&present.spans);
         joints.all(|(span, present)| {
-            let mut whole = Echelon::new(field);
-            span.iter().for_each(|t| {
-                whole.insert(t);
-            });
+            let whole = Echelon::of(field, span);
             present.iter().all(|t| whole.contains(t))
         })
     })
