@@ -80,7 +80,7 @@ pub fn families() -> Vec<(&'static str, Vec<&'static str>)> {
 
 /// Names of the built-in grippers, ascending.
 #[must_use]
-pub(crate) fn grippers() -> Vec<&'static str> {
+pub fn grippers() -> Vec<&'static str> {
     members("grippers")
 }
 

@@ -1,6 +1,6 @@
 //! Poses of closed mechanisms, and mechanisms followed along a drive.
 
-pub(crate) mod close;
+pub mod close;
 pub mod drive_range;
 pub mod follow;
 pub mod jaws;

@@ -15,5 +15,5 @@ pub mod moved;
 pub mod other_poses;
 pub mod release;
 pub mod stress;
-pub(crate) mod stress_loads;
+pub mod stress_loads;
 pub mod with_drives_held;

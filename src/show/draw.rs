@@ -17,8 +17,7 @@ mod symbol;
 pub use crate::svg::plane::Rect;
 pub(crate) use kinematic::kinematic_with;
 pub use kinematic::moving::{Moved, kinematic_along, kinematic_moving};
-pub(crate) use kinematic::scene::kinematic_scene;
-pub use kinematic::scene::{Scene, Shown};
+pub use kinematic::scene::{Scene, Shown, kinematic_scene};
 pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed};
 
 pub use place::view_direction::Sight;

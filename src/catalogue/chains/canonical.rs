@@ -77,7 +77,7 @@ impl Weighted {
 
 /// A canonical numbering and the automorphisms.
 #[derive(Debug, Clone)]
-pub(crate) struct Canonical {
+pub struct Canonical {
     /// The graph so numbered: equal for two graphs exactly where they are isomorphic.
     pub graph: Weighted,
     /// Which vertex stands at each place.
@@ -91,7 +91,7 @@ pub(crate) struct Canonical {
 /// # Complexity
 /// One refinement for each leaf of the search; at least as many leaves as automorphisms.
 #[must_use]
-pub(crate) fn canonical(graph: &Weighted) -> Canonical {
+pub fn canonical(graph: &Weighted) -> Canonical {
     let n = graph.vertices;
     let mut search = LabelSearch {
         graph,

@@ -49,7 +49,7 @@ pub enum ChainsError {
 ///
 /// # Complexity
 /// Some microseconds a chain; memory for the contracted graphs alone.
-pub(crate) fn visit_chains(
+pub fn visit_chains(
     links: usize,
     mobility: usize,
     visit: &(impl Fn(&Chain) + Sync),

@@ -108,7 +108,7 @@ pub enum NoGripper {
 ///
 /// # Complexity
 /// An elimination of 3n columns.
-pub(crate) fn moves(
+pub fn moves(
     subject: &Subject<'_>,
     roles: &Roles,
     symmetry: Symmetry,

@@ -169,7 +169,7 @@ pub fn closure(part: &ClampedPart, faces: &[JawFace]) -> Result<ForceClosure, Un
 ///
 /// # Errors
 /// Where the solver refuses a programme.
-pub(crate) fn is_closed(part: &ClampedPart, faces: &[JawFace]) -> Result<Option<bool>, Unsolved> {
+pub fn is_closed(part: &ClampedPart, faces: &[JawFace]) -> Result<Option<bool>, Unsolved> {
     let forces = Forces::new(part, faces);
     let (mut inverse, mut left) = (0.0, 0.0);
     for axis in &part.axes {

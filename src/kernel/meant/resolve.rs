@@ -15,7 +15,7 @@ use num_rational::BigRational;
 
 /// What the digits of a scene allow.
 #[derive(Debug, Clone)]
-pub(crate) struct Resolved {
+pub struct Resolved {
     /// The scene with the most relations.
     pub scene: MeantScene,
     /// Others that the digits do not rule out: with relations that are all but within them, and without those that as well are
@@ -37,7 +37,7 @@ const BOLD: f64 = 1.6;
 /// # Complexity
 /// O(p²) pairs of p points, held against each other and against d directions; then O(r² p) for r relations.
 #[must_use]
-pub(crate) fn resolve(written: &WrittenScene) -> Option<Resolved> {
+pub fn resolve(written: &WrittenScene) -> Option<Resolved> {
     let size = written.size();
     if (SMALL..SMALL.recip()).contains(&size) {
         return resolved(written);

@@ -8,7 +8,7 @@ use num_traits::ToPrimitive;
 
 /// A point as it is written.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct WrittenPoint {
+pub struct WrittenPoint {
     /// Its coordinates.
     pub value: Vector,
     /// The same exactly.
@@ -19,7 +19,7 @@ pub(crate) struct WrittenPoint {
 
 /// A direction as it is written, of any length; its sign says nothing.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Ray {
+pub struct Ray {
     /// Its components.
     pub value: Vector,
     /// The same exactly.
@@ -30,7 +30,7 @@ pub(crate) struct Ray {
 
 /// Points and directions of a scene that are each other's images, or their own, as a file states it.
 #[derive(Debug, Clone)]
-pub(crate) struct WrittenSymmetry {
+pub struct WrittenSymmetry {
     /// Whether half a turn carries them over, and not a mirror.
     pub turned: bool,
     /// Pairs of points; a point that is its own image with itself.
@@ -41,7 +41,7 @@ pub(crate) struct WrittenSymmetry {
 
 /// The geometry of a file as it is written.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct WrittenScene {
+pub struct WrittenScene {
     /// Its points.
     pub points: Vec<WrittenPoint>,
     /// Its directions.

@@ -1,6 +1,6 @@
 //! Finite (full-cycle) mobility: the dimension of the motion that is really there, beside the instantaneous f - rank J.
 
-pub(crate) mod at_rest;
+pub mod at_rest;
 pub mod bonds;
 mod contours;
 pub(crate) mod coordinates;

@@ -2,6 +2,6 @@
 
 pub mod intended;
 pub mod moves;
-pub(crate) mod nearest_lower_rank;
+pub mod nearest_lower_rank;
 pub mod snap;
 pub mod verdict;

@@ -45,7 +45,7 @@ impl Borne {
 }
 
 /// Shares of the joints in self-stresses, one after the other.
-pub(crate) struct Shares<'a> {
+pub struct Shares<'a> {
     mechanism: &'a Mechanism,
     closure: Closure<f64>,
     columns: Vec<Vec<f64>>,

@@ -108,7 +108,7 @@ impl PairChain {
 
     /// The chain of a code; `None` where it is none.
     #[must_use]
-    pub(crate) fn of_code(links: usize, code: &str) -> Option<PairChain> {
+    pub fn of_code(links: usize, code: &str) -> Option<PairChain> {
         let pairs = (0..links).flat_map(|v| (0..v).map(move |u| [u, v]));
         let mut letters = code.chars();
         let mut joints = Vec::new();

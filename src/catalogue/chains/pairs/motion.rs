@@ -171,7 +171,7 @@ fn motions(field: Field, chain: &PairChain, places: &[(Joint, PairRows)]) -> Vec
 /// # Complexity
 /// An elimination of 3n columns for n links.
 #[must_use]
-pub(crate) fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
+pub fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
     let mut draw = Draw::new();
     let joints = chain.joints().into_iter();
     let places = joints.map(|j| (j, draw.place(j.pair))).collect_vec();
@@ -183,7 +183,7 @@ pub(crate) fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
 /// # Complexity
 /// As [`generic_motions`].
 #[must_use]
-pub(crate) fn motion(chain: &PairChain) -> Option<Vec<Velocity>> {
+pub fn motion(chain: &PairChain) -> Option<Vec<Velocity>> {
     let mut found = generic_motions(chain);
     found.pop().filter(|_| found.is_empty())
 }
@@ -309,7 +309,7 @@ pub(crate) fn motions_in_way(
 
 /// A way in which joints that are their own images may lie, and the motion of the chain then.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct SymmetricWay {
+pub struct SymmetricWay {
     /// A bit for each slide and slot that is its own mirror image, in the order of the joints: 1 for a slide across the line, or a
     /// line of action across it.
     pub bits: u32,

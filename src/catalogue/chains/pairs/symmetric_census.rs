@@ -25,7 +25,7 @@ pub struct SymmetricKind {
 
 /// A gripper that moves symmetrically.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct SymmetricGripper {
+pub struct SymmetricGripper {
     /// Its structure, in canonical numbering.
     pub structure: PairStructure,
     /// How it counts.
@@ -38,7 +38,7 @@ pub(crate) struct SymmetricGripper {
 /// # Complexity
 /// As of [`crate::chains::pairs::census::visit_pair_chains`], over the halves.
 #[must_use]
-pub(crate) fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper> {
+pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper> {
     let least = Mutex::new(BTreeMap::<(bool, bool, Weighted), usize>::new());
     if !(3..=MOST_LINKS).contains(&links) {
         return Vec::new();

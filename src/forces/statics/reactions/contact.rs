@@ -95,7 +95,7 @@ pub fn object_at(m: &Mechanism, joint: JointId) -> Option<LinkId> {
 ///
 /// # Errors
 /// [`Unsolved::Side`] where none of these tells.
-pub(crate) fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unsolved> {
+pub fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unsolved> {
     let faces = geometry
         .joints
         .iter()

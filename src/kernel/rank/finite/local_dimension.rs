@@ -54,7 +54,7 @@ pub struct Traced {
 /// # Complexity
 /// About W closings of O((6k)² f) each at a regular pose, and some hundred at a singular one.
 #[must_use]
-pub(crate) fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Option<Traced> {
+pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Option<Traced> {
     let mut search = DimensionSearch {
         random: ChaCha8Rng::seed_from_u64(1),
         poses: 0,

@@ -35,7 +35,7 @@ const DIFFERENCE: f64 = 1e-5;
 
 /// A geometry found.
 #[derive(Debug, Clone)]
-pub(crate) struct Nearest {
+pub struct Nearest {
     /// The mechanism, its coordinates as doubles.
     pub mechanism: Mechanism,
     /// The largest change of a coordinate, in units of its last digit.
@@ -116,7 +116,7 @@ fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
 /// # Complexity
 /// At most 12 decompositions of a matrix of (6k - rank)(f - rank) rows and 9p columns.
 #[must_use]
-pub(crate) fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Option<Nearest> {
+pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Option<Nearest> {
     let of = coordinates(m, state, units);
     let mut closure = Closure::new(&Reals, m, state).ok()?;
     let contours = closure.contours.clone();

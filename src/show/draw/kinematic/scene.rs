@@ -132,11 +132,7 @@ struct LinkArrow {
 /// Draws the kinematic scheme at the pose of its first motion, in groups that a program may put another picture in place of
 /// (`data-scene` for what moves, `data-home` for what is of this view only), with what it takes to make such pictures.
 #[must_use]
-pub(crate) fn kinematic_scene(
-    subject: &Subject<'_>,
-    sight: &Sight,
-    shown: Shown<'_>,
-) -> (Drawing, Scene) {
+pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -> (Drawing, Scene) {
     let mut rest = Kinematic::new(subject, sight);
     let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(|(_, m)| poses(m)).collect();
     let mut scene = rest.scene();
