@@ -14,8 +14,6 @@ pub(crate) mod least_freedoms;
 pub mod orbit_counts;
 pub mod place;
 pub(crate) mod proven_cheapest;
-pub(in crate::search) mod random_cuts;
-pub(in crate::search) mod samples;
 pub mod single_changes;
 pub(crate) mod variants_in_order;
 pub mod why_none;

@@ -1,5 +1,9 @@
 //! About how many variants there are, and no more than how many, where they are not counted.
 
+pub(in crate::search) mod completion_shares;
+pub(in crate::search) mod random_cuts;
+pub(in crate::search) mod samples;
+
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 

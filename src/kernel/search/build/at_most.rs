@@ -5,7 +5,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
-use crate::search::build::self_stress::space;
+use crate::search::build::self_stress::{Added, space};
 use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
@@ -27,6 +27,8 @@ pub(in crate::search) struct AtMost {
     field: Field,
     order: Vec<usize>,
     space: SelfStressSpace,
+    /// Redundant constraints that every variant has.
+    pub(in crate::search) already: u32,
 }
 
 /// Nodes of a layer: their number, bounded by memory, too.
@@ -92,11 +94,19 @@ pub(in crate::search) fn at_most(
         diagram: Diagram::whole(layers, ends),
         field,
         order: order.to_vec(),
+        already: spent.internal(),
         space,
     })
 }
 
 impl AtMost {
+    /// The stages of the diagram that has just the variants.
+    pub(in crate::search) fn stages<'a>(&self, limits: &'a Limits) -> Vec<Added<'a>> {
+        let stages = adding(self.field, &self.order, &self.space, Kept::Live);
+        let within = |stage| Added::new(self.field, stage, limits);
+        stages.into_iter().map(within).collect()
+    }
+
     /// Whether a variant of the diagram is one indeed.
     pub(in crate::search) fn has(&self, choices: &[usize]) -> bool {
         let space = &self.space;

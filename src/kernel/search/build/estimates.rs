@@ -1,13 +1,15 @@
 //! About how many variants there are, where a diagram is cut down to its limits.
 
 use crate::search::answer::counts::total;
+use crate::search::answer::estimate::completion_shares::CompletionShares;
+use crate::search::answer::estimate::random_cuts::{self, Uncut};
+use crate::search::answer::estimate::samples::SetSamples;
 use crate::search::answer::estimate::{Estimate, WITHIN};
-use crate::search::answer::random_cuts;
-use crate::search::answer::samples::SetSamples;
 use crate::search::build::at_most::at_most;
 use crate::search::build::staging::Staged;
 use crate::search::diagram::completion::Missing;
-use crate::search::diagram::{Diagram, Stop};
+use crate::search::diagram::{Diagram, Over, Stop};
+
 use crate::search::question::Question;
 use num_bigint::BigUint;
 
@@ -41,8 +43,8 @@ pub(super) fn estimates(
 }
 
 /// About how many variants there are, determinate or admissible ones: by samples of a larger set where there is no searched state and
-/// no redundant constraint is allowed, else by random cuts, and so where those are surer because few samples are wanted; `end` is the
-/// least dimension of the last nodes.
+/// no redundant constraint is allowed, or, where these say too little because few of them are variants, by random cuts that this set
+/// guides; by cuts that dimensions guide where there is no such set. `end` is the least dimension of the last nodes.
 fn estimated(
     question: &Question,
     staged: &Staged<'_>,
@@ -52,28 +54,42 @@ fn estimated(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Estimate> {
     let (model, limits) = (&question.least.whole, &staged.limits);
-    let by_cuts = || {
+    let by_dimension = || {
         let stages = staged.stages();
         let missing = Missing::new(&model.space, stages, limits, end);
-        random_cuts::estimate(
-            question, stages, limits, &missing, seed, admissible, cancelled,
-        )
+        let field = question.exact.field();
+        let over = |stage| Over::new(field, &model.space, stage, limits);
+        let uncut = Uncut {
+            stages: stages.iter().map(over).collect(),
+            limits,
+            already: limits.already,
+            shares: CompletionShares::ByDimension(&missing),
+        };
+        random_cuts::estimate(question, &uncut, seed, admissible, cancelled)
     };
     if question.conditions.state.is_some() {
-        return by_cuts();
+        return by_dimension();
     }
     let keep_output = admissible && question.conditions.keep_output;
     let order = &staged.order;
-    let of = at_most(question, model, order, limits, keep_output, cancelled);
-    let samples = of.as_ref();
-    let samples =
-        samples.and_then(|of| SetSamples::begin(question, of, seed, admissible, cancelled));
-    let Some(samples) = samples else {
-        return by_cuts();
+    let Some(of) = at_most(question, model, order, limits, keep_output, cancelled) else {
+        return by_dimension();
+    };
+    let Some(samples) = SetSamples::begin(question, &of, seed, admissible, cancelled) else {
+        return by_dimension();
     };
     let reach = samples.reach();
+    let within = || {
+        let uncut = Uncut {
+            stages: of.stages(limits),
+            limits,
+            already: of.already,
+            shares: CompletionShares::within(&of.diagram),
+        };
+        random_cuts::estimate(question, &uncut, seed, admissible, cancelled)
+    };
     let surer = |cuts: &Estimate| cuts.reach() < reach;
-    match (reach > WITHIN).then(by_cuts).flatten().filter(surer) {
+    match (reach > WITHIN).then(within).flatten().filter(surer) {
         Some(cuts) => Some(Estimate {
             at_most: Some(samples.at_most()),
             ..cuts

@@ -10,13 +10,12 @@
 //! of Mathematical Statistics 20 (1949).
 
 use crate::search::answer::counts::limited;
+use crate::search::answer::estimate::completion_shares::{At, CompletionShares};
 use crate::search::answer::estimate::{Drawn, Estimate, WITHIN};
 use crate::search::answer::keys::{Key, Steps};
-use crate::search::diagram::completion::Missing;
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::stage::Stage;
-use crate::search::diagram::{Carries, DEAD, Over, Stop, expand, retain};
+use crate::search::diagram::{Carries, DEAD, Stop, expand, retain};
 use crate::search::question::Question;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -35,17 +34,24 @@ const WIDE: usize = 1024;
 /// More than what is needed if the first cuts are right, for they are not quite.
 const MARGIN: f64 = 1.2;
 
-/// Estimates how many variants the diagram of some stages has; `filter` applies the conditions on mobility and changes
-/// too. `None` where it was cancelled, where memory does not suffice, and where no cut has any variant, or too many for a
-/// floating-point number.
+/// The diagram that is cut.
+pub(in crate::search) struct Uncut<'a, C> {
+    /// What carries nodes over its variables.
+    pub(in crate::search) stages: Vec<C>,
+    pub(in crate::search) limits: &'a Limits,
+    /// Redundant constraints that every variant has.
+    pub(in crate::search) already: u32,
+    pub(in crate::search) shares: CompletionShares<'a>,
+}
+
+/// Estimates how many variants a diagram has; `filter` applies the conditions on mobility and changes too. `None` where it was
+/// cancelled, where memory does not suffice, and where no cut has any variant, or too many for a floating-point number.
 ///
 /// # Complexity
 /// That of a diagram of half as many nodes as the limits allow, or of some ten thousand nodes a layer.
 pub(in crate::search) fn estimate(
     question: &Question,
-    stages: &[Stage],
-    limits: &Limits,
-    missing: &Missing,
+    of: &Uncut<'_, impl Carries>,
     seed: u64,
     filter: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
@@ -55,25 +61,23 @@ pub(in crate::search) fn estimate(
     } else {
         <_>::default()
     };
-    let mut of = Cuts {
+    let mut cuts = Cuts {
         question,
-        stages,
-        limits,
-        missing,
+        of,
         steps: question.steps.only(kinds),
         filter,
-        keep: (limits.nodes / 2 / CUTS / stages.len().max(1)).max(FEWEST),
+        keep: (of.limits.nodes / 2 / CUTS / of.stages.len().max(1)).max(FEWEST),
         cancelled,
     };
-    let first = of.estimate(seed);
+    let first = cuts.estimate(seed);
     let reach = first.as_ref().map_or(f64::INFINITY, Estimate::reach);
     // How far sums lie apart falls about as the nodes kept grow.
-    let wider = wider(of.keep, reach);
-    if wider == of.keep || reach <= WITHIN || cancelled() {
+    let wider = wider(cuts.keep, reach);
+    if wider == cuts.keep || reach <= WITHIN || cancelled() {
         return first;
     }
-    of.keep = wider;
-    of.estimate(seed).or(first)
+    cuts.keep = wider;
+    cuts.estimate(seed).or(first)
 }
 
 /// Nodes to keep of a layer for an interval [`WITHIN`] the mean where so many give one that reaches so far: no fewer, and no more
@@ -94,11 +98,9 @@ fn wider(keep: usize, reach: f64) -> usize {
 type WaysTo = BTreeMap<Key, f64>;
 
 /// What all cuts have in common.
-struct Cuts<'a> {
+struct Cuts<'a, C> {
     question: &'a Question,
-    stages: &'a [Stage],
-    limits: &'a Limits,
-    missing: &'a Missing,
+    of: &'a Uncut<'a, C>,
     /// What is told apart of choices.
     steps: Steps,
     /// Whether the conditions on mobility and changes apply too.
@@ -108,7 +110,7 @@ struct Cuts<'a> {
     cancelled: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Cuts<'_> {
+impl<C: Carries> Cuts<'_, C> {
     /// The mean of some cuts; none where one was cancelled, or has too many for a floating-point number, and where none has any variant.
     fn estimate(&self, seed: u64) -> Option<Estimate> {
         let cuts = (0..CUTS).into_par_iter().map(|cut| {
@@ -135,23 +137,26 @@ impl Cuts<'_> {
 
     /// The weighted number of variants of one random cut; none where it was cancelled, or where memory does not suffice.
     fn one(&self, mut random: ChaCha8Rng) -> Option<f64> {
-        let mut nodes = Nodes::root(self.limits.already);
+        let mut nodes = Nodes::root(self.of.already);
         let mut ways = vec![WaysTo::from([(Key::default(), 1.0)])];
-        for (done, stage) in self.stages.iter().enumerate() {
+        let mut at = vec![At::default()];
+        for (done, stage) in self.of.stages.iter().enumerate() {
             if (self.cancelled)() {
                 return None;
             }
             let (mut next, mut edges) = self.layer(done, stage, &nodes)?;
             let mut carried = self.carried(stage, &ways, &edges, next.len());
+            let to = self.of.shares.over(done, &at, &edges, next.len());
             let size = |(i, ways): (usize, &WaysTo)| {
                 let matrix = next.matrix(i).len();
-                let share = self.missing.share(done + 1, &next.spent[i], matrix);
+                let share = self.of.shares.of(done + 1, &next.spent[i], matrix, to[i]);
                 share * ways.values().sum::<f64>()
             };
             let sizes: Vec<f64> = carried.iter().enumerate().map(size).collect();
             let drawn = draw(&sizes, self.keep, &mut random);
             let kept: Vec<usize> = drawn.iter().map(|(i, _)| *i).collect();
             retain(&mut next, &kept, &mut edges);
+            at = kept.iter().map(|&i| to[i]).collect();
             ways = drawn
                 .into_iter()
                 .map(|(i, chance)| {
@@ -166,38 +171,33 @@ impl Cuts<'_> {
     }
 
     /// Choices of a stage's variable.
-    fn choices(&self, stage: &Stage) -> usize {
+    fn choices(&self, stage: &C) -> usize {
         let space = &self.question.least.whole.space;
-        space.variables[stage.variable].choices.len()
+        space.variables[stage.variable()].choices.len()
     }
 
     /// The nodes behind a stage, but for those that have no completion, and the edges to them; none where memory does not suffice.
-    fn layer(&self, done: usize, stage: &Stage, nodes: &Nodes) -> Option<(Nodes, Vec<u32>)> {
-        let (field, space) = (
-            self.question.exact.field(),
-            &self.question.least.whole.space,
-        );
+    fn layer(&self, done: usize, stage: &C, nodes: &Nodes) -> Option<(Nodes, Vec<u32>)> {
         let choices = self.choices(stage);
-        let (bytes, edges) = (self.limits.bytes / CUTS, nodes.len() * choices);
+        let (bytes, edges) = (self.of.limits.bytes / CUTS, nodes.len() * choices);
         let mut merge = Merge::new(usize::MAX, bytes, Stop::Exhausted, edges);
-        let over = Over::new(field, space, stage, self.limits);
-        for part in expand(&over, choices, nodes, 0..nodes.len()) {
-            let fails = |spent: &_, size, _| self.missing.least(done + 1, spent, size).is_none();
+        for part in expand(stage, choices, nodes, 0..nodes.len()) {
+            let fails = |spent: &_, size, _| self.of.shares.fails(done + 1, spent, size);
             merge.take(&part, nodes, |_| 0, fails);
         }
         if merge.stop != Stop::Exhausted {
             return None;
         }
         let (mut next, mut edges) = (merge.next, merge.edges);
-        if let Some(passed) = over.passing(&next) {
+        if let Some(passed) = stage.passing(&next) {
             retain(&mut next, &passed, &mut edges);
         }
         Some((next, edges))
     }
 
     /// The ways to the nodes behind a stage, from those to the nodes before it.
-    fn carried(&self, stage: &Stage, ways: &[WaysTo], edges: &[u32], next: usize) -> Vec<WaysTo> {
-        let steps = &self.steps.keys[stage.variable];
+    fn carried(&self, stage: &C, ways: &[WaysTo], edges: &[u32], next: usize) -> Vec<WaysTo> {
+        let steps = &self.steps.keys[stage.variable()];
         let choices = self.choices(stage);
         let mut carried = vec![WaysTo::new(); next];
         for (e, &to) in edges.iter().enumerate().filter(|(_, to)| **to != DEAD) {
