@@ -6,12 +6,12 @@ use crate::search::diagram::{DEAD, Diagram};
 
 /// Where a way to a node leads in a diagram that has every variant of another: to a node, if any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::search) struct At(u32);
+pub(in crate::search) struct LeadsTo(u32);
 
-impl Default for At {
-    /// At the root.
+impl Default for LeadsTo {
+    /// To the root.
     fn default() -> Self {
-        At(0)
+        LeadsTo(0)
     }
 }
 
@@ -54,7 +54,13 @@ impl<'a> CompletionShares<'a> {
     }
 
     /// That of a node after so many stages, by what it spent and how many numbers its matrix has, or by where a way to it leads.
-    pub(in crate::search) fn of(&self, stages: usize, spent: &Spent, size: usize, at: At) -> f64 {
+    pub(in crate::search) fn of(
+        &self,
+        stages: usize,
+        spent: &Spent,
+        size: usize,
+        at: LeadsTo,
+    ) -> f64 {
         match self {
             CompletionShares::ByDimension(missing) => missing.share(stages, spent, size),
             CompletionShares::Within { shares, .. } => share(&shares[stages], at),
@@ -74,20 +80,20 @@ impl<'a> CompletionShares<'a> {
     pub(in crate::search) fn over(
         &self,
         stage: usize,
-        at: &[At],
+        at: &[LeadsTo],
         edges: &[u32],
         next: usize,
-    ) -> Vec<At> {
+    ) -> Vec<LeadsTo> {
         let CompletionShares::Within { all, shares } = self else {
-            return vec![At::default(); next];
+            return vec![LeadsTo::default(); next];
         };
         let (layer, shares) = (&all.layers[stage], &shares[stage + 1]);
-        let mut to: Vec<Option<At>> = vec![None; next];
+        let mut to: Vec<Option<LeadsTo>> = vec![None; next];
         for (at, edges) in at.iter().zip(edges.chunks(layer.choices.max(1))) {
             for (choice, &node) in edges.iter().enumerate().filter(|(_, node)| **node != DEAD) {
                 let led = match at.0 {
-                    DEAD => At(DEAD),
-                    at => At(layer.edges[at as usize * layer.choices + choice]),
+                    DEAD => LeadsTo(DEAD),
+                    at => LeadsTo(layer.edges[at as usize * layer.choices + choice]),
                 };
                 let known = &mut to[node as usize];
                 if known.is_none_or(|known| share(shares, led) < share(shares, known)) {
@@ -95,11 +101,13 @@ impl<'a> CompletionShares<'a> {
                 }
             }
         }
-        to.into_iter().map(|to| to.unwrap_or(At(DEAD))).collect()
+        to.into_iter()
+            .map(|to| to.unwrap_or(LeadsTo(DEAD)))
+            .collect()
     }
 }
 
 /// The share of where a way leads: none where it leads to no variant.
-fn share(shares: &[f64], at: At) -> f64 {
+fn share(shares: &[f64], at: LeadsTo) -> f64 {
     shares.get(at.0 as usize).copied().unwrap_or(0.0)
 }

@@ -10,7 +10,7 @@
 //! of Mathematical Statistics 20 (1949).
 
 use crate::search::answer::counts::limited;
-use crate::search::answer::estimate::completion_shares::{At, CompletionShares};
+use crate::search::answer::estimate::completion_shares::{CompletionShares, LeadsTo};
 use crate::search::answer::estimate::{Drawn, Estimate, WITHIN};
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::layer::{Merge, Nodes};
@@ -139,7 +139,7 @@ impl<C: Carries> Cuts<'_, C> {
     fn one(&self, mut random: ChaCha8Rng) -> Option<f64> {
         let mut nodes = Nodes::root(self.of.already);
         let mut ways = vec![WaysTo::from([(Key::default(), 1.0)])];
-        let mut at = vec![At::default()];
+        let mut at = vec![LeadsTo::default()];
         for (done, stage) in self.of.stages.iter().enumerate() {
             if (self.cancelled)() {
                 return None;
