@@ -2,5 +2,6 @@
 
 pub mod common_denominator;
 pub mod echelon;
+pub(crate) mod exterior;
 pub mod modp;
 pub mod number_ring;

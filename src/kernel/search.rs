@@ -89,6 +89,13 @@ impl Search {
         build::build_in(self, orders, cancelled, progress)
     }
 
+    /// Whether every variant of a diagram is determinate here, of variants of which none has more freedoms than another; `None` where
+    /// that is not told without diagrams.
+    #[must_use]
+    pub fn has_all(&self, known: &Diagram) -> Option<bool> {
+        build::known_variants::has_all(self, known)
+    }
+
     /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
     #[must_use]
     pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
@@ -134,8 +141,20 @@ impl Search {
         least_freedoms::count(self, diagrams)
     }
 
+    /// The admissible variants that ideas are made of: those without another that has part of their freedoms and costs no more; all
+    /// where these are not known.
+    #[must_use]
+    pub fn minimal_variants(&self, diagrams: &Diagrams) -> Diagram {
+        ideas::minimal_variants(self, diagrams).into_owned()
+    }
+
     /// The first ideas, each of all minimal variants that give the same freedoms to the same contours; `top` of them at most.
     pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
         ideas::ideas(self, diagrams, top)
+    }
+
+    /// The same among [minimal variants](Self::minimal_variants).
+    pub fn ideas_among(&self, minimal: &Diagram, top: usize) -> Vec<Idea> {
+        ideas::ideas_in_steps(self, minimal, top, &mut 0)
     }
 }

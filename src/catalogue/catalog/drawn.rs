@@ -1,6 +1,6 @@
 //! A mechanism that somebody drew, as a row beside the structures.
 
-use crate::catalog::row::{IdeaRow, RowError, Symmetric, ideas};
+use crate::catalog::row::{IdeaRow, RowError, Symmetric, ideas_of};
 use crate::closure::contour::contour_basis;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
@@ -118,7 +118,6 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMech
     let size = [links.count(), joints, contours];
     let symmetric = Symmetric::of(&mechanism, &request).unwrap_or_else(|_| Symmetric::none());
     let outcome = run(mechanism, &request, &|| false, &mut |_| {})?;
-    let diagrams = outcome.diagrams.as_ref();
     Ok(DrawnMechanism {
         id,
         name,
@@ -134,6 +133,6 @@ pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMech
         exact: outcome.is_exact() && symmetric.exact,
         symmetric,
         ideas_asked: top,
-        ideas: diagrams.map_or_else(Vec::new, |d| ideas(&outcome.search, d, top)),
+        ideas: ideas_of(&outcome, top),
     })
 }

@@ -2,8 +2,8 @@
 //!
 //! A variant is determinate where the columns that it adds have the full rank. At special places a rank is less than at nearly
 //! all places, never more: what is determinate at some place is so in general position. One search, at places drawn at random,
-//! serves all layouts then that have the same determinate variants, and whether a layout has them is seen by its own diagram over
-//! one prime: modulo a prime, too, a rank is never more than it is. A minimal diagram is the only one of its variants in an order of
+//! serves all layouts then that have the same determinate variants, and whether a layout has them is seen by following the minimal ones
+//! over one prime: modulo a prime, too, a rank is never more than it is. A minimal diagram is the only one of its variants in an order of
 //! variables, so that diagrams are compared edge by edge.
 
 use crate::catalog::searched::{RowError, mechanism, search};
@@ -14,7 +14,6 @@ use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::roles::Roles;
 use crate::model::mechanism::Mechanism;
 use crate::search::Search;
-use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Stop};
 use crate::synthesis::mechanism::bare_file;
@@ -36,6 +35,8 @@ pub struct General {
     orders: Orders,
     /// The determinate variants.
     diagram: Diagram,
+    /// Of these those that are minimal.
+    pub(super) minimal: Diagram,
     /// These by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
 }
@@ -128,37 +129,43 @@ impl General {
             };
             let (one, two) = (over(0)?, over(1)?);
             let orders = one.orders();
-            let built = |s: &Search| s.build_in(&orders, &|| false, &mut |_| {}).determinate;
-            let (diagram, twin) = rayon::join(|| built(&one), || built(&two));
+            let built = |s: &Search| s.build_in(&orders, &|| false, &mut |_| {});
+            let (diagrams, twin) = rayon::join(|| built(&one), || built(&two).determinate);
+            let diagram = &diagrams.determinate;
             if diagram.stop != Stop::Exhausted {
                 return Ok(None);
             }
-            if same(&diagram, &twin) {
+            if same(diagram, &twin) {
                 return Ok(Some(General {
-                    counts: one.counts(&diagram, false).by_mobility_and_changes,
+                    counts: one.counts(diagram, false).by_mobility_and_changes,
                     orders,
-                    diagram,
+                    minimal: one.minimal_variants(&diagrams),
+                    diagram: diagrams.determinate,
                 }));
             }
         }
         Ok(None)
     }
 
-    /// The search of a layout of the pair with its diagrams over one prime, where they have all variants that are determinate in general
-    /// position; then no others are, and all counts are those of the pair.
+    /// The search of a layout of the pair over one prime, where all variants that are determinate in general position are so there; then
+    /// no others are, and all counts are those of the pair. The minimal ones are enough: freedoms that are added to a determinate variant
+    /// leave it determinate.
     ///
     /// # Errors
     /// Where the mechanism cannot be searched.
     ///
     /// # Complexity
-    /// One diagram.
+    /// Half of the minimal variants from either end; one diagram, where that is not known to do.
     pub(super) fn certify(
         &self,
         layout: Mechanism,
         spec: &Spec,
-    ) -> Result<Option<(Search, Diagrams)>, RowError> {
+    ) -> Result<Option<Search>, RowError> {
         let search = search(layout, spec, 0)?;
-        let built = search.build_in(&self.orders, &|| false, &mut |_| {});
-        Ok(same(&self.diagram, &built.determinate).then_some((search, built)))
+        let has_all = search.has_all(&self.minimal).unwrap_or_else(|| {
+            let built = search.build_in(&self.orders, &|| false, &mut |_| {});
+            same(&self.diagram, &built.determinate)
+        });
+        Ok(has_all.then_some(search))
     }
 }

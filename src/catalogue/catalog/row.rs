@@ -14,6 +14,7 @@ use crate::redundancy::analysis::{Method, analyse};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Scores;
+use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{changes, in_words};
 use crate::score::request::{List, Request};
 use crate::score::run::{RunError, run};
@@ -21,7 +22,7 @@ use crate::search::Search;
 use crate::search::answer::counts::orbits;
 use crate::search::answer::freedom_patterns;
 use crate::search::answer::ideas::Idea;
-use crate::search::build::Diagrams;
+use crate::search::diagram::Diagram;
 use crate::search::question::conditions::Symmetry;
 use crate::synthesis::beside::beside;
 use crate::synthesis::figures::{LayoutFigures, figures};
@@ -231,12 +232,12 @@ fn in_general_position(
     let own = |now: bool| now.then(|| found.layout.clone());
     for layout in own(first).into_iter().chain(moved).chain(own(!first)) {
         let as_file = AsFile::new(structure, layout, spec)?;
-        if let Some((search, diagrams)) = general.certify(as_file.built.clone(), spec)? {
+        if let Some(search) = general.certify(as_file.built.clone(), spec)? {
             let variants = Variants {
                 counts: general.counts.clone(),
                 symmetric: Symmetric::none(),
                 exact: true,
-                ideas: ideas(&search, &diagrams, spec.ideas),
+                ideas: ideas(&search, &general.minimal, spec.ideas),
             };
             return Ok(Some((as_file, variants)));
         }
@@ -248,11 +249,10 @@ fn in_general_position(
 pub(super) fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
     let symmetric = Symmetric::of(built, &request(spec))?;
     let outcome = run(built.clone(), &request(spec), &|| false, &mut |_| {})?;
-    let diagrams = outcome.diagrams.as_ref();
     Ok(Variants {
         counts: outcome.determinate.by_mobility_and_changes.clone(),
         exact: outcome.is_exact() && symmetric.exact,
-        ideas: diagrams.map_or_else(Vec::new, |d| ideas(&outcome.search, d, spec.ideas)),
+        ideas: ideas_of(&outcome, spec.ideas),
         symmetric,
     })
 }
@@ -328,8 +328,17 @@ impl LaidFile {
     }
 }
 
-/// The first ideas of a search, each with the scores of its first variant.
-pub(super) fn ideas(search: &Search, diagrams: &Diagrams, top: usize) -> Vec<IdeaRow> {
+/// The first ideas of what was found.
+pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
+    let search = &outcome.search;
+    let diagrams = outcome.diagrams.as_ref().filter(|_| top > 0);
+    diagrams.map_or_else(Vec::new, |d| {
+        ideas(search, &search.minimal_variants(d), top)
+    })
+}
+
+/// The first ideas among the minimal variants of a search, each with the scores of its first variant.
+fn ideas(search: &Search, minimal: &Diagram, top: usize) -> Vec<IdeaRow> {
     if top == 0 {
         return Vec::new();
     }
@@ -346,7 +355,11 @@ pub(super) fn ideas(search: &Search, diagrams: &Diagrams, top: usize) -> Vec<Ide
         variants: idea.variants,
         choices: idea.first.choices,
     };
-    search.ideas(diagrams, top).into_iter().map(row).collect()
+    search
+        .ideas_among(minimal, top)
+        .into_iter()
+        .map(row)
+        .collect()
 }
 
 impl<L> Laid<L> {

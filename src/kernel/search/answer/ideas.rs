@@ -41,7 +41,10 @@ const SORTED: usize = 24;
 const WEIGHED: u64 = 64;
 
 /// The minimal variants as a diagram, or all admissible ones where these are not known.
-fn minimal<'d>(question: &Question, diagrams: &'d Diagrams) -> Cow<'d, Diagram> {
+pub(in crate::search) fn minimal_variants<'d>(
+    question: &Question,
+    diagrams: &'d Diagrams,
+) -> Cow<'d, Diagram> {
     match least_freedoms::diagram(question, diagrams, Less::Means) {
         Some(least) => Cow::Owned(least),
         None => Cow::Borrowed(&diagrams.admissible),
@@ -54,17 +57,16 @@ fn minimal<'d>(question: &Question, diagrams: &'d Diagrams) -> Cow<'d, Diagram> 
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
 /// pattern; then for each idea two passes over the part of the diagram that it uses.
 pub(crate) fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
-    ideas_in_steps(question, diagrams, top, &mut 0)
+    ideas_in_steps(question, &minimal_variants(question, diagrams), top, &mut 0)
 }
 
-/// The same, and how many steps down the diagram were taken to find them.
+/// The same among minimal variants, and how many steps down their diagram were taken to find them.
 pub(in crate::search) fn ideas_in_steps(
     question: &Question,
-    diagrams: &Diagrams,
+    diagram: &Diagram,
     top: usize,
     steps_down: &mut usize,
 ) -> Vec<Idea> {
-    let diagram = &*minimal(question, diagrams);
     let patterns = patterns(question);
     let weights = weights(&question.mechanism, &question.space);
     // Many weights make many kinds of each cost; then they only choose among those that stand for the same.

@@ -5,6 +5,7 @@
 //! kept links where nothing of both together is in the coordinates of these alone. Nodes of the back half need no space for that: what
 //! the choices on one way to each add will do, and ways that begin alike are looked at together.
 
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Set, completed};
 use crate::search::build::path_tree::{PathTree, Vectors, numbered, shortest};
@@ -26,7 +27,7 @@ const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
 
 /// A question in the space dual to self-stresses, from both ends.
 pub(in crate::search) struct Halves<'a> {
-    field: Field,
+    pub(in crate::search) field: Field,
     pub(in crate::search) limits: &'a Limits,
     /// Redundant constraints that every variant has.
     pub(in crate::search) already: u32,
@@ -103,10 +104,27 @@ impl<'a> Halves<'a> {
         told: &mut dyn FnMut(usize),
     ) -> Option<Vec<Set>> {
         let f = self.field;
-        let [stages, _] = &self.parts[part];
-        let behind = &stages[stages.len() - back.len()..];
-        // Coordinates that the front half reaches, and those that only the back half does.
-        let meeting = self.starts[part + 1] - back.len();
+        let behind = self.behind(part, back.len());
+        let tree = PathTree::new(&behind.vectors, &shortest(back, &behind.added));
+        let bases = tree.of_bases(f);
+        let tree = if bases.size() < tree.size() {
+            bases
+        } else {
+            tree
+        };
+        let of_node = |node: usize| {
+            let left = behind.left(nodes.matrix(node));
+            completing(&tree, &left, self.kept > 0)
+        };
+        completed(nodes.len(), of_node, cancelled, told)
+    }
+
+    /// What the last stages of a part add, so many of them.
+    pub(in crate::search) fn behind(&self, part: usize, stages: usize) -> Behind {
+        let f = self.field;
+        let [all, _] = &self.parts[part];
+        let behind = &all[all.len() - stages..];
+        let meeting = self.starts[part + 1] - stages;
         let is_live = |&c: &usize| self.contours[c].is_live_before(meeting);
         let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
         let reached = behind.iter().flat_map(Added::contours).copied();
@@ -119,7 +137,7 @@ impl<'a> Halves<'a> {
             beyond: beyond.len(),
             all: Vec::new(),
         };
-        let behind = behind.iter().rev().map(|stage| {
+        let added = behind.iter().rev().map(|stage| {
             numbered(stage.growth(), |row| {
                 let (own, kept) = row.split_at(stage.contours().len());
                 let number = |c| stage.contours().binary_search(c).map_or(0, |at| own[at]);
@@ -130,24 +148,56 @@ impl<'a> Halves<'a> {
                 vectors.all.len() - 1
             })
         });
-        let behind: Vec<_> = behind.collect();
-        let tree = PathTree::new(&vectors, &shortest(back, &behind));
-        let bases = tree.of_bases(f);
-        let tree = if bases.size() < tree.size() {
-            bases
-        } else {
-            tree
-        };
-        let of_node = |node: usize| {
-            let mut rows = Rows::default();
-            rows.unpack(f, live.len() + self.kept, nodes.matrix(node));
-            let rows = rows.rows().map(|row| {
-                let (contours, kept) = row.split_at(live.len());
-                [contours, &[f.dot(&weights, kept)]].concat()
-            });
-            let left = Annihilator::new(f, rows, live.len() + 1);
-            completing(&tree, &left, self.kept > 0)
-        };
-        completed(nodes.len(), of_node, cancelled, told)
+        Behind {
+            added: added.collect(),
+            vectors,
+            live: live.len(),
+            weights,
+        }
+    }
+}
+
+/// What the last stages of a part add, in the coordinates of contours that the stages before them do not reach, then in those that they
+/// reach, and in one of kept links.
+pub(in crate::search) struct Behind {
+    vectors: Vectors,
+    /// What the choices of each stage add, as the numbers of vectors, from the last stage on.
+    added: Vec<Vec<Vec<usize>>>,
+    /// Coordinates of contours that the stages before reach, too.
+    pub(in crate::search) live: usize,
+    /// Those of kept links are told by the sum of their coordinates times these.
+    weights: Vec<Residue>,
+}
+
+impl Behind {
+    /// What choices of the stages, from the last on, add where the stages before reach it, too; none where they do not span the rest.
+    pub(in crate::search) fn left_of(&self, choices: &[usize]) -> Option<Vec<Vec<Residue>>> {
+        let Vectors { field, beyond, all } = &self.vectors;
+        let added = self.added.iter().zip(choices);
+        let numbers = added.flat_map(|(added, &choice)| &added[choice]);
+        let span = Echelon::of(*field, numbers.map(|&number| &all[number]));
+        let (mut rows, pivots) = (span.reduced(), span.pivots());
+        let own = pivots.partition_point(|p| p < beyond);
+        let live = |row: Vec<Residue>| row[*beyond..*beyond + self.live].to_vec();
+        (own == *beyond).then(|| rows.split_off(own).into_iter().map(live).collect())
+    }
+
+    /// The rows of the matrix of a node before these stages: in the coordinates that both reach, then in those of kept links.
+    pub(in crate::search) fn unpacked(&self, matrix: &[Residue]) -> Rows {
+        let mut rows = Rows::default();
+        let width = self.live + self.weights.len();
+        rows.unpack(self.vectors.field, width, matrix);
+        rows
+    }
+
+    /// What the matrix of a node before these stages leaves to be spanned.
+    fn left(&self, matrix: &[Residue]) -> Annihilator {
+        let f = self.vectors.field;
+        let rows = self.unpacked(matrix);
+        let rows = rows.rows().map(|row| {
+            let (contours, kept) = row.split_at(self.live);
+            [contours, &[f.dot(&self.weights, kept)]].concat()
+        });
+        Annihilator::new(f, rows, self.live + 1)
     }
 }
