@@ -22,7 +22,7 @@ use crate::model::mechanism::Mechanism;
 use crate::search::answer::counts::{self, Counts};
 use crate::search::answer::ideas::{self, Idea};
 use crate::search::answer::k_best::Assignment;
-use crate::search::answer::least_freedoms;
+use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order;
 use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
@@ -89,8 +89,8 @@ impl Search {
         build::build_in(self, orders, cancelled, progress)
     }
 
-    /// Whether every variant of a diagram is determinate here, of variants of which none has more freedoms than another; `None` where
-    /// that is not told without diagrams.
+    /// Whether all [minimal variants](Self::minimal_variants) of another search are determinate here; `None` where that is not told
+    /// without diagrams.
     #[must_use]
     pub fn has_all(&self, known: &Diagram) -> Option<bool> {
         build::known_variants::has_all(self, known)
@@ -141,11 +141,17 @@ impl Search {
         least_freedoms::count(self, diagrams)
     }
 
+    /// The diagram of those minimal ones; `None` where what is admissible is not all known, or where it takes too many nodes.
+    #[must_use]
+    pub fn minimal_variants(&self, diagrams: &Diagrams) -> Option<Diagram> {
+        least_freedoms::diagram(self, diagrams, Less::Freedoms)
+    }
+
     /// The admissible variants that ideas are made of: those without another that has part of their freedoms and costs no more; all
     /// where these are not known.
     #[must_use]
-    pub fn minimal_variants(&self, diagrams: &Diagrams) -> Diagram {
-        ideas::minimal_variants(self, diagrams).into_owned()
+    pub fn idea_variants(&self, diagrams: &Diagrams) -> Diagram {
+        ideas::idea_variants(self, diagrams).into_owned()
     }
 
     /// The first ideas, each of all minimal variants that give the same freedoms to the same contours; `top` of them at most.
@@ -153,8 +159,8 @@ impl Search {
         ideas::ideas(self, diagrams, top)
     }
 
-    /// The same among [minimal variants](Self::minimal_variants).
-    pub fn ideas_among(&self, minimal: &Diagram, top: usize) -> Vec<Idea> {
-        ideas::ideas_in_steps(self, minimal, top, &mut 0)
+    /// The same among those that [ideas are made of](Self::idea_variants).
+    pub fn ideas_among(&self, variants: &Diagram, top: usize) -> Vec<Idea> {
+        ideas::ideas_in_steps(self, variants, top, &mut 0)
     }
 }

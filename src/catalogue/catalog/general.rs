@@ -35,8 +35,10 @@ pub struct General {
     orders: Orders,
     /// The determinate variants.
     diagram: Diagram,
-    /// Of these those that are minimal.
-    pub(super) minimal: Diagram,
+    /// Of these the minimal ones, where they are known.
+    minimal: Option<Diagram>,
+    /// Those that ideas are made of.
+    pub(super) idea_variants: Diagram,
     /// These by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
 }
@@ -140,6 +142,7 @@ impl General {
                     counts: one.counts(diagram, false).by_mobility_and_changes,
                     orders,
                     minimal: one.minimal_variants(&diagrams),
+                    idea_variants: one.idea_variants(&diagrams),
                     diagram: diagrams.determinate,
                 }));
             }
@@ -162,7 +165,9 @@ impl General {
         spec: &Spec,
     ) -> Result<Option<Search>, RowError> {
         let search = search(layout, spec, 0)?;
-        let has_all = search.has_all(&self.minimal).unwrap_or_else(|| {
+        let minimal = self.minimal.as_ref();
+        let has_all = minimal.and_then(|known| search.has_all(known));
+        let has_all = has_all.unwrap_or_else(|| {
             let built = search.build_in(&self.orders, &|| false, &mut |_| {});
             same(&self.diagram, &built.determinate)
         });

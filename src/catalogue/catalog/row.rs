@@ -237,7 +237,7 @@ fn in_general_position(
                 counts: general.counts.clone(),
                 symmetric: Symmetric::none(),
                 exact: true,
-                ideas: ideas(&search, &general.minimal, spec.ideas),
+                ideas: ideas(&search, &general.idea_variants, spec.ideas),
             };
             return Ok(Some((as_file, variants)));
         }
@@ -332,13 +332,11 @@ impl LaidFile {
 pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     let search = &outcome.search;
     let diagrams = outcome.diagrams.as_ref().filter(|_| top > 0);
-    diagrams.map_or_else(Vec::new, |d| {
-        ideas(search, &search.minimal_variants(d), top)
-    })
+    diagrams.map_or_else(Vec::new, |d| ideas(search, &search.idea_variants(d), top))
 }
 
-/// The first ideas among the minimal variants of a search, each with the scores of its first variant.
-fn ideas(search: &Search, minimal: &Diagram, top: usize) -> Vec<IdeaRow> {
+/// The first ideas among some variants of a search, each with the scores of its first variant.
+fn ideas(search: &Search, variants: &Diagram, top: usize) -> Vec<IdeaRow> {
     if top == 0 {
         return Vec::new();
     }
@@ -356,7 +354,7 @@ fn ideas(search: &Search, minimal: &Diagram, top: usize) -> Vec<IdeaRow> {
         choices: idea.first.choices,
     };
     search
-        .ideas_among(minimal, top)
+        .ideas_among(variants, top)
         .into_iter()
         .map(row)
         .collect()

@@ -34,7 +34,7 @@ fn what_is_followed_from_both_ends_is_what_both_diagrams_have() {
         for seed in (first..).take(runs) {
             let text = ladder(contours as usize, seed, spatial);
             let (general, known) = search(&text, Conditions::default());
-            let minimal = general.minimal_variants(&known);
+            let minimal = general.minimal_variants(&known).unwrap();
             let other = ladder(contours as usize, seed + 1, spatial);
             for text in [&text, &other, &crowded(&other, 3), &crowded(&other, 8)] {
                 let (own, found) = search(text, Conditions::default());

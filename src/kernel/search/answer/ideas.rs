@@ -40,8 +40,8 @@ const SORTED: usize = 24;
 /// Weights of places that take part in the order of ideas, in all.
 const WEIGHED: u64 = 64;
 
-/// The minimal variants as a diagram, or all admissible ones where these are not known.
-pub(in crate::search) fn minimal_variants<'d>(
+/// The variants that are minimal, in what they add and cost, as a diagram; all admissible ones where these are not known.
+pub(in crate::search) fn idea_variants<'d>(
     question: &Question,
     diagrams: &'d Diagrams,
 ) -> Cow<'d, Diagram> {
@@ -57,7 +57,7 @@ pub(in crate::search) fn minimal_variants<'d>(
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
 /// pattern; then for each idea two passes over the part of the diagram that it uses.
 pub(crate) fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
-    ideas_in_steps(question, &minimal_variants(question, diagrams), top, &mut 0)
+    ideas_in_steps(question, &idea_variants(question, diagrams), top, &mut 0)
 }
 
 /// The same among minimal variants, and how many steps down their diagram were taken to find them.
