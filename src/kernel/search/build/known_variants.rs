@@ -45,7 +45,7 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
         if others.first().map_or(known.terminals.len(), |l| l.nodes) != 1 {
             return None;
         }
-        let Some([front, back]) = halves_of_ways(ends, own, limits.nodes, &spent)? else {
+        let Some([front, back]) = followed_halves(ends, own, limits.nodes, &spent)? else {
             return Some(false);
         };
         let behind = halves.behind(part, back.done);
@@ -92,13 +92,13 @@ fn complete(exterior: &Exterior, behind: &Behind, front: &Reached, back: &Reache
 type Reached = HashMap<Vec<Residue>, Vec<usize>>;
 
 /// How far known ways were followed from one end.
-struct Side<'a> {
+struct FollowedHalf<'a> {
     stages: &'a [Added<'a>],
     done: usize,
     nodes: Vec<Reached>,
 }
 
-impl Side<'_> {
+impl FollowedHalf<'_> {
     fn size(&self) -> usize {
         self.nodes.iter().map(HashMap::len).sum()
     }
@@ -136,13 +136,13 @@ impl Side<'_> {
 
 /// Both halves of the ways through the layers of a part, where they meet; nothing where one of them does not go on, and none where they
 /// come to more than so many nodes.
-fn halves_of_ways<'a>(
+fn followed_halves<'a>(
     ends: &'a [Vec<Added<'a>>; 2],
     layers: &[Layer],
     most: usize,
     spent: &Spent,
-) -> Option<Option<[Side<'a>; 2]>> {
-    let [mut front, mut back] = ends.each_ref().map(|stages| Side {
+) -> Option<Option<[FollowedHalf<'a>; 2]>> {
+    let [mut front, mut back] = ends.each_ref().map(|stages| FollowedHalf {
         stages,
         done: 0,
         nodes: vec![Reached::from_iter([(Vec::new(), Vec::new())])],
