@@ -40,6 +40,16 @@ fn hinge(more: &str) -> String {
     )
 }
 
+/// Directions are made shorter by a power of ten, which is then written beside what is no fraction.
+#[test]
+fn what_is_made_shorter_by_the_largest_number_is_read_again() {
+    for largest in ["1e307", "1e308", "-1.7e308"] {
+        let axis = format!("axis = [\"2*sqrt(3)\", {largest}, 0]");
+        let text = hinge("").replace("axis = [0, 0, 1]", &axis);
+        assert_eq!(read("x.toml", text.as_bytes()), "analysed", "{largest}");
+    }
+}
+
 /// Each mistake was once looked up by reading the whole file again, and all of them were drawn: minutes for a few megabytes.
 #[test]
 fn of_very_many_mistakes_the_first_are_told() {

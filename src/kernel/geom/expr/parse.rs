@@ -103,7 +103,7 @@ fn number(value: Value, at: usize) -> Result<Expr, ExprError> {
 
 /// Refuses what no double can hold, and fractions of such numbers: what is read must be readable where it is written again.
 fn finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
-    let holds = |n: &BigInt| n.bits() < 1024;
+    let holds = |n: &BigInt| n.bits() < 1024 || n.to_f64().is_some_and(f64::is_finite);
     let rational = e.rational_ref();
     if e.to_f64().is_finite() && rational.is_none_or(|r| holds(r.numer()) && holds(r.denom())) {
         Ok(e)
