@@ -22,7 +22,6 @@ use crate::search::Search;
 use crate::search::answer::counts::orbits;
 use crate::search::answer::freedom_patterns;
 use crate::search::answer::ideas::Idea;
-use crate::search::diagram::Diagram;
 use crate::search::question::conditions::Symmetry;
 use crate::synthesis::beside::beside;
 use crate::synthesis::figures::{LayoutFigures, figures};
@@ -237,7 +236,10 @@ fn in_general_position(
                 counts: general.counts.clone(),
                 symmetric: Symmetric::none(),
                 exact: true,
-                ideas: ideas(&search, &general.idea_variants, spec.ideas),
+                ideas: rows(
+                    &search,
+                    search.ideas_among(&general.idea_variants, spec.ideas),
+                ),
             };
             return Ok(Some((as_file, variants)));
         }
@@ -332,12 +334,12 @@ impl LaidFile {
 pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     let search = &outcome.search;
     let diagrams = outcome.diagrams.as_ref().filter(|_| top > 0);
-    diagrams.map_or_else(Vec::new, |d| ideas(search, &search.idea_variants(d), top))
+    diagrams.map_or_else(Vec::new, |d| rows(search, search.ideas(d, top)))
 }
 
-/// The first ideas among some variants of a search, each with the scores of its first variant.
-fn ideas(search: &Search, variants: &Diagram, top: usize) -> Vec<IdeaRow> {
-    if top == 0 {
+/// Ideas of a search, each with the scores of its first variant.
+fn rows(search: &Search, ideas: Vec<Idea>) -> Vec<IdeaRow> {
+    if ideas.is_empty() {
         return Vec::new();
     }
     let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
@@ -353,11 +355,7 @@ fn ideas(search: &Search, variants: &Diagram, top: usize) -> Vec<IdeaRow> {
         variants: idea.variants,
         choices: idea.first.choices,
     };
-    search
-        .ideas_among(variants, top)
-        .into_iter()
-        .map(row)
-        .collect()
+    ideas.into_iter().map(row).collect()
 }
 
 impl<L> Laid<L> {

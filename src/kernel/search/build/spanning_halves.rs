@@ -124,6 +124,7 @@ impl<'a> Halves<'a> {
         let f = self.field;
         let [all, _] = &self.parts[part];
         let behind = &all[all.len() - stages..];
+        // Coordinates that the stages before reach, and those that only these do.
         let meeting = self.starts[part + 1] - stages;
         let is_live = |&c: &usize| self.contours[c].is_live_before(meeting);
         let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
