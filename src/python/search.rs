@@ -4,12 +4,10 @@ use crate::mechanism::{Mechanism, drawn};
 use crate::told::{failed, json};
 use crate::waiting::{TURN, patiently};
 use ozols::draw::marks::of_variant;
-use ozols::model::ranking::Term;
 use ozols::score::outcome::variant;
-use ozols::score::request::{Check, Inserts, JointOptions, List, Method, Request};
+use ozols::score::request::{List, Request};
 use ozols::score::run::{Event, run};
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::question::conditions::Symmetry;
 use ozols::view::search::csv;
 use ozols::view::search::data;
 use ozols::view::search::json;
@@ -24,125 +22,19 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Variants made ready before Python takes them.
 const AHEAD: usize = 64;
 
-/// Words for the symmetry of variants.
-const SYMMETRIES: [(&str, Symmetry); 3] = [
-    ("all", Symmetry::All),
-    ("symmetric", Symmetry::SymmetricOnly),
-    ("one-per-orbit", Symmetry::OnePerOrbit),
-];
-/// Words for how variants are checked.
-const CHECKS: [(&str, Check); 3] = [
-    ("none", Check::None),
-    ("prime", Check::Prime),
-    ("full", Check::Full),
-];
-/// Words for how variants are found.
-const METHODS: [(&str, Method); 2] = [("diagram", Method::Diagram), ("brute", Method::Brute)];
-
-/// A [`Request`] as keywords of Python's; `None` where the library's default holds.
-#[derive(Debug, FromPyObject)]
-#[pyo3(from_item_all)]
-pub(crate) struct Asked {
-    max_redundant: u32,
-    max_external: Option<u32>,
-    max_harmful: Option<u32>,
-    state: Option<String>,
-    allow_loose_object: bool,
-    max_mobility: Option<i64>,
-    max_changes: Option<u32>,
-    allow_output_change: bool,
-    hold: Vec<String>,
-    unloading: Vec<(Vec<String>, Vec<String>)>,
-    options: Vec<String>,
-    allow: Vec<(String, Vec<String>)>,
-    forbid: Vec<(String, Vec<String>)>,
-    symmetry: String,
-    as_written: bool,
-    snap: Option<f64>,
-    counted: bool,
-    nodes: Option<usize>,
-    memory: Option<usize>,
-    rank: Vec<(String, f64)>,
-    pool: Option<usize>,
-    top: usize,
-    distinct: bool,
-    check: String,
-    method: String,
-    poses: usize,
-    generic_only: bool,
-    seed: u64,
-}
-
-/// What a word stands for.
-pub(crate) fn word<T: Copy>(what: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
-    let found = known.iter().find(|(w, _)| *w == word);
-    found.map(|(_, t)| *t).ok_or_else(|| {
-        let known: Vec<&str> = known.iter().map(|(w, _)| *w).collect();
-        failed(format!("{what} {word:?} is none of {}", known.join(", ")))
+/// A [`Request`] as JSON of Python's.
+pub(crate) fn request(asked: &str) -> PyResult<Request> {
+    let from = &mut serde_json::Deserializer::from_str(asked);
+    serde_path_to_error::deserialize(from).map_err(|e| {
+        // What the place of a character in that text would be is nothing that was typed.
+        let what = e.inner().to_string();
+        let what = what
+            .rsplit_once(" at line")
+            .map_or(&*what, |(what, _)| what);
+        // In the words of the command line.
+        let option = e.path().to_string().replace('_', "-");
+        failed(format!("--{option}: {what}"))
     })
-}
-
-/// A term to rank by, with its weight.
-fn term(asked: &(String, f64)) -> PyResult<(Term, f64)> {
-    let (name, weight) = asked;
-    let term = Term::from_name(name).ok_or_else(|| {
-        let known = Term::ALL.map(Term::name).join(", ");
-        failed(format!("--rank: unknown term \"{name}\"; known: {known}"))
-    })?;
-    if !(0.0..=1e12).contains(weight) {
-        let say = format!("--rank {name}: give a weight from 0 to 1e12");
-        return Err(failed(say));
-    }
-    Ok((term, *weight))
-}
-
-impl Asked {
-    /// The memory it asks for, in bytes.
-    pub(crate) fn memory(&self) -> Option<usize> {
-        self.memory
-    }
-
-    pub(crate) fn request(self) -> PyResult<Request> {
-        let joints = |all: Vec<(String, Vec<String>)>| {
-            let one = |(joint, names)| JointOptions { joint, names };
-            all.into_iter().map(one).collect()
-        };
-        let inserts = self.unloading.into_iter();
-        let default = Request::default();
-        Ok(Request {
-            max_redundant: self.max_redundant,
-            max_external: self.max_external,
-            max_harmful: self.max_harmful,
-            state: self.state,
-            allow_loose_object: self.allow_loose_object,
-            max_mobility: self.max_mobility,
-            max_changes: self.max_changes,
-            allow_output_change: self.allow_output_change,
-            hold: self.hold,
-            unloading: inserts
-                .map(|(names, joints)| Inserts { names, joints })
-                .collect(),
-            options: self.options,
-            allow: joints(self.allow),
-            forbid: joints(self.forbid),
-            costs: None,
-            symmetry: word("symmetry", &self.symmetry, &SYMMETRIES)?,
-            as_written: self.as_written,
-            snap: self.snap,
-            counted: self.counted,
-            nodes: self.nodes.unwrap_or(default.nodes),
-            memory: self.memory.unwrap_or(default.memory),
-            rank: self.rank.iter().map(term).collect::<PyResult<_>>()?,
-            pool: self.pool,
-            list: List::Top(self.top),
-            distinct: self.distinct,
-            check: word("check", &self.check, &CHECKS)?,
-            method: word("method", &self.method, &METHODS)?,
-            poses: self.poses,
-            generic_only: self.generic_only,
-            seed: self.seed,
-        })
-    }
 }
 
 /// As `ozols search`. `progress` hears layers done, layers in all, and nodes so far.
@@ -150,10 +42,10 @@ impl Asked {
 pub(crate) fn search(
     py: Python<'_>,
     mechanism: &Bound<'_, Mechanism>,
-    asked: Asked,
+    asked: &str,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Outcome> {
-    let request = &asked.request()?;
+    let request = &request(asked)?;
     let m = mechanism.get().0.clone();
     let found = patiently(
         py,

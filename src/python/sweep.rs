@@ -24,7 +24,7 @@ pub(crate) struct Asking {
     grid: usize,
     sobol: Option<usize>,
     seed: u32,
-    search: Option<search::Asked>,
+    search: Option<String>,
     top: usize,
     stroke: Option<String>,
     methods: bool,
@@ -33,14 +33,11 @@ pub(crate) struct Asking {
 
 impl Asking {
     fn sweep(self) -> PyResult<Sweep> {
-        let request = |a: search::Asked| {
-            let memory = a.memory().unwrap_or(Request::default().memory);
-            Ok::<_, PyErr>(Request {
-                memory,
-                as_written: self.as_written,
-                ..a.request()?
-            })
-        };
+        let search = self.search.as_deref().map(search::request).transpose()?;
+        let search = search.map(|request| Request {
+            as_written: self.as_written,
+            ..request
+        });
         let stroke = match self.stroke {
             Some(text) => Some((text.clone(), motion::stroke(&text).map_err(failed)?)),
             None => None,
@@ -53,7 +50,7 @@ impl Asking {
                 (None, _) => Sampling::Grid { points: self.grid },
             },
             asked: SweepRequest {
-                search: self.search.map(request).transpose()?,
+                search,
                 top: self.top,
                 stroke,
                 methods: self.methods,
@@ -141,7 +138,12 @@ pub(crate) fn sweep_plot(
     quantity: &str,
     over: Vec<String>,
 ) -> PyResult<String> {
-    let quantity = search::word("quantity", quantity, &PlottedQuantity::ALL)?;
+    let known = PlottedQuantity::ALL;
+    let found = known.iter().find(|(word, _)| *word == quantity);
+    let &(_, quantity) = found.ok_or_else(|| {
+        let known = known.map(|(word, _)| word).join(", ");
+        failed(format!("quantity {quantity:?} is none of {known}"))
+    })?;
     py.detach(|| {
         let table = read(&path).map_err(failed)?;
         let told = view::sweep::SweepData::new(&table);

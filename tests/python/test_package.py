@@ -153,6 +153,52 @@ def test_a_key_that_is_not_there_is_said():
         Mechanism.builtin("four-bar").search(speed=1)
 
 
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"max_redundant": -1}, "--max-redundant: invalid value: integer `-1`"),
+        ({"nodes": "many"}, "--nodes: invalid type: string"),
+        ({"symmetry": "half"}, "--symmetry: unknown variant `half`, expected one of `all`, `symmetric`, `one-per-orbit`"),
+        ({"check": "twice"}, "--check: unknown variant `twice`"),
+        ({"method": "luck"}, "--method: unknown variant `luck`"),
+        ({"rank": {"cost": -1}}, "--rank: cost=-1.0: give a weight from 0 to 1e12"),
+        ({"rank": {"cost": float("nan")}}, "--rank: cost=nan: give a weight"),
+        ({"costs": "no/such.toml"}, "costs: cannot read no/such.toml"),
+    ],
+)
+def test_a_keyword_that_is_none_is_named(asked, said):
+    with pytest.raises(ozols.Error) as raised:
+        Mechanism.builtin("four-bar").search(**asked)
+    assert str(raised.value).startswith(said)
+
+
+def test_every_keyword_asks_what_the_option_of_its_name_asks(in_tmp):
+    costs = Path("dear.toml")
+    costs.write_text("spherical = 9\n", encoding="utf-8")
+    asked = {
+        "options": "cylindrical,spherical",
+        "max_mobility": 1,
+        "max_changes": 7,
+        "forbid": {"2-3": ["spherical"], "6-7": ["spherical"]},
+        "hold": ["3", "7"],
+        "costs": costs,
+        "symmetry": "one-per-orbit",
+        "top": 4,
+        "nodes": 100_000,
+        "rank": {"cost": 1, "changes": 0.1},
+        "check": "prime",
+        "poses": 1,
+        "seed": 7,
+    }
+    words = ["--options", "cylindrical,spherical", "--max-mobility", "1", "--max-changes", "7", "--forbid", "2-3=spherical"]
+    words += ["--forbid", "6-7=spherical", "--hold", "3", "--hold", "7", "--costs", str(costs), "--one-per-orbit", "--top", "4", "--nodes", "100000"]
+    words += ["--rank", "cost=1,changes=0.1", "--check", "prime", "--poses", "1", "--seed", "7"]
+    done = command("search", "gripper-10", *words, "--format", "csv")
+    assert done.returncode == 0, done.stderr
+    found = Mechanism.builtin("gripper-10").search(**asked)
+    assert found.to_csv() == done.stdout and len(found) == 4
+
+
 def test_progress_is_heard_and_what_it_raises_ends_the_search():
     heard = []
     found = Mechanism.builtin("gripper-10").search(progress=lambda *p: heard.append(p))

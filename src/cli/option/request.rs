@@ -4,9 +4,9 @@ use crate::api;
 use crate::cli::terminal::memory;
 use crate::file::text::{MAX_BYTES, text_of};
 use crate::model::ranking::Term;
+use crate::score::request::words::weighted_term;
 use crate::score::request::{self, CostFile, Inserts, JointOptions, Request};
 use crate::search::question::conditions::Symmetry;
-use anyhow::{Context, bail};
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -171,8 +171,9 @@ impl Which {
             rank: self
                 .rank
                 .iter()
-                .map(|w| term(w))
-                .collect::<Result<_, _>>()?,
+                .map(|w| weighted_term(w))
+                .collect::<Result<_, _>>()
+                .map_err(|e| anyhow::anyhow!("--rank: {e}"))?,
             pool: self.pool,
             distinct: self.distinct,
             ..Request::default()
@@ -188,23 +189,6 @@ fn cost_file(path: &Path) -> anyhow::Result<CostFile> {
     })?;
     let text = text_of(&name, &bytes)?.to_owned();
     Ok(CostFile { name, text })
-}
-
-/// A term with its weight.
-fn term(word: &str) -> anyhow::Result<(Term, f64)> {
-    let (name, weight) = match word.split_once('=') {
-        Some((name, weight)) => (name, weight.parse::<f64>().ok()),
-        None => (word, Some(1.0)),
-    };
-    let Some(term) = Term::from_name(name) else {
-        let known = Term::ALL.map(Term::name).join(", ");
-        bail!("--rank: unknown term \"{name}\"; known: {known}");
-    };
-    let weight = weight.filter(|w| (0.0..=1e12).contains(w));
-    let weight = weight.with_context(|| {
-        format!("--rank {word}: give a weight from 0 to 1e12, such as {name}=1")
-    })?;
-    Ok((term, weight))
 }
 
 impl Checked {

@@ -1,5 +1,5 @@
 //! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
-//! how its answer is checked.
+//! how its answer is checked. In JSON it is an object whose keys are the fields, those of the default left out.
 
 pub(crate) mod costs;
 pub(in crate::score) mod error;
@@ -7,6 +7,7 @@ pub(in crate::score) mod missing_options;
 pub(in crate::score) mod option_rules;
 pub mod prepare;
 pub(in crate::score) mod unlisted;
+pub mod words;
 
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::ranking::{Ranking, Term};
@@ -17,6 +18,7 @@ use crate::score::request::prepare::{
     LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved,
 };
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
+use serde::Deserialize;
 
 /// How many of the cheapest variants a ranking scores, unless told otherwise, before it goes through the others. At about ten
 /// microseconds each these take a fifth of a second.
@@ -25,7 +27,7 @@ pub const POOL: usize = 20_000;
 const LARGEST_POOL: usize = 100_000_000;
 
 /// Options of one joint, by name.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 pub struct JointOptions {
     /// The joint.
     pub joint: String,
@@ -34,7 +36,7 @@ pub struct JointOptions {
 }
 
 /// A file of costs, which are read where the mechanism is known that they are for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 pub struct CostFile {
     /// Its name.
     pub name: String,
@@ -43,7 +45,7 @@ pub struct CostFile {
 }
 
 /// Unloading joints offered at some joints, all by name.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 pub struct Inserts {
     /// Types, or names that the file gives to unloading joints of these joints.
     pub names: Vec<String>,
@@ -65,7 +67,8 @@ pub enum List {
 }
 
 /// How a search is checked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Check {
     /// One prime, no second opinion.
     None,
@@ -76,7 +79,8 @@ pub enum Check {
 }
 
 /// How variants are counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// On the span diagram.
     Diagram,
@@ -101,7 +105,8 @@ pub(in crate::score) const VARIANT: &str = "variant";
 ///     ..Default::default()
 /// };
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a question")]
 pub struct Request {
     /// Redundant constraints allowed within the mechanism.
@@ -147,11 +152,13 @@ pub struct Request {
     /// Bytes that the search, its counts, its lists and its ranking may hold, so far as they grow with what is found.
     pub memory: usize,
     /// Terms to rank by with their weights, in place of the file's.
+    #[serde(deserialize_with = "words::weighted_terms")]
     pub rank: Vec<(Term, f64)>,
     /// How many of the cheapest variants a ranking scores, and no others. `None`: [`POOL`], and then whatever else could come
     /// before the last of the list.
     pub pool: Option<usize>,
-    /// Which variants are given.
+    /// Which variants are given. In JSON it is `top`, a number.
+    #[serde(rename = "top", deserialize_with = "words::top")]
     pub list: List,
     /// Whether of the variants that give the same freedoms to the same joints in series only the first is given.
     pub distinct: bool,

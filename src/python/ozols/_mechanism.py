@@ -40,22 +40,31 @@ def _range(stroke: str | tuple[float, float, int]) -> str:
     return stroke if isinstance(stroke, str) else ":".join(map(str, stroke))
 
 
-def _asked(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The keywords of a search as the library takes them."""
+def _costs(path: str | os.PathLike[str]) -> dict[str, str]:
+    try:
+        return {"name": os.fspath(path), "text": Path(path).read_text(encoding="utf-8")}
+    except (OSError, UnicodeDecodeError) as e:
+        raise _native.Error(f"costs: cannot read {path}: {e}") from e
+
+
+def _asked(given: Mapping[str, Any]) -> str:
+    """The keywords of a search as the library takes them: a request in JSON, without what is left to it."""
     rank = given["rank"]
     terms = rank.items() if isinstance(rank, Mapping) else ((t, 1.0) for t in _names(rank))
-    return {
+    asked = {
         **given,
         "hold": _names(given["hold"]),
         "unloading": [([k], v) for k, v in _pairs(given["unloading"])],
         "options": _names(given["options"]),
         "allow": _pairs(given["allow"] or {}),
         "forbid": _pairs(given["forbid"]),
-        "rank": [(t, float(w)) for t, w in terms],
+        "costs": None if given["costs"] is None else _costs(given["costs"]),
+        "rank": [f"{t}={float(w)!r}" for t, w in terms],
     }
+    return json.dumps({k: v for k, v in asked.items() if v is not None}, default=_entry)
 
 
-def asked(given: Mapping[str, Any]) -> dict[str, Any]:
+def asked(given: Mapping[str, Any]) -> str:
     """Some keywords of :meth:`Mechanism.search`, the others at their defaults, as the library takes them."""
     known = inspect.signature(Mechanism.search).parameters.values()
     every = {p.name: p.default for p in known if p.name not in ("self", "progress")}
@@ -247,6 +256,7 @@ class Mechanism:
         allow: Mapping[str, Iterable[str]] | None = None,
         forbid: Mapping[str, Iterable[str]] | Iterable[str] = (),
         unloading: Mapping[str, Iterable[str]] | Iterable[str] = (),
+        costs: str | os.PathLike[str] | None = None,
         symmetry: str = "all",
         top: int = 10,
         distinct: bool = False,
@@ -267,9 +277,9 @@ class Mechanism:
         """Every redesign that meets the conditions: exact counts, and the best of them one by one.
 
         The keywords are the options of ``ozols search``; names come as a list, or with commas between. ``forbid`` takes joints,
-        or joints with names of options; ``unloading`` types, or types with joints; ``rank`` terms, or terms with weights;
-        ``symmetry`` is ``all``, ``symmetric`` or ``one-per-orbit``. ``progress`` is called with layers done, layers in all, and
-        nodes so far.
+        or joints with names of options; ``unloading`` types, or types with joints; ``costs`` a file of costs; ``rank`` terms, or terms with
+        weights; ``symmetry`` is ``all``, ``symmetric`` or ``one-per-orbit``. ``progress`` is called with layers done, layers in
+        all, and nodes so far.
 
         >>> found = Mechanism.builtin("gripper-10").search(options=["cylindrical", "spherical"], max_changes=7)
         >>> found.determinate, found.admissible, found[0].cost

@@ -6,15 +6,18 @@ use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::search::question::as_written::Written;
 use crate::search::question::rounded_rank::Digits;
 use crate::search::question::symmetry::MirrorError;
+use serde::Deserialize;
 use thiserror::Error;
 
 /// Which variants of a mirror-symmetric mechanism are wanted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// All.
     #[default]
     All,
     /// Only those that are their own mirror image.
+    #[serde(rename = "symmetric")]
     SymmetricOnly,
     /// Of each variant and its mirror image, one.
     OnePerOrbit,

@@ -1,0 +1,61 @@
+//! Words of a request that are more than a name or a number, as they are typed and as they stand in JSON.
+
+use crate::model::ranking::Term;
+use crate::score::request::List;
+use serde::{Deserialize, Deserializer, de};
+use thiserror::Error;
+
+/// What is wrong with a word.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum WordError {
+    /// No such term.
+    #[error("unknown term \"{0}\"; known: {known}", known = Term::ALL.map(Term::name).join(", "))]
+    NoTerm(String),
+    /// A weight that is none.
+    #[error("{word}: give a weight from 0 to 1e12, such as {term}=1")]
+    NoWeight {
+        /// All that was typed.
+        word: String,
+        /// The term.
+        term: &'static str,
+    },
+}
+
+/// A term to rank by with its weight: `cost`, or `cost=0.5`.
+///
+/// ```
+/// use ozols_evaluation::score::request::words::weighted_term;
+/// assert_eq!(weighted_term("cost=0.5").unwrap().1, 0.5);
+/// assert!(weighted_term("speed").is_err());
+/// ```
+///
+/// # Errors
+/// Where there is no such term, or the weight is none from 0 to 1e12.
+pub fn weighted_term(word: &str) -> Result<(Term, f64), WordError> {
+    let (name, weight) = match word.split_once('=') {
+        Some((name, weight)) => (name, weight.parse().ok()),
+        None => (word, Some(1.0)),
+    };
+    let term = Term::from_name(name).ok_or_else(|| WordError::NoTerm(name.to_owned()))?;
+    let weight = weight.filter(|w| (0.0..=1e12).contains(w));
+    let weight = weight.ok_or_else(|| WordError::NoWeight {
+        word: word.to_owned(),
+        term: term.name(),
+    })?;
+    Ok((term, weight))
+}
+
+/// Terms with their weights, from a list of words.
+pub(super) fn weighted_terms<'de, D>(from: D) -> Result<Vec<(Term, f64)>, D::Error>
+where
+    D: Deserializer<'de>,
+{
+    let words = Vec::<String>::deserialize(from)?;
+    let terms = words.iter().map(|w| weighted_term(w));
+    terms.collect::<Result<_, _>>().map_err(de::Error::custom)
+}
+
+/// The best so many, from a number.
+pub(super) fn top<'de, D: Deserializer<'de>>(from: D) -> Result<List, D::Error> {
+    usize::deserialize(from).map(List::Top)
+}
