@@ -200,9 +200,18 @@ impl Field {
         let (mut r0, mut r1) = (self.p, self.to_u64(a));
         let (mut t0, mut t1) = (0i64, 1i64);
         while r1 != 0 {
-            let q = r0 / r1;
-            (r0, r1) = (r1, r0 - q * r1);
-            (t0, t1) = (t1, t0 - q.cast_signed() * t1);
+            // Two quotients of three are below four, for which subtracting takes less than a division.
+            let (mut r, mut t) = (r0 - r1, t0 - t1);
+            for _ in 0..2 {
+                if r >= r1 {
+                    (r, t) = (r - r1, t - t1);
+                }
+            }
+            if r >= r1 {
+                let q = r / r1;
+                (r, t) = (r - q * r1, t - q.cast_signed() * t1);
+            }
+            (r0, r1, t0, t1) = (r1, r, t1, t);
         }
         let t = if t0 < 0 {
             t0 + self.p.cast_signed()
