@@ -6,6 +6,7 @@ use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
 use crate::format::number;
 use crate::geom::vector::sides;
 use crate::model::ranking::Term;
+use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::stroke::walk::StrokeEnd;
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -163,6 +164,7 @@ fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite
         ],
     )?;
     stroke(t, id, laid)?;
+    planes(t, id, &f.stacking)?;
     found(t, id, &laid.counts, &laid.symmetric, &laid.ideas)
 }
 
@@ -188,6 +190,20 @@ fn stroke<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite
             ("margin_opening", &rounded(f.margin[1])),
             ("shortfall", &f.shortfall.map(|s| s.to_string())),
         ],
+    )
+}
+
+/// Enters the planes in which the links pass each other, where they were looked for.
+fn planes(t: &Transaction<'_>, id: &str, stacking: &Stacking) -> rusqlite::Result<()> {
+    let (planes, links) = match stacking {
+        Stacking::NotAsked => return Ok(()),
+        Stacking::Meets => (None, None),
+        Stacking::Planes { planes, .. } => (Some(number(*planes)), Some(stacking.to_string())),
+    };
+    put(
+        t,
+        "planes",
+        &[("structure", &id), ("planes", &planes), ("links", &links)],
     )
 }
 

@@ -76,6 +76,11 @@ CREATE TABLE strokes (             -- what a layout does of the task it was made
   margin_opening REAL NOT NULL,
   shortfall TEXT                   -- the worst of what the task asks and this does not; NULL where it does all of it
 ) WITHOUT ROWID;
+CREATE TABLE planes (              -- parallel planes in which the links of a layout pass each other over the stroke
+  structure TEXT PRIMARY KEY REFERENCES structures(id),
+  planes INTEGER,                  -- the fewest in which nothing meets, the frame's plates included; NULL where something always does
+  links TEXT                       -- the links in each from the back, 0 | 1 3 | 2 4; the frame again at the end where it has a plate in front
+) WITHOUT ROWID;
 CREATE TABLE pairs ( -- of structures with slides, gears or slots
   structure TEXT PRIMARY KEY REFERENCES structures(id),
   code TEXT NOT NULL,              -- a letter for each two links, (0, 1), (0, 2), (1, 2)...: R hinge, P slide, G gear or rack, S slot, - none
@@ -137,8 +142,9 @@ SELECT s.id, s.links, s.input, s.symmetry, s.parallel, l.jaw_a_motion AS jaws, l
   k.force_ratio, l.opening_min AS narrowest, l.opening_max AS widest, l.jaw_turn AS turn,
   k.transmission, k.pin_force, k.efficiency, l.travel, k.width, k.height, l.best_cost AS cost, l.determinate_w1 AS redesigns,
   k.reached, k.shortfall, coalesce(p.slides, s.input = 'slide') AS slides, coalesce(p.gears, 0) AS gears,
-  coalesce(p.slots, 0) AS slots
+  coalesce(p.slots, 0) AS slots, b.planes
 FROM structures s JOIN layouts l ON l.structure = s.id LEFT JOIN strokes k ON k.structure = s.id
+  LEFT JOIN planes b ON b.structure = s.id
   LEFT JOIN pairs p ON p.structure = s.id;
 CREATE VIEW front AS               -- of those that do the task, what no other with the same input beats: as good in all six, better in one
 SELECT a.id, a.links, a.cost, a.least_force, a.pin_force, a.turn, a.width * a.height AS area, a.input

@@ -8,6 +8,7 @@ use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::forces::ForceFigures;
 use crate::synthesis::stroke::judge::{Grid, Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
+use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::stroke::shortfall::Shortfall;
 use crate::synthesis::stroke::walk::StrokeEnd;
 use crate::synthesis::structure::Structure;
@@ -73,6 +74,8 @@ pub struct LayoutFigures {
     /// How much farther than the task asks the jaws could close, and open, before a dead point or the like: millimetres, at most
     /// a fifth of the task's stroke; 0 where they do not come as far as it asks.
     pub margin: [f64; 2],
+    /// The planes in which the links pass each other over the stroke.
+    pub stacking: Stacking,
     /// What the stroke lacks of the task; nothing where it does all of it.
     pub shortfall: Option<Shortfall>,
 }
@@ -94,7 +97,9 @@ pub(super) fn of_stroke<M: StrokeMotion>(
     judge: &mut Judge<M>,
     at: &PlacesOf<M>,
 ) -> Option<LayoutFigures> {
+    judge.watch();
     let stroke = judge.follow(at, FINE, f64::INFINITY)?;
+    let stacking = judge.stacking();
     let way = judge.drive_rate();
     let sketch = judge.motion.sketch();
     let (limits, bones) = (*sketch.limits(), sketch.bones());
@@ -122,6 +127,7 @@ pub(super) fn of_stroke<M: StrokeMotion>(
         forces: stroke.forces,
         size: stroke.size,
         margin,
+        stacking,
         shortfall,
         turns: stroke.turns,
     })

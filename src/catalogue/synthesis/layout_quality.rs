@@ -5,13 +5,14 @@ use crate::synthesis::bones::Bones;
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::velocities::Velocity;
+use itertools::Itertools;
 
 /// Pins nearer to each other than this run into each other.
 const NEAR: f64 = 14.0;
 /// Links longer than this are long.
 const LONG: f64 = 75.0;
 /// A pin nearer than this to a link that it is no part of lies on it.
-const ON: f64 = 6.0;
+pub(super) const ON: f64 = 6.0;
 
 /// Figures of a layout at the pose it is drawn in.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +55,7 @@ pub(super) fn beyond(over: f64, width: f64) -> f64 {
     (over.max(0.0) / width).powi(2)
 }
 
-fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+pub(super) fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let side = |p: Point, q: Point, r: Point| cross_plane(sub(q, p), sub(r, p)) > 0.0;
     side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
@@ -68,6 +69,32 @@ fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
 /// Whether a point is outside the box round two others by a margin, and so farther from all between them.
 fn is_far(p: Point, [a, b]: [Point; 2], margin: f64) -> bool {
     (0..2).any(|k| p[k] < a[k].min(b[k]) - margin || p[k] > a[k].max(b[k]) + margin)
+}
+
+/// A side of a link.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LinkSide {
+    pub(super) link: usize,
+    /// The points at its ends.
+    pub(super) ends: [usize; 2],
+}
+
+impl LinkSide {
+    /// Where its ends are.
+    pub(super) fn of(&self, at: &[Point]) -> [Point; 2] {
+        self.ends.map(|i| at[i])
+    }
+}
+
+/// Whether a link of these sides, a bar or a plate, lies over a point.
+pub(super) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool {
+    let near = |side: &LinkSide| distance(point, side.of(at)) < ON;
+    let left = |side: &LinkSide| {
+        let [a, b] = side.of(at);
+        cross_plane(sub(b, a), sub(point, a)) > 0.0
+    };
+    let within = sides.len() > 2 && sides.iter().map(left).all_equal();
+    within || sides.iter().any(near)
 }
 
 /// What velocities say of a layout.
@@ -148,15 +175,16 @@ impl Bones {
         (longest / shortest, penalty)
     }
 
-    /// The sides of the links but the frame, each with its link.
-    fn sides(&self, at: &[Point]) -> Vec<(usize, [usize; 2])> {
+    /// The sides of the links but the frame, link by link.
+    pub(super) fn sides(&self, at: &[Point]) -> Vec<LinkSide> {
         let mut out = Vec::with_capacity(3 * at.len());
         let moving = self.of_link.iter().enumerate();
-        for (l, points) in moving.filter(|(l, _)| *l != self.frame) {
+        for (link, points) in moving.filter(|(l, _)| *l != self.frame) {
+            let side = |ends| LinkSide { link, ends };
             match points[..] {
-                [a, b] => out.push((l, [a, b])),
-                [a, b, c] => out.extend([[a, b], [b, c], [c, a]].map(|e| (l, e))),
-                _ => out.extend(hull(points, at).map(|e| (l, e))),
+                [a, b] => out.push(side([a, b])),
+                [a, b, c] => out.extend([[a, b], [b, c], [c, a]].map(side)),
+                _ => out.extend(hull(points, at).map(side)),
             }
         }
         out
@@ -166,11 +194,12 @@ impl Bones {
     fn crossings(&self, at: &[Point]) -> (usize, f64) {
         let sides = self.sides(at);
         let (mut count, mut penalty) = (0, 0.0);
-        for (i, &(l, [a, b])) in sides.iter().enumerate() {
-            let side = [at[a], at[b]];
-            for &(m, [c, d]) in &sides[..i] {
-                let apart = l != m && a != c && a != d && b != c && b != d;
-                count += usize::from(apart && crosses(side, [at[c], at[d]]));
+        for (i, x) in sides.iter().enumerate() {
+            let ([a, b], side) = (x.ends, x.of(at));
+            for y in &sides[..i] {
+                let [c, d] = y.ends;
+                let apart = x.link != y.link && a != c && a != d && b != c && b != d;
+                count += usize::from(apart && crosses(side, y.of(at)));
             }
             for (p, &place) in at.iter().enumerate() {
                 // Where pitch circles touch is on no link.
@@ -181,7 +210,7 @@ impl Bones {
                 let near = distance(place, side);
                 if near < ON {
                     // A point of the link itself makes it a splinter, which is no crossing.
-                    count += usize::from(self.members[l] >> p & 1 == 0);
+                    count += usize::from(self.members[x.link] >> p & 1 == 0);
                     penalty += beyond(ON - near, ON);
                 }
             }

@@ -7,6 +7,7 @@ pub mod closure;
 pub mod forces;
 pub mod judge;
 pub mod motion;
+pub mod planes;
 pub mod pose;
 pub mod shortfall;
 pub mod walk;

@@ -25,13 +25,13 @@ const SCRIPT: [&str; 8] = [
 ];
 
 /// What a card is made of, but for its drawing and its ideas.
-const CARD: &str = "SELECT id, name, links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, \
+const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, \
      coalesce(k.transmission, l.transmission) AS transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
-     opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
+     b.planes, b.links AS in_planes, b.structure IS NOT NULL AS stacked, opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
      CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front, \
      (SELECT group_concat(c.id, ', ') FROM classics c WHERE c.structure = structures.id) AS classics FROM structures JOIN layouts l ON l.structure = id \
-     LEFT JOIN strokes k ON k.structure = id ORDER BY links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
+     LEFT JOIN strokes k ON k.structure = id LEFT JOIN planes b ON b.structure = id ORDER BY structures.links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
 /// What a card of a drawn mechanism is made of.
 const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
      CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
@@ -180,12 +180,13 @@ fn filters() -> maud::Markup {
             label { "Least force from " input type="number" id="force" min="0" step="any" inputmode="decimal"; }
             label { "Forces 1 to at most " input type="number" id="ratio" min="1" step="0.5" inputmode="decimal"; }
             label { "Turn of the jaws at most " input type="number" id="turn" min="0" step="5" inputmode="numeric"; }
+            label { "Planes at most " input type="number" id="planes" min="2" step="1" inputmode="numeric"; }
             label { input type="checkbox" id="does"; " Only those that do the task" }
             label { input type="checkbox" id="front"; " Only those that no other beats" }
             label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id, chain or scheme"; }
             (select("sort", "First", &[
                 ("", "fewest links, symmetric"), ("best_cost", "least cost"), ("force_min", "greatest least force"),
-                ("transmission", "best transmission angle"), ("pin_force", "least joint force"), ("jaw_turn", "least turn"),
+                ("transmission", "best transmission angle"), ("pin_force", "least joint force"), ("jaw_turn", "least turn"), ("planes", "fewest planes"),
                 ("determinate_w1", "most redesigns"), ("link_ratio", "most even links"),
             ]))
             button type="reset" { "Show all" }

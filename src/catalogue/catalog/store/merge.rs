@@ -113,6 +113,10 @@ impl Store {
                 "INSERT INTO main.pairs SELECT * FROM part.pairs WHERE structure NOT IN there; \
                  INSERT INTO main.classics SELECT * FROM part.classics WHERE structure NOT IN there;",
             ),
+            (
+                8,
+                "INSERT INTO main.planes SELECT * FROM part.planes WHERE structure NOT IN there;",
+            ),
         ];
         let later = later.iter().filter(|(since, _)| version >= *since);
         let later: String = later.map(|(_, statement)| *statement).collect();

@@ -8,7 +8,7 @@ use rusqlite::Connection;
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables.
-pub(super) const VERSION: i64 = 7;
+pub(super) const VERSION: i64 = 8;
 /// The oldest version that can be carried on: those before lack counts that only building again gives.
 pub(super) const OLDEST: i64 = 4;
 
@@ -17,7 +17,7 @@ pub(crate) const TABLES: &str = include_str!("../tables.sql");
 
 /// What each version but the first has beside the one before it: views that go, and what is made, by the words it begins with in
 /// [`TABLES`].
-const STEPS: [(i64, &str, &[&str]); 3] = [
+const STEPS: [(i64, &str, &[&str]); 4] = [
     (5, "", &["CREATE TABLE parts"]),
     (
         6,
@@ -38,6 +38,15 @@ const STEPS: [(i64, &str, &[&str]); 3] = [
             "CREATE VIEW front",
         ],
     ),
+    (
+        8,
+        "DROP VIEW IF EXISTS front; DROP VIEW IF EXISTS grippers;",
+        &[
+            "CREATE TABLE planes",
+            "CREATE VIEW grippers",
+            "CREATE VIEW front",
+        ],
+    ),
 ];
 
 /// The statement of [`TABLES`] that begins so.
@@ -48,7 +57,11 @@ fn statement(begins: &str) -> &'static str {
 }
 
 /// Views in the place of tables that lack something, for whoever reads a version before the one named.
-const VIEWS: [(i64, &str); 9] = [
+const VIEWS: [(i64, &str); 10] = [
+    (
+        8,
+        "CREATE TEMP VIEW planes AS SELECT NULL AS structure, NULL AS planes, NULL AS links WHERE 0;",
+    ),
     (
         7,
         "CREATE TEMP VIEW pairs AS SELECT NULL AS structure, NULL AS code, NULL AS slides, NULL AS gears, NULL AS slots, \
@@ -160,7 +173,12 @@ mod tests {
 
     /// What each version lacks of the one after it, the latest first. A `front` older than the tables it looks at stands for
     /// that of its version, which had other words.
-    const WITHOUT: [(i64, &str); 6] = [
+    const WITHOUT: [(i64, &str); 7] = [
+        (
+            7,
+            "DROP VIEW front; DROP VIEW grippers; DROP TABLE planes; CREATE VIEW front AS SELECT 1 AS id; \
+             CREATE VIEW grippers AS SELECT 1 AS id;",
+        ),
         (
             6,
             "DROP VIEW front; DROP VIEW grippers; DROP TABLE pairs; DROP TABLE classics; CREATE VIEW front AS SELECT 1 AS id; \
@@ -221,6 +239,7 @@ mod tests {
             "strokes",
             "pairs",
             "classics",
+            "planes",
             "grippers",
         ];
         let columns = |db: &Connection| {

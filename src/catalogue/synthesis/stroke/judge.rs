@@ -2,6 +2,7 @@
 
 use super::forces::ForceFigures;
 use super::motion::{HingeMotion, StrokeMotion};
+use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::StrokeEnd;
 use crate::geom::vector::{dot, length};
@@ -113,6 +114,8 @@ pub struct Judge<M> {
     pub(in crate::synthesis) motion: M,
     pub(super) links: Vec<LinkPose>,
     gathered: Gathered,
+    /// What meets on the way, where that is asked.
+    meetings: Option<Meetings>,
 }
 
 /// The places of what moves.
@@ -141,8 +144,26 @@ impl<M: StrokeMotion> Judge<M> {
                 sides: [Between::NOTHING; 2],
                 forces: ForceFigures::BEST,
             },
+            meetings: None,
             motion,
         }
+    }
+
+    /// Watches what meets on the next stroke, unless a link stands for several images of it.
+    pub fn watch(&mut self) {
+        let bones = self.motion.sketch().bones();
+        let all = bones.sides == bones.jaws.len();
+        self.meetings = all.then(|| Meetings::new(bones));
+    }
+
+    /// The planes in which the links passed each other on the stroke that was watched.
+    ///
+    /// # Complexity
+    /// That of [`Meetings::stacking`].
+    pub fn stacking(&mut self) -> Stacking {
+        let bones = self.motion.sketch().bones();
+        let met = self.meetings.take();
+        met.map_or(Stacking::NotAsked, |m| m.stacking(bones))
     }
 
     fn limits(&self) -> &Limits {
@@ -294,6 +315,14 @@ impl<M: StrokeMotion> Judge<M> {
                 let now = self.links[link].point(*place);
                 sketch.each_copy(i, now, &mut |p| g.take(p));
             }
+        }
+        if let Some(meetings) = &mut self.meetings {
+            let ends = bones.joints.iter().map(|ends| ends.map(|[link, _]| link));
+            let of = ends.chain(bones.jaws.iter().map(|&jaw| Some(jaw)));
+            let now = of
+                .zip(points)
+                .map(|(link, &p)| link.map_or(p, |l| self.links[l].point(p)));
+            meetings.look(bones, &now.collect::<Vec<Point>>());
         }
     }
 }

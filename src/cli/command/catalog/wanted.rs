@@ -45,6 +45,9 @@ pub(super) struct WantedGrippers {
     /// Its height at most, in mm.
     #[arg(long, value_name = "MM")]
     height: Option<f64>,
+    /// Parallel planes in which its parts pass each other at most, the frame's included.
+    #[arg(long, value_name = "N")]
+    planes: Option<f64>,
     /// The cost of its cheapest redesign at most.
     #[arg(long, value_name = "X")]
     cost: Option<f64>,
@@ -108,6 +111,7 @@ impl WantedGrippers {
             ("--travel", "travel", "<=", self.travel),
             ("--width", "width", "<=", self.width),
             ("--height", "height", "<=", self.height),
+            ("--planes", "planes", "<=", self.planes),
             ("--cost", "cost", "<=", self.cost),
         ];
         let words = words.iter().filter(|(asked, ..)| *asked);
@@ -124,7 +128,7 @@ impl WantedGrippers {
         (!all.is_empty()).then(|| {
             format!(
                 "SELECT id, links, input, symmetry AS layout, jaws, least_force, force_ratio, turn, transmission, pin_force, efficiency, \
-                 travel, width, height, cost FROM grippers WHERE {all} ORDER BY links, least_force DESC, id"
+                 travel, width, height, planes, cost FROM grippers WHERE {all} ORDER BY links, least_force DESC, id"
             )
         })
     }

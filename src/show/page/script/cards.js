@@ -56,6 +56,7 @@ const FILTERS = {
   force: number((c, v) => c.force_min >= v),
   ratio: number((c, v) => !c.drawn && c.force_max <= v * c.force_min),
   turn: number((c, v) => !c.drawn && c.jaw_turn <= v),
+  planes: number((c, v) => c.planes > 0 && c.planes <= v),
   does: (c) => c.reached === 1 && !c.shortfall,
   front: (c) => c.front === 1,
   find: (c, v) => c.name.toLowerCase().includes(v) || c.id.includes(v) || (c.classics || '').includes(v),

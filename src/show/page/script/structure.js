@@ -22,6 +22,7 @@ function figuresOf(c) {
     ...(c.pin_force ? [
       ['Task', c.shortfall || 'does all of it'],
       ['Joints', `${short(c.pin_force)} N at most for 1 N of each jaw; efficiency from ${short(c.efficiency)}`],
+      ...(c.stacked ? [['Planes', c.planes ? `${c.planes}, links from the back: ${c.in_planes}` : 'something meets in whatever planes its links lie']] : []),
       ['Room', `${short(c.width)} by ${short(c.height)} mm over the stroke`],
     ] : []),
   ];

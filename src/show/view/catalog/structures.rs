@@ -100,6 +100,8 @@ pub struct StructureData {
     pub layout: Option<Map<String, Value>>,
     /// The row of `strokes`; `None` where its layout was made for no task.
     pub stroke: Option<Map<String, Value>>,
+    /// The row of `planes`; `None` where it has no layout, or one that nothing is said of.
+    pub planes: Option<Map<String, Value>>,
     /// The rows of `counts`.
     pub counts: Vec<Map<String, Value>>,
     /// The rows of `ideas`.
@@ -125,6 +127,7 @@ impl StructureData {
             classics: maps("SELECT * FROM classics WHERE structure = ?1 ORDER BY id")?,
             layout: maps("SELECT * FROM layouts WHERE structure = ?1")?.pop(),
             stroke: maps("SELECT * FROM strokes WHERE structure = ?1")?.pop(),
+            planes: maps("SELECT * FROM planes WHERE structure = ?1")?.pop(),
             counts: maps("SELECT * FROM counts WHERE structure = ?1 ORDER BY mobility, changes")?,
             ideas: maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?,
         })
@@ -186,6 +189,22 @@ fn stroke_text(d: &StructureData) -> String {
     )
 }
 
+/// In which planes the links pass each other.
+fn planes_text(d: &StructureData) -> String {
+    let Some(planes) = &d.planes else {
+        return String::new();
+    };
+    let of = of(planes);
+    if planes.get("planes").is_some_and(Value::is_null) {
+        return "Over the stroke something meets in whatever planes the links lie\n".to_owned();
+    }
+    format!(
+        "Over the stroke nothing meets in {} planes, links from the back: {}\n",
+        of("planes"),
+        of("links"),
+    )
+}
+
 /// How many joints are no hinges, in brackets.
 fn pairs_text(d: &StructureData) -> String {
     let Some(pairs) = &d.pairs else {
@@ -219,6 +238,7 @@ fn structure_text(d: &StructureData) -> String {
     };
     out += &motion_text(d, layout);
     out += &stroke_text(d);
+    out += &planes_text(d);
     out += &shape_text(d, layout);
     out
 }
