@@ -9,7 +9,7 @@ pub mod suggestions;
 mod text;
 
 use crate::geom::expr::PI_DIGITS;
-use crate::model::claim::Topic;
+use crate::model::claim::{Claim, Topic};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
@@ -17,7 +17,7 @@ use crate::redundancy::local_mobility;
 use crate::redundancy::stress::{JointWrench, StressVerdict};
 use crate::view::analysis::least_rows::{ContourRows, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};
-use crate::view::claims::{Claim, about};
+use crate::view::claims::about;
 use crate::view::stroke::StrokeData;
 use serde::Serialize;
 
@@ -33,7 +33,7 @@ pub struct Analysis<'a> {
     /// The figures over a stroke, where one was asked for.
     pub stroke: Option<StrokeData<'a>>,
     /// What is published of its structure, so or not.
-    pub claims: Vec<Claim<'a>>,
+    pub claims: Vec<&'a Claim>,
 }
 
 /// One state; see [`StateAnalysis`] for what the figures are.

@@ -10,9 +10,9 @@ use crate::drive::programme::{self, Event, Module, Ran};
 use crate::drive::swing::{Balance, End};
 use crate::drive::torsion::{Sizing, decrement};
 use crate::file::read::workload::WorkloadFile;
-use crate::model::claim::Topic;
+use crate::model::claim::{Claim, Topic};
 use crate::model::drive::DriveSpec;
-use crate::view::claims::{Claim, about};
+use crate::view::claims::about;
 use serde::Serialize;
 
 /// A drive of a file and what was found of it.
@@ -37,7 +37,7 @@ pub struct Drive<'a> {
     /// Of drives out of true, where they were asked for.
     pub samples: Option<samples::Samples>,
     /// What is published of this drive, so or not.
-    pub claims: Vec<Claim<'a>>,
+    pub claims: Vec<&'a Claim>,
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a WorkloadFile<DriveSpec>,

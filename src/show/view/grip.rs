@@ -12,10 +12,10 @@ use crate::grip::clamping::{self, Hardest, HoldVerdict};
 use crate::grip::gripping::{self, effort};
 use crate::grip::holding::{ContactForce, Slip};
 use crate::grip::lever_arm::{Arms, Lever};
-use crate::model::claim::Topic;
+use crate::model::claim::{Claim, Topic};
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
-use crate::view::claims::{Claim, about};
+use crate::view::claims::about;
 use crate::view::grip::motion::GripMotion;
 use serde::Serialize;
 
@@ -39,7 +39,7 @@ pub struct GripReport<'a> {
     /// The clamping along a motion, where one is asked about.
     pub motion: Option<GripMotion>,
     /// What is published of this gripper, so or not.
-    pub claims: Vec<Claim<'a>>,
+    pub claims: Vec<&'a Claim>,
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a WorkloadFile<GripSpec>,
