@@ -8,6 +8,7 @@
 use crate::drive::programme::{Event, Run};
 use crate::drive::swing::Feed;
 use crate::drive::torsion::CamSpring;
+use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A cam on a disc. SI units.
@@ -28,24 +29,22 @@ pub struct Cam {
 }
 
 /// A point of the roller's path, by the turn from the middle between two grooves.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(transparent)]
 pub struct ProfilePoint {
     /// The turn. `[rad]`
+    #[serde(skip)]
     pub turn: f64,
     /// How far the follower has fallen. `[m]`
+    #[serde(skip)]
     pub fall: f64,
     /// The roller's centre. `[m]`
     pub pitch: [f64; 2],
 }
 
 /// The profile round a disc.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Profile {
-    /// In order of the turn, `grooves` times the points of one swing, the first of each in a groove.
-    pub points: Vec<ProfilePoint>,
-    /// What the roller rolls on, by the angle round the axis: no point of it nearer to any place of the roller than its radius.
-    /// The roller's own round in the grooves. `[m]`
-    pub outline: Vec<[f64; 2]>,
     /// Angles of the grooves on the disc. `[rad]`
     pub grooves: Vec<f64>,
     /// Whether a whole number of swings makes a turn, so that stepwise rotation finds grooves for ever.
@@ -57,6 +56,13 @@ pub struct Profile {
     /// Least radius of curvature of the roller's path where it bulges outwards, at most that of the lifted path. A larger
     /// roller would cut the flank away. `[m]`
     pub least_curvature: f64,
+    /// In order of the turn, `grooves` times the points of one swing, the first of each in a groove.
+    #[serde(rename = "pitch")]
+    pub points: Vec<ProfilePoint>,
+    /// What the roller rolls on, by the angle round the axis: no point of it nearer to any place of the roller than its radius.
+    /// The roller's own round in the grooves. `[m]`
+    #[serde(rename = "profile")]
+    pub outline: Vec<[f64; 2]>,
 }
 
 impl Cam {
@@ -265,9 +271,10 @@ impl<'c> Trace<'c> {
 }
 
 /// A time in which the electromagnet of a disc is on. `[s]`
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Pulse {
-    /// 0 or 1.
+    /// 0 or 1; told from 1.
+    #[serde(serialize_with = "from_one")]
     pub disc: usize,
     /// At the release.
     pub on: f64,
@@ -275,8 +282,12 @@ pub struct Pulse {
     pub off: f64,
 }
 
+fn from_one<S: Serializer>(disc: &usize, serializer: S) -> Result<S::Ok, S::Error> {
+    (disc + 1).serialize(serializer)
+}
+
 /// What the electromagnets do in a programme.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Magnet {
     /// In order.
     pub pulses: Vec<Pulse>,
@@ -286,6 +297,8 @@ pub struct Magnet {
     pub last_force: f64,
     /// Work against the spring a swing, by (13). `[J]`
     pub energy_per_swing: f64,
+    /// That of a whole oscillation, two swings. `[J]`
+    pub energy_per_cycle: f64,
     /// That of all pulses over the time of the programme. `[W]`
     pub mean_power: f64,
 }
@@ -312,6 +325,7 @@ pub(crate) fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
         first_force: force(spring.mounting),
         last_force: force(1.0 + spring.mounting),
         energy_per_swing: spring.energy(),
+        energy_per_cycle: 2.0 * spring.energy(),
         mean_power: if time > 0.0 { work / time } else { 0.0 },
         pulses,
     }

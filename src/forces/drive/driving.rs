@@ -28,7 +28,7 @@ pub enum DampingFrom {
 pub const PROFILE_POINTS: u32 = 180;
 
 /// The cam's spring by the formulas and by the simulation, its profile and its electromagnets.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CamDesign {
     /// By equation (14).
     pub spring: CamSpring,
@@ -37,13 +37,14 @@ pub struct CamDesign {
     /// The one that gives what is fed in this run.
     pub fitted: CamSpring,
     /// What the electromagnets do against that one.
+    #[serde(rename = "electromagnet")]
     pub magnet: Magnet,
     /// The profile, where the cam's and the roller's radius are stated.
     pub profile: Option<Profile>,
 }
 
 /// The motion of a payload. SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PayloadMotion {
     /// Greatest angular acceleration, p² φ0, at the ends of a swing. `[rad/s²]`
     pub angular_acceleration: f64,

@@ -1,15 +1,17 @@
 //! The torsion bar of a two-disc drive: its formulas, and its size.
 
+use serde::{Serialize, Serializer};
 use std::f64::consts::PI;
 
 /// A round bar in torsion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bar {
     /// l. `[m]`
     pub length: f64,
     /// d. `[m]`
     pub diameter: f64,
     /// G. `[Pa]`
+    #[serde(skip)]
     pub shear_modulus: f64,
 }
 
@@ -146,6 +148,17 @@ impl CamSpring {
     }
 }
 
+impl Serialize for CamSpring {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map([
+            ("rate", self.rate),
+            ("stroke", self.stroke),
+            ("mounting_coefficient", self.mounting),
+            ("energy", self.energy()),
+        ])
+    }
+}
+
 /// What a bar is sized for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wanted {
@@ -170,9 +183,10 @@ pub struct Wanted {
 }
 
 /// A bar that was tried.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BarTrial {
     /// The bar.
+    #[serde(flatten)]
     pub bar: Bar,
     /// `[φ]`. `[rad]`
     pub allowable_twist: f64,
@@ -183,28 +197,35 @@ pub struct BarTrial {
 }
 
 /// What would have to change for a bar to be found, each alone, at the greatest length.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Remedy {
     /// A bar at least this long. `[m]`
+    #[serde(rename = "length_above")]
     pub length: f64,
     /// A material with at least this `[τ_s]`. `[Pa]`
+    #[serde(rename = "allowable_stress_above")]
     pub allowable_stress: f64,
     /// A period of at least this. `[s]`
+    #[serde(rename = "period_above")]
     pub period: f64,
     /// φ0 of less than this. `[rad]`
+    #[serde(rename = "half_swing_below")]
     pub twist: f64,
     /// I of less than this. `[kg·m²]`
+    #[serde(rename = "inertia_below")]
     pub inertia: f64,
 }
 
 /// A bar, or why there is none.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sizing {
     /// What was tried, in order; the last is the bar where one was found.
     pub trials: Vec<BarTrial>,
     /// The bar.
+    #[serde(skip)]
     pub bar: Option<Bar>,
     /// What would have to change where there is none.
+    #[serde(rename = "remedies")]
     pub remedy: Option<Remedy>,
 }
 

@@ -10,6 +10,7 @@ use crate::model::grip::LeverDrive;
 use crate::statics::cone_programme::ConeProgramme;
 use clarabel::solver::SolverStatus;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT};
+use serde::Serialize;
 use thiserror::Error;
 
 /// A vector in the gripper's axes, see [`crate::grip::contact`].
@@ -54,13 +55,15 @@ impl PartWrench {
 }
 
 /// The force of one face on the part.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactForce {
     /// Along the contact's normal, towards the part; not negative. `[N]`
     pub normal: f64,
     /// Friction along the face, from its vertex. `[N]`
+    #[serde(rename = "along_face")]
     pub along: f64,
     /// Friction along z, the part's axis. `[N]`
+    #[serde(rename = "along_part")]
     pub axial: f64,
 }
 

@@ -3,6 +3,7 @@
 use crate::statics::planar::BodyId;
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, length};
+use serde::Serialize;
 
 /// Mass data of a body in the plane: mass `[kg]`, centre at the pose of the file `[m]`, inertia `[kg·m²]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,9 +17,10 @@ pub struct BodyMass {
 }
 
 /// A link with mass at an instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LinkInertia {
     /// The link.
+    #[serde(skip)]
     pub body: BodyId,
     /// Its mass centre now `[m]`.
     pub centre: [f64; 2],
@@ -27,8 +29,10 @@ pub struct LinkInertia {
     /// Angular acceleration `[rad/s²]`.
     pub angular_acceleration: f64,
     /// -m a, at the mass centre `[N]`.
+    #[serde(rename = "inertia_force")]
     pub force: [f64; 2],
     /// -I ε `[N·m]`.
+    #[serde(rename = "inertia_moment")]
     pub moment: f64,
 }
 

@@ -12,6 +12,7 @@ use crate::statics::inertia::{BodyMass, link_inertias};
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
+use serde::Serialize;
 
 /// Where a load comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -179,9 +180,10 @@ impl PlanarLoads {
 }
 
 /// What a pair passes on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reaction {
     /// The pair.
+    #[serde(skip)]
     pub pair: PairId,
     /// Where the pair is now: its point on the second body `[m]`.
     pub point: [f64; 2],

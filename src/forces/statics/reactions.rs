@@ -32,6 +32,8 @@ pub(crate) mod wrench;
 
 pub use contact::Contacts;
 pub use cycle::{Cycle, cycle};
-pub use solution::{CouplingReaction, JointReaction, NEARLY_SINGULAR, Solution, Uniqueness};
+pub use solution::{
+    CouplingReaction, JointReaction, NEARLY_SINGULAR, Solution, ToothForce, Uniqueness,
+};
 pub use solve::Reactions;
 pub use unsolved::Unsolved;

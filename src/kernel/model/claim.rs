@@ -1,5 +1,7 @@
 //! What a publication says of the mechanism it shows, and whether that is so.
 
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+
 /// What a claim is about, and so which command repeats it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {
@@ -47,5 +49,17 @@ impl Claim {
     #[must_use]
     pub fn holds(&self) -> bool {
         self.right.is_none()
+    }
+}
+
+impl Serialize for Claim {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut out = serializer.serialize_struct("Claim", 5)?;
+        out.serialize_field("source", &self.source)?;
+        out.serialize_field("claim", &self.says)?;
+        out.serialize_field("holds", &self.holds())?;
+        out.serialize_field("right", &self.right)?;
+        out.serialize_field("evidence", &self.evidence)?;
+        out.end()
     }
 }

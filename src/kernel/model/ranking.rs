@@ -1,6 +1,8 @@
 //! How a file wants variants ranked, and what it says of joint types.
 
 use crate::model::id::StateId;
+use serde::{Serialize, Serializer};
+use serde_json::json;
 
 /// What variants are scored by. Smaller is better, but for conditioning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -154,6 +156,12 @@ impl Term {
     }
 }
 
+impl Serialize for Term {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
 /// How terms make an order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Order {
@@ -181,8 +189,15 @@ impl Order {
     }
 }
 
+impl Serialize for Order {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
 /// How clearances add up at the outputs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum ClearanceSum {
     /// Every joint is off the worst way.
     #[default]
@@ -192,7 +207,7 @@ pub enum ClearanceSum {
 }
 
 /// A bound that variants must keep.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Limit {
     /// Of this term.
     pub term: Term,
@@ -203,18 +218,25 @@ pub struct Limit {
 }
 
 /// A ranking.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Ranking {
     /// The order.
     pub order: Order,
     /// The terms with their weights, not negative, the first the most important.
+    #[serde(serialize_with = "with_weights")]
     pub terms: Vec<(Term, f64)>,
     /// Bounds to keep.
     pub limits: Vec<Limit>,
     /// How clearances add up.
     pub clearance: ClearanceSum,
     /// The states that count; those with loads where there are none.
+    #[serde(skip)]
     pub states: Vec<StateId>,
+}
+
+fn with_weights<S: Serializer>(terms: &[(Term, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    let one = |(term, weight): &(Term, f64)| json!({"term": term, "weight": weight});
+    serializer.collect_seq(terms.iter().map(one))
 }
 
 /// What a file says of a joint type in place of the catalogue.

@@ -7,9 +7,10 @@ use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::exact::modular;
 use crate::redundancy::motion::Speeds;
+use serde::Serialize;
 
 /// The external constraints of a state, counted and by rank.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct External {
     /// Σα: constraints of the joints that the state adds, and their couplings, less those of the joints it leaves out.
     pub constraints: i64,
@@ -22,6 +23,7 @@ pub struct External {
     /// σ_a by the external formula, Σα - (W_a - W_r) - w_a.
     pub redundant: i64,
     /// σ of the state less σ of the free state, by ranks.
+    #[serde(rename = "redundant_by_rank")]
     pub by_rank: i64,
 }
 

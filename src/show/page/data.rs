@@ -118,7 +118,7 @@ impl<'a> StateData<'a> {
             freedoms: s.freedoms,
             mobility: s.mobility,
             redundant: s.redundant,
-            external: s.external.as_ref().map(|e| e.redundant),
+            external: s.external.as_ref().map(|e| e.counted.redundant),
             contours: contours.collect(),
         }
     }

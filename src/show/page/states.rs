@@ -74,14 +74,14 @@ fn figures(s: &State<'_>) -> Markup {
                 (row("", s.formula_mobility,
                     "is what counting alone (Malyshev's formula) gives, wrong by the redundant constraints"))
             }
-            @if let Some(e) = &s.external { (row("σ ext.", e.redundant, &external(e))) }
+            @if let Some(e) = &s.external { (row("σ ext.", e.counted.redundant, &external(e))) }
         }
     }
 }
 
 fn external(e: &External) -> String {
     let disagree = if e.agree { "" } else { ": THESE DISAGREE" };
-    let (formula, by_rank) = (e.formula(), e.redundant_by_rank);
+    let (formula, by_rank) = (e.formula(), e.counted.by_rank);
     format!("external = {formula}; by rank {by_rank}{disagree}")
 }
 

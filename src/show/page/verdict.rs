@@ -60,7 +60,7 @@ pub fn state(s: &State<'_>) -> Vec<String> {
         }
         .to_owned(),
     );
-    if let Some(e) = s.external.as_ref().filter(|e| e.redundant > 0) {
+    if let Some(e) = s.external.as_ref().filter(|e| e.counted.redundant > 0) {
         let of = |v: &str| {
             let external = s.self_stresses.iter().filter(|t| t.external);
             external.filter(|t| t.verdict == v).count()
@@ -73,8 +73,12 @@ pub fn state(s: &State<'_>) -> Vec<String> {
         };
         out.push(format!(
             "{} of them {} from the joints of this state alone{split}.",
-            e.redundant,
-            if e.redundant == 1 { "comes" } else { "come" }
+            e.counted.redundant,
+            if e.counted.redundant == 1 {
+                "comes"
+            } else {
+                "come"
+            }
         ));
     }
     out.push(moves(s));

@@ -9,15 +9,15 @@ pub mod suggestions;
 mod text;
 
 use crate::geom::expr::PI_DIGITS;
-use crate::model::claim::Topic;
+use crate::model::claim::{Claim, Topic};
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::analysis::{self, StateAnalysis};
 use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::local_mobility;
 use crate::redundancy::stress::{JointWrench, StressVerdict};
 use crate::view::analysis::least_rows::{ContourRows, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};
-use crate::view::claims::{Claim, about};
+use crate::view::claims::about;
 use crate::view::stroke::StrokeData;
 use serde::Serialize;
 
@@ -33,7 +33,7 @@ pub struct Analysis<'a> {
     /// The figures over a stroke, where one was asked for.
     pub stroke: Option<StrokeData<'a>>,
     /// What is published of its structure, so or not.
-    pub claims: Vec<Claim<'a>>,
+    pub claims: Vec<&'a Claim>,
 }
 
 /// One state; see [`StateAnalysis`] for what the figures are.
@@ -121,16 +121,13 @@ pub struct Coupling<'a> {
     pub greatest: usize,
 }
 
-/// What a state adds to the free one; see [`crate::redundancy::analysis::External`].
+/// What a state adds to the free one.
 #[derive(Debug, Serialize)]
-#[allow(missing_docs, reason = "named as there")]
 pub struct External {
-    pub constraints: i64,
-    pub actual_mobility: i64,
-    pub working_mobility: i64,
-    pub lost_mobility: i64,
-    pub redundant: i64,
-    pub redundant_by_rank: i64,
+    /// By the formula and by ranks.
+    #[serde(flatten)]
+    pub counted: analysis::External,
+    /// Whether both are the same.
     pub agree: bool,
 }
 
@@ -253,7 +250,10 @@ impl<'a> State<'a> {
                 .iter()
                 .map(|c| Contour::new(mechanism, c))
                 .collect(),
-            external: s.external.map(External::new),
+            external: s.external.map(|counted| External {
+                counted,
+                agree: counted.redundant == counted.by_rank,
+            }),
             idle: s.idle.iter().map(|i| Idle::new(mechanism, i)).collect(),
             self_stresses: s
                 .self_stresses
@@ -281,20 +281,6 @@ impl<'a> State<'a> {
             }),
             per_coupling: s.per_coupling.iter().map(Coupling::new).collect(),
             suggestions: None,
-        }
-    }
-}
-
-impl External {
-    fn new(e: crate::redundancy::analysis::External) -> External {
-        External {
-            constraints: e.constraints,
-            actual_mobility: e.actual_mobility,
-            working_mobility: e.working_mobility,
-            lost_mobility: e.lost_mobility,
-            redundant: e.redundant,
-            redundant_by_rank: e.by_rank,
-            agree: e.redundant == e.by_rank,
         }
     }
 }

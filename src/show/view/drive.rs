@@ -1,20 +1,18 @@
 //! A torsional drive: one value from which text, JSON and charts are made. SI units, angles in radians; the keys are a stable
 //! contract.
 
-pub(crate) mod cam;
 pub mod charts;
 pub mod samples;
 pub mod text;
 
-use crate::drive::driving::{self, DampingFrom, Driving};
-use crate::drive::programme::{self, Event, Ran};
+use crate::drive::driving::{self, CamDesign, DampingFrom, Driving, PayloadMotion};
+use crate::drive::programme::{self, Event, Module, Ran};
 use crate::drive::swing::{Balance, End};
-use crate::drive::torsion::{BarTrial, Remedy, decrement};
+use crate::drive::torsion::{Sizing, decrement};
 use crate::file::read::workload::WorkloadFile;
-use crate::model::claim::Topic;
+use crate::model::claim::{Claim, Topic};
 use crate::model::drive::DriveSpec;
-use crate::view::claims::{Claim, about};
-use crate::view::drive::cam::{CamData, FeedMoment, feed_moments};
+use crate::view::claims::about;
 use serde::Serialize;
 
 /// A drive of a file and what was found of it.
@@ -33,13 +31,13 @@ pub struct Drive<'a> {
     /// Whether every swing ended in a latch.
     pub complete: bool,
     /// How the bar was sized.
-    pub sizing: Sizing,
+    pub sizing: &'a Sizing,
     /// The drive, where there is a bar.
-    pub design: Option<Design>,
+    pub design: Option<Design<'a>>,
     /// Of drives out of true, where they were asked for.
     pub samples: Option<samples::Samples>,
     /// What is published of this drive, so or not.
-    pub claims: Vec<Claim<'a>>,
+    pub claims: Vec<&'a Claim>,
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a WorkloadFile<DriveSpec>,
@@ -48,48 +46,9 @@ pub struct Drive<'a> {
     pub found: Option<&'a driving::Design>,
 }
 
-/// How a bar was sized.
-#[derive(Debug, Serialize)]
-pub struct Sizing {
-    /// The bars tried, in order.
-    pub trials: Vec<TriedBar>,
-    /// What would have to change, each alone, where none was found.
-    pub remedies: Option<Remedies>,
-}
-
-/// A bar that was tried.
-#[derive(Debug, Serialize)]
-pub struct TriedBar {
-    /// l `[m]`.
-    pub length: f64,
-    /// d `[m]`.
-    pub diameter: f64,
-    /// `[φ]` `[rad]`.
-    pub allowable_twist: f64,
-    /// Whether (11) holds.
-    pub strong: bool,
-    /// Whether there is room for it.
-    pub fits: bool,
-}
-
-/// What would be enough, each alone.
-#[derive(Debug, Serialize)]
-pub struct Remedies {
-    /// A longer bar `[m]`.
-    pub length_above: f64,
-    /// A stronger material `[Pa]`.
-    pub allowable_stress_above: f64,
-    /// A longer period `[s]`.
-    pub period_above: f64,
-    /// A smaller φ0 `[rad]`.
-    pub half_swing_below: f64,
-    /// A smaller inertia `[kg·m²]`.
-    pub inertia_below: f64,
-}
-
 /// A drive with a bar.
 #[derive(Debug, Serialize)]
-pub struct Design {
+pub struct Design<'a> {
     /// l `[m]`.
     pub length: f64,
     /// d `[m]`.
@@ -113,9 +72,9 @@ pub struct Design {
     /// By piece of the cam's push.
     pub feed_moments: Vec<FeedMoment>,
     /// The cam's spring, where a cam is stated.
-    pub cam: Option<CamData>,
+    pub cam: Option<&'a CamDesign>,
     /// Of each disc.
-    pub motions: [DiscMotion; 2],
+    pub motions: [PayloadMotion; 2],
     /// What comes of the programme repeated without end.
     pub endurance: Endurance,
     /// How many swings ended in a latch.
@@ -124,6 +83,23 @@ pub struct Design {
     pub wanted: usize,
     /// The programme as it ran.
     pub programme: Vec<StepData>,
+}
+
+/// A piece of the cam's push.
+#[derive(Debug, Serialize)]
+pub struct FeedMoment {
+    /// Where it begins, from the middle of the swing `[rad]`.
+    pub from: f64,
+    /// `[N·m]`
+    pub moment: f64,
+}
+
+/// The pieces of the push of a drive, each up to the next and the last up to the latch; none where nothing is fed.
+#[must_use]
+pub(crate) fn feed_moments(module: &Module) -> Vec<FeedMoment> {
+    let pieces = module.feed.moments(module.latch.at).into_iter();
+    let piece = |([from, _], moment): ([f64; 2], f64)| FeedMoment { from, moment };
+    pieces.map(piece).collect()
 }
 
 /// Damping of the simulation.
@@ -135,17 +111,6 @@ pub struct Damping {
     pub coulomb: f64,
     /// Where it comes from.
     pub from: DampingFrom,
-}
-
-/// Greatest motion of a disc.
-#[derive(Debug, Serialize)]
-pub struct DiscMotion {
-    /// `[rad/s²]`
-    pub angular_acceleration: f64,
-    /// `[rad/s]`
-    pub angular_speed: f64,
-    /// Of the payload, where one is stated `[m/s²]`.
-    pub acceleration: Option<f64>,
 }
 
 /// What comes of the programme repeated without end.
@@ -209,20 +174,6 @@ impl<'a> Drive<'a> {
     #[must_use]
     pub fn new(file: &'a WorkloadFile<DriveSpec>, found: &'a Driving) -> Self {
         let (spec, design) = (&file.spec, found.design.as_ref());
-        let tried = |t: &BarTrial| TriedBar {
-            length: t.bar.length,
-            diameter: t.bar.diameter,
-            allowable_twist: t.allowable_twist,
-            strong: t.strong,
-            fits: t.fits,
-        };
-        let remedies = |r: Remedy| Remedies {
-            length_above: r.length,
-            allowable_stress_above: r.allowable_stress,
-            period_above: r.period,
-            half_swing_below: r.twist,
-            inertia_below: r.inertia,
-        };
         Drive {
             mechanism: &file.name,
             units: "SI; angles in radians",
@@ -230,10 +181,7 @@ impl<'a> Drive<'a> {
             period: spec.period,
             inertias: spec.inertias,
             complete: design.is_some_and(|d| d.run.complete()),
-            sizing: Sizing {
-                trials: found.sizing.trials.iter().map(tried).collect(),
-                remedies: found.sizing.remedy.map(remedies),
-            },
+            sizing: &found.sizing,
             design: design.map(|d| Design::new(spec, d)),
             samples: None,
             claims: about(&file.claims, Topic::Drive),
@@ -243,8 +191,8 @@ impl<'a> Drive<'a> {
     }
 }
 
-impl Design {
-    fn new(spec: &DriveSpec, d: &driving::Design) -> Self {
+impl<'a> Design<'a> {
+    fn new(spec: &DriveSpec, d: &'a driving::Design) -> Self {
         Design {
             length: d.bar.length,
             diameter: d.bar.diameter,
@@ -261,12 +209,8 @@ impl Design {
             needed_feed: d.needed_feed,
             feed: d.feed,
             feed_moments: feed_moments(&d.module),
-            cam: d.cam.as_ref().map(CamData::new),
-            motions: d.motions.map(|m| DiscMotion {
-                angular_acceleration: m.angular_acceleration,
-                angular_speed: m.angular_speed,
-                acceleration: m.acceleration,
-            }),
+            cam: d.cam.as_ref(),
+            motions: d.motions,
             endurance: match d.endurance {
                 programme::Endurance::Lasts { missing } => Endurance::Going {
                     lasts: Some(true),

@@ -10,12 +10,12 @@ pub mod text;
 use crate::file::read::workload::WorkloadFile;
 use crate::grip::clamping::{self, Hardest, HoldVerdict};
 use crate::grip::gripping::{self, effort};
-use crate::grip::holding::Slip;
+use crate::grip::holding::{ContactForce, Slip};
 use crate::grip::lever_arm::{Arms, Lever};
-use crate::model::claim::Topic;
+use crate::model::claim::{Claim, Topic};
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
-use crate::view::claims::{Claim, about};
+use crate::view::claims::about;
 use crate::view::grip::motion::GripMotion;
 use serde::Serialize;
 
@@ -39,7 +39,7 @@ pub struct GripReport<'a> {
     /// The clamping along a motion, where one is asked about.
     pub motion: Option<GripMotion>,
     /// What is published of this gripper, so or not.
-    pub claims: Vec<Claim<'a>>,
+    pub claims: Vec<&'a Claim>,
     /// The file, for its units and inputs.
     #[serde(skip)]
     pub file: &'a WorkloadFile<GripSpec>,
@@ -125,20 +125,17 @@ pub struct PartContact {
     pub point: [f64; 2],
     /// Unit normal of the face, towards the part.
     pub normal_direction: [f64; 2],
-    /// `[N]`
-    pub normal: f64,
-    /// Friction along the face `[N]`.
-    pub along_face: f64,
-    /// Friction along the part `[N]`.
-    pub along_part: f64,
+    /// The force.
+    #[serde(flatten)]
+    pub force: ContactForce,
 }
 
 impl PartContact {
     /// Friction over the normal force; nothing where the face does not press.
     #[must_use]
     pub fn friction(&self) -> Option<f64> {
-        let friction = self.along_face.hypot(self.along_part);
-        (self.normal > 0.0).then(|| friction / self.normal)
+        let f = self.force;
+        (f.normal > 0.0).then(|| f.along.hypot(f.axial) / f.normal)
     }
 }
 
@@ -191,9 +188,7 @@ impl<'a> Diameter<'a> {
                     contact: c.name,
                     point: c.point,
                     normal_direction: c.normal,
-                    normal: f.normal,
-                    along_face: f.along,
-                    along_part: f.axial,
+                    force: *f,
                 })
                 .collect()
             });

@@ -66,14 +66,9 @@ pub struct JointForces<'a> {
     pub kind: &'a str,
     /// First and second link.
     pub links: [&'a str; 2],
-    /// Where it is now, global axes `[m]`.
-    pub point: [f64; 3],
-    /// Unit vectors of its frame now.
-    pub axes: Axes,
-    /// `[N]`
-    pub force: [f64; 3],
-    /// `[N·m]`
-    pub moment: [f64; 3],
+    /// Where it is now, its frame, and what it passes in that.
+    #[serde(flatten)]
+    pub reaction: JointReaction,
     /// `[N]`
     pub force_magnitude: f64,
     /// `[N·m]`
@@ -95,16 +90,9 @@ pub struct ObjectContact<'a> {
     pub contact: &'a str,
     /// `pushes`, `idle`, or what no such face can do: `pulls`, `slips`, `tilts`.
     pub touch: &'static str,
-    /// Along the face's normal, negative where it pulls `[N]`.
-    pub normal: f64,
-    /// Along the face `[N]`.
-    pub along_face: f64,
-    /// Moment along the face `[N·m]`.
-    pub tilting: f64,
-    /// Coefficient of friction, where stated.
-    pub friction: Option<f64>,
-    /// Radius of the face `[m]`, where stated.
-    pub radius: Option<f64>,
+    /// The force.
+    #[serde(flatten)]
+    pub force: ContactForce,
 }
 
 impl<'a> ObjectContact<'a> {
@@ -118,11 +106,7 @@ impl<'a> ObjectContact<'a> {
                 Touch::Slips => "slips",
                 Touch::Tilts => "tilts",
             },
-            normal: c.normal,
-            along_face: c.along,
-            tilting: c.tilting,
-            friction: c.friction,
-            radius: c.radius,
+            force: *c,
         }
     }
 
@@ -131,17 +115,6 @@ impl<'a> ObjectContact<'a> {
     pub fn holds(&self) -> bool {
         matches!(self.touch, "pushes" | "idle")
     }
-}
-
-/// Unit vectors of a frame in global axes.
-#[derive(Debug, Serialize)]
-pub struct Axes {
-    /// x.
-    pub x: [f64; 3],
-    /// y.
-    pub y: [f64; 3],
-    /// z, the joint's axis.
-    pub z: [f64; 3],
 }
 
 /// What a drive does.
@@ -159,15 +132,11 @@ pub struct DriveEffort {
 impl<'a> JointForces<'a> {
     fn new(m: &'a Mechanism, r: &JointReaction) -> Self {
         let joint = &m.joints[r.joint];
-        let [x, y, z] = r.axes;
         JointForces {
             joint: &joint.id,
             kind: joint.joint_type.name(),
             links: joint.links.map(|l| m.links[l].id.as_str()),
-            point: r.point,
-            axes: Axes { x, y, z },
-            force: r.force,
-            moment: r.moment,
+            reaction: r.clone(),
             force_magnitude: r.force_size(),
             moment_magnitude: r.moment_size(),
             global_force: r.global_force(),
@@ -269,8 +238,11 @@ impl<'a> Reactions<'a> {
             });
             let joints = list.into_iter().flatten().map(move |r| {
                 let mut row = [kind, r.joint, r.kind].map(str::to_owned).to_vec();
-                for (vector, size) in [(r.force, r.force_magnitude), (r.moment, r.moment_magnitude)]
-                {
+                let passed = &r.reaction;
+                for (vector, size) in [
+                    (passed.force, r.force_magnitude),
+                    (passed.moment, r.moment_magnitude),
+                ] {
                     row.extend(vector.map(|x| x.to_string()));
                     row.push(size.to_string());
                 }

@@ -4,17 +4,16 @@
 pub mod charts;
 pub mod csv;
 pub mod force_plans;
-pub(crate) mod link_motion;
 pub mod text;
 
 use crate::statics::assur::{self, Decomposition};
+use crate::statics::contour_group::delta_point::DeltaSteps;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::{self, Moment};
-use crate::statics::inertia::link_inertias;
-use crate::statics::kinetostatics::Equilibrium;
+use crate::statics::inertia::{LinkInertia, link_inertias};
+use crate::statics::kinetostatics::{self, Equilibrium};
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
-use crate::view::statics::link_motion::LinkMotion;
 use itertools::Itertools;
 use serde::Serialize;
 
@@ -107,14 +106,21 @@ pub struct Reaction<'a> {
     pub from: &'a str,
     /// The link acted on.
     pub on: &'a str,
-    /// Where `[m]`.
-    pub point: [f64; 2],
-    /// `[N]`
-    pub force: [f64; 2],
-    /// About the point `[N·m]`.
-    pub moment: f64,
-    /// Torque `[N·m]` or force `[N]` of a drive; part of force and moment.
-    pub effort: Option<f64>,
+    /// What it passes.
+    #[serde(flatten)]
+    pub passed: kinetostatics::Reaction,
+}
+
+/// Acceleration and inertia of a link.
+#[derive(Debug, Serialize)]
+pub struct LinkMotion<'a> {
+    /// The link.
+    pub link: &'a str,
+    /// How it moves, and its inertia force.
+    #[serde(flatten)]
+    pub inertia: LinkInertia,
+    /// How far aside of the centre the force alone does both `[m]`.
+    pub offset: f64,
 }
 
 /// A four-link group with a closed contour, by every method asked for.
@@ -122,23 +128,9 @@ pub struct Reaction<'a> {
 pub struct ContourGroup {
     /// Its place among the groups, from 0.
     pub group: usize,
-    /// δ `[m]`.
-    pub delta_point: [f64; 2],
-    /// l_Dδ `[m]`.
-    #[serde(rename = "l_D_delta")]
-    pub l_d_delta: f64,
-    /// R46^τ `[N]`.
-    #[serde(rename = "R46_tangential")]
-    pub r46_tangential: f64,
-    /// R47^τ `[N]`.
-    #[serde(rename = "R47_tangential")]
-    pub r47_tangential: f64,
-    /// R34^τ `[N]`.
-    #[serde(rename = "R34_tangential")]
-    pub r34_tangential: f64,
-    /// R34^n `[N]`.
-    #[serde(rename = "R34_normal")]
-    pub r34_normal: f64,
+    /// On the way of the δ-point method.
+    #[serde(flatten)]
+    pub steps: DeltaSteps,
     /// Condition of the twelve equilibrium equations.
     pub condition: Option<f64>,
     /// What they leave over, by the greatest load.
@@ -150,29 +142,11 @@ pub struct ContourGroup {
 
 /// Reactions of a four-link group; forces `[N]`.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "UPPERCASE")]
 pub struct GroupForces {
-    /// R34, on link 4.
-    pub d: [f64; 2],
-    /// R46, on link 6.
-    pub f: [f64; 2],
-    /// R47, on link 7.
-    pub k: [f64; 2],
-    /// Of link 10 on link 6.
-    pub m: [f64; 2],
-    /// Of link 10 on link 7.
-    pub l: [f64; 2],
-    /// Of the guide on link 10, along its normal.
-    #[serde(rename = "guide")]
-    pub guide: f64,
-    /// Moment of the guide's reaction about D `[N·m]`.
-    #[serde(rename = "guide_moment_about_D")]
-    pub guide_moment: f64,
-    /// Its arm about D `[m]`.
-    #[serde(rename = "h")]
-    pub arm: f64,
-    /// Where it acts along the guide, from the joint's point `[m]`.
-    #[serde(rename = "guide_offset")]
+    /// The reactions.
+    #[serde(flatten)]
+    pub reactions: GroupReactions,
+    /// Where the guide's acts along it, from the joint's point `[m]`.
     pub guide_offset: f64,
 }
 
@@ -362,10 +336,7 @@ impl<'a> Position<'a> {
                 joint: &pair.name,
                 from,
                 on,
-                point: r.point,
-                force: r.force,
-                moment: r.moment,
-                effort: r.effort,
+                passed: *r,
             }
         });
         let worth = |e: &Equilibrium| Worth {
@@ -391,7 +362,11 @@ impl<'a> Position<'a> {
                 .collect(),
             links: link_inertias(&s.loads.masses, &s.linkage, &x.instant)
                 .iter()
-                .map(|i| LinkMotion::new(&m.bodies[i.body].name, i))
+                .map(|i| LinkMotion {
+                    link: &m.bodies[i.body].name,
+                    inertia: *i,
+                    offset: i.offset(),
+                })
                 .collect(),
         }
     }
@@ -400,25 +375,13 @@ impl<'a> Position<'a> {
 impl ContourGroup {
     fn new(g: &GroupSolutions, guide: [f64; 2], methods: &[GroupMethod]) -> Self {
         let forces = |r: GroupReactions| GroupForces {
-            d: r.d,
-            f: r.f,
-            k: r.k,
-            m: r.m,
-            l: r.l,
-            guide: r.guide,
-            guide_moment: r.guide_moment,
-            arm: r.arm,
+            reactions: r,
             guide_offset: r.guide_offset(&g.pose, guide),
         };
         let by = |k: &GroupMethod| Some((k.name(), forces(g.by(*k)?)));
         ContourGroup {
             group: g.group,
-            delta_point: g.steps.delta,
-            l_d_delta: g.steps.l_d_delta,
-            r46_tangential: g.steps.r46_tangential,
-            r47_tangential: g.steps.r47_tangential,
-            r34_tangential: g.steps.r34_tangential,
-            r34_normal: g.steps.r34_normal,
+            steps: g.steps,
             condition: g.equilibrium.map(|e| e.1.condition),
             residual: g.equilibrium.map(|e| e.1.residual),
             methods: methods.iter().filter_map(by).collect(),

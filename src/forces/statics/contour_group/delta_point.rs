@@ -6,23 +6,31 @@
 
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::pose::{cross, dot, length, minus, plus, quarter};
+use serde::Serialize;
 
 /// What the method finds on its way; lengths `[m]`, forces `[N]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DeltaSteps {
-    /// R46^τ, at F, a quarter turn on from the direction M to F.
-    pub r46_tangential: f64,
-    /// R47^τ, at K, a quarter turn on from the direction L to K.
-    pub r47_tangential: f64,
-    /// δ, where the lines of rods 6 and 7 meet; not finite where they are parallel.
+    /// δ, where the lines of rods 6 and 7 meet; not finite where they are parallel `[m]`.
+    #[serde(rename = "delta_point")]
     pub delta: [f64; 2],
-    /// l_Dδ.
+    /// l_Dδ `[m]`.
+    #[serde(rename = "l_D_delta")]
     pub l_d_delta: f64,
-    /// R34^τ, at D, a quarter turn on from the direction δ to D.
+    /// R46^τ, at F, a quarter turn on from the direction M to F `[N]`.
+    #[serde(rename = "R46_tangential")]
+    pub r46_tangential: f64,
+    /// R47^τ, at K, a quarter turn on from the direction L to K `[N]`.
+    #[serde(rename = "R47_tangential")]
+    pub r47_tangential: f64,
+    /// R34^τ, at D, a quarter turn on from the direction δ to D `[N]`.
+    #[serde(rename = "R34_tangential")]
     pub r34_tangential: f64,
-    /// R34^n, at D, in the direction δ to D.
+    /// R34^n, at D, in the direction δ to D `[N]`.
+    #[serde(rename = "R34_normal")]
     pub r34_normal: f64,
-    /// h, the arm of R_0/10 about D.
+    /// h, the arm of R_0/10 about D `[m]`.
+    #[serde(skip)]
     pub arm: f64,
 }
 

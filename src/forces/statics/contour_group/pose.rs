@@ -4,6 +4,7 @@ use crate::statics::contour_group::letters::ContourGroup;
 use crate::statics::kinetostatics::{Load, LoadSource};
 use crate::statics::planar::{BodyId, PairId};
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, quarter};
+use serde::Serialize;
 
 /// A group in one pose: what the methods start from.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,7 +85,8 @@ impl GroupPose {
 }
 
 /// Reactions of a group.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "UPPERCASE")]
 pub struct GroupReactions {
     /// R34, on link 4 at D `[N]`.
     pub d: [f64; 2],
@@ -97,10 +99,13 @@ pub struct GroupReactions {
     /// Of link 10 on link 7 at L `[N]`.
     pub l: [f64; 2],
     /// R_0/10, of the guide on link 10 along [`GroupPose::normal`] `[N]`.
+    #[serde(rename = "guide")]
     pub guide: f64,
     /// Moment of the guide's reaction about D `[N·m]`.
+    #[serde(rename = "guide_moment_about_D")]
     pub guide_moment: f64,
     /// Arm h of the guide's reaction about D `[m]`: its moment over it; not finite where it vanishes.
+    #[serde(rename = "h")]
     pub arm: f64,
 }
 

@@ -8,6 +8,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::statics::reactions::geometry::{Geometry, Six, about};
 use crate::statics::reactions::unsolved::Unsolved;
+use serde::Serialize;
 
 /// How contacts are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,13 +48,15 @@ pub enum Touch {
 }
 
 /// The force of a face on the object.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactForce {
     /// The joint.
+    #[serde(skip)]
     pub joint: JointId,
     /// Along the normal, negative where it pulls `[N]`.
     pub normal: f64,
     /// Along the face `[N]`.
+    #[serde(rename = "along_face")]
     pub along: f64,
     /// Moment along the face: that of the normal force where the pressure has its centre aside `[N·m]`.
     pub tilting: f64,
@@ -62,6 +65,7 @@ pub struct ContactForce {
     /// Radius of the face `[m]`, where stated.
     pub radius: Option<f64>,
     /// Whether a face can do that.
+    #[serde(skip)]
     pub touch: Touch,
 }
 

@@ -7,22 +7,30 @@ use crate::statics::reactions::contact::ContactForce;
 use crate::statics::reactions::couplings::CouplingEquation;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
+use serde::{Serialize, Serializer};
 
 /// What a joint passes from its first link to its second, without what couplings pass there.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JointReaction {
     /// The joint.
+    #[serde(skip)]
     pub joint: JointId,
     /// Where it is now `[m]`, global axes.
     pub point: [f64; 3],
     /// Unit vectors x, y, z of its frame now.
+    #[serde(serialize_with = "named")]
     pub axes: [[f64; 3]; 3],
     /// The force in its own frame `[N]`.
     pub force: [f64; 3],
     /// The moment about its point in its own frame `[N·m]`.
     pub moment: [f64; 3],
     /// Force `[N]` or torque `[N·m]` of its drive, along the freedom it holds; part of force and moment.
+    #[serde(skip)]
     pub effort: Option<(Freedom, f64)>,
+}
+
+fn named<S: Serializer>(axes: &[[f64; 3]; 3], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(["x", "y", "z"].into_iter().zip(axes))
 }
 
 /// What a coupling passes on, beside the reactions of the joints.
@@ -38,7 +46,7 @@ pub struct CouplingReaction {
 }
 
 /// The force of teeth, along the pitch circles.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ToothForce {
     /// Where they touch now `[m]`, global axes.
     pub point: [f64; 3],

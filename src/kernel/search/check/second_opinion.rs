@@ -19,6 +19,7 @@ use chacha20::rand_core::SeedableRng;
 use num_bigint::BigUint;
 use num_traits::{ToPrimitive, Zero};
 use rayon::prelude::*;
+use serde::Serialize;
 
 /// Variants drawn of each kind.
 pub const DRAWN: usize = 64;
@@ -26,7 +27,7 @@ pub const DRAWN: usize = 64;
 const WHOLE: u32 = 256;
 
 /// How singular values went with the ranks of some variants.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Asked {
     /// Variants asked about.
     pub asked: usize,

@@ -15,6 +15,7 @@ use crate::search::check::variant_mechanism::locked;
 use crate::search::check::variant_mechanism::realize;
 use crate::search::question::Question;
 use rayon::prelude::*;
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Variants that get a second opinion by default.
@@ -39,22 +40,27 @@ pub fn affordable(question: &Question) -> usize {
 pub const NEARLY_SINGULAR: f64 = 1e-4;
 
 /// What the singular values say of a variant.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Opinion {
     /// W in the free state.
     pub mobility: i64,
     /// σ in the free state.
     pub redundant: i64,
     /// σ that the searched state adds.
+    #[serde(rename = "external_redundant")]
     pub external: Option<i64>,
     /// Dimension of the kept links' motion, where that is a condition.
+    #[serde(rename = "output_mobility")]
     pub output: Option<usize>,
     /// The smallest kept singular value relative to the largest, in the worse of the states: how far the variant is
     /// from a singular one.
+    #[serde(rename = "smallest_kept")]
     pub conditioning: f64,
     /// The largest dropped singular value relative to the largest; far below `conditioning` where the rank is certain.
+    #[serde(rename = "largest_dropped")]
     pub dropped: f64,
     /// Whether all figures are those of the diagram.
+    #[serde(skip)]
     pub agree: bool,
 }
 

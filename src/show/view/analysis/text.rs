@@ -55,8 +55,8 @@ impl State<'_> {
                 out,
                 "\n  External: σ = {} = {}; by rank {}{disagree}",
                 e.formula(),
-                e.redundant,
-                e.redundant_by_rank
+                e.counted.redundant,
+                e.counted.by_rank
             )?;
         }
         self.write_self_stresses(out, width)
@@ -267,11 +267,11 @@ impl External {
     pub(crate) fn formula(&self) -> String {
         format!(
             "{} - ({} - {}) - {} lost {}",
-            plural_of(&self.constraints.to_string(), "constraint"),
-            self.actual_mobility,
-            self.working_mobility,
-            self.lost_mobility,
-            if self.lost_mobility == 1 {
+            plural_of(&self.counted.constraints.to_string(), "constraint"),
+            self.counted.actual_mobility,
+            self.counted.working_mobility,
+            self.counted.lost_mobility,
+            if self.counted.lost_mobility == 1 {
                 "mobility"
             } else {
                 "mobilities"

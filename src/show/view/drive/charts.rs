@@ -16,13 +16,19 @@ pub fn cam(d: &Drive<'_>) -> Option<Outline> {
     let (profile, unit) = (cam.profile.as_ref()?, d.file.length_unit);
     let (_, roller) = d.file.spec.cam?.profile?;
     let own = |p: [f64; 2]| p.map(|x| x / unit.metres);
-    let all = |points: &[[f64; 2]]| points.iter().map(|p| own(*p)).collect();
+    let pitch = profile.points.iter().map(|p| p.pitch);
     let mut curves = vec![
-        ("profile".to_owned(), all(&profile.profile)),
-        ("path of the roller".to_owned(), all(&profile.pitch)),
+        (
+            "profile".to_owned(),
+            profile.outline.iter().copied().map(own).collect(),
+        ),
+        (
+            "path of the roller".to_owned(),
+            pitch.clone().map(own).collect(),
+        ),
     ];
     // The first point of each swing is in a groove.
-    let at = profile.pitch.iter().step_by(PROFILE_POINTS as usize);
+    let at = pitch.step_by(PROFILE_POINTS as usize);
     for (i, [x, y]) in at.enumerate() {
         let round = (0..48).map(|k| {
             let (s, c) = (std::f64::consts::TAU * f64::from(k) / 48.0).sin_cos();

@@ -1,14 +1,13 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
-use crate::drive::driving::DampingFrom;
+use crate::drive::driving::{CamDesign, DampingFrom};
 use crate::drive::programme::{Event, PATIENCE};
 use crate::drive::swing::End;
-use crate::drive::torsion::stored_energy;
+use crate::drive::torsion::{Remedy, stored_energy};
 use crate::format::number::significant;
 use crate::format::phrase::plural;
 use crate::view::claims;
-use crate::view::drive::cam::{CamData, FeedMoment};
-use crate::view::drive::{Design, Drive, Endurance, Remedies};
+use crate::view::drive::{Design, Drive, Endurance, FeedMoment};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
@@ -53,8 +52,8 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
             writeln!(
                 out,
                 "  no room: the bar that satisfies (11), d = {}, must be l = {} long; there are {}",
-                length(d, t.diameter),
-                length(d, t.length),
+                length(d, t.bar.diameter),
+                length(d, t.bar.length),
                 d.file
                     .spec
                     .max_length
@@ -64,31 +63,31 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
             writeln!(
                 out,
                 "  (11) fails: the last bar tried, d = {} and l = {}, may be twisted by [φ] = {}, not more than φ0 = {}",
-                length(d, t.diameter),
-                length(d, t.length),
+                length(d, t.bar.diameter),
+                length(d, t.bar.length),
                 degrees(t.allowable_twist),
                 degrees(d.half_swing)
             )?
         }
     }
-    if let Some(Remedies {
-        length_above,
-        allowable_stress_above,
-        period_above,
-        half_swing_below,
-        inertia_below,
-    }) = d.sizing.remedies
+    if let Some(Remedy {
+        length: l,
+        allowable_stress,
+        period,
+        twist,
+        inertia,
+    }) = d.sizing.remedy
     {
         let lines = [
             "  Any one of these is enough (with a bar of any diameter):".to_owned(),
-            format!("    a bar longer than {}", length(d, length_above)),
+            format!("    a bar longer than {}", length(d, l)),
             format!(
                 "    a material of [τ_s] above {} MPa",
-                significant(allowable_stress_above * 1e-6)
+                significant(allowable_stress * 1e-6)
             ),
-            format!("    a period above {} s", significant(period_above)),
-            format!("    a swing 2φ0 below {}", degrees(2.0 * half_swing_below)),
-            format!("    an inertia below {} kg·m²", significant(inertia_below)),
+            format!("    a period above {} s", significant(period)),
+            format!("    a swing 2φ0 below {}", degrees(2.0 * twist)),
+            format!("    an inertia below {} kg·m²", significant(inertia)),
         ];
         writeln!(out, "{}", lines.join("\n"))?;
     }
@@ -104,8 +103,8 @@ fn trials(d: &Drive<'_>, width: Option<u16>) -> String {
             (true, false) => "too long",
         };
         let mut row = [
-            t.length / metres,
-            t.diameter / metres,
+            t.bar.length / metres,
+            t.bar.diameter / metres,
             t.allowable_twist.to_degrees(),
             d.half_swing.to_degrees(),
         ]
@@ -213,7 +212,7 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
             out,
             "  cam spring: c = {} N/m (14), which gives {} J (13){exact}",
             significant(cam.spring.rate),
-            significant(cam.spring.energy)
+            significant(cam.spring.energy())
         )?;
         electromagnet(out, d, cam)?;
     }
@@ -291,8 +290,8 @@ fn endurance(out: &mut String, endurance: &Endurance) -> std::fmt::Result {
 }
 
 /// When the electromagnets are on, what that takes, and what the cam looks like.
-fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamData) -> std::fmt::Result {
-    let m = &cam.electromagnet;
+fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamDesign) -> std::fmt::Result {
+    let m = &cam.magnet;
     let times = m.pulses.iter().map(|p| p.off - p.on);
     let least = times.clone().fold(f64::INFINITY, f64::min);
     let most = times.fold(0.0, f64::max);

@@ -4,6 +4,7 @@
 use crate::format::number::significant;
 use crate::grip::clamped;
 use crate::grip::clamping::{DiameterRow, Hardest, HoldVerdict};
+use crate::grip::holding::ContactForce;
 use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::GripLoad;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -50,12 +51,9 @@ pub struct JointContact<'a> {
     pub contact: &'a str,
     /// The link that touches.
     pub jaw: &'a str,
-    /// `[N]`
-    pub normal: f64,
-    /// Friction along the face `[N]`.
-    pub along_face: f64,
-    /// Friction along the part `[N]`.
-    pub along_part: f64,
+    /// The force.
+    #[serde(flatten)]
+    pub force: ContactForce,
 }
 
 /// A part that is not held.
@@ -166,9 +164,7 @@ impl<'a> Clamped<'a> {
             each.map(|((i, &j), f)| JointContact {
                 contact: &m.joints[j].id,
                 jaw: &m.links[g.levers[i / 2]].id,
-                normal: f.normal,
-                along_face: f.along,
-                along_part: f.axial,
+                force: *f,
             })
             .collect()
         });
@@ -232,7 +228,7 @@ impl<'a> Clamped<'a> {
         )?;
         let rows = contacts.iter().map(|c| {
             let mut row = vec![c.contact.to_owned(), c.jaw.to_owned()];
-            row.extend([c.normal, c.along_face, c.along_part].map(significant));
+            row.extend([c.force.normal, c.force.along, c.force.axial].map(significant));
             row
         });
         let head = [
@@ -244,7 +240,7 @@ impl<'a> Clamped<'a> {
         ];
         writeln!(out, "{}\n", table(&head, rows.collect(), width))?;
         let mut each = contacts.iter();
-        if flat && each.any(|c| c.along_part.abs() > 1e-6 * c.normal) {
+        if flat && each.any(|c| c.force.axial.abs() > 1e-6 * c.force.normal) {
             writeln!(
                 out,
                 "Forces along the part are across the plane of motion and left out below; --spatial takes them.\n"

@@ -254,7 +254,7 @@ fn at_most(ratio: f64, limit: f64) -> String {
 fn contacts(all: &[PartContact], limit: f64, width: Option<u16>) -> String {
     let line = |c: &PartContact| {
         let mut cells = vec![c.contact.to_owned()];
-        cells.extend([c.normal, c.along_face, c.along_part].map(significant));
+        cells.extend([c.force.normal, c.force.along, c.force.axial].map(significant));
         cells.push(
             c.friction()
                 .map_or_else(|| "-".to_owned(), |f| at_most(f, limit)),

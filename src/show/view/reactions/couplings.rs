@@ -3,8 +3,8 @@
 use crate::format::number::figure;
 use crate::format::phrase::list;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::statics::reactions::CouplingReaction;
 use crate::statics::reactions::drives::slides;
+use crate::statics::reactions::{CouplingReaction, ToothForce};
 use crate::view::terminal::layout::table;
 use serde::Serialize;
 use std::fmt::Write;
@@ -42,10 +42,9 @@ pub struct CoupledEnd<'a> {
 /// A force of teeth along the pitch circles.
 #[derive(Debug, Serialize)]
 pub struct TeethForces {
-    /// Where they touch now, global axes `[m]`.
-    pub point: [f64; 3],
-    /// On the gear or rack of the first joint, global axes `[N]`.
-    pub force: [f64; 3],
+    /// Where they touch, and the force.
+    #[serde(flatten)]
+    pub tooth: ToothForce,
     /// `[N]`
     pub magnitude: f64,
 }
@@ -70,8 +69,7 @@ pub(crate) fn couplings<'a>(
             gear: coupling.gear,
             ends: [end(0), end(1)],
             teeth: r.teeth.map(|t| TeethForces {
-                point: t.point,
-                force: t.force,
+                tooth: t,
                 magnitude: t.size(),
             }),
             open: false,

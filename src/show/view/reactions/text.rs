@@ -30,9 +30,9 @@ fn joints(list: &[JointForces<'_>], size: f64, rounding: f64, width: Option<u16>
     let rows = list.iter().map(|r| {
         let (force, moment) = (rounding * greatest, rounding * greatest * size);
         let mut row = [r.joint, r.kind].map(str::to_owned).to_vec();
-        row.extend(r.force.map(|x| show(x, force)));
+        row.extend(r.reaction.force.map(|x| show(x, force)));
         row.push(show(r.force_magnitude, force));
-        row.extend(r.moment.map(|x| show(x, moment)));
+        row.extend(r.reaction.moment.map(|x| show(x, moment)));
         row.push(show(r.moment_magnitude, moment));
         row
     });
@@ -43,7 +43,7 @@ fn joints(list: &[JointForces<'_>], size: f64, rounding: f64, width: Option<u16>
 
 /// What the faces on objects are asked to do.
 fn contacts(list: &[ObjectContact<'_>], width: Option<u16>) -> String {
-    let greatest = list.iter().map(|c| c.normal.abs().max(c.along_face));
+    let greatest = list.iter().map(|c| c.force.normal.abs().max(c.force.along));
     let greatest = greatest.fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
     let show = |x: f64| {
@@ -55,9 +55,14 @@ fn contacts(list: &[ObjectContact<'_>], width: Option<u16>) -> String {
     };
     let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), significant);
     let rows = list.iter().map(|c| {
+        let force = c.force;
         let mut row = [c.contact, c.touch].map(str::to_owned).to_vec();
-        row.extend([show(c.normal), show(c.along_face), stated(c.friction)]);
-        row.extend([show(c.tilting), stated(c.radius)]);
+        row.extend([
+            show(force.normal),
+            show(force.along),
+            stated(force.friction),
+        ]);
+        row.extend([show(force.tilting), stated(force.radius)]);
         row
     });
     let head = [
@@ -77,20 +82,20 @@ fn contacts(list: &[ObjectContact<'_>], width: Option<u16>) -> String {
 fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
     let bad: Vec<&ObjectContact> = s.contacts.iter().filter(|c| !c.holds()).collect();
     for c in &bad {
-        let (unit, prefix) = prefix(c.normal.abs().max(c.along_face));
+        let (unit, prefix) = prefix(c.force.normal.abs().max(c.force.along));
         let force = |x: f64| format!("{} {prefix}N", significant(x / unit));
         let limit = |x: Option<f64>| x.map_or_else(String::new, significant);
         let what = match c.touch {
-            "pulls" => format!("would pull with {}", force(-c.normal)),
+            "pulls" => format!("would pull with {}", force(-c.force.normal)),
             "slips" => format!(
                 "would need friction of {} under {}, more than the coefficient {} gives",
-                force(c.along_face),
-                force(c.normal),
-                limit(c.friction)
+                force(c.force.along),
+                force(c.force.normal),
+                limit(c.force.friction)
             ),
             _ => format!(
                 "would need its pressure beyond the face's radius of {} m",
-                limit(c.radius)
+                limit(c.force.radius)
             ),
         };
         writeln!(out, "NOT AS CONTACTS ACT: {} {what}", c.contact)?;

@@ -3,7 +3,7 @@
 use crate::format::number::{cost, grouped, significant};
 use crate::format::phrase::plural;
 use crate::model::mechanism::{Joint, Mechanism};
-use crate::model::ranking::{ClearanceSum, Order, Term};
+use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::evaluation::load_cases::Gripped;
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
@@ -164,10 +164,8 @@ pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
 /// The ranking as data.
 #[derive(Debug, serde::Serialize)]
 pub(crate) struct RankingData<'a> {
-    order: &'static str,
-    terms: Vec<TermData>,
-    limits: Vec<LimitData>,
-    clearance: &'static str,
+    #[serde(flatten)]
+    ranking: &'a Ranking,
     pool: usize,
     scored: usize,
     scored_elsewhere: Option<usize>,
@@ -191,19 +189,6 @@ struct MissingData {
 }
 
 #[derive(Debug, serde::Serialize)]
-struct TermData {
-    term: &'static str,
-    weight: f64,
-}
-
-#[derive(Debug, serde::Serialize)]
-struct LimitData {
-    term: &'static str,
-    min: Option<f64>,
-    max: Option<f64>,
-}
-
-#[derive(Debug, serde::Serialize)]
 struct GripData<'a> {
     state: &'a str,
     held: &'a [f64],
@@ -214,28 +199,13 @@ impl<'a> RankingData<'a> {
     /// Of a ranked pool.
     #[must_use]
     pub(crate) fn new(m: &'a Mechanism, p: &'a RankedPool) -> Self {
-        let terms = p.ranking.terms.iter().map(|(t, weight)| TermData {
-            term: t.name(),
-            weight: *weight,
-        });
-        let limits = p.ranking.limits.iter().map(|l| LimitData {
-            term: l.term.name(),
-            min: l.min,
-            max: l.max,
-        });
         let grip = p.gripped.iter().map(|g| GripData {
             state: &m.states[g.state],
             held: &g.held,
             not_held: &g.lost,
         });
         RankingData {
-            order: p.ranking.order.name(),
-            terms: terms.collect(),
-            limits: limits.collect(),
-            clearance: match p.ranking.clearance {
-                ClearanceSum::Worst => "worst",
-                ClearanceSum::Rms => "rms",
-            },
+            ranking: &p.ranking,
             pool: p.pool,
             scored: p.scored,
             scored_elsewhere: p.elsewhere,

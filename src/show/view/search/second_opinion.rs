@@ -137,22 +137,15 @@ pub(in crate::view) struct SecondOpinionData {
     agree: bool,
     undecided: bool,
     tolerance: f64,
-    listed: AskedData,
-    admissible: AskedData,
-    all: AskedData,
+    listed: Asked,
+    admissible: Asked,
+    all: Asked,
     /// None where no singular value was dropped.
     narrowest_gap: Option<f64>,
     contradiction: Option<ContradictionData>,
     below_present: Option<String>,
     /// The least and the most (determinate, admissible) of scenes that the digits do not rule out, where they differ.
     scenes: Option<[[String; 2]; 2]>,
-}
-
-#[derive(Debug, Serialize)]
-struct AskedData {
-    asked: usize,
-    undecided: usize,
-    contradicted: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -169,11 +162,6 @@ struct ContradictionData {
 impl SecondOpinionData {
     pub(in crate::view) fn new(outcome: &Outcome) -> Option<SecondOpinionData> {
         let said = outcome.second.as_ref()?;
-        let asked = |a: Asked| AskedData {
-            asked: a.asked,
-            undecided: a.undecided,
-            contradicted: a.contradicted,
-        };
         let contradiction = said.contradiction.as_ref().map(|c| {
             let [least, most] = c.numeric;
             ContradictionData {
@@ -190,9 +178,9 @@ impl SecondOpinionData {
             agree: said.agrees(),
             undecided: said.digits.undecided,
             tolerance: said.digits.tolerance,
-            listed: asked(said.listed),
-            admissible: asked(said.admissible),
-            all: asked(said.all),
+            listed: said.listed,
+            admissible: said.admissible,
+            all: said.all,
             narrowest_gap: Some(said.narrowest).filter(|g| g.is_finite()),
             contradiction,
             below_present: said.below_present.as_ref().map(|b| b.variants.to_string()),

@@ -24,7 +24,7 @@ pub struct VariantData<'a> {
     scores: ScoresData<'a>,
     conditioning: Option<f64>,
     agree: Option<bool>,
-    svd: Option<Svd>,
+    svd: Option<Opinion>,
     lucky: Option<bool>,
     stroke: Option<OtherPoses>,
 }
@@ -70,16 +70,6 @@ struct IdeaData {
     adds: String,
     /// Why it helps, where that was asked.
     why: Option<WhyData>,
-}
-
-#[derive(Debug, Serialize)]
-struct Svd {
-    mobility: i64,
-    redundant: i64,
-    external_redundant: Option<i64>,
-    output_mobility: Option<usize>,
-    smallest_kept: f64,
-    largest_dropped: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -144,7 +134,7 @@ impl<'a> VariantData<'a> {
             }),
             conditioning: opinion.map(|o| o.conditioning),
             agree: opinion.map(|o| o.agree),
-            svd: opinion.map(Svd::new),
+            svd: opinion.copied(),
             lucky: v.over_stroke().and_then(OverStroke::lucky),
             stroke: v.over_stroke().map(OtherPoses::new),
         }
@@ -159,19 +149,6 @@ impl VariantData<'_> {
             idea.why = why;
         }
         self
-    }
-}
-
-impl Svd {
-    fn new(o: &Opinion) -> Svd {
-        Svd {
-            mobility: o.mobility,
-            redundant: o.redundant,
-            external_redundant: o.external,
-            output_mobility: o.output,
-            smallest_kept: o.conditioning,
-            largest_dropped: o.dropped,
-        }
     }
 }
 

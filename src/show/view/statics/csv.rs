@@ -4,6 +4,7 @@ use crate::format::csv::table;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::cycle::Moment;
+use crate::statics::kinetostatics;
 use crate::view::statics::{Reaction, StaticsData};
 
 /// One line a drive position, method and joint: every joint by the equilibrium, those of the four-link groups by the other
@@ -15,9 +16,10 @@ pub fn csv(s: &StaticsData<'_>) -> String {
         let mut add = |method: GroupMethod, r: &Reaction| {
             let mut row = vec![position.drive.to_string(), method.name().to_owned()];
             row.extend([r.joint, r.from, r.on].map(str::to_owned));
-            let [[x, y], [fx, fy]] = [r.point, r.force];
-            row.extend([x, y, fx, fy, r.moment].map(|v| v.to_string()));
-            row.push(r.effort.map_or_else(String::new, |e| e.to_string()));
+            let passed = r.passed;
+            let [[x, y], [fx, fy]] = [passed.point, passed.force];
+            row.extend([x, y, fx, fy, passed.moment].map(|v| v.to_string()));
+            row.push(passed.effort.map_or_else(String::new, |e| e.to_string()));
             rows.push(row);
         };
         if s.methods.contains(&GroupMethod::Equilibrium) {
@@ -83,14 +85,17 @@ fn of_group<'a>(
             joint: &pair_of.name,
             from: name(other),
             on: name(on),
-            point,
-            force,
-            moment: if pair == l.guide {
-                guide_moment(&r, pose, guide)
-            } else {
-                0.0
+            passed: kinetostatics::Reaction {
+                pair,
+                point,
+                force,
+                moment: if pair == l.guide {
+                    guide_moment(&r, pose, guide)
+                } else {
+                    0.0
+                },
+                effort: None,
             },
-            effort: None,
         }
     })
     .collect()

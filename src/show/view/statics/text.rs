@@ -7,9 +7,9 @@ use crate::statics::contour_group::letters::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::Moment;
+use crate::statics::inertia::LinkInertia;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
-use crate::view::statics::link_motion::LinkMotion;
 use crate::view::statics::{Decomposed, GroupData, StaticsData, Structures, magnitudes};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
@@ -144,7 +144,7 @@ fn write_statics(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> s
 fn verdict(s: &StaticsData<'_>) -> String {
     let all = s.positions.iter().flat_map(|x| {
         let found = x.reactions.iter();
-        found.map(|r| (r.force[0].hypot(r.force[1]), r.joint, x.drive))
+        found.map(|r| (r.passed.force[0].hypot(r.passed.force[1]), r.joint, x.drive))
     });
     let finite = all.filter(|(force, ..)| force.is_finite() && *force > 0.0);
     match finite.max_by(|a, b| a.0.total_cmp(&b.0)) {
@@ -330,14 +330,14 @@ fn inertia(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> std::fm
     let links = s.positions.first().map_or(0, |x| x.links.len());
     let peaks = (0..links).filter_map(|i| {
         let all = s.positions.iter().map(|x| (&x.links[i], x.drive));
-        let most = |of: &dyn Fn(&LinkMotion) -> f64| {
-            let each = all.clone().map(|(l, drive)| (of(l), drive));
+        let most = |of: &dyn Fn(&LinkInertia) -> f64| {
+            let each = all.clone().map(|(l, drive)| (of(&l.inertia), drive));
             each.max_by(|a, b| a.0.total_cmp(&b.0))
         };
         let (acceleration, at) = most(&|l| size(l.acceleration))?;
         let (turning, _) = most(&|l| l.angular_acceleration.abs())?;
-        let (force, _) = most(&|l| size(l.inertia_force))?;
-        let (moment, _) = most(&|l| l.inertia_moment.abs())?;
+        let (force, _) = most(&|l| size(l.force))?;
+        let (moment, _) = most(&|l| l.moment.abs())?;
         let link = all.clone().next()?.0.link;
         (acceleration > 0.0 || turning > 0.0).then_some((
             link,
