@@ -16,6 +16,7 @@ mod orbits;
 mod out_of_plane;
 mod paired;
 mod pairs;
+mod planes;
 mod rows;
 mod store;
 mod stroke;

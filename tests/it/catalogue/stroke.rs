@@ -14,7 +14,7 @@ use ozols::synthesis::task::{AskedMotion, Friction, Task};
 const POSES: usize = 60;
 
 /// The poses of a stroke, from the narrowest part to the widest, each with its drive.
-fn poses(twin: &Twin<'_>, f: &LayoutFigures) -> Vec<(f64, Pose)> {
+pub(super) fn poses(twin: &Twin<'_>, f: &LayoutFigures) -> Vec<(f64, Pose)> {
     // The drive at both ends, by halving: a way on and back from the drawn pose.
     let end = |sign: f64, to: f64| -> f64 {
         let (mut x, mut drive, mut step) = (twin.drawn(), 0.0, sign * f.travel / 40.0);
