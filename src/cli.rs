@@ -60,6 +60,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
             return code;
         }
     };
+    terminal::output::kept::begin();
     let result = prepare(&args.global).and_then(|()| match &args.command {
         Command::Analyze(a) => command::analyze::run(&args.global, a),
         Command::Search(a) => command::search::run(&args.global, a),

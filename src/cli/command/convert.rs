@@ -52,9 +52,9 @@ fn targets() -> PossibleValuesParser {
 pub(in crate::cli) fn run(a: &Convert) -> anyhow::Result<Done> {
     let (word, target) = target(a)?;
     let wanted = wanted(&a.closure)?;
-    apart(&a.file, &a.output)?;
     let options = a.reading.options()?;
     let imported = description(&a.file, &options)?;
+    output::kept::apart(&a.output)?;
     let converted = convert(&imported, target, &wanted)?;
     let beside = converted
         .beside
@@ -73,7 +73,7 @@ pub(in crate::cli) fn run(a: &Convert) -> anyhow::Result<Done> {
         target: word,
     };
     if let Some(path) = &beside {
-        beside_apart(a, &options, path)?;
+        output::kept::apart(path)?;
     }
     let asked = wanted.all == Some(None) || wanted.each.iter().any(|e| e.1.is_none());
     let left = converted.figures.is_none_or(|f| f.1 > 0);
@@ -194,29 +194,6 @@ fn wanted(words: &[String]) -> anyhow::Result<Wanted> {
         }
     }
     Ok(out)
-}
-
-/// Refuses to write over what is read.
-fn apart(read: &Path, written: &Path) -> anyhow::Result<()> {
-    let same = std::fs::canonicalize(read)
-        .ok()
-        .zip(std::fs::canonicalize(written).ok())
-        .is_some_and(|(a, b)| a == b);
-    ensure!(
-        !same,
-        "{} is what is read; name another file to write",
-        written.display()
-    );
-    Ok(())
-}
-
-/// Refuses to write the file of loops over what is read.
-fn beside_apart(a: &Convert, options: &Options, beside: &Path) -> anyhow::Result<()> {
-    apart(&a.file, beside)?;
-    if let Some((loops, _)) = &options.loops {
-        apart(Path::new(loops), beside)?;
-    }
-    Ok(())
 }
 
 /// Reads what is to be written again: its W and σ have to be what they were.

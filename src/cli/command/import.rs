@@ -87,6 +87,7 @@ impl Reading {
             options.pose.push(pose(p)?);
         }
         if let Some(path) = &self.loops {
+            output::kept::keep(path);
             let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
             options.loops = Some((path.display().to_string(), bytes));
         }
@@ -170,5 +171,6 @@ pub(in crate::cli) fn description(
         "{} is not a file; give the path of a URDF, MJCF, SDF, FreeCAD or OndselSolver file",
         path.display()
     );
+    output::kept::keep(path);
     Ok(api::import(path, options)?)
 }

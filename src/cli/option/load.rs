@@ -4,13 +4,14 @@ use crate::api;
 use crate::builtin;
 use crate::cli::option::named::Named;
 use crate::cli::terminal::did_you_mean;
+use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::geom::expr::Expr;
 use crate::model::coupling::Coupling;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::robots;
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use itertools::Itertools;
 use std::io::Read;
 
@@ -52,6 +53,10 @@ pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
             .lock()
             .take(MAX_BYTES as u64 + 1)
             .read_to_end(&mut bytes)?;
+        ensure!(
+            !bytes.trim_ascii_start().starts_with(b"<"),
+            "standard input is XML; it is read as TOML or JSON alone, so save a robot description in a file and name that"
+        );
         return Ok(("standard input".to_owned(), bytes));
     }
     if let Some(imported) = imported(file)? {
@@ -60,6 +65,7 @@ pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     }
     let path = file.path();
     if path.is_file() {
+        kept::keep(path);
         return Ok((file.to_string(), api::bytes(path, MAX_BYTES)?));
     }
     let Some(text) = builtin::text(file) else {

@@ -1,6 +1,7 @@
 //! Data to standard output or, whole or not at all, to a file; complaints to standard error.
 
 mod beside;
+pub(in crate::cli) mod kept;
 mod standard;
 
 pub(in crate::cli) use beside::{abandon, cut_short};
@@ -32,6 +33,7 @@ pub(in crate::cli) fn to(
         out.flush()?;
         return Ok(done);
     };
+    kept::apart(path)?;
     let whole = || format!("cannot write {}", path.display());
     // A link is followed, so that its target gets the data; a device or pipe has no beside and is written to directly.
     let path = &std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());

@@ -11,13 +11,14 @@ use crate::score::outcome::ranked::ranked;
 use crate::score::outcome::ranking::RankedPool;
 use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
-use crate::score::run::opinions::{other_scenes, second_opinion};
+use crate::score::run::opinions::{opinion_on_diagrams, other_scenes};
 use crate::search::Search;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::orbit_counts;
 use crate::search::build::Diagrams;
 use crate::search::check::brute;
 use crate::search::check::other_poses;
+use crate::search::check::second_opinion;
 use crate::search::check::second_prime::{self, PrimeCheck};
 use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
@@ -126,7 +127,7 @@ pub fn answer(
     }
     let stroke = in_other_poses(&search, request, should_cancel, tell)?;
     let ranking = pool(&search, &diagrams, request, should_cancel, tell)?;
-    let mut second = second_opinion(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
+    let mut second = opinion_on_diagrams(&search, &diagrams, &of_all, ranking.as_ref(), request)?;
     if let Some(second) = &mut second {
         let admissible = search.counts(&diagrams.admissible, true);
         second.scenes = other_scenes(&search, &of_all, &admissible, should_cancel)?;
@@ -189,13 +190,20 @@ fn by_brute_force(
         return Err(RunError::TooMany(search.size()));
     }
     let (determinate, admissible) = brute::brute(&search)?;
-    Ok(Outcome::of_counts(
-        search,
-        request.clone(),
-        determinate,
-        admissible,
-        measured,
-    ))
+    let written = search.conditions.written.as_ref();
+    let second = written.map(|w| {
+        second_opinion::second_opinion(
+            &search,
+            w,
+            Vec::new(),
+            Vec::new(),
+            &determinate,
+            request.seed,
+        )
+    });
+    let second = second.transpose()?;
+    let found = Outcome::of_counts(search, request.clone(), determinate, admissible, measured);
+    Ok(Outcome { second, ..found })
 }
 
 /// The diagrams, built over one prime or over two that must agree.

@@ -42,7 +42,7 @@ pub struct Question {
     pub(in crate::search) least: LeastModel,
     /// The contours of the free state, and the rows of J in it.
     pub(in crate::search) contours: Vec<Contour>,
-    rows: i64,
+    pub(in crate::search) rows: i64,
     /// Links whose motion is kept, with their present joint motion.
     pub(in crate::search) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
     /// Dimension of that motion by singular values, where exact arithmetic has another mechanism than the one meant.

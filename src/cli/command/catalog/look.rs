@@ -49,6 +49,7 @@ pub(super) fn open(file: &Path) -> anyhow::Result<Store> {
         "there is no file {0}; `ozols catalog build -o {0}` makes a catalogue",
         file.display()
     );
+    output::kept::keep(file);
     Ok(Store::open(file)?)
 }
 

@@ -20,9 +20,10 @@ impl<'m> KnownOptions<'m> {
         KnownOptions { mechanism, names }
     }
 
-    /// Refuses names of a flag that no joint has.
+    /// Refuses names of a flag that no joint has and no type; a type that no joint is offered can be forbidden.
     fn check(&self, names: &[String], flag: &'static str) -> Result<(), RequestError> {
-        let unknown = |n: &&String| !self.names.contains(&n.as_str());
+        let is_type = |n: &str| types().any(|t| t.name() == n);
+        let unknown = |n: &&String| !self.names.contains(&n.as_str()) && !is_type(n);
         match names.iter().find(unknown) {
             None => Ok(()),
             Some(option) => Err(RequestError::NoOption {

@@ -20,8 +20,12 @@ impl Request {
         mechanism: &mut Mechanism,
         tell: &mut dyn FnMut(String),
     ) -> Result<(), RequestError> {
+        // The first option of a joint is what it is now, and offers nothing.
         let listed: Vec<String> = {
-            let offered = mechanism.joints.iter().flat_map(|j| &j.options);
+            let offered = mechanism
+                .joints
+                .iter()
+                .flat_map(|j| j.options.iter().skip(1));
             offered.map(|o| o.name.clone()).unique().collect()
         };
         let of_type = |name: &&String| types().find(|t| t.name() == name.as_str()).cloned();

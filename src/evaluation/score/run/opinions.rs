@@ -8,7 +8,7 @@ use crate::search::Search;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
 use crate::search::build::Diagrams;
-use crate::search::check::second_opinion::{self, DRAWN, SecondOpinion};
+use crate::search::check::second_opinion::{self, SecondOpinion};
 use crate::search::check::singular_values::CHECKED;
 use num_bigint::BigUint;
 
@@ -16,7 +16,7 @@ use num_bigint::BigUint;
 const IDEAS: usize = 100;
 
 /// What singular values say of the counts, of the variants that are listed and of a sample, where coordinates look rounded.
-pub(super) fn second_opinion(
+pub(super) fn opinion_on_diagrams(
     search: &Search,
     diagrams: &Diagrams,
     determinate: &Counts,
@@ -45,7 +45,8 @@ pub(super) fn second_opinion(
     if let (None, List::Top(k @ 1..=IDEAS)) = (ranking, request.list) {
         listed.extend(search.ideas(diagrams, k).into_iter().map(|i| i.first));
     }
-    let drawn = search.sample(diagrams, request.seed).take(DRAWN).collect();
+    let most = second_opinion::sample_size(search);
+    let drawn = search.sample(diagrams, request.seed).take(most).collect();
     let said =
         second_opinion::second_opinion(search, written, listed, drawn, determinate, request.seed)?;
     Ok(Some(said))

@@ -21,10 +21,10 @@ use num_traits::{ToPrimitive, Zero};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Variants drawn of each kind.
-pub const DRAWN: usize = 64;
-/// Spaces of no more variants than this are asked about whole.
-const WHOLE: u32 = 256;
+/// Variants drawn of each kind, at least and at most. A relation of the geometry that was missed may matter for few variants only.
+const DRAWN: [usize; 2] = [64, 4096];
+/// Products that half a second of one processor allows in decompositions, about.
+const PRODUCTS: usize = 10_000_000;
 
 /// How singular values went with the ranks of some variants.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -150,12 +150,23 @@ impl Asked {
     }
 }
 
+/// How many variants of a kind are asked about: of a small mechanism more, so that asking takes about half a second at most but for
+/// the largest.
+#[must_use]
+pub fn sample_size(question: &Question) -> usize {
+    let rows = usize::try_from(question.rows).unwrap_or(0).max(1);
+    // There are about as many columns.
+    let each = rows.saturating_pow(3);
+    (PRODUCTS / each).clamp(DRAWN[0], DRAWN[1])
+}
+
 /// Some of all variants, drawn from `seed`; of few all.
 fn drawn(question: &Question, seed: u64) -> Vec<Vec<usize>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    match question.size().to_u32().filter(|n| *n <= WHOLE) {
+    let most = sample_size(question);
+    match question.size().to_u32().filter(|n| *n as usize <= most) {
         Some(n) => (0..n).map(|number| choices(question, number)).collect(),
-        None => (0..DRAWN)
+        None => (0..most)
             .map(|_| any_choices(question, &mut random))
             .collect(),
     }
