@@ -169,5 +169,5 @@ fn every_column_of_the_catalogue_is_entered_by_its_name() {
         }
         tables += 1;
     }
-    assert_eq!(tables, 8);
+    assert_eq!(tables, 9);
 }

@@ -18,7 +18,7 @@ use crate::score::request::prepare::{
     LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved,
 };
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 /// How many of the cheapest variants a ranking scores, unless told otherwise, before it goes through the others. At about ten
 /// microseconds each these take a fifth of a second.
@@ -64,6 +64,11 @@ pub enum List {
     Sample(usize),
     /// None: counts only.
     Nothing,
+}
+
+/// The best so many, from a number.
+fn best<'de, D: Deserializer<'de>>(from: D) -> Result<List, D::Error> {
+    usize::deserialize(from).map(List::Top)
 }
 
 /// How a search is checked.
@@ -158,7 +163,7 @@ pub struct Request {
     /// before the last of the list.
     pub pool: Option<usize>,
     /// Which variants are given. In JSON it is `top`, a number.
-    #[serde(rename = "top", deserialize_with = "words::top")]
+    #[serde(rename = "top", deserialize_with = "best")]
     pub list: List,
     /// Whether of the variants that give the same freedoms to the same joints in series only the first is given.
     pub distinct: bool,

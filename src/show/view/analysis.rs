@@ -245,11 +245,7 @@ impl<'a> State<'a> {
             redundant_at_most: most.map(|(_, sigma)| sigma),
             formula_mobility: s.formula_mobility,
             least_rows: least_rows(mechanism, s),
-            per_contour: s
-                .per_contour
-                .iter()
-                .map(|c| Contour::new(mechanism, c))
-                .collect(),
+            per_contour: (s.per_contour.iter().map(|c| Contour::new(mechanism, c))).collect(),
             external: s.external.map(|counted| External {
                 counted,
                 agree: counted.redundant == counted.by_rank,

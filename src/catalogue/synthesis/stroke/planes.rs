@@ -314,10 +314,16 @@ mod tests {
             over in prop::collection::vec((0usize..6, 1usize..5), 0..7),
             over_tips in prop::collection::vec((0usize..2, prop::sample::select(vec![1usize, 4])), 0..3),
         ) {
-            let overlaps: Vec<[usize; 2]> =
-                overlaps.into_iter().filter(|(l, m)| l != m).map(|(l, m)| [l, m]).collect();
             let over: Vec<(usize, usize)> =
                 over.into_iter().filter(|(p, l)| !JOINTS[*p].contains(l)).collect();
+            // What lies over a pin overlaps its links.
+            let at_pins = over.iter().flat_map(|&(p, l)| JOINTS[p].map(|own| (own, l)));
+            let overlaps: Vec<[usize; 2]> = overlaps
+                .into_iter()
+                .chain(at_pins)
+                .filter(|(l, m)| l != m && *l != 0)
+                .map(|(l, m)| [l, m])
+                .collect();
             let bones = bones();
             let mut met = Meetings::new(&bones);
             overlaps.iter().for_each(|&[l, m]| met.overlap(l, m));

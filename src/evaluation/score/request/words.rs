@@ -1,7 +1,6 @@
 //! Words of a request that are more than a name or a number, as they are typed and as they stand in JSON.
 
 use crate::model::ranking::Term;
-use crate::score::request::List;
 use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
@@ -53,9 +52,4 @@ where
     let words = Vec::<String>::deserialize(from)?;
     let terms = words.iter().map(|w| weighted_term(w));
     terms.collect::<Result<_, _>>().map_err(de::Error::custom)
-}
-
-/// The best so many, from a number.
-pub(super) fn top<'de, D: Deserializer<'de>>(from: D) -> Result<List, D::Error> {
-    usize::deserialize(from).map(List::Top)
 }
