@@ -1,7 +1,7 @@
 //! Files written, standard input and output, closed pipes.
 
 use super::{four_bar, refused};
-use crate::common::{json, out, ozols, text, timeless};
+use crate::common::{json, out, ozols, run, text, timeless};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -162,4 +162,65 @@ fn a_search_says_how_long_it_took() {
     for format in ["csv", "jsonl"] {
         assert_eq!(said(&["search", "four-bar", "--format", format]), "");
     }
+}
+
+/// Whatever a command reads stays as it is, by whatever name it is to be written over, and no catalogue is taken for an old result.
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (file, robot, same, db) = (at("in.toml"), at("in.xml"), at("./in.toml"), at("c.db"));
+    fs::write(&file, four_bar()).unwrap();
+    out(&["convert", &file, "--to", "mjcf", "-o", &robot]);
+    out(&["catalog", "build", "--links", "4", "--quiet", "-o", &db]);
+    let id = out(&[
+        "catalog",
+        "query",
+        &db,
+        "SELECT id FROM layouts LIMIT 1",
+        "--format",
+        "csv",
+    ]);
+    let id = id.lines().nth(1).unwrap();
+    let read = || [&file, &robot, &db].map(|f| fs::read(f).unwrap());
+    let before = read();
+    let over: [&[&str]; 18] = [
+        &["analyze", &file, "-o", &same],
+        &["analyze", &file, "--certificate", &file],
+        &["search", &file, "-o", &file],
+        &["draw", &file, "-o", &file],
+        &["report", &file, "-o", &file],
+        &["export", &file, "--to", "json", "-o", &file],
+        &["search", "four-bar", "--costs", &file, "-o", &file],
+        &["import", &robot, "-o", &robot],
+        &["export", &robot, "--to", "mjcf", "-o", &robot],
+        &["lint", &robot, "--format", "sarif", "-o", &robot],
+        &["fix", &robot, "-o", &robot],
+        &["convert", &robot, "--to", "urdf", "-o", &robot],
+        &["catalog", "export", &db, id, "-o", &db],
+        &["catalog", "page", &db, "-o", &db],
+        &["catalog", "query", &db, "-o", &db],
+        &["catalog", "show", &db, id, "--svg", &db],
+        &["catalog", "count", "--links", "4", "-o", &db],
+        &["catalog", "find", &file, "--in", &db, "-o", &file],
+    ];
+    for words in over {
+        let o = run(words);
+        let said = text(&o.stderr);
+        assert_eq!(o.status.code(), Some(2), "{words:?}: {said}");
+        assert!(
+            said.contains("name another file to write") || words.contains(&"--costs"),
+            "{words:?}: {said}"
+        );
+        assert!(read() == before, "{words:?}");
+    }
+}
+
+#[test]
+fn a_robot_description_on_standard_input_is_told_from_toml() {
+    let xml = "\n<robot name='r'/>";
+    let o = ozols(&["analyze", "-"]).write_stdin(xml).output().unwrap();
+    let said = text(&o.stderr);
+    assert_eq!(o.status.code(), Some(2), "{said}");
+    assert!(said.contains("standard input is XML"), "{said}");
 }

@@ -1,6 +1,6 @@
 //! Variants of a search's list as mechanisms of their own, and what to do where there are none.
 
-use crate::common::{count, json, out, ozols};
+use crate::common::{changed, count, json, out, ozols, run_on};
 use serde_json::Value;
 
 /// Flags of a question and places in its list.
@@ -305,4 +305,40 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
         seen += 1;
     }
     assert!(seen > 5, "{seen}");
+}
+
+/// A type that one joint has already is offered at the others, as if the file listed it, and one that none is offered may be forbidden.
+#[test]
+fn a_type_that_a_joint_has_is_offered_at_the_others() {
+    let four_bar = out(&["show", "four-bar"]);
+    let text = changed(
+        &four_bar,
+        "id = \"3-0\"\nlinks = [\"3\", \"0\"]\ntype = \"revolute\"",
+        "id = \"3-0\"\nlinks = [\"3\", \"0\"]\ntype = \"spherical\"",
+    );
+    let searched = |text: &str, more: &[&str]| -> Value {
+        let words = [&["--count", "--format", "json"], more].concat();
+        let (_, stdout, stderr) = run_on("search", "it.toml", text, &words);
+        serde_json::from_str(&stdout).unwrap_or_else(|e| panic!("{e}: {stderr}"))
+    };
+    let start = text.find("[search]").unwrap();
+    let rest = text[start..].find("options = ").unwrap() + start;
+    let end = rest + text[rest..].find(']').unwrap() + 1;
+    let listing = |types: &str| format!("{}options = {types}{}", &text[..rest], &text[end..]);
+    let file = listing("[\"cylindrical\"]");
+    for (types, list) in [
+        ("spherical", "[\"spherical\"]"),
+        ("cylindrical,spherical", "[\"cylindrical\", \"spherical\"]"),
+    ] {
+        let [told, wanted] = [
+            searched(&file, &["--options", types]),
+            searched(&listing(list), &[]),
+        ];
+        for key in ["space", "admissible", "determinate"] {
+            assert_eq!(told[key], wanted[key], "{types} {key}");
+        }
+        assert!(count(&told["determinate"]) > 0);
+    }
+    let none = searched(&file, &["--forbid", "1-2=universal"]);
+    assert_eq!(none["space"], searched(&file, &[])["space"]);
 }
