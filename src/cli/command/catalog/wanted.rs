@@ -16,41 +16,46 @@ pub(super) struct WantedGrippers {
     #[arg(long)]
     front: bool,
     /// The least force of a jaw over the stroke from: N for 1 N of a sliding drive, or for 1 Nm of a turning one.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = finite)]
     least_force: Option<f64>,
     /// The greatest force of a jaw over the least at most.
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = finite)]
     force_ratio: Option<f64>,
     /// The stroke of the jaws, from the narrowest part to the widest, from, in mm.
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", value_parser = finite)]
     stroke: Option<f64>,
     /// The turn of the jaws over the stroke at most, in degrees.
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, value_name = "DEGREES", value_parser = finite)]
     turn: Option<f64>,
     /// The transmission angle over the stroke from, in degrees.
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, value_name = "DEGREES", value_parser = finite)]
     transmission: Option<f64>,
     /// The greatest joint force at most, in N for 1 N of each jaw.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = finite)]
     pin_force: Option<f64>,
     /// The efficiency over the stroke from.
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = finite)]
     efficiency: Option<f64>,
     /// The travel of the drive at most, in mm or rad.
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = finite)]
     travel: Option<f64>,
     /// The width of the box round it over the stroke at most, in mm.
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", value_parser = finite)]
     width: Option<f64>,
     /// Its height at most, in mm.
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", value_parser = finite)]
     height: Option<f64>,
     /// Parallel planes in which its parts pass each other at most, the frame's included.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = finite)]
     planes: Option<f64>,
     /// The cost of its cheapest redesign at most.
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = finite)]
     cost: Option<f64>,
+}
+
+fn finite(word: &str) -> Result<f64, String> {
+    let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
+    number.ok_or_else(|| "give a number, such as 0.5".to_owned())
 }
 
 /// One of the bounds that are asked.

@@ -102,13 +102,17 @@ fn line(found: &RankVerdict) -> String {
         "singular values at tolerance {:.0e} (smallest kept {:.1e}, largest dropped {:.1e})",
         found.tolerance, n.kept, n.dropped
     );
-    let both = format!(
-        "as written, every digit at its word, the rank would be {} (mobility {}) instead of {} (mobility {})",
-        found.as_written,
-        found.figures(found.as_written).0,
-        found.at_least(),
-        found.figures(found.at_least()).0
-    );
+    let both = if found.as_written == found.at_least() {
+        "as written, every digit at its word, the rank is the same".to_owned()
+    } else {
+        format!(
+            "as written, every digit at its word, the rank would be {} (mobility {}) instead of {} (mobility {})",
+            found.as_written,
+            found.figures(found.as_written).0,
+            found.at_least(),
+            found.figures(found.at_least()).0
+        )
+    };
     match &found.meant {
         Meant::AsWritten if measured => {
             format!("{why}exact rank as written and {gap} agree{needed}")
