@@ -12,7 +12,7 @@ use crate::cli::terminal::progress::Bar;
 use crate::file::bounded;
 use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -109,6 +109,10 @@ impl Build {
             spec.parallel.clone_from(word);
         }
         spec.classics |= self.classics;
+        ensure!(
+            self.at_most.is_none() || !spec.pairs.is_empty(),
+            "--at-most: pairs that are not hinges are named by --pairs, such as --pairs slide,gear,slot"
+        );
         spec.at_most = self.at_most.unwrap_or(spec.at_most);
         spec.jaws = self.jaws.unwrap_or(spec.jaws);
         spec.ideas = self.ideas.unwrap_or(spec.ideas);
