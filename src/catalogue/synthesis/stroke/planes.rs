@@ -120,6 +120,7 @@ impl Meetings {
                 if let Some(tip) = p.checked_sub(pins) {
                     if !bones.jaws.contains(&link) {
                         self.over_tips[tip] |= 1 << link;
+                        self.overlap(bones.jaws[tip], link);
                     }
                     continue;
                 }
@@ -316,11 +317,13 @@ mod tests {
         ) {
             let over: Vec<(usize, usize)> =
                 over.into_iter().filter(|(p, l)| !JOINTS[*p].contains(l)).collect();
-            // What lies over a pin overlaps its links.
+            // What lies over a pin overlaps its links, and what lies over a tip the jaw.
             let at_pins = over.iter().flat_map(|&(p, l)| JOINTS[p].map(|own| (own, l)));
+            let at_tips = over_tips.iter().map(|&(jaw, l)| (2 + jaw, l));
             let overlaps: Vec<[usize; 2]> = overlaps
                 .into_iter()
                 .chain(at_pins)
+                .chain(at_tips)
                 .filter(|(l, m)| l != m && *l != 0)
                 .map(|(l, m)| [l, m])
                 .collect();
