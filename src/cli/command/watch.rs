@@ -37,6 +37,8 @@ pub(in crate::cli) fn run(args: &Global, a: &Watch) -> anyhow::Result<Done> {
         page != Path::new("-"),
         "the page is written again and again: give a file with -o"
     );
+    output::kept::keep(path);
+    output::kept::apart(&page)?;
     let costs = a.report.checked.which.costs.as_deref();
     let mut changes = Changes::new([Some(path), costs].into_iter().flatten())?;
     loop {

@@ -177,14 +177,15 @@ fn what_is_read_is_not_written_over() {
         "catalog",
         "query",
         &db,
-        "SELECT id FROM layouts LIMIT 1",
+        "SELECT structure FROM layouts LIMIT 1",
         "--format",
         "csv",
     ]);
     let id = id.lines().nth(1).unwrap();
     let read = || [&file, &robot, &db].map(|f| fs::read(f).unwrap());
     let before = read();
-    let over: [&[&str]; 18] = [
+    let over: [&[&str]; 19] = [
+        &["watch", &file, "-o", &file],
         &["analyze", &file, "-o", &same],
         &["analyze", &file, "--certificate", &file],
         &["search", &file, "-o", &file],
@@ -202,7 +203,7 @@ fn what_is_read_is_not_written_over() {
         &["catalog", "query", &db, "-o", &db],
         &["catalog", "show", &db, id, "--svg", &db],
         &["catalog", "count", "--links", "4", "-o", &db],
-        &["catalog", "find", &file, "--in", &db, "-o", &file],
+        &["catalog", "find", "gripper-10", "--in", &db, "-o", &db],
     ];
     for words in over {
         let o = run(words);
