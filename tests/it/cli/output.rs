@@ -171,7 +171,8 @@ fn what_is_read_is_not_written_over() {
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (file, robot, same, db) = (at("in.toml"), at("in.xml"), at("./in.toml"), at("c.db"));
     fs::write(&file, four_bar()).unwrap();
-    out(&["export", &file, "--to", "mjcf", "-o", &robot]);
+    let made = run(&["export", &file, "--to", "mjcf", "-o", &robot]);
+    assert_eq!(made.status.code(), Some(0));
     out(&["catalog", "build", "--links", "4", "--quiet", "-o", &db]);
     let id = out(&[
         "catalog",

@@ -78,6 +78,15 @@ pub(in crate::cli) struct Build {
 }
 
 impl Build {
+    /// How many pairs that are not hinges there may be of those that are asked for.
+    fn most_of(&self, spec: &Spec) -> anyhow::Result<usize> {
+        ensure!(
+            self.at_most.is_none() || !spec.pairs.is_empty(),
+            "--at-most: pairs that are not hinges are named by --pairs, such as --pairs slide,gear,slot"
+        );
+        Ok(self.at_most.unwrap_or(spec.at_most))
+    }
+
     fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
         let text = match &self.spec {
             None => String::new(),
@@ -109,11 +118,7 @@ impl Build {
             spec.parallel.clone_from(word);
         }
         spec.classics |= self.classics;
-        ensure!(
-            self.at_most.is_none() || !spec.pairs.is_empty(),
-            "--at-most: pairs that are not hinges are named by --pairs, such as --pairs slide,gear,slot"
-        );
-        spec.at_most = self.at_most.unwrap_or(spec.at_most);
+        spec.at_most = self.most_of(&spec)?;
         spec.jaws = self.jaws.unwrap_or(spec.jaws);
         spec.ideas = self.ideas.unwrap_or(spec.ideas);
         spec.ratio = self.ratio.unwrap_or(spec.ratio);
