@@ -141,9 +141,9 @@ fn table(args: &Global, a: &SweepArgs) -> anyhow::Result<Table> {
         let Some(whole) = &a.output else {
             bail!("--merge needs -o, the table of the whole");
         };
-        let same = |p: &PathBuf| std::fs::canonicalize(p).ok() == std::fs::canonicalize(whole).ok();
+        a.merge.iter().for_each(|part| output::kept::keep(part));
         ensure!(
-            !(whole.exists() && a.merge.iter().any(same)),
+            !output::kept::is_kept(whole),
             "{} is one of the parts and the whole; choose another name for the whole",
             whole.display()
         );

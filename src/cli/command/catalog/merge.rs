@@ -21,9 +21,9 @@ pub(in crate::cli) struct Merge {
 }
 
 pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
-    let same = |p: &PathBuf| std::fs::canonicalize(p).ok() == std::fs::canonicalize(&a.output).ok();
+    a.parts.iter().for_each(|part| output::kept::keep(part));
     ensure!(
-        !(a.output.exists() && a.parts.iter().any(same)),
+        !output::kept::is_kept(&a.output),
         "{} is one of the parts and the whole; choose another name for the whole",
         a.output.display()
     );

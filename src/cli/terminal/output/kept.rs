@@ -29,9 +29,14 @@ pub(in crate::cli) fn keep(path: &Path) {
     }
 }
 
-/// Refuses to write over what is kept, by whatever name, and over a catalogue.
+/// Whether a file is kept, by whatever name.
+pub(in crate::cli) fn is_kept(path: &Path) -> bool {
+    path.canonicalize().is_ok_and(|p| read().contains(&p))
+}
+
+/// Refuses to write over what is kept, and over a catalogue.
 pub(in crate::cli) fn apart(written: &Path) -> anyhow::Result<()> {
-    let same = written.canonicalize().is_ok_and(|p| read().contains(&p));
+    let same = is_kept(written);
     let name = written.display();
     ensure!(!same, "{name} is what is read; name another file to write");
     ensure!(
