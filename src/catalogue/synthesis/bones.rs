@@ -21,6 +21,8 @@ pub struct Bones {
     pub members: Vec<u32>,
     /// The links of each joint that has a point on both.
     pub joints: Vec<Option<[usize; 2]>>,
+    /// Joints that have no point on their links, where pitch circles touch, as bits.
+    pub touching: u32,
     /// Joints that are where others have them.
     pub follows: Vec<bool>,
     /// Where the tips of the jaws are.
@@ -73,11 +75,14 @@ impl Bones {
         });
         let centre = middle(&plan.tips);
         let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
+        let joints = plan.joints.iter().enumerate();
+        let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
         Bones {
             rods: rods.collect(),
             members: of_link.iter().map(bits).collect(),
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             of_link,
+            touching,
             joints: plan.joints,
             follows: plan.follows,
             tips: plan.tips,

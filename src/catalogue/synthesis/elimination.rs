@@ -42,6 +42,18 @@ impl SmallSystem {
         self.entries[unknown * self.width + self.size + side]
     }
 
+    /// The largest entry, by its size.
+    fn largest(&self) -> f64 {
+        let mut most = [0.0_f64; LANES];
+        let (all, _) = self.entries.as_chunks::<LANES>();
+        for four in all {
+            for (m, x) in most.iter_mut().zip(four) {
+                *m = if x.abs() > *m { x.abs() } else { *m };
+            }
+        }
+        most.into_iter().fold(0.0, f64::max)
+    }
+
     /// Solves for all right sides, by elimination with the largest of each column as pivot; the sign of the determinant, or
     /// `None` where a pivot is nothing beside the largest entry.
     ///
@@ -49,13 +61,14 @@ impl SmallSystem {
     /// O(n³) for n unknown.
     pub fn solve(&mut self) -> Option<f64> {
         let (n, w) = (self.size, self.width);
-        let largest = |m: f64, x: &f64| m.max(x.abs());
-        let most = self.entries.iter().fold(0.0, largest);
+        let least = 1e-12 * self.largest();
         let mut sign = 1.0;
         for c in 0..n {
-            let size = |r: &usize| self.entries[r * w + c].abs();
-            let pivot = (c..n).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-            if size(&pivot) <= 1e-12 * most || !size(&pivot).is_finite() {
+            // Sizes are in the order of their bits.
+            let bits = |r: &usize| self.entries[r * w + c].abs().to_bits();
+            let pivot = (c..n).max_by_key(bits)?;
+            let size = self.entries[pivot * w + c].abs();
+            if size <= least || !size.is_finite() {
                 return None;
             }
             if pivot != c {
@@ -68,15 +81,14 @@ impl SmallSystem {
             sign *= own[c].signum();
             // What stands before the next column is not looked at again, and may change with its neighbours.
             let begin = (c + 1) / LANES * LANES;
+            let inverse = 1.0 / own[c];
             let (lanes, _) = own[begin..].as_chunks::<LANES>();
             for row in below.chunks_exact_mut(w) {
                 if row[c] != 0.0 {
-                    let factor = row[c] / own[c];
+                    let factor = row[c] * inverse;
                     let (row, _) = row[begin..].as_chunks_mut::<LANES>();
                     for (x, o) in row.iter_mut().zip(lanes) {
-                        for k in 0..LANES {
-                            x[k] -= factor * o[k];
-                        }
+                        *x = std::array::from_fn(|k| x[k] - factor * o[k]);
                     }
                 }
             }
@@ -87,8 +99,9 @@ impl SmallSystem {
                 own[side] /= own[c];
             }
             for row in above.chunks_exact_mut(w) {
-                for side in n..n + self.sides {
-                    row[side] -= row[c] * own[side];
+                let factor = row[c];
+                for (x, o) in row[n..].iter_mut().zip(&own[n..w]) {
+                    *x -= factor * o;
                 }
             }
         }

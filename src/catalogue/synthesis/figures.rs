@@ -10,13 +10,14 @@ use crate::synthesis::stroke::judge::{Grid, Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::stroke::shortfall::Shortfall;
-use crate::synthesis::stroke::walk::StrokeEnd;
+use crate::synthesis::stroke::walk::{SETTLED, StrokeEnd};
 use crate::synthesis::structure::Structure;
 
 /// Where a stroke is looked at that is told.
 const FINE: Grid = Grid {
     steps: 48.0,
     finest: 1e-5,
+    settled: SETTLED,
     forces_everywhere: true,
 };
 /// A jaw that turns by less than this over the stroke keeps its attitude: what is left is the error of closing. In rad.
@@ -101,6 +102,7 @@ pub(super) fn of_stroke<M: StrokeMotion>(
     let stroke = judge.follow(at, FINE, f64::INFINITY)?;
     let stacking = judge.stacking();
     let way = judge.drive_rate();
+    let turns: Vec<f64> = judge.turns().collect();
     let sketch = judge.motion.sketch();
     let (limits, bones) = (*sketch.limits(), sketch.bones());
     let jaws_hinged = bones.hinged.clone();
@@ -115,7 +117,7 @@ pub(super) fn of_stroke<M: StrokeMotion>(
         _ if hinged => JawMotion::Swinging,
         _ => JawMotion::Floating,
     };
-    let jaws = jaws_hinged.iter().zip(&stroke.turns);
+    let jaws = jaws_hinged.iter().zip(&turns);
     Some(LayoutFigures {
         openings: stroke.reached,
         closes: -way.signum(),
@@ -129,6 +131,6 @@ pub(super) fn of_stroke<M: StrokeMotion>(
         margin,
         stacking,
         shortfall,
-        turns: stroke.turns,
+        turns,
     })
 }

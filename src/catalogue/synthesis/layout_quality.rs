@@ -66,11 +66,6 @@ fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
     length(sub(to, along.map(|x| x * t)))
 }
 
-/// Whether a point is outside the box round two others by a margin, and so farther from all between them.
-fn is_far(p: Point, [a, b]: [Point; 2], margin: f64) -> bool {
-    (0..2).any(|k| p[k] < a[k].min(b[k]) - margin || p[k] > a[k].max(b[k]) + margin)
-}
-
 /// A side of a link.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LinkSide {
@@ -83,6 +78,52 @@ impl LinkSide {
     /// Where its ends are.
     pub(super) fn of(&self, at: &[Point]) -> [Point; 2] {
         self.ends.map(|i| at[i])
+    }
+}
+
+/// A side as the points lie about it, a bit for each.
+struct SideSeen {
+    link: usize,
+    ends: [usize; 2],
+    /// Those on its left.
+    left: u32,
+    /// Those on it or nearly so, besides its ends.
+    near: u32,
+}
+
+impl SideSeen {
+    fn new(side: &LinkSide, at: &[Point]) -> SideSeen {
+        let [a, b] = side.of(at);
+        let along = sub(b, a);
+        // So far from the line through both, by the area of the triangle.
+        let strip = ON * ON * dot(along, along).max(1e-9);
+        let (mut left, mut near) = (0, 0);
+        for (p, &place) in at.iter().enumerate() {
+            let area = cross_plane(along, sub(place, a));
+            left |= u32::from(area > 0.0) << p;
+            near |= u32::from(area * area < strip) << p;
+        }
+        near &= !side.ends.iter().fold(0, |bits, &i| bits | 1 << i);
+        let mut on = near;
+        while on != 0 {
+            let p = on.trailing_zeros();
+            on &= on - 1;
+            near ^= u32::from(distance(at[p as usize], [a, b]) >= ON) << p;
+        }
+        SideSeen {
+            link: side.link,
+            ends: side.ends,
+            left,
+            near,
+        }
+    }
+
+    /// Whether two sides cross that have no point in common.
+    fn crosses(&self, other: &SideSeen) -> bool {
+        let parts = |left: u32, [a, b]: [usize; 2]| (left >> a ^ left >> b) & 1 == 1;
+        let [a, b] = self.ends;
+        let apart = !other.ends.contains(&a) && !other.ends.contains(&b);
+        apart && parts(self.left, other.ends) && parts(other.left, self.ends)
     }
 }
 
@@ -117,7 +158,8 @@ impl Bones {
         let cheap = |sum: f64| (sum <= most).then_some(sum);
         let sum = cheap(self.places(at) + self.lengths(at).1)?;
         let sum = cheap(sum + self.spacing(at))?;
-        cheap(sum + self.crossings(at).1)
+        let sum = sum + self.crossings(at, most - sum)?.1;
+        cheap(sum)
     }
 
     /// All figures.
@@ -126,7 +168,7 @@ impl Bones {
     /// As [`Bones::penalty`].
     pub(super) fn looks(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
         Some(Looks {
-            crossings: self.crossings(at).0,
+            crossings: self.crossings(at, f64::INFINITY)?.0,
             ratio: self.lengths(at).0,
             penalty: self.penalty(at, f64::INFINITY)? + motion.penalty,
             transmission: motion.transmission,
@@ -190,34 +232,36 @@ impl Bones {
         out
     }
 
-    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost.
-    fn crossings(&self, at: &[Point]) -> (usize, f64) {
+    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost; `None` where that is more
+    /// than `most`.
+    fn crossings(&self, at: &[Point], most: f64) -> Option<(usize, f64)> {
         let sides = self.sides(at);
+        let mut before: Vec<SideSeen> = Vec::with_capacity(sides.len());
         let (mut count, mut penalty) = (0, 0.0);
-        for (i, x) in sides.iter().enumerate() {
-            let ([a, b], side) = (x.ends, x.of(at));
-            for y in &sides[..i] {
-                let [c, d] = y.ends;
-                let apart = x.link != y.link && a != c && a != d && b != c && b != d;
-                count += usize::from(apart && crosses(side, y.of(at)));
+        for side in &sides {
+            let seen = SideSeen::new(side, at);
+            for other in &before {
+                count += usize::from(other.link != side.link && seen.crosses(other));
             }
-            for (p, &place) in at.iter().enumerate() {
-                // Where pitch circles touch is on no link.
-                let touch = self.joints.get(p).is_some_and(Option::is_none);
-                if p == a || p == b || touch || is_far(place, side, ON) {
-                    continue;
-                }
-                let near = distance(place, side);
-                if near < ON {
-                    // A point of the link itself makes it a splinter, which is no crossing.
-                    count += usize::from(self.members[x.link] >> p & 1 == 0);
-                    penalty += beyond(ON - near, ON);
-                }
+            // Where pitch circles touch is on no link.
+            let mut near = seen.near & !self.touching;
+            while near != 0 {
+                let p = near.trailing_zeros();
+                near &= near - 1;
+                // A point of the link itself makes it a splinter, which is no crossing.
+                count += usize::from(self.members[side.link] >> p & 1 == 0);
+                penalty += beyond(ON - distance(at[p as usize], side.of(at)), ON);
+            }
+            before.push(seen);
+            #[allow(clippy::cast_precision_loss, reason = "a few")]
+            let all = penalty + 1.5 * count as f64;
+            if all > most {
+                return None;
             }
         }
         #[allow(clippy::cast_precision_loss, reason = "a few")]
         let all = count as f64;
-        (count, penalty + 1.5 * all)
+        Some((count, penalty + 1.5 * all))
     }
 
     /// The frame behind, the jaws in front, pins beside the middle; or all of it round the part.

@@ -44,6 +44,8 @@ pub struct Contours {
     pub(super) tree: Vec<TreeStep<usize, usize>>,
     /// Of each contour its two ways from the frame, without the links they share.
     pub(super) contours: Vec<[Vec<Side>; 2]>,
+    /// The pin in which the two ways of each meet, by way of its first link and of its second.
+    pub(super) cuts: Vec<usize>,
     /// Of each jaw its way from the frame to the tip.
     pub(super) tips: Vec<Vec<Side>>,
     /// The place of each link's turning among the unknown; those of frame and driver are known.
@@ -75,7 +77,8 @@ impl Contours {
             ways[s.link].push((s.link, s.joint));
         }
         let between = (0..pins.len()).filter(|&p| tree.iter().all(|s| s.joint != p));
-        let contours = between.map(|pin| {
+        let cuts: Vec<usize> = between.collect();
+        let contours = cuts.iter().map(|&pin| {
             let (u, v) = pins[pin];
             let both = ways[u].iter().zip(&ways[v]);
             // The last link that both pass through is left by different pins, and is a side of either.
@@ -98,6 +101,7 @@ impl Contours {
             unknown: unknown.collect(),
             contours: contours.collect(),
             tips: tips.collect(),
+            cuts,
             tree,
         }
     }

@@ -110,7 +110,7 @@ impl FitEquations for PairEquations<'_> {
         }
     }
 
-    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) -> f64 {
+    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) {
         let (sketch, size) = (self.sketch, self.size());
         let (bones, last) = (&sketch.bones, size - 1);
         let mut links = std::mem::take(&mut self.links);
@@ -152,7 +152,5 @@ impl FitEquations for PairEquations<'_> {
             rows.add(row, size + 1, 1.0);
         }
         self.links = links;
-        let all = (0..size).map(|row| rows.get(row, 0).abs());
-        all.fold(0.0, f64::max)
     }
 }

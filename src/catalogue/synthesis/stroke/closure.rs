@@ -120,7 +120,7 @@ impl FitEquations for Arms<'_> {
         }
     }
 
-    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) -> f64 {
+    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) {
         let size = self.closure.size;
         let (last, slid) = (size - 1, x[size - 1]);
         for (turn, angle) in self.turns.iter_mut().zip(x) {
@@ -156,7 +156,5 @@ impl FitEquations for Arms<'_> {
         }
         rows.add(last, right, open);
         rows.add(last, width, 1.0);
-        let all = (0..size).map(|row| rows.get(row, 0).abs());
-        all.fold(0.0, f64::max)
     }
 }

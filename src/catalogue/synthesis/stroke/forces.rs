@@ -3,14 +3,12 @@
 
 use super::pose::LinkPose;
 use crate::chains::layout_symmetry::Input;
-use crate::geom::vector::{cross_plane, dot, length};
+use crate::geom::vector::{add_scaled, cross_plane, dot, length, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::task::Friction;
-
-/// So many millimetres make a moment as large as a force, so that pivots are chosen evenly.
-const ARM: f64 = 50.0;
+use crate::synthesis::velocities::Side;
 
 /// Forces at a pose.
 #[derive(Debug, Clone)]
@@ -24,6 +22,8 @@ pub struct JointForces {
     pub drive: f64,
     /// Where the pins are.
     places: Vec<Point>,
+    /// What acts on each link besides its joint in the tree.
+    on_links: Vec<Wrench>,
 }
 
 /// What forces say of a pose, or of the worst of a stroke.
@@ -64,9 +64,23 @@ impl ForceFigures {
     }
 }
 
-/// The first of the three equations of a link; the frame has none.
-fn first_row(link: usize, frame: usize) -> Option<usize> {
-    (link != frame).then(|| 3 * (link - usize::from(link > frame)))
+/// A force with its moment about the origin.
+#[derive(Debug, Clone, Copy, Default)]
+struct Wrench {
+    force: Point,
+    moment: f64,
+}
+
+impl Wrench {
+    /// Adds a force, taken so many times, that acts at a place.
+    fn add(&mut self, times: f64, force: Point, place: Point) {
+        self.force = add_scaled(self.force, times, force);
+        self.moment += times * cross_plane(place, force);
+    }
+
+    fn about(&self, place: Point) -> f64 {
+        self.moment - cross_plane(place, self.force)
+    }
 }
 
 impl JointForces {
@@ -75,19 +89,23 @@ impl JointForces {
     pub fn new(skeleton: &Skeleton<'_>) -> JointForces {
         let (links, pins) = (skeleton.structure.chain.links(), skeleton.rules.pins.len());
         JointForces {
-            system: SmallSystem::new(3 * (links - 1), 1),
+            system: SmallSystem::new(2 * skeleton.contours.cuts.len(), 1),
             pins: vec![[0.0; 2]; pins],
             moment: 0.0,
             drive: 0.0,
             places: vec![[0.0; 2]; pins],
+            on_links: vec![Wrench::default(); links],
         }
     }
 
-    /// Solves the equilibrium of every moving link, with the links at these poses and pins drawn at these places; `false` where
-    /// there is no one solution.
+    /// Solves for the forces, with the links at these poses and points drawn at these places; `false` where there is no one
+    /// solution.
+    ///
+    /// One pin of each contour is cut. What is left is a tree, whose links turn one without the other: what the forces in the
+    /// cuts and the part do at every turn adds up to nothing. From the cuts on, each link tells what its joint in the tree bears.
     ///
     /// # Complexity
-    /// O(n³) for n links.
+    /// O(c³ + n) for c contours and n links.
     pub(super) fn solve(
         &mut self,
         skeleton: &Skeleton<'_>,
@@ -95,89 +113,84 @@ impl JointForces {
         at: &[Point],
     ) -> bool {
         let roles = &skeleton.structure.roles;
-        let drive = 2 * skeleton.rules.pins.len();
-        self.system.clear();
-        self.add_joints(skeleton, links, at);
-        if let Some(row) = first_row(roles.driver, roles.frame) {
-            // A slide lies on the x axis.
-            let slides = skeleton.structure.form.input == Input::Slide;
-            self.system
-                .add(row + if slides { 0 } else { 2 }, drive, 1.0);
+        let slides = skeleton.structure.form.input == Input::Slide;
+        for (i, &(_, v)) in skeleton.rules.pins.iter().enumerate() {
+            // What presses on a guide goes with the driver.
+            let guide = slides && i == skeleton.rules.input;
+            self.places[i] = links[if guide { roles.driver } else { v }].point(at[i]);
         }
-        self.add_part(skeleton, links);
+        self.fill(skeleton, links, at);
         if self.system.solve().is_none() {
             return false;
         }
-        self.read(skeleton);
+        self.gather(skeleton, links);
         true
     }
 
-    /// Adds what the joints do to their links.
-    fn add_joints(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose], at: &[Point]) {
-        let roles = &skeleton.structure.roles;
-        let slides = skeleton.structure.form.input == Input::Slide;
-        for (i, &(u, v)) in skeleton.rules.pins.iter().enumerate() {
-            let guide = slides && i == skeleton.rules.input;
-            // What presses on a guide goes with the driver.
-            let place = links[if guide { roles.driver } else { v }].point(at[i]);
-            self.places[i] = place;
-            for (link, sign) in [(u, -1.0), (v, 1.0)] {
-                let Some(row) = first_row(link, roles.frame) else {
-                    continue;
-                };
-                if guide {
-                    // Across the slide, and a moment about its place.
-                    self.system.add(row + 1, 2 * i, sign);
-                    self.system.add(row + 2, 2 * i, sign * place[0] / ARM);
-                    self.system.add(row + 2, 2 * i + 1, sign);
-                } else {
-                    self.system.add(row, 2 * i, sign);
-                    self.system.add(row + 1, 2 * i + 1, sign);
-                    self.system.add(row + 2, 2 * i, -sign * place[1] / ARM);
-                    self.system.add(row + 2, 2 * i + 1, sign * place[0] / ARM);
+    /// The work at every turn: of the forces in the cuts, and, as the right side, of what the part makes them do.
+    fn fill(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose], at: &[Point]) {
+        let contours = &skeleton.contours;
+        let right = 2 * contours.cuts.len();
+        let turned = |side: &Side| {
+            let arm = sub(at[side.leaves], at[side.comes]);
+            let unknown = contours.unknown[side.link]?;
+            Some((unknown, quarter(links[side.link].direction(arm))))
+        };
+        self.system.clear();
+        for (k, ways) in contours.contours.iter().enumerate() {
+            for (way, sign) in ways.iter().zip([1.0, -1.0]) {
+                for (row, [x, y]) in way.iter().filter_map(turned) {
+                    self.system.add(row, 2 * k, sign * x);
+                    self.system.add(row, 2 * k + 1, sign * y);
                 }
+            }
+        }
+        for (way, inward) in contours.tips.iter().zip(&skeleton.bones.inward) {
+            for (row, rate) in way.iter().filter_map(turned) {
+                self.system.add(row, right, -dot(rate, *inward));
             }
         }
     }
 
-    /// Adds what the part does to the jaws, as the right side.
-    fn add_part(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose]) {
-        let roles = &skeleton.structure.roles;
-        let right = 3 * (skeleton.structure.chain.links() - 1);
-        for (n, &jaw) in roles.jaws.iter().enumerate() {
-            let Some(row) = first_row(jaw, roles.frame) else {
-                continue;
-            };
-            // The part pushes outward; what the joints do makes up for it.
-            let push = skeleton.bones.inward[n];
+    /// From the forces in the cuts those in all joints, from the ends of the tree on.
+    fn gather(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose]) {
+        let (roles, pins) = (&skeleton.structure.roles, &skeleton.rules.pins);
+        let contours = &skeleton.contours;
+        self.on_links.fill(Wrench::default());
+        for (n, (&jaw, inward)) in roles.jaws.iter().zip(&skeleton.bones.inward).enumerate() {
+            // The part pushes outward.
             let tip = links[jaw].point(skeleton.bones.tips[n]);
-            self.system.add(row, right, push[0]);
-            self.system.add(row + 1, right, push[1]);
-            self.system
-                .add(row + 2, right, cross_plane(tip, push) / ARM);
+            self.on_links[jaw].add(-1.0, *inward, tip);
+        }
+        for (k, &cut) in contours.cuts.iter().enumerate() {
+            let force = [self.system.get(2 * k, 0), self.system.get(2 * k + 1, 0)];
+            let ((u, v), place) = (pins[cut], self.places[cut]);
+            self.pins[cut] = force;
+            self.on_links[u].add(-1.0, force, place);
+            self.on_links[v].add(1.0, force, place);
+        }
+        for s in contours.tree.iter().rev() {
+            let (wrench, place) = (self.on_links[s.link], self.places[s.joint]);
+            let on_second = if pins[s.joint].1 == s.link { -1.0 } else { 1.0 };
+            self.pins[s.joint] = wrench.force.map(|x| on_second * x);
+            self.on_links[s.from].add(1.0, wrench.force, place);
+            if s.link == roles.driver {
+                self.drive_with(skeleton, wrench, place);
+            }
         }
     }
 
-    /// Reads the forces from the system solved.
-    fn read(&mut self, skeleton: &Skeleton<'_>) {
-        let (roles, pins) = (&skeleton.structure.roles, &skeleton.rules.pins);
-        let slides = skeleton.structure.form.input == Input::Slide;
-        for (i, force) in self.pins.iter_mut().enumerate() {
-            *force = [self.system.get(2 * i, 0), self.system.get(2 * i + 1, 0)];
+    /// What drive and guide do, where so much acts on the driver besides, and its input joint is at a place.
+    fn drive_with(&mut self, skeleton: &Skeleton<'_>, wrench: Wrench, place: Point) {
+        let moment = wrench.about(place);
+        if skeleton.structure.form.input == Input::Turn {
+            self.drive = -moment;
+            return;
         }
-        let arm = if slides { 1.0 } else { ARM };
-        self.drive = arm * self.system.get(2 * pins.len(), 0);
-        if slides {
-            let input = skeleton.rules.input;
-            let to_driver = if pins[input].1 == roles.driver {
-                1.0
-            } else {
-                -1.0
-            };
-            let [across, moment] = self.pins[input];
-            self.pins[input] = [0.0, across];
-            self.moment = to_driver * moment * ARM;
-        }
+        // A slide lies on the x axis: its guide presses across.
+        self.drive = -wrench.force[0];
+        self.moment = -moment;
+        self.pins[skeleton.rules.input][0] = 0.0;
     }
 
     /// What the forces say, with the links moving as they do for a millimetre of the width.

@@ -17,6 +17,7 @@ use crate::synthesis::task::{AskedMotion, PARALLEL};
 const COARSE: Grid = Grid {
     steps: 10.0,
     finest: 0.01,
+    settled: 3e-4,
     forces_everywhere: false,
 };
 
@@ -27,12 +28,14 @@ pub struct Grid {
     pub steps: f64,
     /// How near to an end before the task's it is followed, over the stroke.
     pub finest: f64,
+    /// The last correction of a pose is smaller than this, in rad.
+    pub settled: f64,
     /// Whether joint forces are solved for at every pose, or at the drawn one and both ends alone.
     pub forces_everywhere: bool,
 }
 
 /// Figures of a stroke. Where it does not reach, of what is reached.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeFigures {
     /// How far apart the tips come, least and greatest, in millimetres: no farther than the task asks.
     pub reached: [f64; 2],
@@ -49,8 +52,8 @@ pub struct StrokeFigures {
     pub transmission: f64,
     /// The least share of the tips' motion that closes them; 0 where one opens as the others close.
     pub straightness: f64,
-    /// How far each jaw turns from where it turned least to where it turned most, in rad.
-    pub turns: Vec<f64>,
+    /// The most that a jaw turns, from where it turned least to where it turned most, in degrees.
+    pub turn: f64,
     /// The box round pins and tips, in millimetres.
     pub size: [f64; 2],
     /// What the joint forces say.
@@ -62,15 +65,6 @@ impl StrokeFigures {
     #[must_use]
     pub fn force_ratio(&self) -> f64 {
         self.rates[1] / self.rates[0].max(1e-12)
-    }
-
-    /// The most that a jaw turns, in degrees.
-    #[must_use]
-    pub fn turn(&self) -> f64 {
-        self.turns
-            .iter()
-            .fold(0.0_f64, |m, t| m.max(*t))
-            .to_degrees()
     }
 }
 
@@ -173,7 +167,7 @@ impl<M: StrokeMotion> Judge<M> {
     /// Stands at the drawn pose of places; `false` where that is singular.
     fn stand(&mut self, at: &PlacesOf<M>) -> bool {
         self.motion.place(at);
-        self.motion.walk_mut().back()
+        self.motion.walk_mut().stand()
     }
 
     /// The figures of places at a dozen poses, as they are looked at while places are tried; `None` where the drawn pose is
@@ -190,6 +184,7 @@ impl<M: StrokeMotion> Judge<M> {
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
     pub fn follow(&mut self, at: &PlacesOf<M>, grid: Grid, most: f64) -> Option<StrokeFigures> {
+        self.motion.walk_mut().settled = grid.settled;
         if !self.stand(at) {
             return None;
         }
@@ -209,8 +204,8 @@ impl<M: StrokeMotion> Judge<M> {
         }
         self.weigh(at);
         for (n, to) in [task.narrowest, task.widest].into_iter().enumerate() {
-            if n > 0 && !self.motion.walk_mut().back() {
-                return None;
+            if n > 0 {
+                self.motion.walk_mut().back();
             }
             let all = to - drawn;
             let count = (all.abs() / task.span() * grid.steps).ceil().max(1.0);
@@ -252,10 +247,15 @@ impl<M: StrokeMotion> Judge<M> {
             force: self.motion.sketch().bones().force(g.rates.0[0]),
             transmission: g.transmission,
             straightness: g.straightness,
-            turns: g.turns.iter().map(|t| t.span()).collect(),
+            turn: self.turns().fold(0.0, f64::max).to_degrees(),
             size: g.sides.map(Between::span),
             forces: g.forces,
         }
+    }
+
+    /// How far each jaw turned on the last stroke, from where it turned least to where it turned most, in rad.
+    pub fn turns(&self) -> impl Iterator<Item = f64> {
+        self.gathered.turns.iter().map(|t| t.span())
     }
 
     /// How fast the drive goes by the width at the last pose, mm or rad a millimetre: negative where it goes back as jaws open.
@@ -365,7 +365,7 @@ impl Limits {
         cost += beyond(20.0 - f.forces.transmission, 10.0);
         cost += 2.0 * beyond((f.forces.peak / 6.0).max(1e-12).ln(), 0.7).min(10.0);
         cost += beyond(0.8 - f.forces.efficiency, 0.2);
-        let turn = f.turn();
+        let turn = f.turn;
         cost += match task.motion {
             AskedMotion::Parallel => 2.0 * beyond(turn - 0.5 * PARALLEL, 0.5).min(10.0),
             AskedMotion::Any | AskedMotion::Swinging => beyond(turn - 40.0, 20.0).min(20.0),

@@ -118,7 +118,7 @@ impl Limits {
         if ratio > most {
             return Some(Shortfall::ForceRatio { ratio, most });
         }
-        let turn = f.turn();
+        let turn = f.turn;
         match task.motion {
             AskedMotion::Parallel if turn > PARALLEL => return Some(Shortfall::Turn { turn }),
             AskedMotion::Swinging if !swings => {

@@ -1,7 +1,7 @@
 //! From the drawn pose step by step to wider and narrower parts, by Newton's method.
 //!
-//! A step is halved where the first correction is large beside it, where the determinant changes its sign, or where the drive
-//! would turn back: so no step passes a singular pose or a dead point unseen.
+//! A step begins along the parabola that the last two poses tell. It is halved where the first correction is large beside it, where
+//! the determinant changes its sign, or where the drive would turn back: so no step passes a singular pose or a dead point unseen.
 
 use crate::synthesis::elimination::SmallSystem;
 
@@ -9,8 +9,8 @@ use crate::synthesis::elimination::SmallSystem;
 const CORRECTIONS: usize = 6;
 /// The first correction over its step at most.
 const CORRECTION: f64 = 0.25;
-/// Contours that are open by less than this are closed, in millimetres.
-const CLOSED: f64 = 1e-8;
+/// The last correction of a pose whose figures are told is smaller than this, in rad.
+pub(in crate::synthesis) const SETTLED: f64 = 1e-8;
 /// So many millimetres count as a radian of a link.
 pub(in crate::synthesis) const RADIAN: f64 = 50.0;
 /// A drive that is so many times faster by the width than in the drawn pose is near to where the jaws turn back; one that is
@@ -59,9 +59,8 @@ pub trait FitEquations {
     fn radian(&self, unknown: usize) -> f64;
 
     /// By how much they miss when the unknown are `x` and the tips are to be so many millimetres farther apart than drawn, in the
-    /// first right side, with the rates of that; in the second what makes the rates by the width. The largest miss, in
-    /// millimetres.
-    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) -> f64;
+    /// first right side, with the rates of that; in the second what makes the rates by the width.
+    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem);
 }
 
 /// A pose on the way.
@@ -75,10 +74,15 @@ pub struct Walk<E> {
     pub(in crate::synthesis) x: Vec<f64>,
     /// Their rates by the width.
     pub(in crate::synthesis) rates: Vec<f64>,
+    /// How these changed by the width, on the last step; nothing before the first.
+    bends: Vec<f64>,
+    /// The last correction of the next poses is smaller than this, in rad: after it contours are open by about its square, and rates
+    /// are as far from true as it says.
+    pub(super) settled: f64,
     /// Sign of the determinant.
     sign: f64,
     trial: Vec<f64>,
-    drawn_rate: f64,
+    drawn_rates: Vec<f64>,
 }
 
 impl<E: FitEquations> Walk<E> {
@@ -92,21 +96,31 @@ impl<E: FitEquations> Walk<E> {
             wider: 0.0,
             x: vec![0.0; n],
             rates: vec![0.0; n],
+            bends: vec![0.0; n],
+            settled: SETTLED,
             sign: 0.0,
             trial: vec![0.0; n],
-            drawn_rate: 0.0,
+            drawn_rates: vec![0.0; n],
         }
     }
 
     /// Stands at the drawn pose; `false` where that is singular.
-    pub fn back(&mut self) -> bool {
+    pub fn stand(&mut self) -> bool {
         self.wider = 0.0;
         self.trial.fill(0.0);
         self.sign = 0.0;
         let stands = self.correct(0.0, f64::INFINITY);
+        self.drawn_rates.copy_from_slice(&self.rates);
+        self.back();
+        stands && self.rate() != 0.0
+    }
+
+    /// Goes back to the drawn pose.
+    pub fn back(&mut self) {
+        self.wider = 0.0;
         self.x.fill(0.0);
-        self.drawn_rate = self.rate().abs();
-        stands && self.drawn_rate > 0.0
+        self.bends.fill(0.0);
+        self.rates.copy_from_slice(&self.drawn_rates);
     }
 
     /// How fast the drive goes by the width: mm or rad a millimetre.
@@ -123,32 +137,42 @@ impl<E: FitEquations> Walk<E> {
     /// Closes the contours at a width from the trial, and takes it where the first correction is at most `most`.
     fn correct(&mut self, wider: f64, most: f64) -> bool {
         for n in 0..CORRECTIONS {
-            let miss = (self.equations).fill(&self.trial, wider, &mut self.rows);
+            (self.equations).fill(&self.trial, wider, &mut self.rows);
             let Some(sign) = self.rows.solve() else {
                 return false;
             };
-            if miss < CLOSED {
-                let rate = self.rows.get(self.x.len() - 1, 1);
-                let same = self.sign == 0.0 || (sign == self.sign && rate * self.rate() > 0.0);
-                if !same || !rate.is_finite() {
-                    return false;
-                }
-                self.sign = sign;
-                self.x.copy_from_slice(&self.trial);
-                for (i, r) in self.rates.iter_mut().enumerate() {
-                    *r = self.rows.get(i, 1);
-                }
-                self.wider = wider;
-                return true;
-            }
-            if n == 0 && self.size(|i| self.rows.get(i, 0)) > most {
+            let correction = self.size(|i| self.rows.get(i, 0));
+            if n == 0 && correction > most {
                 return false;
             }
             for i in 0..self.trial.len() {
                 self.trial[i] -= self.rows.get(i, 0);
             }
+            if correction < self.settled {
+                return self.take(wider, sign);
+            }
         }
         false
+    }
+
+    /// Takes the trial for the pose at a width, with the rates and the sign of the determinant found there; not where one of these has
+    /// changed its sign.
+    fn take(&mut self, wider: f64, sign: f64) -> bool {
+        let rate = self.rows.get(self.x.len() - 1, 1);
+        let same = self.sign == 0.0 || (sign == self.sign && rate * self.rate() > 0.0);
+        if !same || !rate.is_finite() {
+            return false;
+        }
+        let gone = wider - self.wider;
+        for (i, (r, bend)) in self.rates.iter_mut().zip(&mut self.bends).enumerate() {
+            let now = self.rows.get(i, 1);
+            *bend = if gone == 0.0 { 0.0 } else { (now - *r) / gone };
+            *r = now;
+        }
+        self.sign = sign;
+        self.x.copy_from_slice(&self.trial);
+        self.wider = wider;
+        true
     }
 
     /// Goes on until the tips are so much farther apart than drawn.
@@ -169,7 +193,7 @@ impl<E: FitEquations> Walk<E> {
             };
             let by = to - self.wider;
             for i in 0..self.trial.len() {
-                self.trial[i] = self.x[i] + by * self.rates[i];
+                self.trial[i] = self.x[i] + by * (self.rates[i] + by / 2.0 * self.bends[i]);
             }
             let most = CORRECTION * self.size(|i| by * self.rates[i]);
             if self.correct(to, most) {
@@ -185,7 +209,8 @@ impl<E: FitEquations> Walk<E> {
     }
 
     fn end(&self) -> StrokeEnd {
-        match self.rate().abs() / self.drawn_rate {
+        let drawn = self.drawn_rates.last().copied().unwrap_or(0.0);
+        match (self.rate() / drawn).abs() {
             fast if fast > FAR => StrokeEnd::JawsTurnBack,
             slow if slow < 1.0 / FAR => StrokeEnd::DeadPoint,
             _ => StrokeEnd::Singular,
