@@ -396,6 +396,8 @@ impl Spec {
         for side in t.room {
             within("room", side, 0, 1_000_000)?;
         }
+        within("pin_distance", t.pin_distance, 0, 1000)?;
+        within("reach", t.reach, 0, 1000)?;
         within("coefficient", t.friction.coefficient, 0, 10)?;
         within("pin_radius", t.friction.pin_radius, 0, 1000)?;
         within("guide", t.friction.guide, 1, 10_000)

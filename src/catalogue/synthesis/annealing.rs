@@ -5,6 +5,7 @@ use crate::synthesis::random::unit;
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
+use crate::synthesis::task::Aim;
 use chacha20::ChaCha8Rng;
 
 /// Places at the end of a start.
@@ -28,7 +29,8 @@ impl<P> FoundPlaces<P> {
 
     /// Whether no better ones need be looked for.
     pub(super) fn are_good(&self, sketch: &impl LayoutSketch) -> bool {
-        self.within && self.does && self.cost < sketch.good()
+        let enough = sketch.limits().task.aim == Aim::Balanced && self.cost < sketch.good();
+        self.within && self.does && enough
     }
 
     /// Whether they are better than others, where there are any.
@@ -49,7 +51,10 @@ pub(super) fn search_from<M: StrokeMotion>(
     let stroke = judge.coarse(&at, f64::INFINITY)?;
     let limits = sketch.limits();
     Some(FoundPlaces {
-        cost: looks.penalty + limits.stroke_cost(&stroke),
+        cost: match limits.task.aim {
+            Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
+            Aim::Force => sketch.breaks(&at) + limits.force_cost(&stroke),
+        },
         does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
         within: looks.keep(limits),
         looks,
@@ -64,6 +69,7 @@ enum Look {
     Places,
     Motion,
     Stroke,
+    Force,
 }
 
 /// A part of a search: how many moves, and how warm it is at the beginning and at the end.
@@ -91,6 +97,13 @@ const PHASES: [Phase; 3] = [
         warmth: [0.4, 0.0],
     },
 ];
+
+/// Of what does the task, the strongest.
+const FOR_FORCE: Phase = Phase {
+    look: Look::Force,
+    moves: 1500,
+    warmth: [1.0, 0.0],
+};
 
 /// A search for places from one start.
 struct Annealing<'s, 'j, M: StrokeMotion> {
@@ -121,6 +134,12 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
 
     /// What the places cost; `None` where that is more than `most`, or the pose is singular.
     fn cost(&mut self, look: Look, most: f64) -> Option<f64> {
+        if look == Look::Force {
+            let drawn = self.sketch.breaks(&self.at);
+            let stroke = self.judge.coarse(&self.at, f64::INFINITY)?;
+            let all = drawn + self.sketch.limits().force_cost(&stroke);
+            return (all <= most).then_some(all);
+        }
         let drawn = (self.sketch).penalty(&self.at, look != Look::Places, most)?;
         if look != Look::Stroke {
             return Some(drawn);
@@ -139,7 +158,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
 
     fn phase(&mut self, phase: &Phase) {
         // A stroke is judged from the best of what was drawn.
-        if phase.look == Look::Stroke {
+        if matches!(phase.look, Look::Stroke | Look::Force) {
             self.at.clone_from(&self.best.1);
         }
         self.now = self
@@ -184,7 +203,8 @@ fn anneal<M: StrokeMotion>(
     random: ChaCha8Rng,
 ) -> PlacesOf<M> {
     let mut search = Annealing::new(sketch, judge, random);
-    for phase in &PHASES {
+    let last = (sketch.limits().task.aim == Aim::Force).then_some(&FOR_FORCE);
+    for phase in PHASES.iter().chain(last) {
         search.phase(phase);
     }
     search.best.1

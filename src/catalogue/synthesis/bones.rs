@@ -37,6 +37,8 @@ pub struct Bones {
     pub hinged: Vec<bool>,
     /// Of a gripper that is all round the part: how near to the middle of it joints may be.
     pub round: Option<f64>,
+    /// How far apart joints are wished at least, and how far behind the tips, in mm.
+    pub wished: [f64; 2],
     /// Jaws in all, those included that are images of these.
     pub sides: usize,
 }
@@ -54,6 +56,7 @@ pub(super) struct BonePlan<'a> {
     pub(super) turns: bool,
     pub(super) hinged: Vec<bool>,
     pub(super) round: Option<f64>,
+    pub(super) wished: [f64; 2],
 }
 
 impl Bones {
@@ -92,6 +95,7 @@ impl Bones {
             turns: plan.turns,
             hinged: plan.hinged,
             round: plan.round,
+            wished: plan.wished,
             sides: plan.jaws.len(),
         }
     }

@@ -212,6 +212,10 @@ impl LayoutSketch for Skeleton<'_> {
         Some(sum + motion.penalty).filter(|sum| *sum <= most)
     }
 
+    fn breaks(&self, at: &Vec<Point>) -> f64 {
+        self.bones.breaks(at, &self.limits)
+    }
+
     fn looks(&self, at: &Vec<Point>) -> Option<Looks> {
         let motion = self.bones.motion(
             at,

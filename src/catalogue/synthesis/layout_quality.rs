@@ -7,8 +7,8 @@ use crate::synthesis::point::Point;
 use crate::synthesis::velocities::Velocity;
 use itertools::Itertools;
 
-/// Pins nearer to each other than this run into each other.
-const NEAR: f64 = 14.0;
+/// What a limit costs that is broken, where nothing but limits and one figure count.
+pub(super) const DEAR: f64 = 50.0;
 /// Links longer than this are long.
 const LONG: f64 = 75.0;
 /// A pin nearer than this to a link that it is no part of lies on it.
@@ -35,7 +35,7 @@ pub struct Looks {
 }
 
 /// The tips' motion must close them by this share at least.
-const LEAST_CLOSING: f64 = 0.35;
+pub(super) const LEAST_CLOSING: f64 = 0.35;
 
 impl Looks {
     /// Whether the drawn pose keeps the limits.
@@ -180,13 +180,14 @@ impl Bones {
 
     /// Points that run into each other, and pins in line.
     fn spacing(&self, at: &[Point]) -> f64 {
+        let [near, _] = self.wished;
         let mut penalty = 0.0;
         for (i, a) in at.iter().enumerate() {
             for (j, b) in at[..i].iter().enumerate() {
                 let apart = sub(*a, *b);
                 let square = dot(apart, apart);
-                if square < NEAR * NEAR {
-                    penalty += 4.0 * beyond(NEAR - square.sqrt(), NEAR);
+                if square < near * near {
+                    penalty += 4.0 * beyond(near - square.sqrt(), near);
                 }
                 // Pins level with each other, or square above each other, have an axis in common: a special place that costs
                 // redesigns.
@@ -278,9 +279,10 @@ impl Bones {
         for &i in &self.of_link[self.frame] {
             penalty += beyond(at[i][0] - 50.0, 25.0) + beyond(-at[i][0], 25.0);
         }
+        let foremost = self.foremost();
         for [x, y] in pins {
             // Nothing but the tips is where the part is.
-            penalty += beyond(x - 95.0, 10.0);
+            penalty += beyond(x - foremost, 10.0);
             penalty += beyond(y.abs() - 60.0, 25.0) + beyond(-x, 25.0);
         }
         for (&jaw, tip) in self.jaws.iter().zip(tips) {
@@ -290,6 +292,37 @@ impl Bones {
             }
         }
         penalty
+    }
+
+    /// How far ahead joints are wished at most, where the part is ahead.
+    fn foremost(&self) -> f64 {
+        let tips = self.tips.iter().map(|t| t[0]);
+        tips.fold(f64::INFINITY, f64::min) - self.wished[1]
+    }
+
+    /// How far the tips are drawn ahead of all joints; beyond all bounds where the part is not ahead.
+    pub(super) fn reach(&self, at: &[Point]) -> f64 {
+        if self.round.is_some() {
+            return f64::INFINITY;
+        }
+        let joints = at.iter().zip(&self.joints);
+        let ahead = joints.filter(|(_, ends)| ends.is_some()).map(|(p, _)| p[0]);
+        self.foremost() + self.wished[1] - ahead.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// What breaks the limits as drawn, each break dear; wishes do not count.
+    ///
+    /// # Complexity
+    /// As [`Bones::penalty`].
+    pub(super) fn breaks(&self, at: &[Point], limits: &Limits) -> f64 {
+        let (ratio, _) = self.lengths(at);
+        let Some((count, crossings)) = self.crossings(at, f64::INFINITY) else {
+            return f64::INFINITY;
+        };
+        let over = count.saturating_sub(limits.crossings);
+        #[allow(clippy::cast_precision_loss, reason = "a few")]
+        let over = over as f64;
+        DEAR * (beyond((ratio / limits.ratio).ln(), 0.1) + over) + 0.2 * crossings
     }
 
     /// The figures of the motion for a unit speed of the driver, and what they cost where each jaw is to have a force.

@@ -40,6 +40,12 @@ pub trait LayoutSketch {
     /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
     fn penalty(&self, at: &Self::JointPlaces, moving: bool, most: f64) -> Option<f64>;
 
+    /// What breaks the limits as drawn, each break dear.
+    ///
+    /// # Complexity
+    /// O(p²) for p points.
+    fn breaks(&self, at: &Self::JointPlaces) -> f64;
+
     /// All figures; `None` where the pose is singular.
     ///
     /// # Complexity

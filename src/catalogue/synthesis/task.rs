@@ -48,6 +48,21 @@ impl AskedMotion {
     ];
 }
 
+/// What layouts that do their task are chosen for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Aim {
+    /// A little of all: few crossings, links neither long nor short, rods that pull well, even forces.
+    Balanced,
+    /// The least force of a jaw over the stroke, as great as the limits let it be.
+    Force,
+}
+
+impl Aim {
+    /// Every aim with its word.
+    pub const ALL: [(Aim, &'static str); 2] = [(Aim::Balanced, "balanced"), (Aim::Force, "force")];
+}
+
 /// What every gripper of a catalogue is to do, alike.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -67,6 +82,13 @@ pub struct Task {
     pub force_ratio: f64,
     /// Width and height of the box round pins and tips over the stroke at most, in mm; 0 where it may be of any size.
     pub room: [f64; 2],
+    /// How far pins are apart over the stroke at least, in mm, from middle to middle; 0 where no more than 14 as drawn is wished.
+    pub pin_distance: f64,
+    /// How far the tips are drawn ahead of all pins at least, in mm, of a gripper that has the part ahead; 0 where no more than 25 is
+    /// wished.
+    pub reach: f64,
+    /// What layouts are chosen for.
+    pub aim: Aim,
     /// What efficiencies are reckoned with.
     pub friction: Friction,
 }
@@ -105,6 +127,9 @@ impl Default for Task {
             least_force: 0.0,
             force_ratio: 3.0,
             room: [0.0; 2],
+            pin_distance: 0.0,
+            reach: 0.0,
+            aim: Aim::Balanced,
             friction: Friction::default(),
         }
     }
@@ -112,6 +137,10 @@ impl Default for Task {
 
 /// Half of what a gripper is drawn open by where the task has room for it, in millimetres.
 const HALF_OPENING: i32 = 15;
+/// Joints nearer to each other than this run into each other, in mm.
+const NEAR: f64 = 14.0;
+/// Joints nearer to the tips than this are where the part is, in mm.
+const BEHIND: f64 = 25.0;
 /// A jaw that is to be parallel turns by this at most over the stroke, in degrees.
 pub(super) const PARALLEL: f64 = 1.0;
 
@@ -126,6 +155,12 @@ impl Task {
         #[allow(clippy::cast_possible_truncation, reason = "some millimetres")]
         let half = ((self.narrowest + self.widest) / 4.0).round() as i32;
         half.max(1)
+    }
+
+    /// How far apart joints are wished at least, and how far behind the tips: as asked, or as is usual. In mm.
+    pub(super) fn distances(&self) -> [f64; 2] {
+        let asked = [(self.pin_distance, NEAR), (self.reach, BEHIND)];
+        asked.map(|(asked, usual)| if asked > 0.0 { asked } else { usual })
     }
 
     /// By how much the tips go apart over the stroke, in millimetres.

@@ -191,6 +191,11 @@ impl LayoutSketch for PairSketch<'_> {
         Some(sum + motion.penalty).filter(|sum| *sum <= most)
     }
 
+    fn breaks(&self, at: &PairPlaces) -> f64 {
+        let (points, bones) = self.drawn(at);
+        bones.breaks(&points, &self.limits) + self.pitch_penalty(at)
+    }
+
     fn looks(&self, at: &PairPlaces) -> Option<Looks> {
         let motion = self.bones.motion(
             &at.points,

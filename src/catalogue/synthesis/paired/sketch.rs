@@ -77,6 +77,7 @@ impl<'a> PairSketch<'a> {
             turns: paired.input() == Input::Turn,
             hinged: roles.jaws.iter().map(hinged).collect(),
             round: (paired.form.symmetry == Symmetry::HalfTurn).then_some(0.0),
+            wished: limits.task.distances(),
         };
         let at_input = |j: &Joint| j.links == roles.input;
         let mut bones = Bones::new(chain.links(), plan, pinned);

@@ -172,6 +172,7 @@ impl Around {
             turns: two.turns,
             hinged: vec![two.hinged[0]; SIDES],
             round: two.round,
+            wished: two.wished,
         };
         Around {
             bones: Bones::new(structure.links(), plan, pushes),

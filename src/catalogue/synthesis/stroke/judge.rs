@@ -5,8 +5,8 @@ use super::motion::{HingeMotion, StrokeMotion};
 use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::StrokeEnd;
-use crate::geom::vector::{dot, length};
-use crate::synthesis::layout_quality::{beyond, transmission};
+use crate::geom::vector::{dot, length, sub};
+use crate::synthesis::layout_quality::{DEAR, LEAST_CLOSING, beyond, transmission};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
@@ -56,6 +56,10 @@ pub struct StrokeFigures {
     pub turn: f64,
     /// The box round pins and tips, in millimetres.
     pub size: [f64; 2],
+    /// How near two pins come to each other, in millimetres; beyond all bounds where that is not asked.
+    pub pin_distance: f64,
+    /// How far the tips are drawn ahead of all pins, in millimetres; beyond all bounds where that is not asked, or the part is not ahead.
+    pub reach: f64,
     /// What the joint forces say.
     pub forces: ForceFigures,
 }
@@ -93,6 +97,10 @@ struct Gathered {
     turns: Vec<Between>,
     sides: [Between; 2],
     forces: ForceFigures,
+    /// The pins at the last pose, and the least square of the distance of two of them.
+    pins: Vec<Point>,
+    nearest: f64,
+    reach: f64,
 }
 
 /// How far a stroke has come, narrower and wider: how far apart the tips are, the drive there, and why it ends.
@@ -137,6 +145,9 @@ impl<M: StrokeMotion> Judge<M> {
                 turns: vec![Between::NOTHING; bones.tips.len()],
                 sides: [Between::NOTHING; 2],
                 forces: ForceFigures::BEST,
+                pins: Vec::new(),
+                nearest: f64::INFINITY,
+                reach: f64::INFINITY,
             },
             meetings: None,
             motion,
@@ -198,6 +209,10 @@ impl<M: StrokeMotion> Judge<M> {
             ends: [None; 2],
         };
         self.gathered.begin();
+        if task.reach > 0.0 {
+            let sketch = self.motion.sketch();
+            self.gathered.reach = sketch.bones().reach(sketch.points(at));
+        }
         self.look(at);
         if self.is_dearer(&way, most) {
             return None;
@@ -249,6 +264,8 @@ impl<M: StrokeMotion> Judge<M> {
             straightness: g.straightness,
             turn: self.turns().fold(0.0, f64::max).to_degrees(),
             size: g.sides.map(Between::span),
+            pin_distance: g.nearest.sqrt(),
+            reach: g.reach,
             forces: g.forces,
         }
     }
@@ -292,6 +309,8 @@ impl<M: StrokeMotion> Judge<M> {
         let sketch = self.motion.sketch();
         let (bones, points) = (sketch.bones(), sketch.points(at));
         let g = &mut self.gathered;
+        let apart = sketch.limits().task.pin_distance > 0.0;
+        g.pins.clear();
         g.rates.take(self.motion.walk().rate().abs());
         for &(link, ends) in &bones.rods {
             let pose = &self.links[link];
@@ -313,7 +332,12 @@ impl<M: StrokeMotion> Judge<M> {
         for (i, (place, ends)) in points.iter().zip(&bones.joints).enumerate() {
             if let Some([link, _]) = *ends {
                 let now = self.links[link].point(*place);
-                sketch.each_copy(i, now, &mut |p| g.take(p));
+                sketch.each_copy(i, now, &mut |p| {
+                    g.take(p);
+                    if apart {
+                        g.take_pin(p);
+                    }
+                });
             }
         }
         if let Some(meetings) = &mut self.meetings {
@@ -334,6 +358,15 @@ impl Gathered {
         self.turns.fill(Between::NOTHING);
         self.sides = [Between::NOTHING; 2];
         self.forces = ForceFigures::BEST;
+        (self.nearest, self.reach) = (f64::INFINITY, f64::INFINITY);
+    }
+
+    fn take_pin(&mut self, pin: Point) {
+        for other in &self.pins {
+            let apart = sub(pin, *other);
+            self.nearest = self.nearest.min(dot(apart, apart));
+        }
+        self.pins.push(pin);
     }
 
     fn take(&mut self, point: Point) {
@@ -375,6 +408,35 @@ impl Limits {
                 cost += beyond(size - most + 2.0, 4.0).min(10.0);
             }
         }
+        for (least, is) in [(task.pin_distance, f.pin_distance), (task.reach, f.reach)] {
+            if least > 0.0 {
+                cost += beyond(least - is + 1.0, 3.0).min(10.0);
+            }
+        }
         cost
+    }
+
+    /// What a stroke costs where the force alone counts: less than nothing for a great one, and much for each limit that is broken.
+    #[must_use]
+    pub fn force_cost(&self, f: &StrokeFigures) -> f64 {
+        let task = &self.task;
+        let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
+        let missing = missing.into_iter().filter(|m| *m > 0.0);
+        let mut cost: f64 = missing.map(|m| DEAR + 10.0 * DEAR * m / task.span()).sum();
+        cost += DEAR * beyond((f.force_ratio() / task.force_ratio).ln(), 0.1);
+        cost += DEAR * beyond(self.transmission - f.transmission, 2.0);
+        cost += DEAR * beyond(LEAST_CLOSING - f.straightness, 0.05);
+        if task.motion == AskedMotion::Parallel {
+            cost += DEAR * beyond(f.turn - PARALLEL, 0.2);
+        }
+        for (size, most) in f.size.into_iter().zip(task.room) {
+            if most > 0.0 {
+                cost += DEAR * beyond(size - most, 1.0);
+            }
+        }
+        for (least, is) in [(task.pin_distance, f.pin_distance), (task.reach, f.reach)] {
+            cost += DEAR * beyond(least - is, 1.0);
+        }
+        cost - 20.0 * f.force.max(1e-12).ln()
     }
 }

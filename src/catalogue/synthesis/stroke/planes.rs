@@ -270,6 +270,7 @@ mod tests {
             turns: true,
             hinged: vec![false, true],
             round: None,
+            wished: [14.0, 25.0],
         };
         Bones::new(5, plan, |_| true)
     }

@@ -68,6 +68,24 @@ pub enum Shortfall {
         /// The room, in mm.
         room: [f64; 2],
     },
+    /// Pins come too near to each other.
+    #[error("pins come within {apart:.1} mm of each other where {least} mm are asked")]
+    Pins {
+        /// How near, in mm.
+        apart: f64,
+        /// At least, in mm.
+        least: f64,
+    },
+    /// Pins are where the part is.
+    #[error(
+        "the tips are drawn {reach:.0} mm ahead of the foremost pin where {least} mm are asked"
+    )]
+    Reach {
+        /// How far, in mm.
+        reach: f64,
+        /// At least, in mm.
+        least: f64,
+    },
     /// Rods pull badly somewhere.
     #[error("the transmission angle falls to {worst:.0}° over the stroke where {least}° are asked")]
     Transmission {
@@ -129,6 +147,14 @@ impl Limits {
         let (size, room) = (f.size, task.room);
         if (0..2).any(|k| room[k] > 0.0 && size[k] > room[k]) {
             return Some(Shortfall::Room { size, room });
+        }
+        let (apart, least) = (f.pin_distance, task.pin_distance);
+        if apart < least {
+            return Some(Shortfall::Pins { apart, least });
+        }
+        let (reach, least) = (f.reach, task.reach);
+        if reach < least {
+            return Some(Shortfall::Reach { reach, least });
         }
         let (worst, least) = (f.transmission, self.transmission);
         (worst < least).then_some(Shortfall::Transmission { worst, least })

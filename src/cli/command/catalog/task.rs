@@ -1,6 +1,6 @@
 //! The task of a catalogue as options: part widths, grip, motion, force and room.
 
-use crate::synthesis::task::{AskedMotion, HeldFrom, Task};
+use crate::synthesis::task::{Aim, AskedMotion, HeldFrom, Task};
 use clap::Args as ClapArgs;
 
 #[derive(Debug, ClapArgs)]
@@ -24,6 +24,16 @@ pub(super) struct TaskArgs {
     /// Width and height of the box round pins and tips over the stroke at most, in mm; any by default.
     #[arg(long, value_name = "WxH", value_parser = room)]
     room: Option<[f64; 2]>,
+    /// How far pins are apart over the stroke at least, in mm; any by default, and 14 as drawn is wished.
+    #[arg(long, value_name = "MM")]
+    pin_distance: Option<f64>,
+    /// How far the tips are drawn ahead of all pins at least, in mm, where the part is ahead; any by default, and 25 is wished.
+    #[arg(long, value_name = "MM")]
+    reach: Option<f64>,
+    /// What layouts that do the task are chosen for: balanced (a little of all), or force (the greatest least force of a jaw);
+    /// balanced by default.
+    #[arg(long, value_name = "AIM", value_parser = aim)]
+    aim: Option<Aim>,
 }
 
 impl TaskArgs {
@@ -37,6 +47,9 @@ impl TaskArgs {
         task.least_force = self.least_force.unwrap_or(task.least_force);
         task.force_ratio = self.force_ratio.unwrap_or(task.force_ratio);
         task.room = self.room.unwrap_or(task.room);
+        task.pin_distance = self.pin_distance.unwrap_or(task.pin_distance);
+        task.reach = self.reach.unwrap_or(task.reach);
+        task.aim = self.aim.unwrap_or(task.aim);
     }
 }
 
@@ -70,6 +83,10 @@ fn word<T: Copy>(text: &str, all: &[(T, &'static str)]) -> Result<T, String> {
 
 fn side(text: &str) -> Result<HeldFrom, String> {
     word(text, &HeldFrom::ALL)
+}
+
+fn aim(text: &str) -> Result<Aim, String> {
+    word(text, &Aim::ALL)
 }
 
 fn motion(text: &str) -> Result<AskedMotion, String> {
