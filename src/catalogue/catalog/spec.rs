@@ -398,6 +398,9 @@ impl Spec {
         }
         within("pin_distance", t.pin_distance, 0, 1000)?;
         within("reach", t.reach, 0, 1000)?;
+        if t.pulled_out != 0.0 {
+            within("pulled_out", t.pulled_out, 1, 1000)?;
+        }
         within("coefficient", t.friction.coefficient, 0, 10)?;
         within("pin_radius", t.friction.pin_radius, 0, 1000)?;
         within("guide", t.friction.guide, 1, 10_000)

@@ -32,7 +32,7 @@ CREATE TABLE layouts (
   crossings INTEGER NOT NULL,      -- of links, and pins on links they are no part of
   link_ratio REAL NOT NULL,        -- longest link over shortest
   transmission REAL NOT NULL,      -- worst transmission angle of a rod, degrees
-  area REAL NOT NULL,              -- of the box round pins and tips, mm2
+  area REAL NOT NULL,              -- of the box round pins, tips and pitch circles, mm2
   opening_min REAL NOT NULL,       -- of what is reached of the task's stroke, mm; of three jaws twice the tips' mean distance from the middle
   opening_max REAL NOT NULL,
   travel REAL NOT NULL,            -- of the drive between them, mm or rad
@@ -70,7 +70,7 @@ CREATE TABLE strokes (             -- what a layout does of the task it was made
   transmission REAL NOT NULL,      -- least angle over the stroke, of rods and by joint forces at driver and jaws, degrees
   pin_force REAL NOT NULL,         -- greatest joint force over the stroke, N for 1 N of each jaw
   efficiency REAL NOT NULL,        -- least over the stroke with the friction of the task; to a half it holds itself
-  width REAL NOT NULL,             -- of the box round pins and tips over the stroke, mm
+  width REAL NOT NULL,             -- of the box round pins, tips and pitch circles over the stroke, mm
   height REAL NOT NULL,
   margin_closing REAL NOT NULL,    -- how far on the jaws could go beyond the task before the stroke ends, mm; a fifth of it at most
   margin_opening REAL NOT NULL,

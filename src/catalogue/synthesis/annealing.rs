@@ -1,7 +1,8 @@
 //! A place for every joint, found by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
 use crate::synthesis::layout_quality::Looks;
-use crate::synthesis::random::unit;
+use crate::synthesis::limits::Limits;
+use crate::synthesis::random::{below, unit};
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
@@ -39,6 +40,14 @@ impl<P> FoundPlaces<P> {
     }
 }
 
+/// Starts of a search for places at most, for each way of lying.
+pub(super) fn starts(limits: &Limits) -> u32 {
+    match limits.task.aim {
+        Aim::Balanced => 6,
+        Aim::Force => 12,
+    }
+}
+
 /// What a search for places from one start ends with; `None` where that is a singular pose.
 pub(super) fn search_from<M: StrokeMotion>(
     sketch: &M::Of,
@@ -46,14 +55,14 @@ pub(super) fn search_from<M: StrokeMotion>(
     random: ChaCha8Rng,
     start: u32,
 ) -> Option<FoundPlaces<PlacesOf<M>>> {
-    let at = anneal(sketch, judge, random);
+    let at = anneal(sketch, judge, random, start);
     let looks = sketch.looks(&at)?;
-    let stroke = judge.coarse(&at, f64::INFINITY)?;
+    let stroke = judge.fine(&at)?;
     let limits = sketch.limits();
     Some(FoundPlaces {
         cost: match limits.task.aim {
             Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
-            Aim::Force => sketch.breaks(&at) + limits.force_cost(&stroke),
+            Aim::Force => sketch.breaks(&at) + limits.force_cost(&stroke, WITHIN),
         },
         does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
         within: looks.keep(limits),
@@ -69,7 +78,8 @@ enum Look {
     Places,
     Motion,
     Stroke,
-    Force,
+    /// The force, limits being so many times as wide as usual.
+    Force(f64),
 }
 
 /// A part of a search: how many moves, and how warm it is at the beginning and at the end.
@@ -94,16 +104,26 @@ const PHASES: [Phase; 3] = [
     Phase {
         look: Look::Stroke,
         moves: 500,
-        warmth: [0.4, 0.0],
+        warmth: [0.5, 0.0],
     },
 ];
 
-/// Of what does the task, the strongest.
-const FOR_FORCE: Phase = Phase {
-    look: Look::Force,
-    moves: 1500,
-    warmth: [1.0, 0.0],
-};
+/// How wide limits are within which places are taken.
+const WITHIN: f64 = 1.0;
+
+/// Of what does the task, the strongest: beyond the limits first, then within.
+const FOR_FORCE: [Phase; 2] = [
+    Phase {
+        look: Look::Force(6.0),
+        moves: 2500,
+        warmth: [3.0, 0.5],
+    },
+    Phase {
+        look: Look::Force(WITHIN),
+        moves: 1500,
+        warmth: [0.5, 0.0],
+    },
+];
 
 /// A search for places from one start.
 struct Annealing<'s, 'j, M: StrokeMotion> {
@@ -134,10 +154,15 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
 
     /// What the places cost; `None` where that is more than `most`, or the pose is singular.
     fn cost(&mut self, look: Look, most: f64) -> Option<f64> {
-        if look == Look::Force {
+        if let Look::Force(slack) = look {
             let drawn = self.sketch.breaks(&self.at);
+            let limits = *self.sketch.limits();
             let stroke = self.judge.coarse(&self.at, f64::INFINITY)?;
-            let all = drawn + self.sketch.limits().force_cost(&stroke);
+            let mut all = drawn + limits.force_cost(&stroke, slack);
+            // What seems good enough at a dozen poses is looked at between them, too.
+            if all <= most && slack <= WITHIN {
+                all = drawn + limits.force_cost(&self.judge.fine(&self.at)?, slack);
+            }
             return (all <= most).then_some(all);
         }
         let drawn = (self.sketch).penalty(&self.at, look != Look::Places, most)?;
@@ -158,7 +183,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
 
     fn phase(&mut self, phase: &Phase) {
         // A stroke is judged from the best of what was drawn.
-        if matches!(phase.look, Look::Stroke | Look::Force) {
+        if matches!(phase.look, Look::Stroke | Look::Force(_)) {
             self.at.clone_from(&self.best.1);
         }
         self.now = self
@@ -180,7 +205,15 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
     fn step(&mut self, look: Look, warmth: f64) {
         let heat = 2.0 * warmth * warmth;
         self.before.clone_from(&self.at);
-        self.sketch.change(&mut self.at, warmth, &mut self.random);
+        if let Look::Force(_) = look {
+            // Limits meet in corners: from one to another several joints go, near or far.
+            for _ in 0..=below(3, &mut self.random) {
+                let far = unit(&mut self.random).powi(2);
+                self.sketch.change(&mut self.at, far, &mut self.random);
+            }
+        } else {
+            self.sketch.change(&mut self.at, warmth, &mut self.random);
+        }
         // Taken where exp((now - then) / heat) is above a random number: what is too dear is not looked at to the end.
         let most = self.now - heat * unit(&mut self.random).ln();
         match self.cost(look, most) {
@@ -201,10 +234,16 @@ fn anneal<M: StrokeMotion>(
     sketch: &M::Of,
     judge: &mut Judge<M>,
     random: ChaCha8Rng,
+    start: u32,
 ) -> PlacesOf<M> {
     let mut search = Annealing::new(sketch, judge, random);
-    let last = (sketch.limits().task.aim == Aim::Force).then_some(&FOR_FORCE);
-    for phase in PHASES.iter().chain(last) {
+    let phases: &[&[Phase]] = match sketch.limits().task.aim {
+        Aim::Balanced => &[&PHASES],
+        // What looks good is not what pulls best: every other start does without.
+        Aim::Force if start % 2 == 0 => &[&PHASES, &FOR_FORCE],
+        Aim::Force => &[&FOR_FORCE],
+    };
+    for phase in phases.iter().copied().flatten() {
         search.phase(phase);
     }
     search.best.1

@@ -39,6 +39,11 @@ pub struct Bones {
     pub round: Option<f64>,
     /// How far apart joints are wished at least, and how far behind the tips, in mm.
     pub wished: [f64; 2],
+    /// On which side of the middle, by its sign, the half of the jaw is that each joint belongs to; 0 where it belongs to none, or the
+    /// jaws are not on both sides.
+    pub halves: Vec<f64>,
+    /// Of a drive that slides between two links which have one other joint each, a cylinder: these links with their other joints.
+    pub cylinder: Option<[(usize, usize); 2]>,
     /// Jaws in all, those included that are images of these.
     pub sides: usize,
 }
@@ -57,6 +62,41 @@ pub(super) struct BonePlan<'a> {
     pub(super) hinged: Vec<bool>,
     pub(super) round: Option<f64>,
     pub(super) wished: [f64; 2],
+    /// The links of a drive that slides between two moving ones.
+    pub(super) cylinder: Option<[usize; 2]>,
+}
+
+/// The side of each joint's jaw: of the jaw that is nearer by way of links other than frame and driver.
+fn halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
+    let ([a, b], None) = (plan.jaws, plan.round) else {
+        return vec![0.0; plan.joints.len()];
+    };
+    let between: Vec<[usize; 2]> = plan.joints.iter().flatten().copied().collect();
+    let still = |link: usize| link == plan.frame || link == plan.driver && plan.cylinder.is_none();
+    let far = |jaw: usize| {
+        let passable = between.iter().copied();
+        let passable = passable.filter(|ends| !ends.iter().any(|l| still(*l)));
+        let (_, steps) = forest(links, passable, |_| false, [jaw]);
+        let mut away = vec![links; links];
+        away[jaw] = 0;
+        for s in steps {
+            if away[s.from] < links {
+                away[s.link] = away[s.link].min(away[s.from] + 1);
+            }
+        }
+        away
+    };
+    let (to_a, to_b) = (far(*a), far(*b));
+    let half = |ends: &Option<[usize; 2]>| {
+        let Some(ends) = ends else { return 0.0 };
+        let near = |away: &[usize]| ends.iter().map(|l| away[*l]).min();
+        match near(&to_a).cmp(&near(&to_b)) {
+            std::cmp::Ordering::Less => plan.tips[0][1].signum(),
+            std::cmp::Ordering::Greater => plan.tips[1][1].signum(),
+            std::cmp::Ordering::Equal => 0.0,
+        }
+    };
+    plan.joints.iter().map(half).collect()
 }
 
 impl Bones {
@@ -80,7 +120,21 @@ impl Bones {
         let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
         let joints = plan.joints.iter().enumerate();
         let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
+        let cylinder = plan.cylinder.and_then(|links| {
+            let end = |link: usize| {
+                let mut others = plan
+                    .joints
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, ends)| ends.is_some_and(|e| e.contains(&link) && e != links));
+                let (joint, _) = others.next()?;
+                others.next().is_none().then_some((link, joint))
+            };
+            Some([end(links[0])?, end(links[1])?])
+        });
         Bones {
+            halves: halves(links, &plan),
+            cylinder,
             rods: rods.collect(),
             members: of_link.iter().map(bits).collect(),
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),

@@ -6,20 +6,13 @@ use crate::synthesis::rules::Rules;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::forces::ForceFigures;
-use crate::synthesis::stroke::judge::{Grid, Judge, PlacesOf};
+use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::stroke::shortfall::Shortfall;
-use crate::synthesis::stroke::walk::{SETTLED, StrokeEnd};
+use crate::synthesis::stroke::walk::StrokeEnd;
 use crate::synthesis::structure::Structure;
 
-/// Where a stroke is looked at that is told.
-const FINE: Grid = Grid {
-    steps: 48.0,
-    finest: 1e-5,
-    settled: SETTLED,
-    forces_everywhere: true,
-};
 /// A jaw that turns by less than this over the stroke keeps its attitude: what is left is the error of closing. In rad.
 const STILL: f64 = 1e-6;
 /// How far beyond the task's ends the jaws are followed, over the task's stroke.
@@ -70,7 +63,7 @@ pub struct LayoutFigures {
     pub transmission: f64,
     /// What the joint forces say.
     pub forces: ForceFigures,
-    /// Width and height of the box round pins and tips over the stroke, in millimetres.
+    /// Width and height of the box round pins, tips and pitch circles over the stroke, in millimetres.
     pub size: [f64; 2],
     /// How much farther than the task asks the jaws could close, and open, before a dead point or the like: millimetres, at most
     /// a fifth of the task's stroke; 0 where they do not come as far as it asks.
@@ -99,7 +92,7 @@ pub(super) fn of_stroke<M: StrokeMotion>(
     at: &PlacesOf<M>,
 ) -> Option<LayoutFigures> {
     judge.watch();
-    let stroke = judge.follow(at, FINE, f64::INFINITY)?;
+    let stroke = judge.fine(at)?;
     let stacking = judge.stacking();
     let way = judge.drive_rate();
     let turns: Vec<f64> = judge.turns().collect();

@@ -4,7 +4,7 @@
 
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
-use crate::synthesis::annealing::{FoundPlaces, search_from};
+use crate::synthesis::annealing::{FoundPlaces, search_from, starts};
 use crate::synthesis::bones::Bones;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
@@ -19,9 +19,6 @@ use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::structure::Structure;
 use chacha20::ChaCha8Rng;
 use thiserror::Error;
-
-/// Starts of the search for places at most.
-const STARTS: u32 = 6;
 
 /// A layout that costs less than this is taken without looking for a better one.
 const GOOD: f64 = 3.0;
@@ -144,7 +141,7 @@ fn best_of_starts(skeleton: &Skeleton<'_>, seed: u64) -> Option<FoundPlaces<Vec<
     let mut judge = Judge::new(skeleton);
     let name = skeleton.structure.name();
     let mut best = None;
-    for start in 0..STARTS {
+    for start in 0..starts(&skeleton.limits) {
         let found = search_from(skeleton, &mut judge, random(&name, seed, start), start);
         let Some(found) = found else { continue };
         let good = found.are_good(skeleton);

@@ -35,7 +35,7 @@ pub struct Looks {
 }
 
 /// The tips' motion must close them by this share at least.
-pub(super) const LEAST_CLOSING: f64 = 0.35;
+const LEAST_CLOSING: f64 = 0.35;
 
 impl Looks {
     /// Whether the drawn pose keeps the limits.
@@ -322,7 +322,7 @@ impl Bones {
         let over = count.saturating_sub(limits.crossings);
         #[allow(clippy::cast_precision_loss, reason = "a few")]
         let over = over as f64;
-        DEAR * (beyond((ratio / limits.ratio).ln(), 0.1) + over) + 0.2 * crossings
+        DEAR * (beyond((ratio / limits.ratio).ln(), 0.1) + over) + 0.01 * crossings
     }
 
     /// The figures of the motion for a unit speed of the driver, and what they cost where each jaw is to have a force.

@@ -50,6 +50,7 @@ impl<'a> Skeleton<'a> {
             hinged: (r.jaws.iter().map(|&j| structure.chain.joined(r.frame, j))).collect(),
             round: structure.is_round().then_some(near),
             wished: limits.task.distances(),
+            cylinder: None,
         };
         let bones = Bones::new(structure.chain.links(), plan, |_| true);
         let contours = Contours::new(structure);

@@ -28,6 +28,10 @@ pub trait LayoutSketch {
         take(at);
     }
 
+    /// Gives every pitch circle, by the joint at its centre and its radius in mm, and whether its teeth mesh with what does not belong to
+    /// the half of the other jaw.
+    fn each_circle(&self, _at: &Self::JointPlaces, _take: &mut dyn FnMut(usize, f64, bool)) {}
+
     /// Places to begin with.
     fn first_places(&self, random: &mut ChaCha8Rng) -> Self::JointPlaces;
 

@@ -80,13 +80,18 @@ pub struct Task {
     pub least_force: f64,
     /// The greatest force of a jaw over the least, over the stroke, at most.
     pub force_ratio: f64,
-    /// Width and height of the box round pins and tips over the stroke at most, in mm; 0 where it may be of any size.
+    /// Width and height of the box round pins, tips and pitch circles over the stroke at most, in mm; 0 where it may be of any size.
     pub room: [f64; 2],
     /// How far pins are apart over the stroke at least, in mm, from middle to middle; 0 where no more than 14 as drawn is wished.
     pub pin_distance: f64,
     /// How far the tips are drawn ahead of all pins at least, in mm, of a gripper that has the part ahead; 0 where no more than 25 is
     /// wished.
     pub reach: f64,
+    /// Whether pins and pitch circles of each jaw's half are to keep on its side of the middle, by half of the pins' distance, where
+    /// the part is ahead.
+    pub own_sides: bool,
+    /// How long a cylinder between two links is pulled out, from pin to pin, over pushed in, at most; 0 where any will do.
+    pub pulled_out: f64,
     /// What layouts are chosen for.
     pub aim: Aim,
     /// What efficiencies are reckoned with.
@@ -129,6 +134,8 @@ impl Default for Task {
             room: [0.0; 2],
             pin_distance: 0.0,
             reach: 0.0,
+            own_sides: false,
+            pulled_out: 1.6,
             aim: Aim::Balanced,
             friction: Friction::default(),
         }

@@ -47,8 +47,12 @@ fn good() -> StrokeFigures {
         drive: [0.0, 40.0],
         transmission: 60.0,
         straightness: 0.9,
-        turns: vec![0.0, 0.2],
+        turn: 11.5,
         size: [100.0, 80.0],
+        pin_distance: 15.0,
+        on_side: -2.0,
+        pulled_out: 1.5,
+        reach: 30.0,
         forces: ForceFigures::BEST,
     }
 }
@@ -89,21 +93,15 @@ fn a_force_is_asked_of_each_jaw() {
     assert_eq!(asked(least), Some(Shortfall::Force { force, least }));
 }
 
-/// The first jaw keeps its attitude, the second does not.
 #[test]
-fn parallel_is_what_all_jaws_are() {
+fn a_jaw_that_turns_is_not_parallel() {
     let parallel = Task {
         motion: AskedMotion::Parallel,
         ..Task::default()
     };
-    for turns in [vec![0.001, 0.2], vec![0.2, 0.001]] {
-        let stroke = StrokeFigures { turns, ..good() };
-        // Of radians.
-        let turn = 36.0 / std::f64::consts::PI;
-        assert!((stroke.turn() - turn).abs() < 1e-12);
-        let said = lacks(parallel, &stroke);
-        assert!(matches!(said, Some(Shortfall::Turn { .. })), "{said:?}");
-    }
+    let turned = |turn| lacks(parallel, &StrokeFigures { turn, ..good() });
+    assert_eq!(turned(0.9), None);
+    assert_eq!(turned(1.1), Some(Shortfall::Turn { turn: 1.1 }));
 }
 
 #[test]
@@ -122,6 +120,40 @@ fn room_is_asked_both_ways() {
         let size = [100.0, 80.0];
         assert_eq!(in_a_room(room), Some(Shortfall::Room { size, room }));
     }
+}
+
+#[test]
+fn distances_are_asked_one_by_one() {
+    let with = |change: &dyn Fn(&mut Task)| {
+        let mut task = Task::default();
+        change(&mut task);
+        lacks(task, &good())
+    };
+    let (apart, least) = (15.0, 16.0);
+    assert_eq!(with(&|t| t.pin_distance = 15.0), None);
+    assert_eq!(
+        with(&|t| t.pin_distance = least),
+        Some(Shortfall::Pins { apart, least })
+    );
+    let (reach, least) = (30.0, 31.0);
+    assert_eq!(with(&|t| t.reach = reach), None);
+    assert_eq!(
+        with(&|t| t.reach = least),
+        Some(Shortfall::Reach { reach, least })
+    );
+    // Half of what pins are wished apart, or of what is asked.
+    let on_side = -2.0;
+    let least = 7.0;
+    assert_eq!(
+        with(&|t| t.own_sides = true),
+        Some(Shortfall::Sides { on_side, least })
+    );
+    let (ratio, most) = (1.5, 1.4);
+    assert_eq!(
+        with(&|t| t.pulled_out = most),
+        Some(Shortfall::Cylinder { ratio, most })
+    );
+    assert_eq!(with(&|t| t.pulled_out = 0.0), None);
 }
 
 /// Pins of the slider-crank from the frame round to the frame, then the tips of the jaws in that order.

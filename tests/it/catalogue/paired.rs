@@ -2,6 +2,7 @@
 //! joints in space.
 
 mod by_hand;
+mod strongest;
 
 use super::carried_on::scattered;
 use super::command::{at, fails, ok, whole};

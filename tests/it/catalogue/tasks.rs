@@ -50,6 +50,62 @@ fn a_stroke_that_is_not_reached_has_a_reason_and_no_place_in_the_front() {
     );
 }
 
+/// What is made for force has more of it than what is made for looks, and does as much of the task; distances that are asked are kept.
+#[test]
+fn the_strongest_layouts_are_stronger() {
+    let folder = tempdir().unwrap();
+    let built = |name: &str, more: &[&str]| {
+        let file = at(&folder, name);
+        let words = "catalog build --links 4 --input turn --ideas 0 --pin-distance 20 --reach 30 --quiet -o";
+        let words: Vec<&str> = words.split(' ').chain([file.as_str()]).collect();
+        ok(&[&words[..], more].concat());
+        rows(
+            &file,
+            &[
+                "SELECT force_min, shortfall, mechanism FROM layouts JOIN strokes USING (structure) ORDER BY structure",
+            ],
+        )
+    };
+    let force = |rows: &[Value]| {
+        rows.iter()
+            .map(|r| r["force_min"].as_f64().unwrap())
+            .collect::<Vec<_>>()
+    };
+    let plain = built("plain.db", &[]);
+    let strong = built("strong.db", &["--aim", "force"]);
+    assert!(!plain.is_empty() && plain.len() == strong.len());
+    assert!(
+        strong.iter().all(|r| r["shortfall"].is_null()),
+        "{strong:?}"
+    );
+    for (a, b) in force(&plain).iter().zip(force(&strong)) {
+        assert!(b > 1.2 * a, "{a} and {b}");
+    }
+    for row in &strong {
+        let file: toml::Table = row["mechanism"].as_str().unwrap().parse().unwrap();
+        let places = |list: &str| {
+            let all = file[list].as_array().unwrap().iter();
+            let place = |p: &toml::Value| [0, 1].map(|k| p["point"][k].as_integer().unwrap());
+            all.map(place).collect::<Vec<[i64; 2]>>()
+        };
+        let (pins, tips) = (places("joint"), places("point"));
+        for (i, a) in pins.iter().enumerate() {
+            assert!(tips.iter().all(|t| t[0] - a[0] >= 30), "{pins:?}");
+            for b in &pins[..i] {
+                let apart = (a[0] - b[0]).pow(2) + (a[1] - b[1]).pow(2);
+                assert!(apart >= 400, "{pins:?}");
+            }
+        }
+    }
+    let wrong = |words: &[&str], says: &str| {
+        let build = ["catalog", "build", "--links", "4", "-o", "none.db"];
+        fails(&[&build[..], words].concat(), says);
+    };
+    wrong(&["--aim", "strong"], "none of balanced, force");
+    wrong(&["--pulled-out", "0.5"], "pulled_out");
+    wrong(&["--pin-distance", "-1"], "pin_distance");
+}
+
 /// Layouts are made for the force that is asked: what a default task leaves weak is laid out to pull as hard, with a longer travel.
 #[test]
 fn jaws_have_the_force_that_is_asked() {

@@ -1,6 +1,6 @@
 //! A place for every joint of a paired structure, looked for from seeds that follow from its name.
 
-use crate::synthesis::annealing::{FoundPlaces, search_from};
+use crate::synthesis::annealing::{FoundPlaces, search_from, starts};
 use crate::synthesis::layout::NoLayout;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
@@ -13,9 +13,6 @@ use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::place::third;
 use crate::synthesis::random::random;
 use crate::synthesis::stroke::judge::Judge;
-
-/// Starts of the search for places at most, for each way of lying.
-const STARTS: u32 = 6;
 
 /// A paired structure with a place for every joint.
 #[derive(Debug, Clone)]
@@ -39,7 +36,7 @@ pub struct PairLayout {
 ///
 /// # Complexity
 /// Some thousand looks at places, of which some hundred are at a whole stroke, for each of the ways it may lie on itself.
-pub(crate) fn layout(
+pub fn layout(
     paired: &PairedStructure,
     limits: &Limits,
     seed: u64,
@@ -70,7 +67,7 @@ fn layout_as(
         };
         let sketch = PairSketch::thrice(paired, threefold, rules, *limits);
         let mut judge = Judge::of(PairMotion::new(&sketch));
-        for _ in 0..STARTS {
+        for _ in 0..starts(limits) {
             let found = search_from(&sketch, &mut judge, random(name, seed, start), start);
             start += 1;
             let Some(found) = found else { continue };

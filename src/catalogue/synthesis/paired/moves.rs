@@ -78,15 +78,10 @@ impl PairSketch<'_> {
 
     /// What pitch circles cost that are large, or too small for teeth.
     fn pitch_penalty(&self, at: &PairPlaces) -> f64 {
-        let meshes = self.rules.meshes.iter().enumerate();
-        let circles = meshes.filter_map(|(i, m)| Some((at.points[i], (*m)?)));
-        let radii = circles.flat_map(|(pitch, mesh)| {
-            let turning = if mesh.rack { 1 } else { 2 };
-            let held = mesh.held.into_iter().take(turning);
-            held.map(move |j| length(sub(at.points[j], pitch)))
-        });
         let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
-        radii.map(cost).sum()
+        let mut sum = 0.0;
+        self.each_circle(at, &mut |_, r, _| sum += cost(r));
+        sum
     }
 
     /// Changes the teeth of a gear pair.
@@ -119,6 +114,17 @@ impl LayoutSketch for PairSketch<'_> {
         match &self.around {
             None => take(at),
             Some(around) => around.each(point, at, take),
+        }
+    }
+
+    fn each_circle(&self, at: &PairPlaces, take: &mut dyn FnMut(usize, f64, bool)) {
+        let meshes = self.rules.meshes.iter().enumerate();
+        for (pitch, mesh) in meshes.filter_map(|(i, m)| Some((at.points[i], (*m)?))) {
+            let turning = if mesh.rack { 1 } else { 2 };
+            let [a, b] = mesh.held.map(|j| self.bones.halves[j]);
+            for j in mesh.held.into_iter().take(turning) {
+                take(j, length(sub(at.points[j], pitch)), a * b >= 0.0);
+            }
         }
     }
 

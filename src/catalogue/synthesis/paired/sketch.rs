@@ -78,6 +78,7 @@ impl<'a> PairSketch<'a> {
             hinged: roles.jaws.iter().map(hinged).collect(),
             round: (paired.form.symmetry == Symmetry::HalfTurn).then_some(0.0),
             wished: limits.task.distances(),
+            cylinder: (paired.structure.slides() && drive[0] != roles.frame).then_some(drive),
         };
         let at_input = |j: &Joint| j.links == roles.input;
         let mut bones = Bones::new(chain.links(), plan, pinned);

@@ -173,6 +173,7 @@ impl Around {
             hinged: vec![two.hinged[0]; SIDES],
             round: two.round,
             wished: two.wished,
+            cylinder: None,
         };
         Around {
             bones: Bones::new(structure.links(), plan, pushes),

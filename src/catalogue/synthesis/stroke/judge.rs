@@ -4,14 +4,15 @@ use super::forces::ForceFigures;
 use super::motion::{HingeMotion, StrokeMotion};
 use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
-use super::walk::StrokeEnd;
+use super::shortfall::NOISE;
+use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
-use crate::synthesis::layout_quality::{DEAR, LEAST_CLOSING, beyond, transmission};
+use crate::synthesis::layout_quality::{DEAR, beyond, transmission};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
-use crate::synthesis::task::{AskedMotion, PARALLEL};
+use crate::synthesis::task::{AskedMotion, PARALLEL, Task};
 
 /// Poses of a stroke while places are tried, and how near to its end it is followed: a fraction of the stroke.
 const COARSE: Grid = Grid {
@@ -21,17 +22,25 @@ const COARSE: Grid = Grid {
     forces_everywhere: false,
 };
 
+/// Where a stroke is looked at that is told.
+const FINE: Grid = Grid {
+    steps: 48.0,
+    finest: 1e-5,
+    settled: SETTLED,
+    forces_everywhere: true,
+};
+
 /// Where a stroke is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
+struct Grid {
     /// How many steps there are over the task's stroke.
-    pub steps: f64,
+    steps: f64,
     /// How near to an end before the task's it is followed, over the stroke.
-    pub finest: f64,
+    finest: f64,
     /// The last correction of a pose is smaller than this, in rad.
-    pub settled: f64,
+    settled: f64,
     /// Whether joint forces are solved for at every pose, or at the drawn one and both ends alone.
-    pub forces_everywhere: bool,
+    forces_everywhere: bool,
 }
 
 /// Figures of a stroke. Where it does not reach, of what is reached.
@@ -54,10 +63,15 @@ pub struct StrokeFigures {
     pub straightness: f64,
     /// The most that a jaw turns, from where it turned least to where it turned most, in degrees.
     pub turn: f64,
-    /// The box round pins and tips, in millimetres.
+    /// The box round pins, tips and pitch circles, in millimetres.
     pub size: [f64; 2],
     /// How near two pins come to each other, in millimetres; beyond all bounds where that is not asked.
     pub pin_distance: f64,
+    /// How far pins and pitch circles of each jaw's half keep on its side of the middle, in millimetres: less than nothing where they
+    /// come beyond it.
+    pub on_side: f64,
+    /// How long a cylinder between two links is, from pin to pin, pulled out over pushed in; 1 where there is none.
+    pub pulled_out: f64,
     /// How far the tips are drawn ahead of all pins, in millimetres; beyond all bounds where that is not asked, or the part is not ahead.
     pub reach: f64,
     /// What the joint forces say.
@@ -83,6 +97,16 @@ impl Between {
         self.0 = [self.0[0].min(x), self.0[1].max(x)];
     }
 
+    /// The greatest over the least; 1 where nothing was taken.
+    fn ratio(self) -> f64 {
+        let [least, most] = self.0;
+        if least > most {
+            1.0
+        } else {
+            most / least.max(1e-9)
+        }
+    }
+
     fn span(self) -> f64 {
         (self.0[1] - self.0[0]).max(0.0)
     }
@@ -100,6 +124,8 @@ struct Gathered {
     /// The pins at the last pose, and the least square of the distance of two of them.
     pins: Vec<Point>,
     nearest: f64,
+    on_side: f64,
+    cylinder: Between,
     reach: f64,
 }
 
@@ -147,6 +173,8 @@ impl<M: StrokeMotion> Judge<M> {
                 forces: ForceFigures::BEST,
                 pins: Vec::new(),
                 nearest: f64::INFINITY,
+                on_side: f64::INFINITY,
+                cylinder: Between::NOTHING,
                 reach: f64::INFINITY,
             },
             meetings: None,
@@ -190,11 +218,19 @@ impl<M: StrokeMotion> Judge<M> {
         self.follow(at, COARSE, most)
     }
 
+    /// The figures of places as they are told; `None` where the drawn pose is singular.
+    ///
+    /// # Complexity
+    /// As [`Judge::coarse`], for some fifty poses.
+    pub fn fine(&mut self, at: &PlacesOf<M>) -> Option<StrokeFigures> {
+        self.follow(at, FINE, f64::INFINITY)
+    }
+
     /// The figures of places, at the poses of a grid; `None` where the drawn pose is singular, or where they cost more than `most`.
     ///
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
-    pub fn follow(&mut self, at: &PlacesOf<M>, grid: Grid, most: f64) -> Option<StrokeFigures> {
+    fn follow(&mut self, at: &PlacesOf<M>, grid: Grid, most: f64) -> Option<StrokeFigures> {
         self.motion.walk_mut().settled = grid.settled;
         if !self.stand(at) {
             return None;
@@ -265,6 +301,8 @@ impl<M: StrokeMotion> Judge<M> {
             turn: self.turns().fold(0.0, f64::max).to_degrees(),
             size: g.sides.map(Between::span),
             pin_distance: g.nearest.sqrt(),
+            on_side: g.on_side,
+            pulled_out: g.cylinder.ratio(),
             reach: g.reach,
             forces: g.forces,
         }
@@ -338,7 +376,24 @@ impl<M: StrokeMotion> Judge<M> {
                         g.take_pin(p);
                     }
                 });
+                g.take_on_side(bones.halves[i] * now[1], bones.halves[i]);
             }
+        }
+        sketch.each_circle(at, &mut |centre, radius, apart| {
+            let Some([link, _]) = bones.joints[centre] else {
+                return;
+            };
+            let now = self.links[link].point(points[centre]);
+            sketch.each_copy(centre, now, &mut |p| {
+                g.take(p.map(|x| x - radius));
+                g.take(p.map(|x| x + radius));
+            });
+            let half = if apart { bones.halves[centre] } else { 0.0 };
+            g.take_on_side(half * now[1] - radius, half);
+        });
+        if let Some(ends) = bones.cylinder {
+            let [a, b] = ends.map(|(link, joint)| self.links[link].point(points[joint]));
+            g.cylinder.take(length(sub(b, a)));
         }
         if let Some(meetings) = &mut self.meetings {
             let ends = bones.joints.iter().map(|ends| ends.map(|[link, _]| link));
@@ -358,7 +413,15 @@ impl Gathered {
         self.turns.fill(Between::NOTHING);
         self.sides = [Between::NOTHING; 2];
         self.forces = ForceFigures::BEST;
-        (self.nearest, self.reach) = (f64::INFINITY, f64::INFINITY);
+        (self.nearest, self.on_side, self.reach) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        self.cylinder = Between::NOTHING;
+    }
+
+    /// So far on its side of the middle, of a half where that is no 0.
+    fn take_on_side(&mut self, far: f64, half: f64) {
+        if half != 0.0 {
+            self.on_side = self.on_side.min(far);
+        }
     }
 
     fn take_pin(&mut self, pin: Point) {
@@ -373,6 +436,23 @@ impl Gathered {
         for (side, x) in self.sides.iter_mut().zip(point) {
             side.take(x);
         }
+    }
+}
+
+impl Task {
+    /// Distances that are asked for at least, each with that of a stroke, in millimetres.
+    fn least_distances(&self, f: &StrokeFigures) -> impl Iterator<Item = (f64, f64)> {
+        let side = if self.own_sides {
+            0.5 * self.distances()[0]
+        } else {
+            0.0
+        };
+        let all = [
+            (self.pin_distance, f.pin_distance),
+            (self.reach, f.reach),
+            (side, f.on_side),
+        ];
+        all.into_iter().filter(|(least, _)| *least > 0.0)
     }
 }
 
@@ -408,35 +488,50 @@ impl Limits {
                 cost += beyond(size - most + 2.0, 4.0).min(10.0);
             }
         }
-        for (least, is) in [(task.pin_distance, f.pin_distance), (task.reach, f.reach)] {
-            if least > 0.0 {
-                cost += beyond(least - is + 1.0, 3.0).min(10.0);
-            }
+        for (least, is) in task.least_distances(f) {
+            cost += beyond(least - is + 1.0, 3.0).min(10.0);
+        }
+        if task.pulled_out > 0.0 {
+            cost += beyond((f.pulled_out / (0.95 * task.pulled_out)).ln(), 0.1).min(10.0);
         }
         cost
     }
 
-    /// What a stroke costs where the force alone counts: less than nothing for a great one, and much for each limit that is broken.
+    /// What a stroke costs where the force alone counts: less than nothing for a great one, and much for each limit that is broken, by so
+    /// many times the usual width.
     #[must_use]
-    pub fn force_cost(&self, f: &StrokeFigures) -> f64 {
+    pub fn force_cost(&self, f: &StrokeFigures, slack: f64) -> f64 {
         let task = &self.task;
         let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
         let missing = missing.into_iter().filter(|m| *m > 0.0);
-        let mut cost: f64 = missing.map(|m| DEAR + 10.0 * DEAR * m / task.span()).sum();
-        cost += DEAR * beyond((f.force_ratio() / task.force_ratio).ln(), 0.1);
-        cost += DEAR * beyond(self.transmission - f.transmission, 2.0);
-        cost += DEAR * beyond(LEAST_CLOSING - f.straightness, 0.05);
+        let unreached: f64 = missing.map(|m| 1.0 + 10.0 * m / task.span()).sum();
+        let over = |value: f64, most: f64| (value / most).max(1e-12).ln();
+        let mut broken = vec![
+            (over(f.force_ratio(), task.force_ratio), 0.1),
+            (self.transmission - f.transmission, 2.0),
+            (self.transmission - f.forces.transmission, 2.0),
+            (0.05 - f.straightness, 0.05),
+        ];
         if task.motion == AskedMotion::Parallel {
-            cost += DEAR * beyond(f.turn - PARALLEL, 0.2);
+            broken.push((f.turn - PARALLEL, 0.2));
         }
-        for (size, most) in f.size.into_iter().zip(task.room) {
-            if most > 0.0 {
-                cost += DEAR * beyond(size - most, 1.0);
-            }
+        let sides = f.size.into_iter().zip(task.room);
+        broken.extend(
+            sides
+                .filter(|s| s.1 > 0.0)
+                .map(|(size, most)| (size - most, 1.0)),
+        );
+        let distances = task.least_distances(f);
+        broken.extend(distances.map(|(least, is)| (least - is, 1.0)));
+        if task.pulled_out > 0.0 {
+            broken.push((over(f.pulled_out, task.pulled_out), 0.02));
         }
-        for (least, is) in [(task.pin_distance, f.pin_distance), (task.reach, f.reach)] {
-            cost += DEAR * beyond(least - is, 1.0);
-        }
-        cost - 20.0 * f.force.max(1e-12).ln()
+        // However little a limit is broken, it is.
+        let cost = |(over, width): (f64, f64)| match over {
+            over if over > NOISE => 0.02 + beyond(over, slack * width),
+            _ => 0.0,
+        };
+        let broken: f64 = broken.into_iter().map(cost).sum();
+        DEAR * (unreached + broken) - 20.0 * f.force.max(1e-12).ln()
     }
 }

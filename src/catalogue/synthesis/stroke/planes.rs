@@ -271,6 +271,7 @@ mod tests {
             hinged: vec![false, true],
             round: None,
             wished: [14.0, 25.0],
+            cylinder: None,
         };
         Bones::new(5, plan, |_| true)
     }

@@ -86,6 +86,26 @@ pub enum Shortfall {
         /// At least, in mm.
         least: f64,
     },
+    /// A half comes near the middle, or beyond it.
+    #[error(
+        "pins or pitch circles of a jaw's half are {on_side:.1} mm on its side of the middle where {least} mm are asked"
+    )]
+    Sides {
+        /// How far they keep on their side, in mm: less than nothing beyond the middle.
+        on_side: f64,
+        /// At least, in mm.
+        least: f64,
+    },
+    /// A cylinder is too short for its stroke.
+    #[error(
+        "the cylinder is {ratio:.2} times as long pulled out as pushed in where {most} are allowed"
+    )]
+    Cylinder {
+        /// Pulled out over pushed in.
+        ratio: f64,
+        /// At most.
+        most: f64,
+    },
     /// Rods pull badly somewhere.
     #[error("the transmission angle falls to {worst:.0}° over the stroke where {least}° are asked")]
     Transmission {
@@ -95,6 +115,9 @@ pub enum Shortfall {
         least: f64,
     },
 }
+
+/// Less than this is rounding, in mm.
+pub(super) const NOISE: f64 = 1e-6;
 
 impl Shortfall {
     /// Whether it is that the jaws do not come as far together or apart as is asked.
@@ -145,16 +168,24 @@ impl Limits {
             AskedMotion::Any | AskedMotion::Parallel | AskedMotion::Swinging => {}
         }
         let (size, room) = (f.size, task.room);
-        if (0..2).any(|k| room[k] > 0.0 && size[k] > room[k]) {
+        if (0..2).any(|k| room[k] > 0.0 && size[k] > room[k] + NOISE) {
             return Some(Shortfall::Room { size, room });
         }
         let (apart, least) = (f.pin_distance, task.pin_distance);
-        if apart < least {
+        if apart < least - NOISE {
             return Some(Shortfall::Pins { apart, least });
         }
         let (reach, least) = (f.reach, task.reach);
-        if reach < least {
+        if reach < least - NOISE {
             return Some(Shortfall::Reach { reach, least });
+        }
+        let (on_side, least) = (f.on_side, 0.5 * task.distances()[0]);
+        if task.own_sides && on_side < least - NOISE {
+            return Some(Shortfall::Sides { on_side, least });
+        }
+        let (ratio, most) = (f.pulled_out, task.pulled_out);
+        if most > 0.0 && ratio > most {
+            return Some(Shortfall::Cylinder { ratio, most });
         }
         let (worst, least) = (f.transmission, self.transmission);
         (worst < least).then_some(Shortfall::Transmission { worst, least })

@@ -21,7 +21,7 @@ pub(super) struct TaskArgs {
     /// The greatest force of a jaw over the least, over the stroke, at most; 3 by default.
     #[arg(long, value_name = "X")]
     force_ratio: Option<f64>,
-    /// Width and height of the box round pins and tips over the stroke at most, in mm; any by default.
+    /// Width and height of the box round pins, tips and pitch circles over the stroke at most, in mm; any by default.
     #[arg(long, value_name = "WxH", value_parser = room)]
     room: Option<[f64; 2]>,
     /// How far pins are apart over the stroke at least, in mm; any by default, and 14 as drawn is wished.
@@ -30,6 +30,12 @@ pub(super) struct TaskArgs {
     /// How far the tips are drawn ahead of all pins at least, in mm, where the part is ahead; any by default, and 25 is wished.
     #[arg(long, value_name = "MM")]
     reach: Option<f64>,
+    /// Pins and pitch circles of each jaw's half keep on its side of the middle, where the part is ahead.
+    #[arg(long)]
+    own_sides: bool,
+    /// How long a cylinder between two links is pulled out, from pin to pin, over pushed in, at most; 1.6 by default, 0 is any.
+    #[arg(long, value_name = "X")]
+    pulled_out: Option<f64>,
     /// What layouts that do the task are chosen for: balanced (a little of all), or force (the greatest least force of a jaw);
     /// balanced by default.
     #[arg(long, value_name = "AIM", value_parser = aim)]
@@ -49,6 +55,8 @@ impl TaskArgs {
         task.room = self.room.unwrap_or(task.room);
         task.pin_distance = self.pin_distance.unwrap_or(task.pin_distance);
         task.reach = self.reach.unwrap_or(task.reach);
+        task.own_sides |= self.own_sides;
+        task.pulled_out = self.pulled_out.unwrap_or(task.pulled_out);
         task.aim = self.aim.unwrap_or(task.aim);
     }
 }
