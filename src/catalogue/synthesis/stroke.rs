@@ -4,7 +4,9 @@
 //! force of the jaws: work in is work out.
 
 pub mod closure;
+mod cost;
 pub mod forces;
+mod gathered;
 pub mod judge;
 pub mod motion;
 pub mod planes;

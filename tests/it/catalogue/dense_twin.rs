@@ -71,10 +71,15 @@ impl Twin<'_> {
 
     /// Closes all joints from a pose nearby.
     pub(super) fn solve(&self, x: &mut Pose, drive: f64, opened: Option<Opened>) {
+        assert!(self.closes(x, drive, opened), "{}", self.s.name());
+    }
+
+    /// Whether all joints close from a pose nearby.
+    pub(super) fn closes(&self, x: &mut Pose, drive: f64, opened: Option<Opened>) -> bool {
         for _ in 0..12 {
             let r = self.misses(x, drive, opened);
             if r.iter().all(|m| m.abs() < 1e-11) {
-                return;
+                return true;
             }
             let column = |c: usize| -> Vec<f64> {
                 let [a, b] = [1e-6, -1e-6].map(|h| {
@@ -89,7 +94,7 @@ impl Twin<'_> {
             x.iter_mut().zip(dx).for_each(|(a, d)| *a -= d);
         }
         let worst = self.misses(x, drive, opened);
-        assert!(worst.iter().all(|m| m.abs() < 1e-8), "{}", self.s.name());
+        worst.iter().all(|m| m.abs() < 1e-8)
     }
 
     pub(super) fn tips(&self, x: &[f64]) -> Vec<[f64; 2]> {

@@ -324,16 +324,21 @@ fn what_is_not_reached_is_said() {
 fn widest(s: &Structure, l: &Layout, f: &LayoutFigures) -> f64 {
     let twin = Twin { s, l };
     let (mut x, mut drive) = (twin.drawn(), 0.0);
-    let mut most = twin.width(&x);
-    loop {
-        drive -= f.closes * f.travel / 500.0;
-        twin.solve(&mut x, drive, None);
-        let now = twin.width(&x);
+    let (mut most, mut step) = (twin.width(&x), f.travel / 500.0);
+    // Where they turn back, links may lock soon after.
+    while step > 1e-6 * f.travel {
+        let (mut y, to) = (x.clone(), drive - f.closes * step);
+        if !twin.closes(&mut y, to, None) {
+            step /= 2.0;
+            continue;
+        }
+        let now = twin.width(&y);
         if now < most {
             return most;
         }
-        most = now;
+        (x, drive, most) = (y, to, now);
     }
+    most
 }
 
 /// Other tasks: the drawn tips stand within the stroke, parallel jaws do not turn, and what they are made for they do.

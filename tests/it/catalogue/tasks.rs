@@ -103,7 +103,7 @@ fn the_strongest_layouts_are_stronger() {
     };
     wrong(&["--aim", "strong"], "none of balanced, force");
     wrong(&["--pulled-out", "0.5"], "pulled_out");
-    wrong(&["--pin-distance", "-1"], "pin_distance");
+    wrong(&["--pin-distance=-1"], "pin_distance");
 }
 
 /// Layouts are made for the force that is asked: what a default task leaves weak is laid out to pull as hard, with a longer travel.

@@ -1,18 +1,17 @@
 //! What places do over the stroke of a task, and what that costs.
 
 use super::forces::ForceFigures;
+use super::gathered::{Between, Gathered};
 use super::motion::{HingeMotion, StrokeMotion};
 use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
-use super::shortfall::NOISE;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
-use crate::synthesis::layout_quality::{DEAR, beyond, transmission};
+use crate::synthesis::layout_quality::transmission;
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
-use crate::synthesis::task::{AskedMotion, PARALLEL, Task};
 
 /// Poses of a stroke while places are tried, and how near to its end it is followed: a fraction of the stroke.
 const COARSE: Grid = Grid {
@@ -86,49 +85,6 @@ impl StrokeFigures {
     }
 }
 
-/// Least and greatest of figures.
-#[derive(Debug, Clone, Copy)]
-struct Between([f64; 2]);
-
-impl Between {
-    const NOTHING: Between = Between([f64::INFINITY, f64::NEG_INFINITY]);
-
-    fn take(&mut self, x: f64) {
-        self.0 = [self.0[0].min(x), self.0[1].max(x)];
-    }
-
-    /// The greatest over the least; 1 where nothing was taken.
-    fn ratio(self) -> f64 {
-        let [least, most] = self.0;
-        if least > most {
-            1.0
-        } else {
-            most / least.max(1e-9)
-        }
-    }
-
-    fn span(self) -> f64 {
-        (self.0[1] - self.0[0]).max(0.0)
-    }
-}
-
-/// What is gathered on the way.
-#[derive(Debug, Clone)]
-struct Gathered {
-    transmission: f64,
-    straightness: f64,
-    rates: Between,
-    turns: Vec<Between>,
-    sides: [Between; 2],
-    forces: ForceFigures,
-    /// The pins at the last pose, and the least square of the distance of two of them.
-    pins: Vec<Point>,
-    nearest: f64,
-    on_side: f64,
-    cylinder: Between,
-    reach: f64,
-}
-
 /// How far a stroke has come, narrower and wider: how far apart the tips are, the drive there, and why it ends.
 struct ReachedStroke {
     reached: [f64; 2],
@@ -164,19 +120,7 @@ impl<M: StrokeMotion> Judge<M> {
         let bones = motion.sketch().bones();
         Judge {
             links: vec![LinkPose::AT_REST; bones.of_link.len()],
-            gathered: Gathered {
-                transmission: 90.0,
-                straightness: 1.0,
-                rates: Between::NOTHING,
-                turns: vec![Between::NOTHING; bones.tips.len()],
-                sides: [Between::NOTHING; 2],
-                forces: ForceFigures::BEST,
-                pins: Vec::new(),
-                nearest: f64::INFINITY,
-                on_side: f64::INFINITY,
-                cylinder: Between::NOTHING,
-                reach: f64::INFINITY,
-            },
+            gathered: Gathered::new(bones.tips.len()),
             meetings: None,
             motion,
         }
@@ -347,14 +291,31 @@ impl<M: StrokeMotion> Judge<M> {
         let sketch = self.motion.sketch();
         let (bones, points) = (sketch.bones(), sketch.points(at));
         let g = &mut self.gathered;
-        let apart = sketch.limits().task.pin_distance > 0.0;
-        g.pins.clear();
         g.rates.take(self.motion.walk().rate().abs());
         for &(link, ends) in &bones.rods {
             let pose = &self.links[link];
             let ends = ends.map(|i| pose.point(points[i]));
             g.transmission = g.transmission.min(transmission(&pose.velocity, ends));
         }
+        self.look_at_tips();
+        self.look_at_joints(at);
+        let sketch = self.motion.sketch();
+        let (bones, points) = (sketch.bones(), sketch.points(at));
+        if let Some(meetings) = &mut self.meetings {
+            let ends = bones.joints.iter().map(|ends| ends.map(|[link, _]| link));
+            let of = ends.chain(bones.jaws.iter().map(|&jaw| Some(jaw)));
+            let now = of
+                .zip(points)
+                .map(|(link, &p)| link.map_or(p, |l| self.links[l].point(p)));
+            meetings.look(bones, &now.collect::<Vec<Point>>());
+        }
+    }
+
+    /// Takes in where the tips are and how they move.
+    fn look_at_tips(&mut self) {
+        let sketch = self.motion.sketch();
+        let bones = sketch.bones();
+        let g = &mut self.gathered;
         let (mut opens, mut all, mut least) = (0.0, 0.0, f64::INFINITY);
         for (n, (&jaw, inward)) in bones.jaws.iter().zip(&bones.inward).enumerate() {
             let pose = &self.links[jaw];
@@ -367,6 +328,15 @@ impl<M: StrokeMotion> Judge<M> {
         }
         let share = if least > 0.0 { opens / all } else { 0.0 };
         g.straightness = g.straightness.min(share);
+    }
+
+    /// Takes in where joints and pitch circles are, and how long a cylinder is.
+    fn look_at_joints(&mut self, at: &PlacesOf<M>) {
+        let sketch = self.motion.sketch();
+        let (bones, points) = (sketch.bones(), sketch.points(at));
+        let apart = sketch.limits().task.pin_distance > 0.0;
+        let g = &mut self.gathered;
+        g.pins.clear();
         for (i, (place, ends)) in points.iter().zip(&bones.joints).enumerate() {
             if let Some([link, _]) = *ends {
                 let now = self.links[link].point(*place);
@@ -395,143 +365,5 @@ impl<M: StrokeMotion> Judge<M> {
             let [a, b] = ends.map(|(link, joint)| self.links[link].point(points[joint]));
             g.cylinder.take(length(sub(b, a)));
         }
-        if let Some(meetings) = &mut self.meetings {
-            let ends = bones.joints.iter().map(|ends| ends.map(|[link, _]| link));
-            let of = ends.chain(bones.jaws.iter().map(|&jaw| Some(jaw)));
-            let now = of
-                .zip(points)
-                .map(|(link, &p)| link.map_or(p, |l| self.links[l].point(p)));
-            meetings.look(bones, &now.collect::<Vec<Point>>());
-        }
-    }
-}
-
-impl Gathered {
-    fn begin(&mut self) {
-        (self.transmission, self.straightness) = (90.0, 1.0);
-        self.rates = Between::NOTHING;
-        self.turns.fill(Between::NOTHING);
-        self.sides = [Between::NOTHING; 2];
-        self.forces = ForceFigures::BEST;
-        (self.nearest, self.on_side, self.reach) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
-        self.cylinder = Between::NOTHING;
-    }
-
-    /// So far on its side of the middle, of a half where that is no 0.
-    fn take_on_side(&mut self, far: f64, half: f64) {
-        if half != 0.0 {
-            self.on_side = self.on_side.min(far);
-        }
-    }
-
-    fn take_pin(&mut self, pin: Point) {
-        for other in &self.pins {
-            let apart = sub(pin, *other);
-            self.nearest = self.nearest.min(dot(apart, apart));
-        }
-        self.pins.push(pin);
-    }
-
-    fn take(&mut self, point: Point) {
-        for (side, x) in self.sides.iter_mut().zip(point) {
-            side.take(x);
-        }
-    }
-}
-
-impl Task {
-    /// Distances that are asked for at least, each with that of a stroke, in millimetres.
-    fn least_distances(&self, f: &StrokeFigures) -> impl Iterator<Item = (f64, f64)> {
-        let side = if self.own_sides {
-            0.5 * self.distances()[0]
-        } else {
-            0.0
-        };
-        let all = [
-            (self.pin_distance, f.pin_distance),
-            (self.reach, f.reach),
-            (side, f.on_side),
-        ];
-        all.into_iter().filter(|(least, _)| *least > 0.0)
-    }
-}
-
-impl Limits {
-    /// What a stroke costs, 0 at best. First that both ends are reached, then what the task and the limits ask.
-    #[must_use]
-    pub fn stroke_cost(&self, f: &StrokeFigures) -> f64 {
-        let task = &self.task;
-        let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
-        let mut cost = 0.0;
-        for m in missing.into_iter().filter(|m| *m > 0.0) {
-            cost += 6.0 + 40.0 * m / task.span();
-        }
-        let ratio = f.force_ratio().ln();
-        let asked = (0.9 * task.force_ratio).max(1.0).ln();
-        cost += 3.0 * beyond(ratio - asked, 0.2).min(10.0);
-        if task.least_force > 0.0 {
-            let lacks = (1.1 * task.least_force / f.force.max(1e-12)).ln();
-            cost += 3.0 * beyond(lacks, 0.2).min(10.0);
-        }
-        cost += beyond(30.0 - f.transmission, 15.0);
-        cost += 2.0 * beyond(0.6 - f.straightness, 0.5);
-        cost += beyond(20.0 - f.forces.transmission, 10.0);
-        cost += 2.0 * beyond((f.forces.peak / 6.0).max(1e-12).ln(), 0.7).min(10.0);
-        cost += beyond(0.8 - f.forces.efficiency, 0.2);
-        let turn = f.turn;
-        cost += match task.motion {
-            AskedMotion::Parallel => 2.0 * beyond(turn - 0.5 * PARALLEL, 0.5).min(10.0),
-            AskedMotion::Any | AskedMotion::Swinging => beyond(turn - 40.0, 20.0).min(20.0),
-        };
-        for (size, most) in f.size.into_iter().zip(task.room) {
-            if most > 0.0 {
-                cost += beyond(size - most + 2.0, 4.0).min(10.0);
-            }
-        }
-        for (least, is) in task.least_distances(f) {
-            cost += beyond(least - is + 1.0, 3.0).min(10.0);
-        }
-        if task.pulled_out > 0.0 {
-            cost += beyond((f.pulled_out / (0.95 * task.pulled_out)).ln(), 0.1).min(10.0);
-        }
-        cost
-    }
-
-    /// What a stroke costs where the force alone counts: less than nothing for a great one, and much for each limit that is broken, by so
-    /// many times the usual width.
-    #[must_use]
-    pub fn force_cost(&self, f: &StrokeFigures, slack: f64) -> f64 {
-        let task = &self.task;
-        let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
-        let missing = missing.into_iter().filter(|m| *m > 0.0);
-        let unreached: f64 = missing.map(|m| 1.0 + 10.0 * m / task.span()).sum();
-        let over = |value: f64, most: f64| (value / most).max(1e-12).ln();
-        let mut broken = vec![
-            (over(f.force_ratio(), task.force_ratio), 0.1),
-            (self.transmission - f.transmission, 2.0),
-            (self.transmission - f.forces.transmission, 2.0),
-            (0.05 - f.straightness, 0.05),
-        ];
-        if task.motion == AskedMotion::Parallel {
-            broken.push((f.turn - PARALLEL, 0.2));
-        }
-        let sides = f.size.into_iter().zip(task.room);
-        broken.extend(
-            sides
-                .filter(|s| s.1 > 0.0)
-                .map(|(size, most)| (size - most, 1.0)),
-        );
-        let distances = task.least_distances(f);
-        broken.extend(distances.map(|(least, is)| (least - is, 1.0)));
-        if task.pulled_out > 0.0 {
-            broken.push((over(f.pulled_out, task.pulled_out), 0.02));
-        }
-        // However little a limit is broken, it is.
-        let cost = |(over, width): (f64, f64)| match over {
-            over if over > NOISE => 0.02 + beyond(over, slack * width),
-            _ => 0.0,
-        };
-        let broken: f64 = broken.into_iter().map(cost).sum();
-        DEAR * (unreached + broken) - 20.0 * f.force.max(1e-12).ln()
     }
 }

@@ -1,0 +1,98 @@
+//! What is gathered on the way of a stroke.
+
+use super::forces::ForceFigures;
+use crate::geom::vector::{dot, sub};
+use crate::synthesis::point::Point;
+
+/// Least and greatest of figures.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Between(pub(super) [f64; 2]);
+
+impl Between {
+    pub(super) const NOTHING: Between = Between([f64::INFINITY, f64::NEG_INFINITY]);
+
+    pub(super) fn take(&mut self, x: f64) {
+        self.0 = [self.0[0].min(x), self.0[1].max(x)];
+    }
+
+    /// The greatest over the least; 1 where nothing was taken.
+    pub(super) fn ratio(self) -> f64 {
+        let [least, most] = self.0;
+        if least > most {
+            1.0
+        } else {
+            most / least.max(1e-9)
+        }
+    }
+
+    pub(super) fn span(self) -> f64 {
+        (self.0[1] - self.0[0]).max(0.0)
+    }
+}
+
+/// What is gathered on the way.
+#[derive(Debug, Clone)]
+pub(super) struct Gathered {
+    pub(super) transmission: f64,
+    pub(super) straightness: f64,
+    pub(super) rates: Between,
+    pub(super) turns: Vec<Between>,
+    pub(super) sides: [Between; 2],
+    pub(super) forces: ForceFigures,
+    /// The pins at the last pose, and the least square of the distance of two of them.
+    pub(super) pins: Vec<Point>,
+    pub(super) nearest: f64,
+    pub(super) on_side: f64,
+    pub(super) cylinder: Between,
+    pub(super) reach: f64,
+}
+
+impl Gathered {
+    /// Of so many jaws, nothing yet.
+    pub(super) fn new(jaws: usize) -> Gathered {
+        Gathered {
+            transmission: 90.0,
+            straightness: 1.0,
+            rates: Between::NOTHING,
+            turns: vec![Between::NOTHING; jaws],
+            sides: [Between::NOTHING; 2],
+            forces: ForceFigures::BEST,
+            pins: Vec::new(),
+            nearest: f64::INFINITY,
+            on_side: f64::INFINITY,
+            cylinder: Between::NOTHING,
+            reach: f64::INFINITY,
+        }
+    }
+
+    pub(super) fn begin(&mut self) {
+        (self.transmission, self.straightness) = (90.0, 1.0);
+        self.rates = Between::NOTHING;
+        self.turns.fill(Between::NOTHING);
+        self.sides = [Between::NOTHING; 2];
+        self.forces = ForceFigures::BEST;
+        (self.nearest, self.on_side, self.reach) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        self.cylinder = Between::NOTHING;
+    }
+
+    /// So far on its side of the middle, of a half where that is no 0.
+    pub(super) fn take_on_side(&mut self, far: f64, half: f64) {
+        if half != 0.0 {
+            self.on_side = self.on_side.min(far);
+        }
+    }
+
+    pub(super) fn take_pin(&mut self, pin: Point) {
+        for other in &self.pins {
+            let apart = sub(pin, *other);
+            self.nearest = self.nearest.min(dot(apart, apart));
+        }
+        self.pins.push(pin);
+    }
+
+    pub(super) fn take(&mut self, point: Point) {
+        for (side, x) in self.sides.iter_mut().zip(point) {
+            side.take(x);
+        }
+    }
+}
