@@ -82,7 +82,7 @@ impl Entered for Structure {
             pairs: None,
             classics: self
                 .pairs()
-                .map_or_else(Vec::new, |p| classics_of(&p.key()).collect()),
+                .map_or_else(Vec::new, |p| classics_of(&p.key(), false).collect()),
         }
     }
 }
@@ -123,10 +123,10 @@ impl Entered for PairedStructure {
             parallel: self.form.parallel,
             pairs: Some(PairColumns {
                 code: chain.code(),
-                kinds: Kinds::of(chain),
+                kinds: Kinds::of(chain).with_flat(self.flat_slots().len()),
                 driven_from,
             }),
-            classics: classics_of(&self.structure.key()).collect(),
+            classics: classics_of(&self.structure.key(), self.form.flat).collect(),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::chains::pairs::structure::PairStructure;
 use serde_json::Value;
 
 /// A structure of two jaws, its id and form first.
-const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
+const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
      code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.

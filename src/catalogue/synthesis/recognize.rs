@@ -27,8 +27,10 @@ pub enum NoStructure {
     /// Numbers without exact values.
     #[error(transparent)]
     Exact(#[from] ExactError),
-    /// No joint turns.
-    #[error("no joint turns, so that there is no plane of motion")]
+    /// No joint turns, and none slides across another.
+    #[error(
+        "no joint turns and no two slide in different directions, so that there is no plane of motion"
+    )]
     NoPlane,
     /// A joint that has no kind.
     #[error(
@@ -68,6 +70,8 @@ pub struct Recognized {
     pub structure: PairStructure,
     /// The names of each link: several where they are one in the plane.
     pub names: Vec<Vec<String>>,
+    /// Whether flat faces stand in it as slots: slides between links that other slides join already.
+    pub flat: bool,
 }
 
 /// The structure of a mechanism in its free state.
@@ -118,17 +122,47 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     if let Some([a, b]) = twice.map(|links| links.map(|l| names[l].join(" "))) {
         return Err(NoStructure::Twice(a, b));
     }
+    let frame = body(m.frame()).unwrap_or(0);
+    let driven = present.iter().filter(|&&j| m.joints[j].drive);
+    let driven = driven.map(|&j| ends(j)).collect_vec();
     let joints = joints.into_iter();
     let joints = joints.map(|(links, pair)| PairJoint { links, pair });
+    let (joints, flat) = faces_as_slots(bodies.len(), joints.collect(), |links| {
+        links.contains(&frame) || driven.contains(links)
+    });
     let chain = PairChain::new(bodies.len(), joints);
-    let frame = body(m.frame()).unwrap_or(0);
     let roles = PairRoles {
         frame,
         input: input(m, &chain, &present, ends)?,
         jaws: jaws(m, body)?,
     };
     let structure = PairStructure { chain, roles };
-    Ok(Recognized { structure, names })
+    Ok(Recognized {
+        structure,
+        names,
+        flat,
+    })
+}
+
+/// Joints with slots in the place of flat faces, the slides between links that others join already, guides before others; and whether
+/// there are any.
+fn faces_as_slots(
+    links: usize,
+    joints: Vec<PairJoint>,
+    is_guide: impl Fn(&[usize; 2]) -> bool,
+) -> (Vec<PairJoint>, bool) {
+    let mut together = UnionFind::<usize>::new(links);
+    let mut flat = false;
+    let mut one = |mut joint: PairJoint| {
+        if joint.pair == PairKind::Slide && !together.union(joint.links[0], joint.links[1]) {
+            joint.pair = PairKind::Slot;
+            flat = true;
+        }
+        joint
+    };
+    let (guides, others): (Vec<_>, Vec<_>) = joints.into_iter().partition(|j| is_guide(&j.links));
+    let all = guides.into_iter().chain(others).map(&mut one).collect();
+    (all, flat)
 }
 
 /// The links that a coupling gears: those of its two joints but the one that both have.
@@ -180,19 +214,35 @@ impl MotionPlane {
             return Ok(MotionPlane { exact, normal });
         }
         // The axis about which the most joints turn or across which they slide.
+        let mut axes = Vec::new();
+        let mut ways = Vec::new();
+        for j in m.joints_in(StateId::FREE) {
+            let joint = &m.joints[j];
+            let frame = FrameValues::new(&exact, &joint.frame)?;
+            for freedom in joint.joint_type.freedoms() {
+                let [x, y, z, a, b, c] = frame.twist(&exact, *freedom);
+                if freedom.turns() {
+                    axes.push([x, y, z]);
+                } else {
+                    ways.push([a, b, c]);
+                }
+            }
+        }
+        // Where nothing turns, wedges alone, what is square to two slides.
+        if axes.is_empty() {
+            let two = ways.iter().tuple_combinations();
+            axes = two.map(|(a, b)| exact.cross(*a, *b)).collect();
+            let zero = exact.field().zero();
+            axes.retain(|n| n.iter().any(|x| *x != zero));
+        }
         let mut best: Option<(usize, [Residue; 3])> = None;
         let normal = [exact.field().zero(); 3];
         let mut plane = MotionPlane { exact, normal };
-        for j in m.joints_in(StateId::FREE) {
-            let joint = &m.joints[j];
-            let frame = FrameValues::new(&plane.exact, &joint.frame)?;
-            for turn in joint.joint_type.freedoms().iter().filter(|f| f.turns()) {
-                let [x, y, z, ..] = frame.twist(&plane.exact, *turn);
-                plane.normal = [x, y, z];
-                let moving = plane.moving(m)?;
-                if best.is_none_or(|(most, _)| moving > most) {
-                    best = Some((moving, plane.normal));
-                }
+        for normal in axes {
+            plane.normal = normal;
+            let moving = plane.moving(m)?;
+            if best.is_none_or(|(most, _)| moving > most) {
+                best = Some((moving, normal));
             }
         }
         plane.normal = best.ok_or(NoStructure::NoPlane)?.1;

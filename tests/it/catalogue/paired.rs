@@ -269,7 +269,12 @@ fn well_known_schemes_stand_in_a_catalogue_by_name() {
     let counted = schemes.iter().filter(found_there);
     let published: BTreeSet<&str> = counted.map(|s| s["id"].as_str().unwrap()).collect();
     assert_eq!(published.len(), 31);
-    assert_eq!(names, published);
+    // One of the others has a name of its own: it is redundant in the plane already.
+    let flat = schemes.iter().find(|s| s["id"] == "wedge-flat-faces");
+    let why = flat.unwrap()["match"].as_str().unwrap();
+    assert!(why.starts_with("outside: loops of slides only"), "{why}");
+    let with_flat = published.iter().copied().chain(["wedge-flat-faces"]);
+    assert_eq!(names, with_flat.collect());
     // What translates by structure, or on parallelograms, does not turn.
     for scheme in schemes
         .iter()
@@ -287,6 +292,47 @@ fn well_known_schemes_stand_in_a_catalogue_by_name() {
     assert!(shown.contains("5 joints (3 slides, 2 slots)"), "{shown}");
     let between = ok(&["catalog", "show", known(), &first_of("slot-coupled-jaws")]);
     assert!(between.contains("(slide against "), "{between}");
+}
+
+/// A wedge with flat faces has two constraints more that are redundant than one with pins in its slots, both in the plane, and pulls by half
+/// the cotangent of its angle (`dims.json`) all the same; its redesigns are as many by trying all.
+#[test]
+fn flat_faces_are_redundant_in_the_plane_already() {
+    let folder = tempdir().unwrap();
+    let of = |scheme: &str| {
+        let sql = format!(
+            "SELECT mechanism, redundant, force_min, force_max, determinate, name FROM layouts JOIN structures ON id = structure \
+             WHERE structure = '{}'",
+            first_of(scheme)
+        );
+        rows(known(), &sql).remove(0)
+    };
+    let (flat, hook) = (of("wedge-flat-faces"), of("wedge-hook"));
+    let number = |row: &Value, key: &str| row[key].as_f64().unwrap();
+    assert_eq!(number(&flat, "redundant"), number(&hook, "redundant") + 2.0);
+    assert!(flat["name"].as_str().unwrap().ends_with(" mirror flat"));
+    let file: toml::Table = flat["mechanism"].as_str().unwrap().parse().unwrap();
+    let joints = file["joint"].as_array().unwrap();
+    let inclined = joints.iter().find_map(|j| {
+        let [x, y] = [0, 1].map(|k| j["axis"][k].as_integer().unwrap());
+        (x != 0 && y != 0).then(|| (x as f64 / y as f64).abs())
+    });
+    for key in ["force_min", "force_max"] {
+        let half = inclined.unwrap() / 2.0;
+        assert!((number(&flat, key) - half).abs() < 1e-6, "{flat}");
+    }
+    let toml = at(&folder, "flat.toml");
+    std::fs::write(&toml, flat["mechanism"].as_str().unwrap()).unwrap();
+    let tried = crate::common::json(&["search", &toml, "--method", "brute", "--json"]);
+    assert_eq!(
+        tried["determinate"].to_string(),
+        format!("\"{}\"", flat["determinate"])
+    );
+    let found = ok(&["catalog", "find", &toml]);
+    assert!(
+        found.contains("Known as wedge-flat-faces") && found.contains("5 slides"),
+        "{found}"
+    );
 }
 
 fn first_of(scheme: &str) -> String {

@@ -31,6 +31,16 @@ impl Kinds {
             slots: chain.count(PairKind::Slot),
         }
     }
+
+    /// The same with so many slots made of flat faces, which are slides.
+    #[must_use]
+    pub fn with_flat(self, flat: usize) -> Kinds {
+        Kinds {
+            slides: self.slides + flat,
+            slots: self.slots - flat,
+            ..self
+        }
+    }
 }
 
 /// Counts of choices of jaws with one kind of input in one place.

@@ -3,6 +3,7 @@
 use crate::chains::canonical::{Weighted, canonical};
 use crate::chains::chain::Chain;
 use crate::chains::pairs::kind::PairKind;
+use petgraph::unionfind::UnionFind;
 
 /// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.
 pub(crate) const MOST_LINKS: usize = 12;
@@ -128,6 +129,24 @@ impl PairChain {
     #[must_use]
     pub fn count(&self, pair: PairKind) -> usize {
         self.joints().iter().filter(|j| j.pair == pair).count()
+    }
+
+    /// Slots between links that slides join already, so that they keep their attitude against each other: these may have flat faces, as
+    /// a wedge in its guide has.
+    ///
+    /// # Complexity
+    /// O(m) for m joints.
+    #[must_use]
+    pub fn flat_slots(&self) -> Vec<Joint> {
+        let mut together = UnionFind::<usize>::new(self.links());
+        let joints = self.joints();
+        for joint in joints.iter().filter(|j| j.pair == PairKind::Slide) {
+            together.union(joint.links[0], joint.links[1]);
+        }
+        let flat = |j: &Joint| {
+            j.pair == PairKind::Slot && together.find(j.links[0]) == together.find(j.links[1])
+        };
+        joints.into_iter().filter(flat).collect()
     }
 
     /// The mobility of every set of links, given as bits, with the joints between them: the place in the list is the set.

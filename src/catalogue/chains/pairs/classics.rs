@@ -19,8 +19,10 @@ pub struct Classic {
     pub id: String,
     /// What it is.
     pub about: String,
-    /// Its structure.
+    /// Its structure; flat faces stand in it as slots.
     pub structure: PairStructure,
+    /// Whether its slots are flat faces, which are redundant in the plane already.
+    pub flat: bool,
 }
 
 #[derive(Deserialize)]
@@ -30,6 +32,8 @@ struct Written {
     pairs: String,
     input: String,
     jaws: String,
+    #[serde(default)]
+    flat: bool,
 }
 
 impl Written {
@@ -64,6 +68,7 @@ static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
     let classic = |(id, entry): (String, Written)| Classic {
         structure: entry.structure().expect("a test reads it"),
         about: entry.about,
+        flat: entry.flat,
         id,
     };
     let all: Vec<Classic> = all.into_iter().map(classic).collect();
@@ -80,9 +85,9 @@ pub fn classics() -> &'static [Classic] {
     &ALL.0
 }
 
-/// The schemes that have a structure of this key.
-pub fn classics_of(key: &Weighted) -> impl Iterator<Item = &'static Classic> {
+/// The schemes that have a structure of this key, with flat faces or without.
+pub fn classics_of(key: &Weighted, flat: bool) -> impl Iterator<Item = &'static Classic> {
     let (all, keys) = &*ALL;
     let same = keys.iter().positions(move |k| k == key);
-    same.map(|i| &all[i])
+    same.map(|i| &all[i]).filter(move |c| c.flat == flat)
 }

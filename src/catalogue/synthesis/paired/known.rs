@@ -11,8 +11,12 @@ use itertools::Itertools;
 #[must_use]
 pub(crate) fn known_schemes() -> Vec<PairedStructure> {
     let all = classics().iter().map(|c| &c.structure);
-    let all = all.unique_by(|s| s.key());
-    all.filter_map(most_symmetric).collect()
+    let all = all.unique_by(|s| s.key()).filter_map(most_symmetric);
+    all.flat_map(|p| {
+        let flat = p.with_flat_faces();
+        std::iter::once(p).chain(flat)
+    })
+    .collect()
 }
 
 /// A structure in the most symmetric form in which it lies somewhere; `None` where it does so in none.

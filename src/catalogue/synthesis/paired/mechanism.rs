@@ -65,6 +65,17 @@ fn slides() -> Vec<OptionEntry> {
     ]
 }
 
+/// What may be in place of flat faces: z along them, x square to the plane of motion.
+fn faces() -> Vec<OptionEntry> {
+    let of_slots = vec![
+        named("pin-in-slot", &["tz", "rx"]),
+        named("pin-in-deep-slot", &["tz", "rx", "tx"]),
+        named("ball-in-slot", &["tz", "rx", "ry", "rz"]),
+        named("ball-in-deep-slot", &["tz", "tx", "rx", "ry", "rz"]),
+    ];
+    slides().into_iter().chain(of_slots).collect()
+}
+
 /// What may be in place of a pin in a slot: z along the pin, x along the slot.
 fn slots() -> Vec<OptionEntry> {
     vec![
@@ -85,12 +96,14 @@ impl PairedStructure {
     ) -> JointEntry {
         let joint = &layout.rules.joints[i];
         let input = joint.links == self.structure.roles.input;
+        let flat = self.flat_slots().contains(joint);
         let links = if input { self.drive() } else { joint.links };
         let [x, y] = layout.at.along[i].whole();
         let upright = [0, 0, 1].map(Coordinate::Integer);
         let along = [i64::from(x), i64::from(y), 0].map(Coordinate::Integer);
         let (kind, axis, reference, options) = match joint.pair {
             PairKind::Slide => ("prismatic", along, Some(upright), Some(slides())),
+            PairKind::Slot if flat => ("prismatic", along, Some(upright), Some(faces())),
             PairKind::Slot => ("slotted", upright, Some(along), Some(slots())),
             PairKind::Hinge | PairKind::Gear => ("revolute", upright, None, None),
         };

@@ -1,7 +1,7 @@
 //! Structures of pairs with the symmetry they are to have.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::chains::pairs::chain::{carried, ordered};
+use crate::chains::pairs::chain::{Joint, carried, ordered};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, motion, symmetric_ways};
 use crate::chains::pairs::sharing::Menu;
@@ -28,6 +28,8 @@ pub struct PairedForm {
     pub one_sided: bool,
     /// Whether each jaw stands on a parallelogram with the frame or a driver that slides in it, so that it does not turn.
     pub parallel: bool,
+    /// Whether slots between links that keep their attitude against each other have flat faces: slides, redundant in the plane already.
+    pub flat: bool,
 }
 
 impl PairedForm {
@@ -38,6 +40,7 @@ impl PairedForm {
             symmetry,
             one_sided: false,
             parallel: false,
+            flat: false,
         }
     }
 
@@ -64,7 +67,8 @@ impl PairedStructure {
     pub fn name(&self) -> String {
         let parallel = if self.form.parallel { " parallel" } else { "" };
         let symmetry = self.form.symmetry_name();
-        format!("{} {symmetry}{parallel}", self.structure.name())
+        let flat = if self.form.flat { " flat" } else { "" };
+        format!("{} {symmetry}{parallel}{flat}", self.structure.name())
     }
 
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
@@ -187,6 +191,26 @@ impl PairedStructure {
             },
             ..self
         }
+    }
+
+    /// The slots that have flat faces.
+    #[must_use]
+    pub fn flat_slots(&self) -> Vec<Joint> {
+        if self.form.flat {
+            self.structure.chain.flat_slots()
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// The same with flat faces, where it has slots that may have them.
+    #[must_use]
+    pub(crate) fn with_flat_faces(&self) -> Option<PairedStructure> {
+        let flat = !self.structure.chain.flat_slots().is_empty();
+        flat.then(|| PairedStructure {
+            form: PairedForm { flat, ..self.form },
+            ..self.clone()
+        })
     }
 
     /// The same with each jaw on a parallelogram, where it has one.

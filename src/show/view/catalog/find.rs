@@ -84,11 +84,16 @@ impl FoundData {
         let subject = PairSubject::new(chain, &automorphisms);
         let essential = part.len() == chain.links();
         let symmetries = in_count.then(|| subject.symmetries(roles));
-        let kinds = Kinds::of(chain);
+        let flat = if found.flat {
+            chain.flat_slots().len()
+        } else {
+            0
+        };
+        let kinds = Kinds::of(chain).with_flat(flat);
         let slides = found.structure.slides();
         let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
         let key = found.structure.part(part).key();
-        let classics = classics_of(&key);
+        let classics = classics_of(&key, found.flat);
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
