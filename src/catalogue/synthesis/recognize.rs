@@ -125,15 +125,12 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let frame = body(m.frame()).unwrap_or(0);
     let driven = present.iter().filter(|&&j| m.joints[j].drive);
     let driven = driven.map(|&j| ends(j)).collect_vec();
-    let joints = joints.into_iter();
-    let joints = joints.map(|(links, pair)| PairJoint { links, pair });
-    let (joints, flat) = faces_as_slots(bodies.len(), joints.collect(), |links| {
-        links.contains(&frame) || driven.contains(links)
-    });
+    let is_guide = |links: &[usize; 2]| links.contains(&frame) || driven.contains(links);
+    let (joints, flat) = faces_as_slots(bodies.len(), joints, is_guide);
     let chain = PairChain::new(bodies.len(), joints);
     let roles = PairRoles {
         frame,
-        input: input(m, &chain, &present, ends)?,
+        input: input(&chain, &driven)?,
         jaws: jaws(m, body)?,
     };
     let structure = PairStructure { chain, roles };
@@ -148,19 +145,19 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
 /// there are any.
 fn faces_as_slots(
     links: usize,
-    joints: Vec<PairJoint>,
+    joints: Vec<([usize; 2], PairKind)>,
     is_guide: impl Fn(&[usize; 2]) -> bool,
 ) -> (Vec<PairJoint>, bool) {
     let mut together = UnionFind::<usize>::new(links);
     let mut flat = false;
-    let mut one = |mut joint: PairJoint| {
-        if joint.pair == PairKind::Slide && !together.union(joint.links[0], joint.links[1]) {
-            joint.pair = PairKind::Slot;
+    let mut one = |(links, mut pair): ([usize; 2], PairKind)| {
+        if pair == PairKind::Slide && !together.union(links[0], links[1]) {
+            pair = PairKind::Slot;
             flat = true;
         }
-        joint
+        PairJoint { links, pair }
     };
-    let (guides, others): (Vec<_>, Vec<_>) = joints.into_iter().partition(|j| is_guide(&j.links));
+    let (guides, others): (Vec<_>, Vec<_>) = joints.into_iter().partition(|j| is_guide(&j.0));
     let all = guides.into_iter().chain(others).map(&mut one).collect();
     (all, flat)
 }
@@ -174,14 +171,7 @@ fn geared(coupling: &Coupling, ends: impl Fn(JointId) -> [usize; 2]) -> Option<[
     (u != v).then(|| ordered([u, v]))
 }
 
-fn input(
-    m: &Mechanism,
-    chain: &PairChain,
-    present: &[JointId],
-    ends: impl Fn(JointId) -> [usize; 2],
-) -> Result<[usize; 2], NoStructure> {
-    let driven = present.iter().filter(|&&j| m.joints[j].drive);
-    let driven = driven.map(|&j| ends(j)).collect_vec();
+fn input(chain: &PairChain, driven: &[[usize; 2]]) -> Result<[usize; 2], NoStructure> {
     let lower = |[u, v]: [usize; 2]| chain.between(u, v).is_some_and(PairKind::is_lower);
     match driven[..] {
         [one] if lower(one) => Ok(one),
