@@ -323,7 +323,7 @@ fn flat_faces_are_redundant_in_the_plane_already() {
     }
     let toml = at(&folder, "flat.toml");
     std::fs::write(&toml, flat["mechanism"].as_str().unwrap()).unwrap();
-    let tried = crate::common::json(&["search", &toml, "--method", "brute", "--json"]);
+    let tried = crate::common::json(&["search", &toml, "--method", "brute", "--format", "json"]);
     assert_eq!(
         tried["determinate"].to_string(),
         format!("\"{}\"", flat["determinate"])
