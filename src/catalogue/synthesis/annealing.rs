@@ -11,7 +11,7 @@ use chacha20::ChaCha8Rng;
 
 /// Places at the end of a start.
 pub(super) struct FoundPlaces<P> {
-    /// Whether the drawn pose keeps the limits.
+    /// Whether the drawn pose keeps the limits, or links that cross pass each other in planes of their own.
     pub(super) within: bool,
     /// Whether the stroke does what the task asks.
     pub(super) does: bool,
@@ -59,13 +59,14 @@ pub(super) fn search_from<M: StrokeMotion>(
     let looks = sketch.looks(&at)?;
     let stroke = judge.fine(&at)?;
     let limits = sketch.limits();
+    let within = looks.keep(limits, || judge.passing(&at).is_known());
     Some(FoundPlaces {
         cost: match limits.task.aim {
             Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
             Aim::Force => sketch.breaks(&at) + limits.force_cost(&stroke, WITHIN),
         },
         does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
-        within: looks.keep(limits),
+        within,
         looks,
         at,
         start,

@@ -50,6 +50,7 @@ pub(crate) fn beside(
         ..layout.clone()
     };
     let does = |l: &Layout| figures(structure, l).is_some_and(|f| f.shortfall.is_none());
-    let kept = moved.looks.keep(&moved.limits) && (does(&moved) || !does(layout));
+    let pass = || figures(structure, &moved).is_some_and(|f| f.stacking.is_known());
+    let kept = moved.looks.keep(&moved.limits, pass) && (does(&moved) || !does(layout));
     kept.then_some(moved)
 }

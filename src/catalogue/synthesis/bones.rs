@@ -23,6 +23,8 @@ pub struct Bones {
     pub joints: Vec<Option<[usize; 2]>>,
     /// Joints that have no point on their links, where pitch circles touch, as bits.
     pub touching: u32,
+    /// Joints that are all at the centre of half a turn, as bits: on one axis, and not near to each other.
+    pub central: u32,
     /// Joints that are where others have them.
     pub follows: Vec<bool>,
     /// Where the tips of the jaws are.
@@ -62,6 +64,8 @@ pub(super) struct BonePlan<'a> {
     pub(super) hinged: Vec<bool>,
     pub(super) round: Option<f64>,
     pub(super) wished: [f64; 2],
+    /// Joints at the centre of half a turn, as bits.
+    pub(super) central: u32,
     /// The links of a drive that slides between two moving ones.
     pub(super) cylinder: Option<[usize; 2]>,
 }
@@ -140,6 +144,7 @@ impl Bones {
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             of_link,
             touching,
+            central: plan.central,
             joints: plan.joints,
             follows: plan.follows,
             tips: plan.tips,

@@ -121,7 +121,7 @@ pub fn layout(
     let found = best_of_starts(&skeleton, seed);
     let found = found.ok_or(NoLayout::Motion(NoGripper::DeadDrive))?;
     let looks = found.looks;
-    if !looks.keep(limits) {
+    if !found.within {
         return Err(NoLayout::limits(&looks));
     }
     let rules = &skeleton.rules;

@@ -38,12 +38,12 @@ pub struct Looks {
 const LEAST_CLOSING: f64 = 0.35;
 
 impl Looks {
-    /// Whether the drawn pose keeps the limits.
-    pub(super) fn keep(&self, limits: &Limits) -> bool {
+    /// Whether the drawn pose keeps the limits; with more crossings where the links pass each other in planes of their own.
+    pub(super) fn keep(&self, limits: &Limits, pass: impl FnOnce() -> bool) -> bool {
         self.ratio <= limits.ratio
             && self.transmission >= limits.transmission
-            && self.crossings <= limits.crossings
             && self.straightness >= LEAST_CLOSING
+            && (self.crossings <= limits.crossings || pass())
     }
 }
 
@@ -158,8 +158,7 @@ impl Bones {
         let cheap = |sum: f64| (sum <= most).then_some(sum);
         let sum = cheap(self.places(at) + self.lengths(at).1)?;
         let sum = cheap(sum + self.spacing(at))?;
-        let sum = sum + self.crossings(at, most - sum)?.1;
-        cheap(sum)
+        Some(sum + self.crossings(at, sum, most)?.1)
     }
 
     /// All figures.
@@ -168,7 +167,7 @@ impl Bones {
     /// As [`Bones::penalty`].
     pub(super) fn looks(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
         Some(Looks {
-            crossings: self.crossings(at, f64::INFINITY)?.0,
+            crossings: self.crossings(at, 0.0, f64::INFINITY)?.0,
             ratio: self.lengths(at).0,
             penalty: self.penalty(at, f64::INFINITY)? + motion.penalty,
             transmission: motion.transmission,
@@ -186,7 +185,7 @@ impl Bones {
             for (j, b) in at[..i].iter().enumerate() {
                 let apart = sub(*a, *b);
                 let square = dot(apart, apart);
-                if square < near * near {
+                if square < near * near && !self.are_central(i, j) {
                     penalty += 4.0 * beyond(near - square.sqrt(), near);
                 }
                 // Pins level with each other, or square above each other, have an axis in common: a special place that costs
@@ -202,13 +201,18 @@ impl Bones {
         penalty
     }
 
+    /// Whether two joints are at the centre by rule.
+    fn are_central(&self, i: usize, j: usize) -> bool {
+        self.central >> i & self.central >> j & 1 == 1
+    }
+
     /// The longest link over the shortest, and what long and short ones cost.
     fn lengths(&self, at: &[Point]) -> (f64, f64) {
         let (mut longest, mut shortest, mut penalty) = (0.0_f64, f64::INFINITY, 0.0);
         let moving = self.of_link.iter().enumerate();
         for (_, points) in moving.filter(|(l, _)| *l != self.frame) {
             for (i, &a) in points.iter().enumerate() {
-                for &b in &points[..i] {
+                for &b in points[..i].iter().filter(|&&b| !self.are_central(a, b)) {
                     let d = length(sub(at[a], at[b]));
                     (longest, shortest) = (longest.max(d), shortest.min(d));
                     penalty += beyond(d - LONG, 25.0) + beyond(18.0 - d, 10.0);
@@ -234,8 +238,8 @@ impl Bones {
     }
 
     /// Crossings of links and pins on links that they are no part of, and what they and splinters cost; `None` where that is more
-    /// than `most`.
-    fn crossings(&self, at: &[Point], most: f64) -> Option<(usize, f64)> {
+    /// than `most` beside what else they cost.
+    fn crossings(&self, at: &[Point], besides: f64, most: f64) -> Option<(usize, f64)> {
         let sides = self.sides(at);
         let mut before: Vec<SideSeen> = Vec::with_capacity(sides.len());
         let (mut count, mut penalty) = (0, 0.0);
@@ -246,6 +250,9 @@ impl Bones {
             }
             // Where pitch circles touch is on no link.
             let mut near = seen.near & !self.touching;
+            if side.ends.iter().any(|&end| self.central >> end & 1 == 1) {
+                near &= !self.central;
+            }
             while near != 0 {
                 let p = near.trailing_zeros();
                 near &= near - 1;
@@ -256,7 +263,7 @@ impl Bones {
             before.push(seen);
             #[allow(clippy::cast_precision_loss, reason = "a few")]
             let all = penalty + 1.5 * count as f64;
-            if all > most {
+            if besides + all > most {
                 return None;
             }
         }
@@ -316,7 +323,7 @@ impl Bones {
     /// As [`Bones::penalty`].
     pub(super) fn breaks(&self, at: &[Point], limits: &Limits) -> f64 {
         let (ratio, _) = self.lengths(at);
-        let Some((count, crossings)) = self.crossings(at, f64::INFINITY) else {
+        let Some((count, crossings)) = self.crossings(at, 0.0, f64::INFINITY) else {
             return f64::INFINITY;
         };
         let over = count.saturating_sub(limits.crossings);

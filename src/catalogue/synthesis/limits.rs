@@ -9,7 +9,8 @@ pub struct Limits {
     pub ratio: f64,
     /// The worst transmission angle of a rod, in degrees.
     pub transmission: f64,
-    /// Crossings of links, and pins that lie on links that they are no part of.
+    /// Crossings of links, and pins that lie on links that they are no part of, where no planes are known in which links pass each
+    /// other.
     pub crossings: usize,
     /// What it is to do.
     pub task: Task,

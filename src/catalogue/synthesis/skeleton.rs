@@ -51,6 +51,7 @@ impl<'a> Skeleton<'a> {
             round: structure.is_round().then_some(near),
             wished: limits.task.distances(),
             cylinder: None,
+            central: 0,
         };
         let bones = Bones::new(structure.chain.links(), plan, |_| true);
         let contours = Contours::new(structure);

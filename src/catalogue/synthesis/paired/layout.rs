@@ -85,7 +85,7 @@ fn layout_as(
     }
     let (found, rules) = best.ok_or(NoLayout::Pairs(why))?;
     let looks = found.looks;
-    if !looks.keep(limits) {
+    if !found.within {
         return Err(NoLayout::limits(&looks));
     }
     Ok(PairLayout {

@@ -67,6 +67,10 @@ impl<'a> PairSketch<'a> {
         let point = |j: &Joint| (j.pair != PairKind::Gear).then_some(j.links);
         let hinged = |&jaw: &usize| chain.between(roles.frame, jaw) == Some(PairKind::Hinge);
         let free = |r: &PairRule| *r == PairRule::Free;
+        let turned = paired.form.symmetry == Symmetry::HalfTurn;
+        let own = |r: &PairRule| turned && matches!(r, PairRule::Own(_));
+        let rows = rules.rules.iter().enumerate();
+        let central = rows.fold(0, |bits, (i, r)| bits | u32::from(own(r)) << i);
         let plan = BonePlan {
             frame: roles.frame,
             driver: drive[1],
@@ -76,8 +80,9 @@ impl<'a> PairSketch<'a> {
             tips: tips(paired.form.symmetry, &limits).to_vec(),
             turns: paired.input() == Input::Turn,
             hinged: roles.jaws.iter().map(hinged).collect(),
-            round: (paired.form.symmetry == Symmetry::HalfTurn).then_some(0.0),
+            round: turned.then_some(0.0),
             wished: limits.task.distances(),
+            central,
             cylinder: (paired.structure.slides() && drive[0] != roles.frame).then_some(drive),
         };
         let at_input = |j: &Joint| j.links == roles.input;

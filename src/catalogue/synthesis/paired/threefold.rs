@@ -174,6 +174,7 @@ impl Around {
             round: two.round,
             wished: two.wished,
             cylinder: None,
+            central: 0,
         };
         Around {
             bones: Bones::new(structure.links(), plan, pushes),

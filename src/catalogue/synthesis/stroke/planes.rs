@@ -45,6 +45,14 @@ pub enum Stacking {
     NotAsked,
 }
 
+impl Stacking {
+    /// Whether there are such planes.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        matches!(self, Stacking::Planes { .. })
+    }
+}
+
 /// The links of each plane from the back, the frame where it has a plate: "0 | 1 3 | 2 4".
 impl fmt::Display for Stacking {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -272,6 +280,7 @@ mod tests {
             round: None,
             wished: [14.0, 25.0],
             cylinder: None,
+            central: 0,
         };
         Bones::new(5, plan, |_| true)
     }

@@ -60,7 +60,7 @@ pub(in crate::cli) struct Build {
     /// The least transmission angle of a rod, in degrees; 15 by default.
     #[arg(long, value_name = "DEGREES")]
     transmission: Option<f64>,
-    /// Crossings of links at most; 6 by default.
+    /// Crossings of links at most, where no planes are known in which they pass each other; 6 by default.
     #[arg(long, value_name = "N")]
     crossings: Option<usize>,
     /// A file that says all this, in TOML; what is given beside it counts more.
