@@ -277,7 +277,7 @@ fn what_is_not_asked_is_margin() {
 }
 
 /// Layouts of some structures of six links with a driver that turns.
-fn laid(limits: &Limits) -> Vec<Result<Layout, NoLayout>> {
+fn laid(limits: &Limits) -> Vec<Result<(Structure, Layout), NoLayout>> {
     let (mut n, mut out) = (0, Vec::new());
     each(
         6,
@@ -285,7 +285,8 @@ fn laid(limits: &Limits) -> Vec<Result<Layout, NoLayout>> {
         |subject, s| {
             n += 1;
             if n % 3 == 0 {
-                out.push(layout(subject, &s, limits, 1));
+                let laid = layout(subject, &s, limits, 1);
+                out.push(laid.map(|l| (s, l)));
             }
         },
     );
@@ -301,9 +302,14 @@ fn no_more_crosses_than_may() {
     let found = laid(&limits);
     let kept = found.iter().flatten().count();
     assert!(2 * kept > found.len(), "{kept} of {}", found.len());
-    for l in found.iter().flatten() {
-        assert_eq!(l.looks.crossings, 0);
+    // Nothing crosses, or what does passes in planes of its own.
+    let mut flat = 0;
+    for (s, l) in found.iter().flatten() {
+        flat += usize::from(l.looks.crossings == 0);
+        let passes = || figures(s, l).unwrap().stacking.is_known();
+        assert!(l.looks.crossings == 0 || passes(), "{}", s.name());
     }
+    assert!(2 * flat > kept, "{flat} of {kept}");
 }
 
 /// Of what the starts come to, places within the limits are taken before cheaper ones: of these structures a third at least have

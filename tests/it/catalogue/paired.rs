@@ -196,8 +196,10 @@ fn pulls_as_its_file_says(file: &str, row: &Value, folder: &TempDir) {
         all.extend(found);
     }
     let near = |told: f64, found: f64, what: &str| {
+        // A drive that acts on the jaws themselves loads no joint.
+        let nothing = told == 0.0 && found < 1e-9;
         assert!(
-            (told / found - 1.0).abs() < 0.02,
+            nothing || (told / found - 1.0).abs() < 0.02,
             "{id}: {what}: told {told}, found {found}"
         );
     };
@@ -335,13 +337,13 @@ fn flat_faces_are_redundant_in_the_plane_already() {
     );
 }
 
-/// Links may cross as often as they like where there are planes in which they pass each other over the whole stroke, and no more than six
-/// times where there are none.
+/// Links may cross as often as they like where there are planes in which they pass each other over the whole stroke, and six times
+/// where there are none.
 #[test]
 fn what_crosses_often_passes_in_planes() {
     let folder = tempdir().unwrap();
     let file = at(&folder, "turned.db");
-    let words = "catalog build --links 4..5 --pairs slide,gear,slot --symmetry half-turn --ideas 0 --quiet -o";
+    let words = "catalog build --links 6 --pairs slot --symmetry half-turn --ideas 0 --quiet -o";
     ok(&words.split(' ').chain([file.as_str()]).collect::<Vec<_>>());
     let all = rows(
         &file,
