@@ -2,6 +2,8 @@
 //! joints in space.
 
 mod by_hand;
+mod flat;
+mod passing;
 mod strongest;
 
 use super::carried_on::scattered;
@@ -294,75 +296,6 @@ fn well_known_schemes_stand_in_a_catalogue_by_name() {
     assert!(shown.contains("5 joints (3 slides, 2 slots)"), "{shown}");
     let between = ok(&["catalog", "show", known(), &first_of("slot-coupled-jaws")]);
     assert!(between.contains("(slide against "), "{between}");
-}
-
-/// A wedge with flat faces has two constraints more that are redundant than one with pins in its slots, both in the plane, and pulls by half
-/// the cotangent of its angle (`dims.json`) all the same; its redesigns are as many by trying all.
-#[test]
-fn flat_faces_are_redundant_in_the_plane_already() {
-    let folder = tempdir().unwrap();
-    let of = |scheme: &str| {
-        let sql = format!(
-            "SELECT mechanism, redundant, force_min, force_max, determinate, name FROM layouts JOIN structures ON id = structure \
-             WHERE structure = '{}'",
-            first_of(scheme)
-        );
-        rows(known(), &sql).remove(0)
-    };
-    let (flat, hook) = (of("wedge-flat-faces"), of("wedge-hook"));
-    let number = |row: &Value, key: &str| row[key].as_f64().unwrap();
-    assert_eq!(number(&flat, "redundant"), number(&hook, "redundant") + 2.0);
-    assert!(flat["name"].as_str().unwrap().ends_with(" mirror flat"));
-    let file: toml::Table = flat["mechanism"].as_str().unwrap().parse().unwrap();
-    let joints = file["joint"].as_array().unwrap();
-    let inclined = joints.iter().find_map(|j| {
-        let [x, y] = [0, 1].map(|k| j["axis"][k].as_integer().unwrap());
-        (x != 0 && y != 0).then(|| (x as f64 / y as f64).abs())
-    });
-    for key in ["force_min", "force_max"] {
-        let half = inclined.unwrap() / 2.0;
-        assert!((number(&flat, key) / half - 1.0).abs() < 1e-3, "{flat}");
-    }
-    let toml = at(&folder, "flat.toml");
-    std::fs::write(&toml, flat["mechanism"].as_str().unwrap()).unwrap();
-    let tried = crate::common::json(&["search", &toml, "--method", "brute", "--format", "json"]);
-    assert_eq!(
-        tried["determinate"].to_string(),
-        format!("\"{}\"", flat["determinate"])
-    );
-    let found = ok(&["catalog", "find", &toml]);
-    assert!(
-        found.contains("Known as wedge-flat-faces") && found.contains("5 slides"),
-        "{found}"
-    );
-}
-
-/// Links may cross as often as they like where there are planes in which they pass each other over the whole stroke, and six times
-/// where there are none.
-#[test]
-fn what_crosses_often_passes_in_planes() {
-    let folder = tempdir().unwrap();
-    let file = at(&folder, "turned.db");
-    let words = "catalog build --links 6 --pairs slot --symmetry half-turn --ideas 0 --quiet -o";
-    ok(&words.split(' ').chain([file.as_str()]).collect::<Vec<_>>());
-    let all = rows(
-        &file,
-        "SELECT no_layout, crossings, planes FROM structures LEFT JOIN layouts l ON l.structure = id LEFT JOIN planes p ON p.structure = id",
-    );
-    let number = |row: &Value, key: &str| row[key].as_u64();
-    let often = all.iter().filter(|r| number(r, "crossings") > Some(6));
-    let planes: Vec<Option<u64>> = often.map(|r| number(r, "planes")).collect();
-    assert!(
-        !planes.is_empty() && planes.iter().all(Option::is_some),
-        "{planes:?}"
-    );
-    // Joints at the centre by rule are on one axis, no link of no length.
-    let endless = |r: &&Value| {
-        r["no_layout"]
-            .as_str()
-            .is_some_and(|s| s.contains("1 : inf"))
-    };
-    assert_eq!(all.iter().filter(endless).count(), 0);
 }
 
 fn first_of(scheme: &str) -> String {
