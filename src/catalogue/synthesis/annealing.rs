@@ -241,7 +241,7 @@ fn anneal<M: StrokeMotion>(
     let phases: &[&[Phase]] = match sketch.limits().task.aim {
         Aim::Balanced => &[&PHASES],
         // What looks good is not what pulls best: every other start does without.
-        Aim::Force if start % 2 == 0 => &[&PHASES, &FOR_FORCE],
+        Aim::Force if start.is_multiple_of(2) => &[&PHASES, &FOR_FORCE],
         Aim::Force => &[&FOR_FORCE],
     };
     for phase in phases.iter().copied().flatten() {
