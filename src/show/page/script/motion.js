@@ -57,6 +57,7 @@ function conditions(d, pose, drive) {
     const [p, q] = [placed(pose, pinned, d.pins[i]), placed(pose, slotted, d.pins[i])];
     row((p[0] - q[0]) * u[0] + (p[1] - q[1]) * u[1], [...slopes(pose, pinned, p, u, 1), ...slopes(pose, slotted, p, u, -1)]);
   };
+  let together = d.links.map((_, l) => l);
   for (let k = 0; k < 3; k += 1) row(pose[3 * d.frame + k], [[3 * d.frame + k, 1]]);
   const [at, of] = gone(d, pose, d.drive);
   row(at - drive, of);
@@ -67,7 +68,11 @@ function conditions(d, pose, drive) {
       for (const u of [[1, 0], [0, 1]]) row((p[0] - q[0]) * u[0] + (p[1] - q[1]) * u[1], [...slopes(pose, a, p, u, 1), ...slopes(pose, b, q, u, -1)]);
       return;
     }
-    if (kind === 'slide') row(pose[3 * b + 2] - pose[3 * a + 2], [[3 * b + 2, 1], [3 * a + 2, -1]]);
+    // Of links that other slides join already it is known that they do not turn against each other: flat faces.
+    if (kind === 'slide' && together[a] !== together[b]) {
+      row(pose[3 * b + 2] - pose[3 * a + 2], [[3 * b + 2, 1], [3 * a + 2, -1]]);
+      together = together.map((of) => (of === together[b] ? together[a] : of));
+    }
     const [pinned, slotted] = kind === 'slot' ? [a, b] : [b, a], [x, y] = turnedBy(pose, slotted, d.along[i]);
     line(i, pinned, slotted, [-y, x]);
   });
