@@ -5,6 +5,7 @@ use crate::geom::vector::{add_scaled, sub, unit};
 use crate::synthesis::point::{Point, middle};
 use crate::synthesis::random::bell;
 use chacha20::ChaCha8Rng;
+use itertools::Itertools;
 
 /// The points of a gripper's links. Points are numbered: those of the joints in their order, then the tips.
 #[derive(Debug, Clone)]
@@ -70,6 +71,21 @@ pub(super) struct BonePlan<'a> {
     pub(super) cylinder: Option<[usize; 2]>,
 }
 
+/// How many joints are on a shortest way from a link to each; beyond all bounds where there is none.
+fn joints_away(
+    links: usize,
+    joints: impl IntoIterator<Item = [usize; 2]>,
+    from: usize,
+) -> Vec<f64> {
+    let (_, steps) = forest(links, joints, |_| false, [from]);
+    let mut away = vec![f64::INFINITY; links];
+    away[from] = 0.0;
+    for s in steps {
+        away[s.link] = away[s.from] + 1.0;
+    }
+    away
+}
+
 /// The side of each joint's jaw: of the jaw that is nearer by way of links other than frame and driver.
 fn halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
     let ([a, b], None) = (plan.jaws, plan.round) else {
@@ -77,24 +93,15 @@ fn halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
     };
     let between: Vec<[usize; 2]> = plan.joints.iter().flatten().copied().collect();
     let still = |link: usize| link == plan.frame || link == plan.driver && plan.cylinder.is_none();
-    let far = |jaw: usize| {
-        let passable = between.iter().copied();
-        let passable = passable.filter(|ends| !ends.iter().any(|l| still(*l)));
-        let (_, steps) = forest(links, passable, |_| false, [jaw]);
-        let mut away = vec![links; links];
-        away[jaw] = 0;
-        for s in steps {
-            if away[s.from] < links {
-                away[s.link] = away[s.link].min(away[s.from] + 1);
-            }
-        }
-        away
-    };
+    let moving = between
+        .into_iter()
+        .filter(|ends| !ends.iter().any(|l| still(*l)));
+    let far = |jaw: usize| joints_away(links, moving.clone(), jaw);
     let (to_a, to_b) = (far(*a), far(*b));
     let half = |ends: &Option<[usize; 2]>| {
         let Some(ends) = ends else { return 0.0 };
-        let near = |away: &[usize]| ends.iter().map(|l| away[*l]).min();
-        match near(&to_a).cmp(&near(&to_b)) {
+        let near = |away: &[f64]| away[ends[0]].min(away[ends[1]]);
+        match near(&to_a).total_cmp(&near(&to_b)) {
             std::cmp::Ordering::Less => plan.tips[0][1].signum(),
             std::cmp::Ordering::Greater => plan.tips[1][1].signum(),
             std::cmp::Ordering::Equal => 0.0,
@@ -126,13 +133,9 @@ impl Bones {
         let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
         let cylinder = plan.cylinder.and_then(|links| {
             let end = |link: usize| {
-                let mut others = plan
-                    .joints
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, ends)| ends.is_some_and(|e| e.contains(&link) && e != links));
-                let (joint, _) = others.next()?;
-                others.next().is_none().then_some((link, joint))
+                let other = |&&i: &&usize| plan.joints.get(i).is_some_and(|e| *e != Some(links));
+                let one = of_link[link].iter().filter(other).exactly_one().ok();
+                one.map(|&joint| (link, joint))
             };
             Some([end(links[0])?, end(links[1])?])
         });
@@ -182,20 +185,7 @@ impl Bones {
         joints: Vec<[usize; 2]>,
         random: &mut ChaCha8Rng,
     ) -> Vec<Point> {
-        // Joints on a shortest way from a link to each.
-        let far = |from: usize| {
-            let (_, steps) = forest(
-                self.of_link.len(),
-                joints.iter().copied(),
-                |_| false,
-                [from],
-            );
-            let mut away = vec![0.0_f64; self.of_link.len()];
-            for s in steps {
-                away[s.link] = away[s.from] + 1.0;
-            }
-            away
-        };
+        let far = |from: usize| joints_away(self.of_link.len(), joints.iter().copied(), from);
         let frame = far(self.frame);
         let jaws: Vec<Vec<f64>> = self.jaws.iter().map(|&j| far(j)).collect();
         let ahead_most = middle(&self.tips);

@@ -242,7 +242,7 @@ impl Bones {
     fn crossings(&self, at: &[Point], besides: f64, most: f64) -> Option<(usize, f64)> {
         let sides = self.sides(at);
         let mut before: Vec<SideSeen> = Vec::with_capacity(sides.len());
-        let (mut count, mut penalty) = (0, 0.0);
+        let (mut count, mut penalty, mut cost) = (0, 0.0, 0.0);
         for side in &sides {
             let seen = SideSeen::new(side, at);
             for other in &before {
@@ -262,14 +262,13 @@ impl Bones {
             }
             before.push(seen);
             #[allow(clippy::cast_precision_loss, reason = "a few")]
-            let all = penalty + 1.5 * count as f64;
-            if besides + all > most {
+            let all = count as f64;
+            cost = penalty + 1.5 * all;
+            if besides + cost > most {
                 return None;
             }
         }
-        #[allow(clippy::cast_precision_loss, reason = "a few")]
-        let all = count as f64;
-        Some((count, penalty + 1.5 * all))
+        Some((count, cost))
     }
 
     /// The frame behind, the jaws in front, pins beside the middle; or all of it round the part.
@@ -286,7 +285,7 @@ impl Bones {
         for &i in &self.of_link[self.frame] {
             penalty += beyond(at[i][0] - 50.0, 25.0) + beyond(-at[i][0], 25.0);
         }
-        let foremost = self.foremost();
+        let foremost = self.front() - self.wished[1];
         for [x, y] in pins {
             // Nothing but the tips is where the part is.
             penalty += beyond(x - foremost, 10.0);
@@ -301,10 +300,10 @@ impl Bones {
         penalty
     }
 
-    /// How far ahead joints are wished at most, where the part is ahead.
-    fn foremost(&self) -> f64 {
+    /// How far ahead the tips are drawn.
+    fn front(&self) -> f64 {
         let tips = self.tips.iter().map(|t| t[0]);
-        tips.fold(f64::INFINITY, f64::min) - self.wished[1]
+        tips.fold(f64::INFINITY, f64::min)
     }
 
     /// How far the tips are drawn ahead of all joints; beyond all bounds where the part is not ahead.
@@ -314,7 +313,7 @@ impl Bones {
         }
         let joints = at.iter().zip(&self.joints);
         let ahead = joints.filter(|(_, ends)| ends.is_some()).map(|(p, _)| p[0]);
-        self.foremost() + self.wished[1] - ahead.fold(f64::NEG_INFINITY, f64::max)
+        self.front() - ahead.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// What breaks the limits as drawn, each break dear; wishes do not count.

@@ -73,32 +73,31 @@ impl Limits {
         let missing = missing.into_iter().filter(|m| *m > 0.0);
         let unreached: f64 = missing.map(|m| 1.0 + 10.0 * m / task.span()).sum();
         let over = |value: f64, most: f64| (value / most).max(1e-12).ln();
-        let mut broken = vec![
-            (over(f.force_ratio(), task.force_ratio), 0.1),
-            (self.transmission - f.transmission, 2.0),
-            (self.transmission - f.forces.transmission, 2.0),
-            (0.05 - f.straightness, 0.05),
-        ];
-        if task.motion == AskedMotion::Parallel {
-            broken.push((f.turn - PARALLEL, 0.2));
-        }
-        let sides = f.size.into_iter().zip(task.room);
-        broken.extend(
-            sides
-                .filter(|s| s.1 > 0.0)
-                .map(|(size, most)| (size - most, 1.0)),
-        );
-        let distances = task.least_distances(f);
-        broken.extend(distances.map(|(least, is)| (least - is, 1.0)));
-        if task.pulled_out > 0.0 {
-            broken.push((over(f.pulled_out, task.pulled_out), 0.02));
-        }
+        let mut broken = 0.0;
         // However little a limit is broken, it is.
-        let cost = |(over, width): (f64, f64)| match over {
-            over if over > NOISE => 0.02 + beyond(over, slack * width),
-            _ => 0.0,
+        let mut limit = |over: f64, width: f64| {
+            if over > NOISE {
+                broken += 0.02 + beyond(over, slack * width);
+            }
         };
-        let broken: f64 = broken.into_iter().map(cost).sum();
+        limit(over(f.force_ratio(), task.force_ratio), 0.1);
+        limit(self.transmission - f.transmission, 2.0);
+        limit(self.transmission - f.forces.transmission, 2.0);
+        limit(0.05 - f.straightness, 0.05);
+        if task.motion == AskedMotion::Parallel {
+            limit(f.turn - PARALLEL, 0.2);
+        }
+        for (size, most) in f.size.into_iter().zip(task.room) {
+            if most > 0.0 {
+                limit(size - most, 1.0);
+            }
+        }
+        for (least, is) in task.least_distances(f) {
+            limit(least - is, 1.0);
+        }
+        if task.pulled_out > 0.0 {
+            limit(over(f.pulled_out, task.pulled_out), 0.02);
+        }
         DEAR * (unreached + broken) - 20.0 * f.force.max(1e-12).ln()
     }
 }

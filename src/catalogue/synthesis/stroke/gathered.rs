@@ -65,14 +65,18 @@ impl Gathered {
         }
     }
 
+    /// Nothing yet of another stroke, in the room of the last.
     pub(super) fn begin(&mut self) {
-        (self.transmission, self.straightness) = (90.0, 1.0);
-        self.rates = Between::NOTHING;
-        self.turns.fill(Between::NOTHING);
-        self.sides = [Between::NOTHING; 2];
-        self.forces = ForceFigures::BEST;
-        (self.nearest, self.on_side, self.reach) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
-        self.cylinder = Between::NOTHING;
+        let (mut turns, pins) = (
+            std::mem::take(&mut self.turns),
+            std::mem::take(&mut self.pins),
+        );
+        turns.fill(Between::NOTHING);
+        *self = Gathered {
+            turns,
+            pins,
+            ..Gathered::new(0)
+        };
     }
 
     /// So far on its side of the middle, of a half where that is no 0.
