@@ -6,6 +6,7 @@ use crate::catalog::row::{RowError, StructureRow, row_of_pair};
 use crate::catalog::spec::{MOST_PAIRED, Spec};
 use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
+use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
@@ -107,7 +108,8 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
 
 fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildError> {
     if spec.classics {
-        let all = known_schemes().into_iter();
+        let two = spec.jaws == 2;
+        let all = known_schemes().into_iter().filter(|_| two);
         return Ok(all.filter(|p| shard.has(&p.name())).collect());
     }
     let forms = spec.paired_forms().map_err(RowError::from)?;
@@ -115,38 +117,49 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
         return Ok(Vec::new());
     }
     let links = spec.links().map_err(RowError::from)?;
-    let all = two_jawed(spec, links)?.into_iter().flat_map(|p| {
-        let other = p.on_parallelograms();
-        std::iter::once(p).chain(other)
-    });
+    let kinds = spec.pairs().map_err(RowError::from)?;
+    let all = two_jawed(spec, &kinds, links).filter(|p| !p.is_hinged());
+    let all = all.flat_map(PairedStructure::with_parallelograms);
     let asked = all.filter(|p| forms.contains(&(p.input(), p.form)) && shard.has(&p.name()));
     Ok(asked.collect())
 }
 
-/// The structures with the pairs that are asked for, of so many links.
+/// The structures with such pairs, of so many links.
 fn two_jawed(
     spec: &Spec,
+    kinds: &[PairKind],
     links: RangeInclusive<usize>,
-) -> Result<Vec<PairedStructure>, BuildError> {
-    let kinds = spec.pairs().map_err(RowError::from)?;
-    let menu = Menu {
-        kinds: &kinds,
-        most: spec.at_most,
-    };
-    Ok(links.flat_map(|n| paired_structures(n, menu)).collect())
+) -> impl Iterator<Item = PairedStructure> {
+    let most = spec.at_most;
+    links.flat_map(move |n| paired_structures(n, Menu { kinds, most }))
 }
 
 /// Those of three jaws that have as many links as is asked.
 fn threefold_work(spec: &Spec, shard: Shard) -> Result<Vec<ThreefoldStructure>, BuildError> {
-    if spec.classics || !spec.threefold_pairs().map_err(RowError::from)? {
+    let has = |t: &ThreefoldStructure| shard.has(&t.name());
+    if spec.classics && spec.jaws == 3 {
+        let all = known_schemes().into_iter();
+        let all = all.filter_map(|p| ThreefoldStructure::new(&p));
+        return Ok(all.filter(has).collect());
+    }
+    let forms = spec.threefold_forms().map_err(RowError::from)?;
+    if spec.classics || forms.is_empty() {
         return Ok(Vec::new());
     }
     let links = spec.links().map_err(RowError::from)?;
+    let mut kinds = spec.pairs().map_err(RowError::from)?;
+    let hinged = kinds.is_empty();
+    if hinged {
+        // The drive.
+        kinds.push(PairKind::Slide);
+    }
     // A side more makes more links of them.
-    let two = two_jawed(spec, 3..=MOST_PAIRED.min(*links.end()))?;
-    let all = two.iter().filter_map(ThreefoldStructure::new);
-    let asked = all.filter(|t| links.contains(&t.links()) && shard.has(&t.name()));
-    Ok(asked.collect())
+    let two = two_jawed(spec, &kinds, 3..=MOST_PAIRED.min(*links.end()));
+    let two = two.filter(|p| !hinged || p.is_hinged());
+    let two = two.flat_map(PairedStructure::with_parallelograms);
+    let two = two.filter(|p| forms.contains(&(p.input(), p.form)));
+    let all = two.filter_map(|p| ThreefoldStructure::new(&p));
+    Ok(all.filter(|t| links.contains(&t.links()) && has(t)).collect())
 }
 
 fn chain_work(spec: &Spec, shard: Shard) -> Result<Vec<ChainWork>, BuildError> {

@@ -43,7 +43,7 @@ pub(super) struct StructureColumns {
     pub(super) parallel: bool,
     /// Its pairs, where they are not hinges and a driver that slides in the frame.
     pub(super) pairs: Option<PairColumns>,
-    /// Well-known schemes of this structure.
+    /// Well-known schemes of this structure, or of two of its three sides.
     pub(super) classics: Vec<&'static Classic>,
 }
 
@@ -153,7 +153,7 @@ impl Entered for ThreefoldStructure {
                 kinds: Kinds::of(&chain),
                 driven_from: link(base),
             }),
-            classics: Vec::new(),
+            classics: classics_of(&self.two.structure.key(), self.two.form.flat).collect(),
         }
     }
 }

@@ -125,7 +125,7 @@ pub enum SpecError {
     /// Pairs in a form that they are not laid out in.
     #[error(
         "pairs: structures with pairs are symmetric: ask for mirror or half-turn among the symmetries, or with three jaws for \
-         threefold and a turning input"
+         threefold"
     )]
     PairedForms,
     /// A number out of its range.
@@ -149,8 +149,7 @@ pub enum SpecError {
     /// No form is left.
     #[error(
         "no layout is asked for: with two jaws a mirror image needs a slide and half a turn a turning input; three jaws are \
-         generic, or threefold with a turning input, since in the plane no slide is its own image after a third of a turn; they \
-         stand on no parallelograms"
+         generic or threefold, and stand on parallelograms where each side is in a plane of its own, threefold with a slide"
     )]
     Nothing,
 }
@@ -258,15 +257,32 @@ impl Spec {
         Ok(inputs.into_iter().cartesian_product(forms).collect())
     }
 
-    /// Whether structures of three jaws with pairs are asked for.
+    /// The forms of two jaws whose sides stand thrice in structures of three jaws that are asked for: what turns in the plane with the
+    /// pairs that are asked for, and what slides along an axis with these or with hinges alone.
     ///
     /// # Errors
     /// Where a word means nothing.
-    pub(crate) fn threefold_pairs(&self) -> Result<bool, SpecError> {
+    pub(crate) fn threefold_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
         let (inputs, symmetries) = self.words()?;
-        let threefold = symmetries.contains(&Symmetry::Threefold) && inputs.contains(&Input::Turn);
+        if self.jaws != 3 || !symmetries.contains(&Symmetry::Threefold) {
+            return Ok(Vec::new());
+        }
         let pairs = !self.pairs()?.is_empty();
-        Ok(pairs && threefold && self.jaws == 3 && self.parallelograms()? != Some(true))
+        let parallel = self.parallelograms()?;
+        let turning = (Input::Turn, PairedForm::of(Symmetry::HalfTurn));
+        let sliding = [false, true].map(|parallel| {
+            let form = PairedForm::of(Symmetry::Mirror);
+            (Input::Slide, PairedForm { parallel, ..form })
+        });
+        let all = std::iter::once(turning).filter(|_| pairs).chain(sliding);
+        let asked = |(input, form): &(Input, PairedForm)| {
+            inputs.contains(input) && parallel.is_none_or(|p| p == form.parallel)
+        };
+        Ok(all.filter(asked).collect())
+    }
+
+    fn has_paired_forms(&self) -> Result<bool, SpecError> {
+        Ok(!self.paired_forms()?.is_empty() || !self.threefold_forms()?.is_empty())
     }
 
     /// Whether layouts with the jaws on parallelograms are asked for, where one of both is.
@@ -303,7 +319,7 @@ impl Spec {
                 && f.suits(self.jaws)
         };
         let forms: Vec<Form> = Form::all().filter(asked).collect();
-        if forms.is_empty() && self.paired_forms()?.is_empty() && !self.threefold_pairs()? {
+        if forms.is_empty() && !self.has_paired_forms()? {
             return Err(SpecError::Nothing);
         }
         Ok(forms)
@@ -377,8 +393,7 @@ impl Spec {
         self.check_task()?;
         self.links()?;
         self.forms()?;
-        let none = self.paired_forms()?.is_empty() && !self.threefold_pairs()?;
-        if !self.pairs()?.is_empty() && none {
+        if !self.pairs()?.is_empty() && !self.has_paired_forms()? {
             return Err(SpecError::PairedForms);
         }
         self.menu().map(|_| ())

@@ -1,7 +1,7 @@
 //! Numbers and places as a mechanism file writes them, exactly.
 
 use crate::file::schema::Coordinate;
-use crate::synthesis::place::Place;
+use crate::synthesis::place::{Place, third};
 
 /// A number, without a point where it is whole.
 pub(super) fn number(x: f64) -> Coordinate {
@@ -14,7 +14,7 @@ pub(super) fn number(x: f64) -> Coordinate {
 }
 
 /// A vector after so many thirds of a turn, exactly.
-pub(super) fn turned([x, y]: [f64; 2], thirds: u8) -> [Coordinate; 2] {
+fn turned([x, y]: [f64; 2], thirds: u8) -> [Coordinate; 2] {
     // (a + b √3) / 2.
     let surd = |a: f64, b: f64| {
         let sign = if b < 0.0 { '-' } else { '+' };
@@ -32,6 +32,52 @@ pub(super) fn turned([x, y]: [f64; 2], thirds: u8) -> [Coordinate; 2] {
 }
 
 pub(super) fn point(place: Place) -> [Coordinate; 3] {
-    let [x, y] = turned(place.unturned(), place.thirds);
-    [x, y, Coordinate::Integer(0)]
+    Pivot::Normal.point(place)
+}
+
+/// What thirds of a turn go round.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pivot {
+    /// The normal of the plane at the origin: all sides are in one plane.
+    Normal,
+    /// The x axis: each side is in a plane of its own.
+    Ahead,
+}
+
+impl Pivot {
+    /// A vector after so many thirds of a turn, exactly.
+    pub(super) fn turned(self, [x, y, z]: [f64; 3], thirds: u8) -> [Coordinate; 3] {
+        match self {
+            Pivot::Normal => {
+                let [x, y] = turned([x, y], thirds);
+                [x, y, number(z)]
+            }
+            Pivot::Ahead => {
+                let [y, z] = turned([y, z], thirds);
+                [number(x), y, z]
+            }
+        }
+    }
+
+    /// A place, turned as often as it says.
+    pub(super) fn point(self, place: Place) -> [Coordinate; 3] {
+        let [x, y] = place.unturned();
+        self.turned([x, y, 0.0], place.thirds)
+    }
+
+    /// The same in double precision.
+    pub(super) fn real(self, place: Place) -> [f64; 3] {
+        let [x, y] = place.unturned();
+        let turned = |p: [f64; 2]| (0..place.thirds).fold(p, |p, _| third(p));
+        match self {
+            Pivot::Normal => {
+                let [x, y] = turned([x, y]);
+                [x, y, 0.0]
+            }
+            Pivot::Ahead => {
+                let [y, z] = turned([y, 0.0]);
+                [x, y, z]
+            }
+        }
+    }
 }

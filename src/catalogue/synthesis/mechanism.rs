@@ -5,7 +5,8 @@ use crate::file::schema::{
     Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry, PointEntry,
     SearchEntry, ToleranceEntry, Unloading, WorkloadEntry,
 };
-use crate::synthesis::coordinate::{number, point, turned};
+use crate::geom::vector::{Vector, X};
+use crate::synthesis::coordinate::{Pivot, number, point};
 use crate::synthesis::layout::Layout;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
@@ -31,16 +32,30 @@ pub(crate) fn link_names(structure: &Structure) -> Vec<String> {
     (0..structure.chain.links()).map(name).collect()
 }
 
+/// A direction of whole numbers after so many thirds of a turn.
+pub(super) fn direction_turned(
+    direction: &[Coordinate; 3],
+    pivot: Pivot,
+    thirds: u8,
+) -> [Coordinate; 3] {
+    let [Coordinate::Integer(x), Coordinate::Integer(y), Coordinate::Integer(z)] = direction else {
+        return direction.clone();
+    };
+    #[allow(clippy::cast_precision_loss, reason = "sides of small triangles")]
+    pivot.turned([x, y, z].map(|a| *a as f64), thirds)
+}
+
 /// Options after so many thirds of a turn: their directions go with it.
-pub(super) fn options_turned(options: &[OptionEntry], thirds: u8) -> Vec<OptionEntry> {
+pub(super) fn options_turned(
+    options: &[OptionEntry],
+    pivot: Pivot,
+    thirds: u8,
+) -> Vec<OptionEntry> {
     let mut out = options.to_vec();
     for option in &mut out {
-        if let OptionEntry::Table(t) = option
-            && let Some([Coordinate::Integer(x), Coordinate::Integer(y), z]) = t.reference.clone()
-        {
-            #[allow(clippy::cast_precision_loss, reason = "directions of axes")]
-            let [x, y] = turned([x as f64, y as f64], thirds);
-            t.reference = Some([x, y, z]);
+        if let OptionEntry::Table(t) = option {
+            let turned = |d| direction_turned(d, pivot, thirds);
+            t.reference = t.reference.as_ref().map(turned);
         }
     }
     out
@@ -88,7 +103,7 @@ fn joints(
         let axis = if slides { [1, 0, 0] } else { [0, 0, 1] };
         // What a third of a turn carries to each other has options that it carries to each other.
         let thirds = place.thirds;
-        let own = |options: &[OptionEntry]| options_turned(options, thirds);
+        let own = |options: &[OptionEntry]| options_turned(options, Pivot::Normal, thirds);
         let in_series = !input && !menu.unloading.is_empty();
         JointEntry {
             id,
@@ -97,10 +112,7 @@ fn joints(
             freedoms: None,
             point: point(place),
             axis: Some(axis.map(Coordinate::Integer)),
-            reference: (thirds > 0).then(|| {
-                let [x, y] = turned([1.0, 0.0], thirds);
-                [x, y, Coordinate::Integer(0)]
-            }),
+            reference: (thirds > 0).then(|| Pivot::Normal.turned(X, thirds)),
             lead: None,
             pitch: None,
             tolerance: None,
@@ -151,12 +163,17 @@ fn exact(at: &[Place]) -> Option<ToleranceEntry> {
     })
 }
 
+/// Points of the plane in space.
+pub(super) fn in_space(points: &[Point]) -> Vec<Vector> {
+    points.iter().map(|&[x, y]| [x, y, 0.0]).collect()
+}
+
 /// What a file says beside its joints, whatever their kinds.
 pub(super) struct FileHead<'a> {
     pub(super) id: String,
     pub(super) name: String,
     /// What each link is called, and its points.
-    pub(super) links: Vec<(String, Vec<Point>)>,
+    pub(super) links: Vec<(String, Vec<Vector>)>,
     pub(super) frame: usize,
     pub(super) jaws: &'a [usize],
     pub(super) held: HeldPart<'a>,
@@ -175,7 +192,7 @@ impl FileHead<'_> {
                     _ => None,
                 },
                 mass: mass.map(|(kg, _)| kg),
-                centre: mass.map(|(_, [x, y])| [number(x), number(y), Coordinate::Integer(0)]),
+                centre: mass.map(|(_, centre)| centre.map(number)),
                 inertia: None,
             }
         });
@@ -184,7 +201,7 @@ impl FileHead<'_> {
         let tips = tips.map(|((&tip, &jaw), letter)| PointEntry {
             id: format!("tip-{letter}"),
             link: self.links[jaw].0.clone(),
-            point: point(tip),
+            point: self.held.pivot.point(tip),
             tolerance: None,
         });
         let jaws = self.jaws.iter().map(|&j| self.links[j].0.clone());
@@ -222,7 +239,7 @@ pub fn mechanism_file(
     let names = link_names(structure);
     let r = &structure.roles;
     let named = |i: usize| joint_name(&names, layout.pins[i]);
-    let points = |(l, name): (usize, &String)| (name.clone(), layout.points(structure, l));
+    let points = |(l, name): (usize, &String)| (name.clone(), in_space(&layout.points(structure, l)));
     let told = FileHead {
         id: structure.id(),
         name: structure.name(),
@@ -233,6 +250,7 @@ pub fn mechanism_file(
             tips: &layout.tips,
             outward: &structure.outward(1),
             grip: layout.limits.task.grip.sign(),
+            pivot: Pivot::Normal,
         },
     };
     MechanismFile {

@@ -1,10 +1,10 @@
 //! What a gripper of a catalogue carries, whatever its structure: the part between its jaws, and its own links.
 
 use crate::file::schema::{Coordinate, ForceEntry};
-use crate::geom::vector::{add_scaled, length, sub};
-use crate::synthesis::coordinate::{number, point, turned};
+use crate::geom::vector::{Vector, add_scaled, length, sub};
+use crate::synthesis::coordinate::{Pivot, number};
 use crate::synthesis::place::Place;
-use crate::synthesis::point::{Point, middle};
+use crate::synthesis::point::middle;
 use serde::{Deserialize, Serialize};
 
 /// Forces and masses that every structure has alike.
@@ -15,7 +15,7 @@ pub struct Workload {
     pub closing: f64,
     /// Mass of the part, in kg: the jaws share its weight.
     pub part: f64,
-    /// Acceleration of gravity in m/s²; z is square to the plane, x is ahead.
+    /// Acceleration of gravity in m/s²; z is square to the plane, of jaw a where each has its own, x is ahead.
     pub gravity: [f64; 3],
     /// Mass of a metre of link, in kg.
     pub link_mass: f64,
@@ -41,12 +41,14 @@ pub(super) struct HeldPart<'a> {
     pub(super) outward: &'a [Place],
     /// 1 where jaws hold as they close, -1 where they do as they open.
     pub(super) grip: f64,
+    /// What turned places are turned about.
+    pub(super) pivot: Pivot,
 }
 
 /// A rod from the middle of a link's points to each of them, in millimetres: their length, and where their mass is.
-fn rods(points: &[Point]) -> (f64, Point) {
+fn rods(points: &[Vector]) -> (f64, Vector) {
     let centre = middle(points);
-    let (mut whole, mut moment) = (0.0, [0.0; 2]);
+    let (mut whole, mut moment) = (0.0, [0.0; 3]);
     for p in points {
         let rod = length(sub(*p, centre));
         whole += rod;
@@ -68,7 +70,7 @@ impl Workload {
 
     /// Mass in kg and mass centre in millimetres of a link with these points.
     #[must_use]
-    pub fn mass(&self, points: &[Point]) -> (f64, Point) {
+    pub fn mass(&self, points: &[Vector]) -> (f64, Vector) {
         let (length, centre) = rods(points);
         (self.link_mass * length / 1000.0, centre)
     }
@@ -77,7 +79,7 @@ impl Workload {
     pub(super) fn forces(&self, jaws: &[String], held: &HeldPart<'_>) -> Vec<ForceEntry> {
         let entry = |n: usize, force| ForceEntry {
             link: jaws[n].clone(),
-            point: point(held.tips[n]),
+            point: held.pivot.point(held.tips[n]),
             force,
             from: None,
             to: None,
@@ -88,9 +90,8 @@ impl Workload {
             // In a hole the part pushes inward.
             let holds = held.grip * self.closing;
             for (n, away) in held.outward.iter().enumerate() {
-                let push = away.whole.map(|x| f64::from(x) * holds);
-                let [x, y] = turned(push, away.thirds);
-                out.push(entry(n, [x, y, Coordinate::Integer(0)]));
+                let [x, y] = away.whole.map(|x| f64::from(x) * holds);
+                out.push(entry(n, held.pivot.turned([x, y, 0.0], away.thirds)));
             }
         }
         let weight = self.gravity.map(|g| g * self.part);

@@ -1,10 +1,12 @@
 //! A gripper of a catalogue as numbers, for the script that draws and moves it.
 
-use crate::geom::vector::{real, sides, unit};
+use crate::geom::vector::{Vector, length, real, sides, turned, unit};
 use crate::model::coupling::Coupling;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Joint, JointId, Mechanism, Role, StateId};
+use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role, StateId};
+use itertools::Itertools;
 use serde::Serialize;
+use std::f64::consts::PI;
 
 /// The drawing of a mechanism as numbers.
 #[derive(Serialize)]
@@ -32,6 +34,8 @@ pub(super) struct DrawingData {
     tips: Option<Vec<[f64; 2]>>,
     /// Units of the drawing for one of the mechanism.
     scale: f64,
+    /// Whether two of three sides are seen, one laid opposite the other.
+    folded: bool,
 }
 
 /// Two gears, or a pinion and its rack.
@@ -48,69 +52,149 @@ struct GearData {
     pitch: [f64; 2],
 }
 
-/// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y.
+/// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y, nor to planes at 120° through the
+/// x axis.
 pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
-    let ids: Vec<JointId> = m.joints_in(StateId::FREE).collect();
-    let joints: Vec<&Joint> = ids.iter().map(|&j| &m.joints[j]).collect();
-    if !joints.iter().all(|j| is_square(j)) {
-        return None;
-    }
-    let pins: Vec<[f64; 2]> = joints.iter().map(|j| flat(real(&j.frame.point))).collect();
-    let links = m.link_ids().map(|l| {
-        let own = joints.iter().enumerate();
-        let own = own.filter(|(_, j)| j.links.contains(&l));
-        own.map(|(i, _)| i).collect()
-    });
-    let drive = joints.iter().position(|j| j.drive);
-    let driver = drive.map(|d| joints[d].links[1].index());
-    let jaws: Vec<usize> = m
-        .links_with_ids()
-        .filter(|(_, l)| l.role == Role::Output)
-        .map(|(l, _)| l.index())
-        .collect();
-    let tips = tips(m, &jaws).filter(|t| (2..=3).contains(&t.len()));
+    let view = View::of(m)?;
+    let joints = &view.joints;
+    let pins: Vec<[f64; 2]> = joints.iter().map(|j| j.pin).collect();
+    let of = |l: LinkId| joints.iter().positions(move |j| j.joint.links.contains(&l));
+    let drive = joints.iter().position(|j| j.joint.drive);
+    let driver = drive.map(|d| joints[d].joint.links[1]);
+    let output = |l: &&LinkId| m.links[**l].role == Role::Output;
+    let jaws: Vec<LinkId> = view.links.iter().filter(output).copied().collect();
+    let tips = view.tips(m, &jaws).filter(|t| (2..=3).contains(&t.len()));
     let scaled = scale(&[&pins[..], tips.as_deref().unwrap_or_default()].concat());
     let place = |p: &[f64; 2]| p.map(|x| x * scaled);
-    let slides = |d: usize| joints[d].joint_type.freedoms().iter().any(|f| f.slides());
+    let slides = |d: usize| {
+        let freedoms = joints[d].joint.joint_type.freedoms();
+        freedoms.iter().any(|f| f.slides())
+    };
     let gears = m.couplings_in(StateId::FREE).filter(|c| c.gear);
-    let gears = gears.filter_map(|c| GearData::new(m, c, &ids, &pins, scaled));
+    let gears = gears.filter_map(|c| GearData::new(&view, c, scaled));
+    let link = |l: LinkId| view.links.iter().position(|&k| k == l);
+    let ends = joints.iter().map(|j| match j.joint.links.map(link) {
+        [Some(a), Some(b)] => Some([a, b]),
+        _ => None,
+    });
     Some(DrawingData {
         gears: gears.collect(),
-        ends: joints.iter().map(|j| j.links.map(|l| l.index())).collect(),
-        kinds: joints.iter().map(|j| kind(j)).collect(),
-        along: joints.iter().map(|j| along(j)).collect(),
+        ends: ends.collect::<Option<_>>()?,
+        kinds: joints.iter().map(|j| kind(j.joint)).collect(),
+        along: joints.iter().map(|j| j.along).collect(),
         pins: pins.iter().map(place).collect(),
-        names: joints.iter().map(|j| j.id.clone()).collect(),
-        links: links.collect(),
-        frame: m.frame().index(),
-        driver,
-        jaws,
+        names: joints.iter().map(|j| j.joint.id.clone()).collect(),
+        links: view.links.iter().map(|&l| of(l).collect()).collect(),
+        frame: link(m.frame())?,
+        driver: driver.and_then(link),
+        jaws: jaws.into_iter().map(link).collect::<Option<_>>()?,
         slides: drive.is_some_and(slides),
         drive,
         tips: tips.map(|t| t.iter().map(place).collect()),
         scale: scaled,
+        folded: view.folded,
     })
 }
 
-/// Whether a pin is square to the plane of x and y; a slide may lie in it.
-fn is_square(joint: &Joint) -> bool {
-    let [x, y, z] = real(&joint.frame.axis);
+/// A joint as it is seen in the plane.
+struct Seen<'a> {
+    id: JointId,
+    joint: &'a Joint,
+    pin: [f64; 2],
+    /// Which way a slide or a slot goes, of length 1.
+    along: [f64; 2],
+}
+
+/// What of a mechanism is seen in the plane of x and y.
+struct View<'a> {
+    joints: Vec<Seen<'a>>,
+    links: Vec<LinkId>,
+    /// Whether it is one of three sides round the x axis, with the next laid opposite it.
+    folded: bool,
+}
+
+/// A vector after so many sixths of a turn about the x axis.
+fn round_x([x, y, z]: Vector, sixths: i32) -> Vector {
+    let [y, z] = turned([y, z], f64::from(sixths) * PI / 3.0);
+    [x, y, z]
+}
+
+/// Coordinates that are less than this of a size are rounding errors of turns.
+const NEAR: f64 = 1e-9;
+
+impl<'a> View<'a> {
+    fn of(m: &'a Mechanism) -> Option<View<'a>> {
+        let ids: Vec<JointId> = m.joints_in(StateId::FREE).collect();
+        if ids.iter().all(|&j| is_square(&m.joints[j], 0)) {
+            let joints = ids.into_iter().map(|id| Seen::new(m, id, 0));
+            return Some(View {
+                joints: joints.collect(),
+                links: m.link_ids().collect(),
+                folded: false,
+            });
+        }
+        // In its own plane, or the sides at 120° and at 240° laid into it.
+        let side = |&id: &JointId| {
+            let joint = &m.joints[id];
+            let in_plane = |&sixths: &i32| {
+                let [x, y, z] = round_x(real(&joint.frame.point), sixths);
+                z.abs() <= NEAR * (1.0 + x.abs() + y.abs()) && is_square(joint, sixths)
+            };
+            [0, 1, -1].into_iter().find(in_plane).map(|s| (id, s))
+        };
+        let sides: Vec<(JointId, i32)> = ids.iter().map(side).collect::<Option<_>>()?;
+        let two = sides.into_iter().filter(|(_, sixths)| *sixths >= 0);
+        let joints: Vec<Seen<'a>> = two.map(|(id, s)| Seen::new(m, id, s)).collect();
+        let joined = |l: &LinkId| joints.iter().any(|j| j.joint.links.contains(l));
+        Some(View {
+            links: m.link_ids().filter(joined).collect(),
+            joints,
+            folded: true,
+        })
+    }
+
+    /// Where the jaws grip, where that is known of all. What a person drew may say by its forces where the part is.
+    fn tips(&self, m: &Mechanism, jaws: &[LinkId]) -> Option<Vec<[f64; 2]>> {
+        let tip = |jaw: &LinkId| {
+            let points = m.points.iter().map(|p| (p.link, &p.point));
+            let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
+            let (_, at) = points.chain(forces).find(|(l, _)| l == jaw)?;
+            let at = real(at);
+            let laid = [0, 1].map(|sixths| round_x(at, sixths));
+            let [x, y, z] = laid[0];
+            let in_plane = !self.folded || z.abs() <= NEAR * (1.0 + x.abs() + y.abs());
+            Some(flat(laid[usize::from(!in_plane)]))
+        };
+        jaws.iter().map(tip).collect()
+    }
+}
+
+impl<'a> Seen<'a> {
+    fn new(m: &'a Mechanism, id: JointId, sixths: i32) -> Seen<'a> {
+        let joint = &m.joints[id];
+        let towards = match joint.joint_type {
+            JointType::Prismatic | JointType::Cylindrical => &joint.frame.axis,
+            _ => &joint.frame.reference,
+        };
+        let laid = |v| flat(round_x(real(v), sixths));
+        Seen {
+            pin: laid(&joint.frame.point),
+            along: unit(laid(towards)),
+            joint,
+            id,
+        }
+    }
+}
+
+/// Whether a pin is square to the plane of x and y after so many sixths of a turn about x; a slide may lie in it.
+fn is_square(joint: &Joint, sixths: i32) -> bool {
+    let axis = real(&joint.frame.axis);
+    let [x, y, z] = round_x(axis, sixths).map(|c| if c.abs() <= NEAR * length(axis) { 0.0 } else { c });
     let across = x == 0.0 && y == 0.0;
     match joint.joint_type {
         JointType::Prismatic | JointType::Cylindrical => across || z == 0.0,
         _ => across,
     }
-}
-
-/// Where the jaws grip, where that is known of all. What a person drew may say by its forces where the part is.
-fn tips(m: &Mechanism, jaws: &[usize]) -> Option<Vec<[f64; 2]>> {
-    let tip = |jaw: &usize| {
-        let points = m.points.iter().map(|p| (p.link, &p.point));
-        let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
-        let (_, at) = points.chain(forces).find(|(l, _)| l.index() == *jaw)?;
-        Some(flat(real(at)))
-    };
-    jaws.iter().map(tip).collect()
 }
 
 fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
@@ -125,37 +209,24 @@ fn kind(joint: &Joint) -> &'static str {
     }
 }
 
-/// Which way a slide or a slot goes, of length 1.
-fn along(joint: &Joint) -> [f64; 2] {
-    let towards = match joint.joint_type {
-        JointType::Prismatic | JointType::Cylindrical => real(&joint.frame.axis),
-        _ => real(&joint.frame.reference),
-    };
-    unit(flat(towards))
-}
-
 impl GearData {
     /// Of a coupling of two hinges, or of a hinge and a slide, that have a link in common.
-    fn new(
-        m: &Mechanism,
-        coupling: &Coupling,
-        ids: &[JointId],
-        pins: &[[f64; 2]],
-        scale: f64,
-    ) -> Option<GearData> {
-        let of = coupling.ends.map(|e| e.joint);
-        let at = |id: JointId| ids.iter().position(|&j| j == id);
-        let joints = [at(of[0])?, at(of[1])?];
-        let ends = of.map(|id| m.joints[id].links);
+    fn new(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<GearData> {
+        let at = |id: JointId| view.joints.iter().position(|j| j.id == id);
+        let [a, b] = coupling.ends.map(|e| at(e.joint));
+        let joints = [a?, b?];
+        let seen = joints.map(|i| &view.joints[i]);
+        let ends = seen.map(|s| s.joint.links);
         let carrier = *ends[0].iter().find(|l| ends[1].contains(l))?;
         let other = |k: usize| ends[k].into_iter().find(|l| *l != carrier);
         let links = [other(0)?, other(1)?];
+        let link = |l: LinkId| view.links.iter().position(|&k| k == l);
         // By how much the second goes for a turn of the first, both against the carrier.
         let told = coupling.ratio.to_f64();
         let turned = ends.iter().filter(|links| links[0] != carrier).count() == 1;
         let rate = if turned { -told } else { told };
-        let [a, b] = joints.map(|i| pins[i]);
-        let kinds = of.map(|id| kind(&m.joints[id]));
+        let [a, b] = seen.map(|s| s.pin);
+        let kinds = seen.map(|s| kind(s.joint));
         let (pitch, ratio) = match kinds {
             ["hinge", "hinge"] if rate < 0.0 => {
                 let share = rate / (rate - 1.0);
@@ -163,11 +234,11 @@ impl GearData {
                 (pitch, told)
             }
             ["hinge", "slide"] => {
-                let [x, y] = along(&m.joints[of[1]]);
+                let [x, y] = seen[1].along;
                 ([a[0] + rate * y, a[1] - rate * x], told * scale)
             }
             ["slide", "hinge"] => {
-                let [x, y] = along(&m.joints[of[0]]);
+                let [x, y] = seen[0].along;
                 let radius = 1.0 / rate;
                 ([b[0] + radius * y, b[1] - radius * x], told / scale)
             }
@@ -176,8 +247,8 @@ impl GearData {
         Some(GearData {
             joints,
             ratio,
-            links: links.map(|l| l.index()),
-            carrier: carrier.index(),
+            links: [link(links[0])?, link(links[1])?],
+            carrier: link(carrier)?,
             pitch: pitch.map(|x| x * scale),
         })
     }

@@ -9,7 +9,7 @@ use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rules::{NoRules, PairRules};
 use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
-use crate::synthesis::paired::threefold::ThreefoldStructure;
+use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
 use crate::synthesis::place::third;
 use crate::synthesis::random::random;
 use crate::synthesis::stroke::judge::Judge;
@@ -56,7 +56,7 @@ fn layout_as(
     let mut why = NoRules::Still;
     let mut start = 0;
     // Three sides are those that one way of lying has.
-    let suits = |lay: &Lay| threefold.is_none_or(|t| t.swap == lay.swap);
+    let suits = |lay: &Lay| threefold.is_none_or(|t| t.lay == *lay);
     for lay in paired.lays().into_iter().filter(suits) {
         let rules = match PairRules::new(paired, &lay) {
             Ok(rules) => rules,
@@ -109,14 +109,16 @@ pub(crate) fn layout_of_three(
     limits: &Limits,
     seed: u64,
 ) -> Result<PairLayout, NoLayout> {
-    let mut out = layout_as(
-        &structure.two,
-        Some(structure),
-        &structure.name(),
-        limits,
-        seed,
-    )?;
+    let mut limits = *limits;
+    // Sides in planes of their own meet where they come to the middle.
+    limits.task.own_sides |= structure.is_axial();
+    let (two, name) = (&structure.two, structure.name());
+    let mut out = layout_as(two, Some(structure), &name, &limits, seed)?;
     let tip = out.looks.tips[0];
-    out.looks.tips = vec![tip, third(tip), third(third(tip))];
+    out.looks.tips = if structure.is_axial() {
+        vec![tip; SIDES]
+    } else {
+        vec![tip, third(tip), third(third(tip))]
+    };
     Ok(out)
 }

@@ -6,8 +6,8 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, MechanismFile, OptionEntry, OptionTable,
     SearchEntry, Unloading,
 };
-use crate::synthesis::coordinate::point;
-use crate::synthesis::mechanism::{FileHead, Menu, joint_name};
+use crate::synthesis::coordinate::{Pivot, point};
+use crate::synthesis::mechanism::{FileHead, Menu, in_space, joint_name};
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::places::Teeth;
 use crate::synthesis::paired::rules::Mesh;
@@ -188,7 +188,7 @@ pub(crate) fn mechanism_file(
         links: names
             .iter()
             .enumerate()
-            .map(|(l, n)| (n.clone(), points_of(paired, layout, l)))
+            .map(|(l, n)| (n.clone(), in_space(&points_of(paired, layout, l))))
             .collect(),
         frame: roles.frame,
         jaws: &roles.jaws,
@@ -196,6 +196,7 @@ pub(crate) fn mechanism_file(
             tips: &tips,
             outward: &[[0, 1], [0, -1]].map(Place::from),
             grip: layout.limits.task.grip.sign(),
+            pivot: Pivot::Normal,
         },
     };
     let couplings = joints.clone().filter_map(|i| {

@@ -4,13 +4,13 @@ use crate::chains::pairs::kind::PairKind;
 use crate::file::schema::{
     Coordinate, CouplingEntry, JointEntry, MechanismFile, OptionEntry, SearchEntry, Unloading,
 };
-use crate::synthesis::coordinate::{point, turned};
-use crate::synthesis::mechanism::{FileHead, Menu, joint_name, options_turned};
+use crate::geom::vector::Vector;
+use crate::synthesis::coordinate::Pivot;
+use crate::synthesis::mechanism::{FileHead, Menu, direction_turned, joint_name, options_turned};
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::mechanism::{link_names, whole};
 use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
-use crate::synthesis::place::{Place, third};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Place;
 use crate::synthesis::workload::{HeldPart, Workload};
 
 /// What the links of a gripper of three jaws are called: those of a side by the letter of its jaw.
@@ -29,27 +29,16 @@ fn names_of_three(structure: &ThreefoldStructure) -> Vec<String> {
     own.chain(sides.map(|(side, l)| of(side, l))).collect()
 }
 
-/// A direction of whole numbers, or an axis square to the plane, after so many thirds of a turn.
-fn turned_direction(direction: &[Coordinate; 3], thirds: u8) -> [Coordinate; 3] {
-    let [x, y, z] = direction.clone();
-    let (Coordinate::Integer(a), Coordinate::Integer(b)) = (&x, &y) else {
-        return [x, y, z];
-    };
-    #[allow(clippy::cast_precision_loss, reason = "sides of small triangles")]
-    let [x, y] = turned([*a as f64, *b as f64], thirds);
-    [x, y, z]
-}
-
 /// A joint on another side.
-fn joint_on(side: u8, joint: &JointEntry, at: Place, menu: &Menu) -> JointEntry {
-    let turn = |d: &[Coordinate; 3]| turned_direction(d, side);
+fn joint_on(side: u8, pivot: Pivot, joint: &JointEntry, at: Place, menu: &Menu) -> JointEntry {
+    let turn = |d: &[Coordinate; 3]| direction_turned(d, pivot, side);
     let hinge = joint.kind == "revolute";
     let ahead = [1, 0, 0].map(Coordinate::Integer);
     let reference = joint.reference.as_ref().or(hinge.then_some(&ahead));
     // What a third of a turn carries to each other has options that it carries to each other.
-    let options = (hinge && side > 0).then(|| options_turned(&menu.options, side));
+    let options = (hinge && side > 0).then(|| options_turned(&menu.options, pivot, side));
     JointEntry {
-        point: point(Place { thirds: side, ..at }),
+        point: pivot.point(Place { thirds: side, ..at }),
         axis: joint.axis.as_ref().map(turn),
         reference: if side > 0 {
             reference.map(turn)
@@ -58,7 +47,7 @@ fn joint_on(side: u8, joint: &JointEntry, at: Place, menu: &Menu) -> JointEntry 
         },
         options: joint.options.clone().or(options),
         unloading: match &joint.unloading {
-            Some(_) if side > 0 => Some(Unloading::List(options_turned(&menu.unloading, side))),
+            Some(_) if side > 0 => Some(Unloading::List(options_turned(&menu.unloading, pivot, side))),
             other => other.clone(),
         },
         ..joint.clone()
@@ -77,6 +66,7 @@ struct ThreeSides<'a> {
     layout: &'a PairLayout,
     names: Vec<String>,
     of_two: Vec<String>,
+    pivot: Pivot,
 }
 
 impl ThreeSides<'_> {
@@ -108,7 +98,7 @@ impl ThreeSides<'_> {
             unloading: menu.unloading.clone(),
         };
         #[allow(clippy::cast_possible_truncation, reason = "at most three")]
-        let here = joint_on(side as u8, &one, whole(layout.at.points[i]), &menu);
+        let here = joint_on(side as u8, self.pivot, &one, whole(layout.at.points[i]), &menu);
         let renamed = |link: &String| {
             let l = self.of_two.iter().position(|n| n == link).unwrap_or(0);
             self.names[self.structure.link(l, side).unwrap_or(0)].clone()
@@ -130,16 +120,21 @@ impl ThreeSides<'_> {
     }
 
     /// The points of a link, its tip last where it is a jaw.
-    fn points(&self, link: usize, tips: &[Place]) -> Vec<Point> {
+    fn points(&self, link: usize, tips: &[Place]) -> Vec<Vector> {
         let (rules, at) = (&self.layout.rules, &self.layout.at);
         let of = |&(i, side): &(usize, usize)| {
             let ends = rules.joints[i].links.map(|l| self.structure.link(l, side));
             ends.contains(&Some(link)) && !self.is_geared(i)
         };
-        let place = |(i, side): (usize, usize)| (0..side).fold(at.points[i], |p, _| third(p));
+        #[allow(clippy::cast_possible_truncation, reason = "at most three")]
+        let place = |(i, side): (usize, usize)| Place {
+            thirds: side as u8,
+            ..whole(at.points[i])
+        };
         let jaw = self.structure.jaws().iter().position(|&j| j == link);
         let own = self.each().filter(of).map(place);
-        own.chain(jaw.map(|n| tips[n].real())).collect()
+        let all = own.chain(jaw.map(|n| tips[n]));
+        all.map(|p| self.pivot.real(p)).collect()
     }
 }
 
@@ -156,6 +151,7 @@ pub(crate) fn mechanism_file_of_three(
         layout,
         names: names_of_three(structure),
         of_two: link_names(&structure.two),
+        pivot: structure.pivot(),
     };
     let joints = &layout.rules.joints;
     let turned = |place: Place| [0, 1, 2].map(|thirds| Place { thirds, ..place });
@@ -176,6 +172,7 @@ pub(crate) fn mechanism_file_of_three(
             tips: &tips,
             outward: &turned(Place::from([0, 1])),
             grip: layout.limits.task.grip.sign(),
+            pivot: sides.pivot,
         },
     };
     let rounds =

@@ -27,7 +27,7 @@ pub struct PairSketch<'a> {
     pub drive: [usize; 2],
     /// What it is to be like and to do.
     pub limits: Limits,
-    /// All sides, where there are three.
+    /// All sides, where there are three in one plane.
     pub(super) around: Option<Around>,
     /// All links as drawn.
     pub(super) at_rest: Vec<LinkPose>,
@@ -91,7 +91,9 @@ impl<'a> PairSketch<'a> {
             bones.sides = SIDES;
         }
         PairSketch {
-            around: threefold.map(|t| Around::new(t, &rules, &bones)),
+            around: threefold
+                .filter(|t| !t.is_axial())
+                .map(|t| Around::new(t, &rules, &bones)),
             bones,
             input: rules.joints.iter().position(at_input).unwrap_or(0),
             at_rest: vec![LinkPose::AT_REST; chain.links()],

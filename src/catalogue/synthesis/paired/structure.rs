@@ -44,6 +44,13 @@ impl PairedForm {
         }
     }
 
+    /// All of it in words, the symmetry first.
+    pub(super) fn name(self, symmetry: &str) -> String {
+        let parallel = if self.parallel { " parallel" } else { "" };
+        let flat = if self.flat { " flat" } else { "" };
+        format!("{symmetry}{parallel}{flat}")
+    }
+
     /// The symmetry in a word: "mirror", "mirror-but-input".
     #[must_use]
     pub(crate) fn symmetry_name(self) -> String {
@@ -65,10 +72,8 @@ impl PairedStructure {
     /// The name that says all of it.
     #[must_use]
     pub fn name(&self) -> String {
-        let parallel = if self.form.parallel { " parallel" } else { "" };
-        let symmetry = self.form.symmetry_name();
-        let flat = if self.form.flat { " flat" } else { "" };
-        format!("{} {symmetry}{parallel}{flat}", self.structure.name())
+        let form = self.form.name(&self.form.symmetry_name());
+        format!("{} {form}", self.structure.name())
     }
 
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
@@ -162,23 +167,22 @@ impl PairedStructure {
     }
 }
 
-/// The structures of so many links that have such pairs, symmetric ones of the symmetries that are asked for; those of hinges and
-/// a driver that slides in the frame are left out, since they are laid out as hinged ones.
+/// The symmetric structures of so many links that have such pairs.
 ///
 /// # Complexity
 /// As [`symmetric_grippers`].
 #[must_use]
 pub fn paired_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
     let all = symmetric_grippers(links, menu).into_iter();
-    let paired = all.map(|g| PairedStructure {
+    all.map(|g| PairedStructure {
         structure: g.structure,
         form: PairedForm::of(if g.kind.half_turn {
             Symmetry::HalfTurn
         } else {
             Symmetry::Mirror
         }),
-    });
-    paired.filter(|p| !p.is_hinged()).collect()
+    })
+    .collect()
 }
 
 impl PairedStructure {
@@ -213,17 +217,18 @@ impl PairedStructure {
         })
     }
 
-    /// The same with each jaw on a parallelogram, where it has one.
-    #[must_use]
-    pub(crate) fn on_parallelograms(&self) -> Option<PairedStructure> {
+    /// This, and the same with each jaw on a parallelogram, where it has one.
+    pub(crate) fn with_parallelograms(self) -> impl Iterator<Item = PairedStructure> {
         let found = self.clone().on_parallelograms_if_any();
-        found.form.parallel.then_some(found)
+        let found = found.form.parallel.then_some(found);
+        std::iter::once(self).chain(found)
     }
 }
 
 impl PairedStructure {
-    /// Whether all joints are hinges but for a driver that slides in the frame.
-    fn is_hinged(&self) -> bool {
+    /// Whether all joints are hinges but for a driver that slides in the frame: laid out as a hinged structure where it has two jaws.
+    #[must_use]
+    pub fn is_hinged(&self) -> bool {
         let roles = &self.structure.roles;
         let others = self.structure.chain.joints().into_iter();
         let mut others = others.filter(|j| j.pair != PairKind::Hinge);

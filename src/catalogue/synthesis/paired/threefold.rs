@@ -1,13 +1,17 @@
 //! Grippers of three jaws with slides, gears and slots, carried to each other by thirds of a turn.
 //!
-//! They are made of those that half a turn carries to themselves: what stands between frame and driver on one side stands there
-//! three times. A side moves by frame and driver alone, so that places, stroke and joint forces are those of one side of two.
+//! They are made of those with two jaws: what stands between frame and driver on one side stands there three times. A side moves
+//! by frame and driver alone, so that places, stroke and joint forces are those of one side of two. Those that half a turn carries
+//! to themselves stay in their plane, and turn about its normal, as a scroll chuck does. Mirror images turn about the axis along
+//! which their driver slides, each side in a plane of its own through it, as in a wedge chuck: half a turn about it is the mirror.
 
 use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::pairs::chain::{Joint, PairChain, ordered};
+use crate::chains::pairs::kind::PairKind;
 use crate::synthesis::bones::{BonePlan, Bones};
+use crate::synthesis::coordinate::Pivot;
 use crate::synthesis::paired::rules::PairRules;
-use crate::synthesis::paired::structure::PairedStructure;
+use crate::synthesis::paired::structure::{Lay, PairedStructure};
 use crate::synthesis::place::third;
 use crate::synthesis::point::Point;
 use crate::synthesis::structure::short_id;
@@ -25,20 +29,32 @@ pub struct ThreefoldStructure {
     pub side: Vec<usize>,
     /// The links that stand once: the frame, the driver and what else the turn carries to itself.
     pub own: Vec<usize>,
-    /// Where half a turn carries the links of the gripper of two jaws.
-    pub(super) swap: Vec<usize>,
+    /// How the gripper of two jaws lies on itself.
+    pub(super) lay: Lay,
 }
 
 impl ThreefoldStructure {
-    /// Of a gripper of two jaws; `None` where its sides are joined to each other.
+    /// Of a gripper of two jaws; `None` where its sides are joined to each other or one of them is driven, or it is a mirror image
+    /// of which something that stands once does more than slide along the middle.
     #[must_use]
     pub fn new(two: &PairedStructure) -> Option<ThreefoldStructure> {
-        if two.form.symmetry != Symmetry::HalfTurn {
-            return None;
-        }
-        let swap = two.lays().into_iter().next()?.swap;
+        let lay = two.lays().into_iter().next()?;
+        let swap = &lay.swap;
         let chain = &two.structure.chain;
         let own: Vec<usize> = (0..chain.links()).filter(|&l| swap[l] == l).collect();
+        let slides_ahead = || {
+            let joints = chain.joints().into_iter();
+            let mut once = joints.filter(|j| j.links.iter().all(|l| own.contains(l)));
+            lay.bits == 0 && once.all(|j| j.pair == PairKind::Slide)
+        };
+        let round = match two.form.symmetry {
+            Symmetry::HalfTurn => true,
+            Symmetry::Mirror => slides_ahead(),
+            Symmetry::Generic | Symmetry::Threefold => false,
+        };
+        if !round || two.form.one_sided {
+            return None;
+        }
         let mut parts = UnionFind::<usize>::new(chain.links());
         for joint in chain.joints() {
             let [u, v] = joint.links;
@@ -64,8 +80,23 @@ impl ThreefoldStructure {
             two: two.clone(),
             side,
             own,
-            swap,
+            lay,
         })
+    }
+
+    /// Whether its sides are in planes of their own, round the axis along which the driver slides.
+    #[must_use]
+    pub fn is_axial(&self) -> bool {
+        self.two.form.symmetry == Symmetry::Mirror
+    }
+
+    /// What its sides are turned about.
+    pub(super) fn pivot(&self) -> Pivot {
+        if self.is_axial() {
+            Pivot::Ahead
+        } else {
+            Pivot::Normal
+        }
     }
 
     /// Number of links.
@@ -119,12 +150,8 @@ impl ThreefoldStructure {
     /// The name that says all of it: that of the gripper of two jaws, with its symmetry.
     #[must_use]
     pub fn name(&self) -> String {
-        let parallel = if self.two.form.parallel {
-            " parallel"
-        } else {
-            ""
-        };
-        format!("{} threefold{parallel}", self.two.structure.name())
+        let form = self.two.form.name(Symmetry::Threefold.name());
+        format!("{} {form}", self.two.structure.name())
     }
 
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.

@@ -34,7 +34,9 @@ function round([x, y], r, s) {
 
 /** How the tips move as the drive closes, the fastest by the longest arrow. */
 function arrows(card, tips) {
-  const moves = ['a', 'b', 'c'].map((jaw) => [card[`tip_${jaw}_dx`], card[`tip_${jaw}_dy`]]).filter((v) => v[0] !== null).map(flip);
+  const told = ['a', 'b', 'c'].map((jaw) => [card[`tip_${jaw}_dx`], card[`tip_${jaw}_dy`]]).filter((v) => v[0] !== null).map(flip);
+  // Of sides in planes of their own the second is drawn opposite the first.
+  const moves = card.drawing.folded ? [told[0], [told[0][0], -told[0][1]]] : told;
   const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
   return moves.flatMap((move, n) => {
     const [x, y] = tips[n], v = move.map((c) => (c / fastest) * 13);

@@ -14,7 +14,7 @@ function figuresOf(c) {
   const rows = c.drawn ? [['Mechanism', c.name], ['', c.description], ['Form', `${c.links} links, ${c.joints} joints, ${formOf(c)}`]] : [
     ['Structure', c.name],
     ...(c.classics ? [['Known as', c.classics]] : []),
-    ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}`],
+    ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}${c.drawing && c.drawing.folded ? '; of three sides two are drawn, opposite each other' : ''}`],
     ['Jaws', `${jawsOf(c)}; they turn by ${short(c.jaw_turn)}° at most`],
     ['Opening', `${short(c.opening_min)} to ${short(c.opening_max)} mm for ${short(c.travel)} ${drive} of the drive${ends.length ? ' (' + ends.join(', ') + ')' : ''}`],
     ['Force of a jaw', `${short(c.force_min)} ${unit(c)} at least, ${short(c.force_max)} at most over the stroke, without friction`],

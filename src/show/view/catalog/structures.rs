@@ -229,7 +229,12 @@ fn structure_text(d: &StructureData) -> String {
     let mut out = format!("{}: {}\n", s("id"), s("name"));
     for classic in &d.classics {
         let c = of(classic);
-        let _ = writeln!(out, "Known as {}: {}", c("id"), c("about"));
+        let known = if third(&d.structure, "jaw_c") {
+            "With two jaws known"
+        } else {
+            "Known"
+        };
+        let _ = writeln!(out, "{known} as {}: {}", c("id"), c("about"));
     }
     out += &make_up_text(d);
     let Some(layout) = &d.layout else {
