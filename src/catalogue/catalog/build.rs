@@ -159,7 +159,9 @@ fn threefold_work(spec: &Spec, shard: Shard) -> Result<Vec<ThreefoldStructure>, 
     let two = two.flat_map(PairedStructure::with_parallelograms);
     let two = two.filter(|p| forms.contains(&(p.input(), p.form)));
     let all = two.filter_map(|p| ThreefoldStructure::new(&p));
-    Ok(all.filter(|t| links.contains(&t.links()) && has(t)).collect())
+    Ok(all
+        .filter(|t| links.contains(&t.links()) && has(t))
+        .collect())
 }
 
 fn chain_work(spec: &Spec, shard: Shard) -> Result<Vec<ChainWork>, BuildError> {

@@ -38,7 +38,12 @@ pub(super) fn direction_turned(
     pivot: Pivot,
     thirds: u8,
 ) -> [Coordinate; 3] {
-    let [Coordinate::Integer(x), Coordinate::Integer(y), Coordinate::Integer(z)] = direction else {
+    let [
+        Coordinate::Integer(x),
+        Coordinate::Integer(y),
+        Coordinate::Integer(z),
+    ] = direction
+    else {
         return direction.clone();
     };
     #[allow(clippy::cast_precision_loss, reason = "sides of small triangles")]
@@ -239,7 +244,8 @@ pub fn mechanism_file(
     let names = link_names(structure);
     let r = &structure.roles;
     let named = |i: usize| joint_name(&names, layout.pins[i]);
-    let points = |(l, name): (usize, &String)| (name.clone(), in_space(&layout.points(structure, l)));
+    let points =
+        |(l, name): (usize, &String)| (name.clone(), in_space(&layout.points(structure, l)));
     let told = FileHead {
         id: structure.id(),
         name: structure.name(),

@@ -189,7 +189,13 @@ impl<'a> Seen<'a> {
 /// Whether a pin is square to the plane of x and y after so many sixths of a turn about x; a slide may lie in it.
 fn is_square(joint: &Joint, sixths: i32) -> bool {
     let axis = real(&joint.frame.axis);
-    let [x, y, z] = round_x(axis, sixths).map(|c| if c.abs() <= NEAR * length(axis) { 0.0 } else { c });
+    let [x, y, z] = round_x(axis, sixths).map(|c| {
+        if c.abs() <= NEAR * length(axis) {
+            0.0
+        } else {
+            c
+        }
+    });
     let across = x == 0.0 && y == 0.0;
     match joint.joint_type {
         JointType::Prismatic | JointType::Cylindrical => across || z == 0.0,

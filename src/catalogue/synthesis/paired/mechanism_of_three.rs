@@ -47,7 +47,11 @@ fn joint_on(side: u8, pivot: Pivot, joint: &JointEntry, at: Place, menu: &Menu) 
         },
         options: joint.options.clone().or(options),
         unloading: match &joint.unloading {
-            Some(_) if side > 0 => Some(Unloading::List(options_turned(&menu.unloading, pivot, side))),
+            Some(_) if side > 0 => Some(Unloading::List(options_turned(
+                &menu.unloading,
+                pivot,
+                side,
+            ))),
             other => other.clone(),
         },
         ..joint.clone()
@@ -98,7 +102,13 @@ impl ThreeSides<'_> {
             unloading: menu.unloading.clone(),
         };
         #[allow(clippy::cast_possible_truncation, reason = "at most three")]
-        let here = joint_on(side as u8, self.pivot, &one, whole(layout.at.points[i]), &menu);
+        let here = joint_on(
+            side as u8,
+            self.pivot,
+            &one,
+            whole(layout.at.points[i]),
+            &menu,
+        );
         let renamed = |link: &String| {
             let l = self.of_two.iter().position(|n| n == link).unwrap_or(0);
             self.names[self.structure.link(l, side).unwrap_or(0)].clone()

@@ -1,0 +1,113 @@
+//! Three jaws round the axis along which their drive slides, each in a plane of its own: wedge chucks, fingers on a piston.
+
+use super::super::carried_on::scattered;
+use super::{Built, LAID, are_images, at, built, number, ok, pulls_as_its_file_says, rows, shared};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+use tempfile::tempdir;
+
+/// Every structure of up to eight links, without the weight of a part, which acts across all planes.
+fn axial() -> &'static str {
+    static FILE: Built = OnceLock::new();
+    static SPEC: OnceLock<tempfile::NamedTempFile> = OnceLock::new();
+    let spec = SPEC.get_or_init(|| {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let text = "links = \"4..8\"\njaws = 3\ninputs = [\"slide\"]\nsymmetries = [\"threefold\"]\n\
+             pairs = [\"slide\", \"gear\", \"slot\"]\nideas = 1\n[workload]\npart = 0\n";
+        std::fs::write(file.path(), text).unwrap();
+        file
+    });
+    let spec = spec.path().to_str().unwrap();
+    let words = ["catalog", "build", "--spec", spec, "--quiet", "-o"];
+    built(&FILE, &words)
+}
+
+/// A side of one link has three constraints at frame and driver: one pair of two freedoms, one of one. Teeth want a hinge beside
+/// them, a pin in a slot a hinge or a slide: six ways, by hand.
+#[test]
+fn sides_of_one_link_are_six() {
+    let found = rows(
+        axial(),
+        "SELECT count(*) AS n FROM structures WHERE links = 5",
+    );
+    assert_eq!(number(&found[0], "n"), 6.0);
+}
+
+#[test]
+fn forces_and_strokes_are_those_of_the_files_statics_in_space() {
+    let folder = tempdir().unwrap();
+    let all = rows(axial(), LAID);
+    assert!(all.len() >= 45, "{}", all.len());
+    for row in &all {
+        assert_eq!(
+            (&row["finite"], &row["mobility"]),
+            (&"1, proven".into(), &1.into())
+        );
+    }
+    let of = |i: u64| usize::try_from(i % all.len() as u64).unwrap();
+    let drawn: BTreeSet<usize> = scattered(5).take(10).map(of).collect();
+    for &i in &drawn {
+        pulls_as_its_file_says(axial(), &all[i], &folder);
+    }
+}
+
+#[test]
+fn sides_in_planes_of_their_own_are_images_of_each_other() {
+    are_images(axial());
+}
+
+/// Well-known schemes whose sides meet at frame and driver alone have three jaws, too, among them the three-jaw scroll that is told.
+#[test]
+fn well_known_schemes_have_three_jaws() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "three.db");
+    ok(&[
+        "catalog",
+        "build",
+        "--classics",
+        "--jaws",
+        "3",
+        "--ideas",
+        "0",
+        "--quiet",
+        "-o",
+        &file,
+    ]);
+    let sql = "SELECT c.id, s.links, s.joints, l.redundant, s.input FROM classics c JOIN structures s ON s.id = c.structure \
+         JOIN layouts l ON l.structure = s.id JOIN strokes k ON k.structure = s.id WHERE shortfall IS NULL";
+    let found = rows(&file, sql);
+    let of = |id: &str| found.iter().find(|r| r["id"] == id).unwrap();
+    // `../shared/pairs/classic.json`: links and pairs of the scroll with three jaws.
+    let told: Value = serde_json::from_str(&shared("classic.json")).unwrap();
+    let schemes = told["schemes"].as_array().unwrap();
+    let scroll = schemes.iter().find(|s| s["id"] == "three-jaw-scroll");
+    let joints = scroll.unwrap()["joints"].as_array().unwrap();
+    let ours = of("scroll-two-jaws");
+    assert_eq!(
+        (ours["links"].as_u64(), ours["joints"].as_u64()),
+        (Some(5), Some(joints.len() as u64))
+    );
+    // In space each side of a wedge is one contour of 5 + 5 + 4 constraints and one motion with its slides: three redundant ones; with
+    // flat faces four.
+    assert_eq!(number(of("wedge-hook"), "redundant"), 9.0);
+    assert_eq!(number(of("wedge-flat-faces"), "redundant"), 12.0);
+    for id in [
+        "parallelogram-piston",
+        "toggle-sliding-jaws",
+        "wedge-levers",
+    ] {
+        assert_eq!(of(id)["input"], "slide", "{id}");
+    }
+    let shown = ok(&["catalog", "show", &file, &first(&file, "wedge-hook")]);
+    assert!(
+        shown.contains("With two jaws known as wedge-hook"),
+        "{shown}"
+    );
+}
+
+fn first(file: &str, scheme: &str) -> String {
+    let sql = format!("SELECT structure FROM classics WHERE id = '{scheme}'");
+    let found = rows(file, &sql);
+    found[0]["structure"].as_str().unwrap().to_owned()
+}
