@@ -30,7 +30,7 @@ pub(super) fn row<S: Entered, L: LaidOut>(
                 ("code", &pairs.code),
                 ("slides", &number(pairs.kinds.slides)),
                 ("gears", &number(pairs.kinds.gears)),
-                ("slots", &number(pairs.kinds.slots)),
+                ("slots", &number(pairs.kinds.slots_made())),
                 ("driven_from", &number(pairs.driven_from)),
             ],
         )?;

@@ -45,7 +45,9 @@ pub enum NoStructure {
         slides: usize,
     },
     /// Two joints between two links.
-    #[error("{0:?} and {1:?} are joined twice; chains have one pair between two links")]
+    #[error(
+        "{0:?} and {1:?} are joined twice; chains have one pair between two links, or two pins in two slots"
+    )]
     Twice(String, String),
     /// A coupling without a carrier.
     #[error("the coupling {0} joins no two links by a third that carries both")]
@@ -118,8 +120,9 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         let gears = gears.ok_or_else(|| NoStructure::Coupling(coupling.name(m)))?;
         joints.push((gears, PairKind::Gear));
     }
-    let twice = joints.iter().map(|j| j.0).duplicates().next();
-    if let Some([a, b]) = twice.map(|links| links.map(|l| names[l].join(" "))) {
+    let twice = joints.iter().duplicates_by(|j| j.0).map(|j| j.0);
+    let mut other = twice.filter(|links| !has_two_slots(&joints, links));
+    if let Some([a, b]) = other.next().map(|links| links.map(|l| names[l].join(" "))) {
         return Err(NoStructure::Twice(a, b));
     }
     let frame = body(m.frame()).unwrap_or(0);
@@ -139,6 +142,12 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         names,
         flat,
     })
+}
+
+/// Whether two slots are between links, and nothing else.
+fn has_two_slots(joints: &[([usize; 2], PairKind)], links: &[usize; 2]) -> bool {
+    let between = joints.iter().filter(|j| j.0 == *links);
+    between.map(|j| j.1).eq([PairKind::Slot; 2])
 }
 
 /// Joints with slots in the place of flat faces, the slides between links that others join already, guides before others; and whether

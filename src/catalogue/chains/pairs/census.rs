@@ -19,6 +19,8 @@ pub struct Kinds {
     pub gears: usize,
     /// Slots, cams and wedges.
     pub slots: usize,
+    /// Two slots between the same links.
+    pub two_slots: usize,
 }
 
 impl Kinds {
@@ -29,7 +31,14 @@ impl Kinds {
             slides: chain.count(PairKind::Slide),
             gears: chain.count(PairKind::Gear),
             slots: chain.count(PairKind::Slot),
+            two_slots: chain.count(PairKind::TwoSlots),
         }
+    }
+
+    /// Slots in all.
+    #[must_use]
+    pub fn slots_made(self) -> usize {
+        self.slots + 2 * self.two_slots
     }
 
     /// The same with so many slots made of flat faces, which are slides.

@@ -44,13 +44,15 @@ impl Joint {
 }
 
 impl PairChain {
-    /// A chain of so many links with these joints.
+    /// A chain of so many links with these joints, of which two slots may be between the same links.
     #[must_use]
     pub fn new(links: usize, joints: impl IntoIterator<Item = Joint>) -> PairChain {
         let mut pairs = Weighted::new(links);
         for joint in joints {
             let [u, v] = joint.links;
-            pairs.set(u, v, joint.pair as u8);
+            let twice = [joint.pair as u8, pairs.weight(u, v)] == [PairKind::Slot as u8; 2];
+            let pair = if twice { PairKind::TwoSlots } else { joint.pair };
+            pairs.set(u, v, pair as u8);
         }
         PairChain { pairs }
     }
@@ -90,6 +92,19 @@ impl PairChain {
         let joint = |links: [usize; 2]| Some((links, self.between(links[0], links[1])?));
         let joints = pairs.filter_map(joint);
         joints.map(|(links, pair)| Joint { links, pair }).collect()
+    }
+
+    /// The joints as they are made: two slots are two.
+    #[must_use]
+    pub fn joints_made(&self) -> Vec<Joint> {
+        let made = |joint: Joint| match joint.pair {
+            PairKind::TwoSlots => {
+                let pair = PairKind::Slot;
+                vec![Joint { pair, ..joint }; 2]
+            }
+            _ => vec![joint],
+        };
+        self.joints().into_iter().flat_map(made).collect()
     }
 
     /// Which links are joined, by whatever.
@@ -162,8 +177,8 @@ impl PairChain {
             let others = (0..last).filter(|u| rest >> u & 1 == 1);
             let taken = others.map(|u| match self.between(u, last) {
                 None => 0,
-                Some(pair) if pair.is_lower() => 2,
-                Some(_) => 1,
+                Some(pair) if pair.leaves_two() => 1,
+                Some(_) => 2,
             });
             out[part] = out[rest] + 3 - taken.sum::<i16>();
         }

@@ -11,15 +11,18 @@ pub enum PairKind {
     Gear,
     /// A pin in a slot, a cam and its follower, a wedge: they touch along a line of action.
     Slot,
+    /// Two pins in two slots: they turn about where the lines of action meet, as about a hinge that goes elsewhere as they move.
+    TwoSlots,
 }
 
 impl PairKind {
     /// Every kind with the word and the letter it has in codes.
-    pub const ALL: [(PairKind, &'static str, char); 4] = [
+    pub const ALL: [(PairKind, &'static str, char); 5] = [
         (PairKind::Hinge, "hinge", 'R'),
         (PairKind::Slide, "slide", 'P'),
         (PairKind::Gear, "gear", 'G'),
         (PairKind::Slot, "slot", 'S'),
+        (PairKind::TwoSlots, "two-slots", 'D'),
     ];
 
     /// The word used for it.
@@ -41,9 +44,15 @@ impl PairKind {
         PairKind::ALL.get(at).map(|kind| kind.0)
     }
 
-    /// Whether it leaves one freedom; the others leave two.
+    /// Whether it is a hinge or a slide, which may be driven or carry gears.
     #[must_use]
     pub(crate) fn is_lower(self) -> bool {
         matches!(self, PairKind::Hinge | PairKind::Slide)
+    }
+
+    /// Whether it leaves two freedoms; the others leave one.
+    #[must_use]
+    pub(crate) fn leaves_two(self) -> bool {
+        matches!(self, PairKind::Gear | PairKind::Slot)
     }
 }

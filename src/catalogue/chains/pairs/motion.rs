@@ -4,8 +4,8 @@
 //! some 10^-17, and one found free is free for nearly all places.
 //!
 //! A hinge is two rows at a point, a slide equal turns and no motion across a direction, a gear pair or a slot one row, a line
-//! of action. Where a symmetry carries a joint to itself, its place is special: a hinge lies on the mirror line, a slide goes
-//! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it.
+//! of action; two slots are two such rows, and so two at the point where these lines meet. Where a symmetry carries a joint to itself, its place is special: a hinge lies on the mirror line, a slide goes
+//! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it. Two slots are never their own image.
 
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
@@ -63,7 +63,8 @@ impl Draw {
 
     fn place(&mut self, pair: PairKind) -> PairRows {
         match pair {
-            PairKind::Hinge => PairRows::Hinge([self.one(), self.one()]),
+            // Two lines of action meet in a point.
+            PairKind::Hinge | PairKind::TwoSlots => PairRows::Hinge([self.one(), self.one()]),
             PairKind::Slide => PairRows::Slide([self.one(), self.one()]),
             PairKind::Gear | PairKind::Slot => PairRows::Line([self.one(), self.one(), self.one()]),
         }
@@ -85,7 +86,7 @@ impl Draw {
             (PairKind::Slot, Image::HalfTurn) => PairRows::Line([zero, self.one(), self.one()]),
             (PairKind::Gear, Image::Mirror) if joint.swapped => PairRows::Line([zero, one, zero]),
             (PairKind::Hinge, Image::ThirdTurn) => PairRows::Hinge([zero; 2]),
-            (PairKind::Gear, _) | (_, Image::ThirdTurn) => return None,
+            (PairKind::Gear | PairKind::TwoSlots, _) | (_, Image::ThirdTurn) => return None,
         })
     }
 }

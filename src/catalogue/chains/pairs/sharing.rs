@@ -22,7 +22,7 @@ pub struct Menu<'a> {
 impl Menu<'_> {
     /// Joints of a chain of mobility 1 at most, where so many may be pairs of two freedoms.
     pub(super) fn most_joints(self, links: usize, most_higher: usize) -> usize {
-        let higher = self.kinds.iter().any(|k| !k.is_lower());
+        let higher = self.kinds.iter().any(|k| k.leaves_two());
         let constraints = 3 * links - 4 + if higher { most_higher } else { 0 };
         (constraints / 2).min(links * (links - 1) / 2)
     }
@@ -99,10 +99,8 @@ impl<'a> Sharing<'a> {
         let Some(higher) = self.higher() else {
             return;
         };
-        let two = menu.kinds.iter().copied().filter(|k| !k.is_lower());
-        let two = two.collect_vec();
-        let slides = menu.kinds.contains(&PairKind::Slide);
-        let most_slides = if slides { self.orbits.len() } else { 0 };
+        let (two, one): (Vec<PairKind>, Vec<PairKind>) =
+            menu.kinds.iter().partition(|k| k.leaves_two());
         let orbits = 0..self.orbits.len();
         let fewest = higher.div_ceil(2);
         let chosen = (fewest..=higher.min(menu.most)).flat_map(|n| orbits.clone().combinations(n));
@@ -114,19 +112,20 @@ impl<'a> Sharing<'a> {
                 continue;
             }
             let others = orbits.clone().filter(|o| !places.contains(o)).collect_vec();
-            let most = most_slides.min(menu.most - places.len()).min(others.len());
-            let kinds = places.iter().map(|_| two.iter().copied());
-            for kinds in kinds.multi_cartesian_product() {
-                let sliding = (0..=most).flat_map(|n| others.iter().copied().combinations(n));
-                for sliding in sliding {
-                    let mut pairs = vec![PairKind::Hinge; self.joints.len()];
-                    let given = places.iter().copied().zip(kinds.iter().copied());
-                    let slides = sliding.into_iter().map(|o| (o, PairKind::Slide));
-                    for (orbit, pair) in given.chain(slides) {
-                        let own = |j: &usize| self.orbits[orbit].0 >> j & 1 == 1;
-                        (0..pairs.len()).filter(own).for_each(|j| pairs[j] = pair);
+            let most = (menu.most - places.len()).min(others.len());
+            for n in 0..=most {
+                for chosen in others.iter().copied().combinations(n) {
+                    let kinds = [(&places, &two), (&chosen, &one)];
+                    let kinds = kinds.map(|(orbits, kinds)| orbits.iter().map(move |_| kinds));
+                    let kinds = kinds.into_iter().flatten().multi_cartesian_product();
+                    for kinds in kinds {
+                        let mut pairs = vec![PairKind::Hinge; self.joints.len()];
+                        for (&orbit, &pair) in places.iter().chain(&chosen).zip(kinds) {
+                            let own = |j: &usize| self.orbits[orbit].0 >> j & 1 == 1;
+                            (0..pairs.len()).filter(own).for_each(|j| pairs[j] = pair);
+                        }
+                        self.judge(&pairs, visit);
                     }
-                    self.judge(&pairs, visit);
                 }
             }
         }

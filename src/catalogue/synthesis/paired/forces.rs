@@ -124,7 +124,7 @@ fn figures(
                 PairKind::Slide => force.max(2.0 * f.moment.abs() / friction.guide) * slid(),
                 PairKind::Slot => force * rows.sliding(i).abs(),
                 // Where pitch circles touch they roll.
-                PairKind::Gear => 0.0,
+                PairKind::Gear | PairKind::TwoSlots => 0.0,
             };
     }
     for (n, &jaw) in bones.jaws.iter().enumerate() {

@@ -7,7 +7,7 @@ use crate::file::schema::{
     SearchEntry, Unloading,
 };
 use crate::synthesis::coordinate::{Pivot, point};
-use crate::synthesis::mechanism::{FileHead, Menu, in_space, joint_name};
+use crate::synthesis::mechanism::{FileHead, Menu, in_space};
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::places::Teeth;
 use crate::synthesis::paired::rules::Mesh;
@@ -105,7 +105,10 @@ impl PairedStructure {
             PairKind::Slide => ("prismatic", along, Some(upright), Some(slides())),
             PairKind::Slot if flat => ("prismatic", along, Some(upright), Some(faces())),
             PairKind::Slot => ("slotted", upright, Some(along), Some(slots())),
-            PairKind::Hinge | PairKind::Gear => ("revolute", upright, None, None),
+            // Teeth are no joint, and two slots are two.
+            PairKind::Hinge | PairKind::Gear | PairKind::TwoSlots => {
+                ("revolute", upright, None, None)
+            }
         };
         let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();
         // The pin is on the first link, the slot in the second.
@@ -115,7 +118,7 @@ impl PairedStructure {
             links
         };
         JointEntry {
-            id: joint_name(names, (joint.links[0], joint.links[1])),
+            id: layout.rules.joint_name(i, names),
             links: links.map(|l| names[l].clone()),
             kind: kind.to_owned(),
             freedoms: None,
@@ -159,7 +162,7 @@ impl PairedStructure {
             Teeth::Rack(diameter) => Coordinate::Expression(format!("{}/2", signed(diameter))),
         };
         CouplingEntry {
-            joints: of.map(|j| joint_name(names, (j.links[0], j.links[1]))),
+            joints: mesh.held.map(|j| layout.rules.joint_name(j, names)),
             ratio,
             gear: true,
         }
@@ -238,10 +241,7 @@ fn search_entry(
     names: &[String],
 ) -> SearchEntry {
     let rules = &layout.rules;
-    let name = |i: usize| {
-        let [u, v] = rules.joints[i].links;
-        joint_name(names, (u, v))
-    };
+    let name = |i: usize| rules.joint_name(i, names);
     // A drive on one side alone is no symmetry of what is asked.
     let images = rules
         .images()

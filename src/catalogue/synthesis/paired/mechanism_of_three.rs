@@ -6,7 +6,7 @@ use crate::file::schema::{
 };
 use crate::geom::vector::Vector;
 use crate::synthesis::coordinate::Pivot;
-use crate::synthesis::mechanism::{FileHead, Menu, direction_turned, joint_name, options_turned};
+use crate::synthesis::mechanism::{FileHead, Menu, direction_turned, options_turned};
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::mechanism::{link_names, whole};
 use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
@@ -85,9 +85,13 @@ impl ThreeSides<'_> {
     }
 
     fn name(&self, joint: usize, side: usize) -> String {
-        let links = self.layout.rules.joints[joint].links;
-        let [u, v] = links.map(|l| self.structure.link(l, side).unwrap_or(0));
-        joint_name(&self.names, (u, v))
+        let link = |l: usize| self.structure.link(l, side);
+        let names = (0..self.of_two.len()).map(|l| {
+            let name = link(l).map(|l| self.names[l].clone());
+            name.unwrap_or_default()
+        });
+        let names: Vec<String> = names.collect();
+        self.layout.rules.joint_name(joint, &names)
     }
 
     fn joint(&self, i: usize, side: usize, menu: &Menu) -> JointEntry {

@@ -115,7 +115,8 @@ impl PoseRows<'_> {
                 TeethSeen::Ratio => self.ratio(joint, &mesh, visit),
                 TeethSeen::Force => self.teeth(joint, &mesh, visit),
             },
-            (PairKind::Gear, None) => {}
+            // Two slots are two joints here.
+            (PairKind::Gear, None) | (PairKind::TwoSlots, _) => {}
         }
     }
 

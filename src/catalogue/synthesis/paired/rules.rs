@@ -4,6 +4,7 @@ use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
 use crate::geom::vector::{add_scaled, sub};
+use crate::synthesis::mechanism::joint_name;
 use crate::synthesis::paired::direction::WholeDirection;
 use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
@@ -97,7 +98,7 @@ impl PairRules {
     /// Why it cannot.
     pub fn new(paired: &PairedStructure, lay: &Lay) -> Result<PairRules, NoRules> {
         let (chain, symmetry) = (&paired.structure.chain, paired.form.symmetry);
-        let joints = chain.joints();
+        let joints = chain.joints_made();
         let mut rules = vec![PairRule::Free; joints.len()];
         let mut meshes: Vec<Option<Mesh>> = vec![None; joints.len()];
         let mut ways = 0;
@@ -116,7 +117,9 @@ impl PairRules {
                 continue;
             }
             if !own {
-                let image = joints.iter().position(|j| j.links == links);
+                // Of two slots the first is the image of the first.
+                let before = joints[..i].iter().filter(|j| j.links == joint.links).count();
+                let image = joints.iter().positions(|j| j.links == links).nth(before);
                 let image = image.ok_or(NoRules::Still)?;
                 rules[image] = PairRule::Image(i);
                 meshes[image] = meshes[i].and_then(|m| m.carried(&lay.swap, &joints));
@@ -172,6 +175,14 @@ impl PairRules {
             PairRule::Image(of) => Some((*of, i)),
             _ => None,
         })
+    }
+
+    /// What a joint is called, where links are called so: by its links, the second of two slots by a number more.
+    pub(super) fn joint_name(&self, joint: usize, names: &[String]) -> String {
+        let [u, v] = self.joints[joint].links;
+        let second = self.joints[..joint].iter().any(|j| j.links == [u, v]);
+        let name = joint_name(names, (u, v));
+        if second { name + "-2" } else { name }
     }
 
     /// The image of a point.

@@ -101,7 +101,7 @@ impl FoundData {
             hinges: chain.count(PairKind::Hinge),
             slides: kinds.slides,
             gears: kinds.gears,
-            slots: kinds.slots,
+            slots: kinds.slots_made(),
             place: if roles.is_driven_from_frame() {
                 "frame"
             } else {

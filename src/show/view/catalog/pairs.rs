@@ -19,6 +19,7 @@ pub struct PairCountsData {
     slides: usize,
     gears: usize,
     slots: usize,
+    two_slots: usize,
     chains: u64,
     frames: u64,
     inputs_at_frame: u64,
@@ -61,6 +62,7 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, PairCensus>) -> Vec<PairCou
             slides: kinds.slides,
             gears: kinds.gears,
             slots: kinds.slots,
+            two_slots: kinds.two_slots,
             chains: c.chains,
             frames: c.frames,
             inputs_at_frame: c.inputs_at_frame,
@@ -84,7 +86,7 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, PairCensus>) -> Vec<PairCou
 }
 
 const LEGEND: &str = "\
-All up to isomorphism; pairs of one freedom are hinges and slides, of two gear pairs (racks, too) and slots (pins in slots, cams, wedges).
+All up to isomorphism; pairs of one freedom are hinges, slides and two slots between the same links, of two gear pairs (racks, too) and slots (pins in slots, cams, wedges).
 A chain has one motion in nearly all places, in which every two links move; a gear pair has a carrier.
 Columns: the input, a hinge or a slide, is at the frame or between two moving links; a jaw is one of its links (driven), or apart from it.
 Essential: no smaller moving part holds frame, input joint and jaws; what stands below counts these alone.
