@@ -4,6 +4,7 @@
 mod classics;
 mod codes;
 mod command;
+mod two_slots;
 
 use itertools::Itertools;
 use ozols::chains::chain::Chain;
@@ -56,6 +57,7 @@ fn as_many_as_two_other_programs_count() {
             slides: size(1),
             gears: size(2),
             slots: size(3),
+            two_slots: 0,
         };
         let own = row(&found[&size(0)][&kinds]);
         for (i, (own, published)) in own.iter().zip(&numbers[5..]).enumerate() {

@@ -51,7 +51,11 @@ impl PairChain {
         for joint in joints {
             let [u, v] = joint.links;
             let twice = [joint.pair as u8, pairs.weight(u, v)] == [PairKind::Slot as u8; 2];
-            let pair = if twice { PairKind::TwoSlots } else { joint.pair };
+            let pair = if twice {
+                PairKind::TwoSlots
+            } else {
+                joint.pair
+            };
             pairs.set(u, v, pair as u8);
         }
         PairChain { pairs }

@@ -118,7 +118,10 @@ impl PairRules {
             }
             if !own {
                 // Of two slots the first is the image of the first.
-                let before = joints[..i].iter().filter(|j| j.links == joint.links).count();
+                let before = joints[..i]
+                    .iter()
+                    .filter(|j| j.links == joint.links)
+                    .count();
                 let image = joints.iter().positions(|j| j.links == links).nth(before);
                 let image = image.ok_or(NoRules::Still)?;
                 rules[image] = PairRule::Image(i);
