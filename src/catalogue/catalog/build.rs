@@ -117,21 +117,52 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
         return Ok(Vec::new());
     }
     let links = spec.links().map_err(RowError::from)?;
-    let kinds = spec.pairs().map_err(RowError::from)?;
-    let all = two_jawed(spec, &kinds, links).filter(|p| !p.is_hinged());
+    let one_pin = spec.one_pin().map_err(RowError::from)?;
+    let of_pairs = Pairs::new(spec)?;
+    let all = of_pairs.two_jawed(links);
     let all = all.flat_map(PairedStructure::with_parallelograms);
-    let asked = all.filter(|p| forms.contains(&(p.input(), p.form)) && shard.has(&p.name()));
-    Ok(asked.collect())
+    let all = all.filter(|p| forms.contains(&(p.input(), p.form)));
+    let all = all.flat_map(|p| {
+        let shared = (one_pin != Some(false)).then(|| p.clone().with_one_pins());
+        let alone = shared.is_none().then_some(p);
+        shared.into_iter().flatten().chain(alone)
+    });
+    let asked = all.filter(|p| {
+        let shared = p.form.one_pin != 0;
+        // Those of hinges alone are made as such.
+        (shared || !p.is_hinged()) && one_pin.is_none_or(|only| only == shared)
+    });
+    Ok(asked.filter(|p| shard.has(&p.name())).collect())
 }
 
-/// The structures with such pairs, of so many links.
-fn two_jawed(
-    spec: &Spec,
-    kinds: &[PairKind],
-    links: RangeInclusive<usize>,
-) -> impl Iterator<Item = PairedStructure> {
-    let most = spec.at_most;
-    links.flat_map(move |n| paired_structures(n, Menu { kinds, most }))
+/// What structures of pairs are made of.
+struct Pairs {
+    kinds: Vec<PairKind>,
+    most: usize,
+    /// Whether no pairs are asked for but a drive that slides.
+    hinged: bool,
+}
+
+impl Pairs {
+    fn new(spec: &Spec) -> Result<Pairs, BuildError> {
+        let mut kinds = spec.pairs().map_err(RowError::from)?;
+        let hinged = kinds.is_empty();
+        if hinged {
+            kinds.push(PairKind::Slide);
+        }
+        Ok(Pairs {
+            kinds,
+            most: spec.at_most,
+            hinged,
+        })
+    }
+
+    /// The structures of two jaws of so many links.
+    fn two_jawed(&self, links: RangeInclusive<usize>) -> impl Iterator<Item = PairedStructure> {
+        let (kinds, most) = (&self.kinds, self.most);
+        let all = links.flat_map(move |n| paired_structures(n, Menu { kinds, most }));
+        all.filter(|p| !self.hinged || p.is_hinged())
+    }
 }
 
 /// Those of three jaws that have as many links as is asked.
@@ -147,15 +178,9 @@ fn threefold_work(spec: &Spec, shard: Shard) -> Result<Vec<ThreefoldStructure>, 
         return Ok(Vec::new());
     }
     let links = spec.links().map_err(RowError::from)?;
-    let mut kinds = spec.pairs().map_err(RowError::from)?;
-    let hinged = kinds.is_empty();
-    if hinged {
-        // The drive.
-        kinds.push(PairKind::Slide);
-    }
+    let of_pairs = Pairs::new(spec)?;
     // A side more makes more links of them.
-    let two = two_jawed(spec, &kinds, 3..=MOST_PAIRED.min(*links.end()));
-    let two = two.filter(|p| !hinged || p.is_hinged());
+    let two = of_pairs.two_jawed(3..=MOST_PAIRED.min(*links.end()));
     let two = two.flat_map(PairedStructure::with_parallelograms);
     let two = two.filter(|p| forms.contains(&(p.input(), p.form)));
     let all = two.filter_map(|p| ThreefoldStructure::new(&p));

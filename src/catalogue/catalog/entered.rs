@@ -4,7 +4,7 @@ use crate::chains::graph6;
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::pairs::census::Kinds;
 use crate::chains::pairs::chain::{PairChain, ordered};
-use crate::chains::pairs::classics::{Classic, classics_of};
+use crate::chains::pairs::classics::{Classic, MadeAs, classics_of};
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use crate::synthesis::layout::Layout;
@@ -80,9 +80,9 @@ impl Entered for Structure {
             symmetry: self.form.symmetry.name().to_owned(),
             parallel: self.form.parallel,
             pairs: None,
-            classics: self
-                .pairs()
-                .map_or_else(Vec::new, |p| classics_of(&p.key(), false).collect()),
+            classics: self.pairs().map_or_else(Vec::new, |p| {
+                classics_of(&p.key(), MadeAs::default()).collect()
+            }),
         }
     }
 }
@@ -126,7 +126,7 @@ impl Entered for PairedStructure {
                 kinds: Kinds::of(chain).with_flat(self.flat_slots().len()),
                 driven_from,
             }),
-            classics: classics_of(&self.structure.key(), self.form.flat).collect(),
+            classics: classics_of(&self.structure.key(), self.made_as()).collect(),
         }
     }
 }
@@ -153,7 +153,7 @@ impl Entered for ThreefoldStructure {
                 kinds: Kinds::of(&chain),
                 driven_from: link(base),
             }),
-            classics: classics_of(&self.two.structure.key(), self.two.form.flat).collect(),
+            classics: classics_of(&self.two.structure.key(), self.two.made_as()).collect(),
         }
     }
 }

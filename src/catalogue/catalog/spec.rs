@@ -37,6 +37,8 @@ pub struct Spec {
     pub symmetries: Vec<String>,
     /// Whether layouts with the jaws on parallelograms are made too: "with", "without" or "only".
     pub parallel: String,
+    /// Whether layouts with hinges on one pin with their mirror images are made too: "with", "without" or "only".
+    pub one_pin: String,
     /// Pairs beside hinges that symmetric structures may have: "slide", "gear", "slot"; none by default.
     pub pairs: Vec<String>,
     /// Pairs that are not hinges at most, a left and a right one being one.
@@ -75,6 +77,7 @@ impl Default for Spec {
             inputs: words(&["slide", "turn"]),
             symmetries: words(&["generic", "mirror", "half-turn", "threefold"]),
             parallel: "with".to_owned(),
+            one_pin: "without".to_owned(),
             pairs: Vec::new(),
             at_most: 3,
             classics: false,
@@ -119,7 +122,7 @@ pub enum SpecError {
     Links(String),
     /// Too many links for pairs.
     #[error(
-        "links: structures with pairs have {MOST_PAIRED} links at most: there are too many beyond"
+        "links: structures with pairs, or hinges on one pin, have {MOST_PAIRED} links at most: there are too many beyond"
     )]
     PairedLinks,
     /// Pairs in a form that they are not laid out in.
@@ -211,6 +214,13 @@ const OPTIONS: [&str; 8] = [
     "slotted",
 ];
 
+/// Words for layouts that are made beside others.
+const WITH: [(Option<bool>, &str); 3] = [
+    (None, "with"),
+    (Some(false), "without"),
+    (Some(true), "only"),
+];
+
 impl Spec {
     /// The numbers of links.
     ///
@@ -221,7 +231,8 @@ impl Spec {
         let all = range(&self.links).map_err(|_| wrong())?;
         let known = *all.start() >= 4 && *all.end() <= MOST_LINKS;
         let some = known && all.clone().any(|n| n % 2 == 0 || !self.pairs.is_empty());
-        if some && self.jaws == 2 && !self.pairs.is_empty() && *all.end() > MOST_PAIRED {
+        let paired = !self.pairs.is_empty() || self.one_pin()? != Some(false);
+        if some && self.jaws == 2 && paired && *all.end() > MOST_PAIRED {
             return Err(SpecError::PairedLinks);
         }
         some.then_some(all).ok_or_else(wrong)
@@ -243,7 +254,7 @@ impl Spec {
     /// # Errors
     /// Where a word means nothing.
     pub(crate) fn paired_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
-        if self.pairs()?.is_empty() || self.jaws != 2 {
+        if self.jaws != 2 || self.pairs()?.is_empty() && self.one_pin()? == Some(false) {
             return Ok(Vec::new());
         }
         let (inputs, symmetries) = self.words()?;
@@ -287,12 +298,12 @@ impl Spec {
 
     /// Whether layouts with the jaws on parallelograms are asked for, where one of both is.
     fn parallelograms(&self) -> Result<Option<bool>, SpecError> {
-        let words = [
-            (None, "with"),
-            (Some(false), "without"),
-            (Some(true), "only"),
-        ];
-        word("parallel", &self.parallel, &words)
+        word("parallel", &self.parallel, &WITH)
+    }
+
+    /// Whether layouts with hinges on one pin are asked for, where one of both is.
+    pub(crate) fn one_pin(&self) -> Result<Option<bool>, SpecError> {
+        word("one_pin", &self.one_pin, &WITH)
     }
 
     fn words(&self) -> Result<(Vec<Input>, Vec<Symmetry>), SpecError> {
@@ -312,8 +323,10 @@ impl Spec {
     pub fn forms(&self) -> Result<Vec<Form>, SpecError> {
         let (inputs, symmetries) = self.words()?;
         let parallel = self.parallelograms()?;
+        let alone = self.one_pin()? == Some(true);
         let asked = |f: &Form| {
-            inputs.contains(&f.input)
+            !alone
+                && inputs.contains(&f.input)
                 && symmetries.contains(&f.symmetry)
                 && parallel.is_none_or(|p| p == f.parallel)
                 && f.suits(self.jaws)

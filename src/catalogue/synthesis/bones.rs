@@ -24,8 +24,8 @@ pub struct Bones {
     pub joints: Vec<Option<[usize; 2]>>,
     /// Joints that have no point on their links, where pitch circles touch, as bits.
     pub touching: u32,
-    /// Joints that are all at the centre of half a turn, as bits: on one axis, and not near to each other.
-    pub central: u32,
+    /// Of each point those that are on one axis with it by rule, itself among them, as bits: they are not near to each other.
+    pub together: Vec<u32>,
     /// Joints that are where others have them.
     pub follows: Vec<bool>,
     /// Where the tips of the jaws are.
@@ -65,8 +65,8 @@ pub(super) struct BonePlan<'a> {
     pub(super) hinged: Vec<bool>,
     pub(super) round: Option<f64>,
     pub(super) wished: [f64; 2],
-    /// Joints at the centre of half a turn, as bits.
-    pub(super) central: u32,
+    /// Sets of joints that are on one axis, as bits.
+    pub(super) together: Vec<u32>,
     /// The links of a drive that slides between two moving ones.
     pub(super) cylinder: Option<[usize; 2]>,
 }
@@ -107,7 +107,12 @@ fn halves(links: usize, plan: &BonePlan<'_>) -> Vec<f64> {
             std::cmp::Ordering::Equal => 0.0,
         }
     };
-    plan.joints.iter().map(half).collect()
+    let halves = plan.joints.iter().map(half).enumerate();
+    // What is on one axis with its image is on no side.
+    let shared = |i: usize| plan.together.iter().any(|set| set >> i & 1 == 1);
+    halves
+        .map(|(i, half)| if shared(i) { 0.0 } else { half })
+        .collect()
 }
 
 impl Bones {
@@ -128,6 +133,13 @@ impl Bones {
             pulls.then_some((l, [a, b]))
         });
         let centre = middle(&plan.tips);
+        let alone = |i: usize| {
+            let of = plan.together.iter().find(|set| *set >> i & 1 == 1);
+            of.copied().unwrap_or(1 << i)
+        };
+        let together = (0..plan.joints.len() + plan.tips.len())
+            .map(alone)
+            .collect();
         let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
         let joints = plan.joints.iter().enumerate();
         let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
@@ -147,7 +159,7 @@ impl Bones {
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             of_link,
             touching,
-            central: plan.central,
+            together,
             joints: plan.joints,
             follows: plan.follows,
             tips: plan.tips,

@@ -85,14 +85,16 @@ impl LinkSide {
 struct SideSeen {
     link: usize,
     ends: [usize; 2],
+    /// Those at its ends.
+    at_ends: u32,
     /// Those on its left.
     left: u32,
-    /// Those on it or nearly so, besides its ends.
+    /// Those on it or nearly so, besides those at its ends.
     near: u32,
 }
 
 impl SideSeen {
-    fn new(side: &LinkSide, at: &[Point]) -> SideSeen {
+    fn new(side: &LinkSide, at: &[Point], together: &[u32]) -> SideSeen {
         let [a, b] = side.of(at);
         let along = sub(b, a);
         // So far from the line through both, by the area of the triangle.
@@ -103,7 +105,8 @@ impl SideSeen {
             left |= u32::from(area > 0.0) << p;
             near |= u32::from(area * area < strip) << p;
         }
-        near &= !side.ends.iter().fold(0, |bits, &i| bits | 1 << i);
+        let at_ends = side.ends.iter().fold(0, |bits, &i| bits | together[i]);
+        near &= !at_ends;
         let mut on = near;
         while on != 0 {
             let p = on.trailing_zeros();
@@ -113,16 +116,16 @@ impl SideSeen {
         SideSeen {
             link: side.link,
             ends: side.ends,
+            at_ends,
             left,
             near,
         }
     }
 
-    /// Whether two sides cross that have no point in common.
+    /// Whether two sides cross that end at no place in common.
     fn crosses(&self, other: &SideSeen) -> bool {
         let parts = |left: u32, [a, b]: [usize; 2]| (left >> a ^ left >> b) & 1 == 1;
-        let [a, b] = self.ends;
-        let apart = !other.ends.contains(&a) && !other.ends.contains(&b);
+        let apart = other.ends.iter().all(|&end| self.at_ends >> end & 1 == 0);
         apart && parts(self.left, other.ends) && parts(other.left, self.ends)
     }
 }
@@ -185,7 +188,7 @@ impl Bones {
             for (j, b) in at[..i].iter().enumerate() {
                 let apart = sub(*a, *b);
                 let square = dot(apart, apart);
-                if square < near * near && !self.are_central(i, j) {
+                if square < near * near && !self.are_together(i, j) {
                     penalty += 4.0 * beyond(near - square.sqrt(), near);
                 }
                 // Pins level with each other, or square above each other, have an axis in common: a special place that costs
@@ -201,9 +204,9 @@ impl Bones {
         penalty
     }
 
-    /// Whether two joints are at the centre by rule.
-    fn are_central(&self, i: usize, j: usize) -> bool {
-        self.central >> i & self.central >> j & 1 == 1
+    /// Whether two points are on one axis by rule.
+    fn are_together(&self, i: usize, j: usize) -> bool {
+        self.together[i] >> j & 1 == 1
     }
 
     /// The longest link over the shortest, and what long and short ones cost.
@@ -212,7 +215,7 @@ impl Bones {
         let moving = self.of_link.iter().enumerate();
         for (_, points) in moving.filter(|(l, _)| *l != self.frame) {
             for (i, &a) in points.iter().enumerate() {
-                for &b in points[..i].iter().filter(|&&b| !self.are_central(a, b)) {
+                for &b in points[..i].iter().filter(|&&b| !self.are_together(a, b)) {
                     let d = length(sub(at[a], at[b]));
                     (longest, shortest) = (longest.max(d), shortest.min(d));
                     penalty += beyond(d - LONG, 25.0) + beyond(18.0 - d, 10.0);
@@ -244,15 +247,12 @@ impl Bones {
         let mut before: Vec<SideSeen> = Vec::with_capacity(sides.len());
         let (mut count, mut penalty, mut cost) = (0, 0.0, 0.0);
         for side in &sides {
-            let seen = SideSeen::new(side, at);
+            let seen = SideSeen::new(side, at, &self.together);
             for other in &before {
                 count += usize::from(other.link != side.link && seen.crosses(other));
             }
             // Where pitch circles touch is on no link.
             let mut near = seen.near & !self.touching;
-            if side.ends.iter().any(|&end| self.central >> end & 1 == 1) {
-                near &= !self.central;
-            }
             while near != 0 {
                 let p = near.trailing_zeros();
                 near &= near - 1;

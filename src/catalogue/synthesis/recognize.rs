@@ -4,6 +4,7 @@
 //! too. So a gripper and its redesign have the same structure.
 
 use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
+use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
@@ -72,8 +73,8 @@ pub struct Recognized {
     pub structure: PairStructure,
     /// The names of each link: several where they are one in the plane.
     pub names: Vec<Vec<String>>,
-    /// Whether flat faces stand in it as slots: slides between links that other slides join already.
-    pub flat: bool,
+    /// What it is beside that: flat faces stand in it as slots where slides are between links that other slides join already.
+    pub made_as: MadeAs,
 }
 
 /// The structure of a mechanism in its free state.
@@ -136,11 +137,22 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         input: input(&chain, &driven)?,
         jaws: jaws(m, body)?,
     };
+    let jaws = roles.jaws.map(|jaw| {
+        let at_frame = |&&j: &&JointId| ends(j) == ordered([frame, jaw]);
+        present.iter().find(at_frame).copied()
+    });
+    let made_as = MadeAs {
+        flat,
+        jaws_on_one_pin: match jaws {
+            [Some(a), Some(b)] => plane.are_on_one_pin([a, b].map(|j| &m.joints[j]))?,
+            _ => false,
+        },
+    };
     let structure = PairStructure { chain, roles };
     Ok(Recognized {
         structure,
         names,
-        flat,
+        made_as,
     })
 }
 
@@ -246,6 +258,17 @@ impl MotionPlane {
         }
         plane.normal = best.ok_or(NoStructure::NoPlane)?.1;
         Ok(plane)
+    }
+
+    /// Whether two joints are hinges in the plane, at one place there.
+    fn are_on_one_pin(&self, joints: [&Joint; 2]) -> Result<bool, NoStructure> {
+        let kinds = [self.kind(joints[0])?, self.kind(joints[1])?];
+        let [a, b] = joints.map(|j| FrameValues::new(&self.exact, &j.frame));
+        let (a, b) = (a?.point, b?.point);
+        let apart = [0, 1, 2].map(|k| self.exact.field().sub(a[k], b[k]));
+        let zero = self.exact.field().zero();
+        let along = self.exact.cross(apart, self.normal) == [zero; 3];
+        Ok(along && kinds == [Some(PairKind::Hinge); 2])
     }
 
     /// How many joints are of a kind in the plane.

@@ -51,7 +51,7 @@ impl<'a> Skeleton<'a> {
             round: structure.is_round().then_some(near),
             wished: limits.task.distances(),
             cylinder: None,
-            central: 0,
+            together: Vec::new(),
         };
         let bones = Bones::new(structure.chain.links(), plan, |_| true);
         let contours = Contours::new(structure);

@@ -21,8 +21,17 @@ pub struct Classic {
     pub about: String,
     /// Its structure; flat faces stand in it as slots.
     pub structure: PairStructure,
-    /// Whether its slots are flat faces, which are redundant in the plane already.
+    /// What it is beside its structure.
+    pub made_as: MadeAs,
+}
+
+/// What a gripper is beside its structure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct MadeAs {
+    /// Its slots are flat faces, which are redundant in the plane already.
     pub flat: bool,
+    /// Its jaws turn in the frame on one pin.
+    pub jaws_on_one_pin: bool,
 }
 
 #[derive(Deserialize)]
@@ -34,6 +43,8 @@ struct Written {
     jaws: String,
     #[serde(default)]
     flat: bool,
+    #[serde(default)]
+    jaws_on_one_pin: bool,
 }
 
 impl Written {
@@ -68,7 +79,10 @@ static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
     let classic = |(id, entry): (String, Written)| Classic {
         structure: entry.structure().expect("a test reads it"),
         about: entry.about,
-        flat: entry.flat,
+        made_as: MadeAs {
+            flat: entry.flat,
+            jaws_on_one_pin: entry.jaws_on_one_pin,
+        },
         id,
     };
     let all: Vec<Classic> = all.into_iter().map(classic).collect();
@@ -85,9 +99,9 @@ pub fn classics() -> &'static [Classic] {
     &ALL.0
 }
 
-/// The schemes that have a structure of this key, with flat faces or without.
-pub fn classics_of(key: &Weighted, flat: bool) -> impl Iterator<Item = &'static Classic> {
+/// The schemes that have a structure of this key and are made so.
+pub fn classics_of(key: &Weighted, made_as: MadeAs) -> impl Iterator<Item = &'static Classic> {
     let (all, keys) = &*ALL;
     let same = keys.iter().positions(move |k| k == key);
-    same.map(|i| &all[i]).filter(move |c| c.flat == flat)
+    same.map(|i| &all[i]).filter(move |c| c.made_as == made_as)
 }

@@ -1,7 +1,7 @@
 //! Well-known schemes in the forms that they are laid out in.
 
 use crate::chains::layout_symmetry::Symmetry;
-use crate::chains::pairs::classics::classics;
+use crate::chains::pairs::classics::{Classic, classics};
 use crate::chains::pairs::structure::PairStructure;
 use crate::synthesis::paired::rules::PairRules;
 use crate::synthesis::paired::structure::{PairedForm, PairedStructure};
@@ -10,13 +10,15 @@ use itertools::Itertools;
 /// The well-known schemes that are structures, each once.
 #[must_use]
 pub(crate) fn known_schemes() -> Vec<PairedStructure> {
-    let all = classics().iter().map(|c| &c.structure);
-    let all = all.unique_by(|s| s.key()).filter_map(most_symmetric);
-    all.flat_map(|p| {
-        let flat = p.with_flat_faces();
-        std::iter::once(p).chain(flat)
-    })
-    .collect()
+    let all = classics().iter();
+    let all = all.unique_by(|c| (c.structure.key(), c.made_as));
+    let made = |c: &Classic| {
+        let plain = most_symmetric(&c.structure)?;
+        let flat = plain.with_flat_faces();
+        let mut all = plain.with_one_pins().chain(flat);
+        all.find(|p| p.made_as() == c.made_as)
+    };
+    all.filter_map(made).collect()
 }
 
 /// A structure in the most symmetric form in which it lies somewhere; `None` where it does so in none.

@@ -19,6 +19,8 @@ pub enum PairRule {
     Free,
     /// It is its own image; a slide or a slot on a mirror line then has this direction.
     Own(Option<WholeDirection>),
+    /// On the middle, on one pin with its image.
+    OnePin,
     /// The image of another joint.
     Image(usize),
     /// The fourth corner of a parallelogram: from the first joint to the second as from the third to this one.
@@ -70,6 +72,9 @@ pub enum NoRules {
     /// The parallelograms of the jaws ask for what the symmetry does not give.
     #[error("the parallelograms do not go with the symmetry")]
     Parallelograms,
+    /// What is to be on one pin with its image is none of a link that the symmetry keeps.
+    #[error("joints that are no images of each other are to be on one pin")]
+    OnePin,
     /// No way of lying on itself moves.
     #[error("in no symmetric places do its jaws move against each other")]
     Still,
@@ -141,6 +146,15 @@ impl PairRules {
             }
             rules[i] = PairRule::Own(along);
         }
+        for (i, joint) in joints.iter().enumerate() {
+            if !paired.form.is_on_one_pin(i) {
+                continue;
+            }
+            if !lay.may_share(joint) || !rules.contains(&PairRule::Image(i)) {
+                return Err(NoRules::OnePin);
+            }
+            rules[i] = PairRule::OnePin;
+        }
         if paired.form.parallel {
             let rings = paired.rings().ok_or(NoRules::Parallelograms)?;
             parallelograms(&rings, &joints, &mut rules).ok_or(NoRules::Parallelograms)?;
@@ -209,6 +223,7 @@ impl PairRules {
         for &i in &self.order {
             match self.rules[i] {
                 PairRule::Free => {}
+                PairRule::OnePin => at.points[i][1] = 0.0,
                 PairRule::Parallelogram([a, b, c]) => {
                     let side = sub(at.points[b], at.points[a]);
                     at.points[i] = add_scaled(at.points[c], 1.0, side);
@@ -306,7 +321,7 @@ fn in_order(rules: &[PairRule]) -> Option<Vec<usize>> {
                 && match &rules[i] {
                     PairRule::Image(of) => done(of),
                     PairRule::Parallelogram(of) => of.iter().all(done),
-                    PairRule::Free | PairRule::Own(_) => true,
+                    PairRule::Free | PairRule::OnePin | PairRule::Own(_) => true,
                 }
         };
         order.push((0..rules.len()).find(ready)?);

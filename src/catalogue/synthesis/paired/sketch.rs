@@ -68,9 +68,13 @@ impl<'a> PairSketch<'a> {
         let hinged = |&jaw: &usize| chain.between(roles.frame, jaw) == Some(PairKind::Hinge);
         let free = |r: &PairRule| *r == PairRule::Free;
         let turned = paired.form.symmetry == Symmetry::HalfTurn;
-        let own = |r: &PairRule| turned && matches!(r, PairRule::Own(_));
         let rows = rules.rules.iter().enumerate();
-        let central = rows.fold(0, |bits, (i, r)| bits | u32::from(own(r)) << i);
+        let own = rows.filter(|(_, r)| turned && matches!(r, PairRule::Own(_)));
+        let central = own.fold(0, |bits, (i, _)| bits | 1u32 << i);
+        let shared = rules
+            .images()
+            .filter(|(of, _)| rules.rules[*of] == PairRule::OnePin);
+        let shared = shared.map(|(of, image)| 1u32 << of | 1 << image);
         let plan = BonePlan {
             frame: roles.frame,
             driver: drive[1],
@@ -82,7 +86,7 @@ impl<'a> PairSketch<'a> {
             hinged: roles.jaws.iter().map(hinged).collect(),
             round: turned.then_some(0.0),
             wished: limits.task.distances(),
-            central,
+            together: shared.chain((central > 0).then_some(central)).collect(),
             cylinder: (paired.structure.slides() && drive[0] != roles.frame).then_some(drive),
         };
         let at_input = |j: &Joint| j.links == roles.input;

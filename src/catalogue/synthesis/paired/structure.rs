@@ -2,6 +2,7 @@
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::pairs::chain::{Joint, carried, ordered};
+use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, motion, symmetric_ways};
 use crate::chains::pairs::sharing::Menu;
@@ -30,6 +31,8 @@ pub struct PairedForm {
     pub parallel: bool,
     /// Whether slots between links that keep their attitude against each other have flat faces: slides, redundant in the plane already.
     pub flat: bool,
+    /// Hinges that are on one pin with their mirror images, by the places of the first of both among the joints, as bits.
+    pub one_pin: u32,
 }
 
 impl PairedForm {
@@ -41,7 +44,16 @@ impl PairedForm {
             one_sided: false,
             parallel: false,
             flat: false,
+            one_pin: 0,
         }
+    }
+
+    /// Whether a joint, the first of two, is on one pin with its image.
+    #[must_use]
+    pub(super) fn is_on_one_pin(self, joint: usize) -> bool {
+        self.one_pin
+            .checked_shr(joint as u32)
+            .is_some_and(|rest| rest & 1 == 1)
     }
 
     /// All of it in words, the symmetry first.
@@ -68,12 +80,69 @@ pub struct Lay {
     pub bits: u32,
 }
 
+impl Lay {
+    /// Whether a joint may be on one pin with its image: a hinge of a link that the symmetry keeps with one that it does not.
+    #[must_use]
+    pub(super) fn may_share(&self, joint: &Joint) -> bool {
+        let kept = joint.links.map(|l| self.swap[l] == l);
+        joint.pair == PairKind::Hinge && kept[0] != kept[1]
+    }
+}
+
 impl PairedStructure {
     /// The name that says all of it.
     #[must_use]
     pub fn name(&self) -> String {
         let form = self.form.name(&self.form.symmetry_name());
-        format!("{} {form}", self.structure.name())
+        let joints = self.structure.chain.joints_made();
+        let shared = joints.iter().enumerate();
+        let shared = shared.filter(|(i, _)| self.form.is_on_one_pin(*i));
+        let pins = shared.map(|(_, j)| format!(" pin{}-{}", j.links[0], j.links[1]));
+        format!("{} {form}{}", self.structure.name(), pins.format(""))
+    }
+
+    /// What it is beside its structure.
+    #[must_use]
+    pub fn made_as(&self) -> MadeAs {
+        let roles = &self.structure.roles;
+        let at_frame = |j: &Joint| j.is_at(roles.frame) && roles.jaws.iter().any(|&a| j.is_at(a));
+        let joints = self.structure.chain.joints_made();
+        let mut shared = joints.iter().enumerate();
+        MadeAs {
+            flat: self.form.flat,
+            jaws_on_one_pin: shared.any(|(i, j)| self.form.is_on_one_pin(i) && at_frame(j)),
+        }
+    }
+
+    /// This, and the same with hinges on one pin with their mirror images, in every way in which no link has two such pins.
+    ///
+    /// # Complexity
+    /// As [`PairedStructure::lays`].
+    pub(crate) fn with_one_pins(self) -> impl Iterator<Item = PairedStructure> {
+        let joints = self.structure.chain.joints_made();
+        let mirror = self.form.symmetry == Symmetry::Mirror;
+        let lay = mirror.then(|| self.lays().into_iter().next()).flatten();
+        let first = |(i, joint): (usize, &Joint)| {
+            let lay = lay.as_ref()?;
+            let image = carried(joint.links, &lay.swap);
+            let later = joints[i..].iter().any(|j| j.links == image);
+            (later && lay.may_share(joint)).then_some(i)
+        };
+        let shared: Vec<usize> = joints.iter().enumerate().filter_map(first).collect();
+        let ways = shared.into_iter().powerset().filter(move |ways| {
+            let lay = lay.as_ref();
+            let moved = ways.iter().flat_map(|&i| joints[i].links);
+            moved
+                .filter(|&l| lay.is_some_and(|lay| lay.swap[l] != l))
+                .all_unique()
+        });
+        ways.map(move |ways| PairedStructure {
+            form: PairedForm {
+                one_pin: ways.iter().fold(0, |bits, i| bits | 1 << i),
+                ..self.form
+            },
+            ..self.clone()
+        })
     }
 
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.

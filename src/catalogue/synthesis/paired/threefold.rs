@@ -52,7 +52,7 @@ impl ThreefoldStructure {
             Symmetry::Mirror => slides_ahead(),
             Symmetry::Generic | Symmetry::Threefold => false,
         };
-        if !round || two.form.one_sided {
+        if !round || two.form.one_sided || two.form.one_pin != 0 {
             return None;
         }
         let mut parts = UnionFind::<usize>::new(chain.links());
@@ -201,7 +201,7 @@ impl Around {
             round: two.round,
             wished: two.wished,
             cylinder: None,
-            central: 0,
+            together: Vec::new(),
         };
         Around {
             bones: Bones::new(structure.links(), plan, pushes),

@@ -350,6 +350,7 @@ impl<M: StrokeMotion> Judge<M> {
         let g = &mut self.gathered;
         g.pins.clear();
         for (i, (place, ends)) in points.iter().zip(&bones.joints).enumerate() {
+            let apart = apart && bones.together[i].trailing_zeros() as usize == i;
             if let Some([link, _]) = *ends {
                 let now = self.links[link].point(*place);
                 sketch.each_copy(i, now, &mut |p| {

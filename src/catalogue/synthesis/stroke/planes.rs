@@ -125,6 +125,16 @@ impl Meetings {
                 if !apart || !lies_over(sides, at, place) {
                     continue;
                 }
+                // What is on the same axis passes it in a plane of its own.
+                if bones.of_link[link]
+                    .iter()
+                    .any(|&q| bones.together[p] >> q & 1 == 1)
+                {
+                    for &own in of.iter().filter(|l| ![**l, link].contains(&bones.frame)) {
+                        self.overlap(own, link);
+                    }
+                    continue;
+                }
                 if let Some(tip) = p.checked_sub(pins) {
                     if !bones.jaws.contains(&link) {
                         self.over_tips[tip] |= 1 << link;
@@ -280,7 +290,7 @@ mod tests {
             round: None,
             wished: [14.0, 25.0],
             cylinder: None,
-            central: 0,
+            together: Vec::new(),
         };
         Bones::new(5, plan, |_| true)
     }

@@ -28,15 +28,18 @@ pub(in crate::cli) struct Build {
     /// How the driver moves: slide, turn; both by default.
     #[arg(long, value_name = "INPUT", value_delimiter = ',')]
     input: Vec<String>,
-    /// How structures are laid out: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws and a
-    /// turning input); all by default.
+    /// How structures are laid out: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws, in a plane
+    /// with a turning input, round an axis with a slide); all by default.
     #[arg(long, value_name = "SYMMETRY", value_delimiter = ',')]
     symmetry: Vec<String>,
     /// Layouts with each jaw on a parallelogram: with, without or only.
     #[arg(long, value_name = "WORD")]
     parallel: Option<String>,
+    /// Layouts with hinges on one pin with their mirror images, as tongs have them: with, without (the default) or only.
+    #[arg(long, value_name = "WORD")]
+    one_pin: Option<String>,
     /// Pairs beside hinges in symmetric structures of two jaws, or threefold ones of three: slide, gear (or rack), slot (pin in a
-    /// slot, cam, wedge); the driver alone may slide otherwise.
+    /// slot, cam, wedge), two-slots (two pins in two slots between the same links); the driver alone may slide otherwise.
     #[arg(long, value_name = "KINDS", value_delimiter = ',')]
     pairs: Vec<String>,
     /// Pairs that are not hinges at most, a left and a right one being one; 3 by default.
@@ -116,6 +119,9 @@ impl Build {
         }
         if let Some(word) = &self.parallel {
             spec.parallel.clone_from(word);
+        }
+        if let Some(word) = &self.one_pin {
+            spec.one_pin.clone_from(word);
         }
         spec.classics |= self.classics;
         spec.at_most = self.most_of(&spec)?;

@@ -84,7 +84,7 @@ impl FoundData {
         let subject = PairSubject::new(chain, &automorphisms);
         let essential = part.len() == chain.links();
         let symmetries = in_count.then(|| subject.symmetries(roles));
-        let flat = if found.flat {
+        let flat = if found.made_as.flat {
             chain.flat_slots().len()
         } else {
             0
@@ -93,7 +93,7 @@ impl FoundData {
         let slides = found.structure.slides();
         let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
         let key = found.structure.part(part).key();
-        let classics = classics_of(&key, found.flat);
+        let classics = classics_of(&key, found.made_as);
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
