@@ -121,11 +121,7 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         let gears = gears.ok_or_else(|| NoStructure::Coupling(coupling.name(m)))?;
         joints.push((gears, PairKind::Gear));
     }
-    let twice = joints.iter().duplicates_by(|j| j.0).map(|j| j.0);
-    let mut other = twice.filter(|links| !has_two_slots(&joints, links));
-    if let Some([a, b]) = other.next().map(|links| links.map(|l| names[l].join(" "))) {
-        return Err(NoStructure::Twice(a, b));
-    }
+    no_others_twice(&joints, &names)?;
     let frame = body(m.frame()).unwrap_or(0);
     let driven = present.iter().filter(|&&j| m.joints[j].drive);
     let driven = driven.map(|&j| ends(j)).collect_vec();
@@ -137,16 +133,13 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         input: input(&chain, &driven)?,
         jaws: jaws(m, body)?,
     };
-    let jaws = roles.jaws.map(|jaw| {
-        let at_frame = |&&j: &&JointId| ends(j) == ordered([frame, jaw]);
-        present.iter().find(at_frame).copied()
+    let at_frame = roles.jaws.map(|jaw| {
+        let own = |&&j: &&JointId| ends(j) == ordered([frame, jaw]);
+        present.iter().find(own).map(|&j| &m.joints[j])
     });
     let made_as = MadeAs {
         flat,
-        jaws_on_one_pin: match jaws {
-            [Some(a), Some(b)] => plane.are_on_one_pin([a, b].map(|j| &m.joints[j]))?,
-            _ => false,
-        },
+        jaws_on_one_pin: plane.are_on_one_pin(at_frame)?,
     };
     let structure = PairStructure { chain, roles };
     Ok(Recognized {
@@ -156,10 +149,23 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     })
 }
 
-/// Whether two slots are between links, and nothing else.
-fn has_two_slots(joints: &[([usize; 2], PairKind)], links: &[usize; 2]) -> bool {
-    let between = joints.iter().filter(|j| j.0 == *links);
-    between.map(|j| j.1).eq([PairKind::Slot; 2])
+/// Nothing but two slots is between two links beside another joint.
+fn no_others_twice(
+    joints: &[([usize; 2], PairKind)],
+    names: &[Vec<String>],
+) -> Result<(), NoStructure> {
+    let are_slots = |links: &[usize; 2]| {
+        let between = joints.iter().filter(|j| j.0 == *links);
+        between.map(|j| j.1).eq([PairKind::Slot; 2])
+    };
+    let mut twice = joints.iter().duplicates_by(|j| j.0).map(|j| j.0);
+    match twice.find(|links| !are_slots(links)) {
+        None => Ok(()),
+        Some(links) => {
+            let [a, b] = links.map(|l| names[l].join(" "));
+            Err(NoStructure::Twice(a, b))
+        }
+    }
 }
 
 /// Joints with slots in the place of flat faces, the slides between links that others join already, guides before others; and whether
@@ -261,7 +267,11 @@ impl MotionPlane {
     }
 
     /// Whether two joints are hinges in the plane, at one place there.
-    fn are_on_one_pin(&self, joints: [&Joint; 2]) -> Result<bool, NoStructure> {
+    fn are_on_one_pin(&self, joints: [Option<&Joint>; 2]) -> Result<bool, NoStructure> {
+        let [Some(a), Some(b)] = joints else {
+            return Ok(false);
+        };
+        let joints = [a, b];
         let kinds = [self.kind(joints[0])?, self.kind(joints[1])?];
         let [a, b] = joints.map(|j| FrameValues::new(&self.exact, &j.frame));
         let (a, b) = (a?.point, b?.point);

@@ -97,7 +97,7 @@ pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
 }
 
 /// A joint as it is seen in the plane.
-struct Seen<'a> {
+struct SeenJoint<'a> {
     id: JointId,
     joint: &'a Joint,
     pin: [f64; 2],
@@ -107,7 +107,7 @@ struct Seen<'a> {
 
 /// What of a mechanism is seen in the plane of x and y.
 struct View<'a> {
-    joints: Vec<Seen<'a>>,
+    joints: Vec<SeenJoint<'a>>,
     links: Vec<LinkId>,
     /// Whether it is one of three sides round the x axis, with the next laid opposite it.
     folded: bool,
@@ -126,7 +126,7 @@ impl<'a> View<'a> {
     fn of(m: &'a Mechanism) -> Option<View<'a>> {
         let ids: Vec<JointId> = m.joints_in(StateId::FREE).collect();
         if ids.iter().all(|&j| is_square(&m.joints[j], 0)) {
-            let joints = ids.into_iter().map(|id| Seen::new(m, id, 0));
+            let joints = ids.into_iter().map(|id| SeenJoint::new(m, id, 0));
             return Some(View {
                 joints: joints.collect(),
                 links: m.link_ids().collect(),
@@ -144,7 +144,7 @@ impl<'a> View<'a> {
         };
         let sides: Vec<(JointId, i32)> = ids.iter().map(side).collect::<Option<_>>()?;
         let two = sides.into_iter().filter(|(_, sixths)| *sixths >= 0);
-        let joints: Vec<Seen<'a>> = two.map(|(id, s)| Seen::new(m, id, s)).collect();
+        let joints: Vec<SeenJoint<'a>> = two.map(|(id, s)| SeenJoint::new(m, id, s)).collect();
         let joined = |l: &LinkId| joints.iter().any(|j| j.joint.links.contains(l));
         Some(View {
             links: m.link_ids().filter(joined).collect(),
@@ -169,15 +169,15 @@ impl<'a> View<'a> {
     }
 }
 
-impl<'a> Seen<'a> {
-    fn new(m: &'a Mechanism, id: JointId, sixths: i32) -> Seen<'a> {
+impl<'a> SeenJoint<'a> {
+    fn new(m: &'a Mechanism, id: JointId, sixths: i32) -> SeenJoint<'a> {
         let joint = &m.joints[id];
         let towards = match joint.joint_type {
             JointType::Prismatic | JointType::Cylindrical => &joint.frame.axis,
             _ => &joint.frame.reference,
         };
         let laid = |v| flat(round_x(real(v), sixths));
-        Seen {
+        SeenJoint {
             pin: laid(&joint.frame.point),
             along: unit(laid(towards)),
             joint,

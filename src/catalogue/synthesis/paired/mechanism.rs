@@ -7,10 +7,10 @@ use crate::file::schema::{
     SearchEntry, Unloading,
 };
 use crate::synthesis::coordinate::{Pivot, point};
-use crate::synthesis::mechanism::{FileHead, Menu, in_space};
+use crate::synthesis::mechanism::{FileHead, Menu, in_space, joint_name};
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::places::Teeth;
-use crate::synthesis::paired::rules::Mesh;
+use crate::synthesis::paired::rules::{Mesh, PairRules};
 use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
@@ -40,6 +40,14 @@ pub(crate) fn link_names(paired: &PairedStructure) -> Vec<String> {
 #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
 pub(super) fn whole(p: Point) -> Place {
     Place::from(p.map(|x| x.round() as i32))
+}
+
+/// What a joint is called, where links are called so: by its links, the second of two slots by a number more.
+pub(super) fn joint_id(rules: &PairRules, joint: usize, names: &[String]) -> String {
+    let [u, v] = rules.joints[joint].links;
+    let second = rules.joints[..joint].iter().any(|j| j.links == [u, v]);
+    let name = joint_name(names, (u, v));
+    if second { name + "-2" } else { name }
 }
 
 fn named(name: &str, freedoms: &[&str]) -> OptionEntry {
@@ -118,7 +126,7 @@ impl PairedStructure {
             links
         };
         JointEntry {
-            id: layout.rules.joint_name(i, names),
+            id: joint_id(&layout.rules, i, names),
             links: links.map(|l| names[l].clone()),
             kind: kind.to_owned(),
             freedoms: None,
@@ -162,7 +170,7 @@ impl PairedStructure {
             Teeth::Rack(diameter) => Coordinate::Expression(format!("{}/2", signed(diameter))),
         };
         CouplingEntry {
-            joints: mesh.held.map(|j| layout.rules.joint_name(j, names)),
+            joints: mesh.held.map(|j| joint_id(&layout.rules, j, names)),
             ratio,
             gear: true,
         }
@@ -241,7 +249,7 @@ fn search_entry(
     names: &[String],
 ) -> SearchEntry {
     let rules = &layout.rules;
-    let name = |i: usize| rules.joint_name(i, names);
+    let name = |i: usize| joint_id(rules, i, names);
     // A drive on one side alone is no symmetry of what is asked.
     let images = rules
         .images()

@@ -8,7 +8,7 @@ use crate::geom::vector::Vector;
 use crate::synthesis::coordinate::Pivot;
 use crate::synthesis::mechanism::{FileHead, Menu, direction_turned, options_turned};
 use crate::synthesis::paired::layout::PairLayout;
-use crate::synthesis::paired::mechanism::{link_names, whole};
+use crate::synthesis::paired::mechanism::{joint_id, link_names, whole};
 use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
 use crate::synthesis::place::Place;
 use crate::synthesis::workload::{HeldPart, Workload};
@@ -91,7 +91,7 @@ impl ThreeSides<'_> {
             name.unwrap_or_default()
         });
         let names: Vec<String> = names.collect();
-        self.layout.rules.joint_name(joint, &names)
+        joint_id(&self.layout.rules, joint, &names)
     }
 
     fn joint(&self, i: usize, side: usize, menu: &Menu) -> JointEntry {

@@ -4,7 +4,6 @@ use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
 use crate::geom::vector::{add_scaled, sub};
-use crate::synthesis::mechanism::joint_name;
 use crate::synthesis::paired::direction::WholeDirection;
 use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
@@ -146,15 +145,7 @@ impl PairRules {
             }
             rules[i] = PairRule::Own(along);
         }
-        for (i, joint) in joints.iter().enumerate() {
-            if !paired.form.is_on_one_pin(i) {
-                continue;
-            }
-            if !lay.may_share(joint) || !rules.contains(&PairRule::Image(i)) {
-                return Err(NoRules::OnePin);
-            }
-            rules[i] = PairRule::OnePin;
-        }
+        on_one_pin(paired, lay, &joints, &mut rules)?;
         if paired.form.parallel {
             let rings = paired.rings().ok_or(NoRules::Parallelograms)?;
             parallelograms(&rings, &joints, &mut rules).ok_or(NoRules::Parallelograms)?;
@@ -192,14 +183,6 @@ impl PairRules {
             PairRule::Image(of) => Some((*of, i)),
             _ => None,
         })
-    }
-
-    /// What a joint is called, where links are called so: by its links, the second of two slots by a number more.
-    pub(super) fn joint_name(&self, joint: usize, names: &[String]) -> String {
-        let [u, v] = self.joints[joint].links;
-        let second = self.joints[..joint].iter().any(|j| j.links == [u, v]);
-        let name = joint_name(names, (u, v));
-        if second { name + "-2" } else { name }
     }
 
     /// The image of a point.
@@ -287,6 +270,31 @@ fn has_two_ways(pair: PairKind, swapped: bool, symmetry: Symmetry) -> Result<boo
         (PairKind::Slot | PairKind::Slide, Symmetry::Mirror) => Ok(true),
         _ => Ok(false),
     }
+}
+
+/// The joint between other links that is the image of one: of two slots the first is that of the first.
+fn image_of(joints: &[Joint], joint: usize, links: [usize; 2]) -> Option<usize> {
+    let own = |j: &&Joint| j.links == joints[joint].links;
+    let before = joints[..joint].iter().filter(own).count();
+    joints.iter().positions(|j| j.links == links).nth(before)
+}
+
+/// Puts hinges on one pin with their images, where they are to be so.
+fn on_one_pin(
+    paired: &PairedStructure,
+    lay: &Lay,
+    joints: &[Joint],
+    rules: &mut [PairRule],
+) -> Result<(), NoRules> {
+    for (i, joint) in joints.iter().enumerate() {
+        if paired.form.is_on_one_pin(i) {
+            if !lay.may_share(joint) || !rules.contains(&PairRule::Image(i)) {
+                return Err(NoRules::OnePin);
+            }
+            rules[i] = PairRule::OnePin;
+        }
+    }
+    Ok(())
 }
 
 /// Lets one corner of each parallelogram follow from the others; of one that is an image all do already. `None` where none can.

@@ -85,6 +85,10 @@ impl Labelled {
                 _ => row([one(), one(), one()]),
             }
         }
+        // What is redundant in the plane already is none.
+        if rows.len() != 3 * self.links - 4 {
+            return false;
+        }
         let Some(motion) = only_motion(rows, 3 * self.links - 3) else {
             return false;
         };
