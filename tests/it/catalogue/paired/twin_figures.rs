@@ -44,7 +44,7 @@ impl Gripper {
         let drive = self.joints.len() + self.teeth.len();
         for (i, j) in self.joints.iter().enumerate() {
             let acts = Acts {
-                at: self.on(x, j, j.pressed()),
+                at: self.on(x, j, j.pin),
                 ..Acts::default()
             };
             let pushes = |force: Point| Acts { force, ..acts };
@@ -123,7 +123,7 @@ impl Gripper {
 
     /// Points of the box round pins, tips and pitch circles at a pose.
     fn outermost(&self, x: &[f64]) -> Vec<Point> {
-        let pins = self.joints.iter().map(|j| self.on(x, j, j.boxed()));
+        let pins = self.joints.iter().map(|j| self.on(x, j, j.pin));
         let mut out: Vec<Point> = pins.chain((0..2).map(|n| self.tip(x, n))).collect();
         for t in &self.teeth {
             let [touch, _] = self.pitch(x, t);

@@ -45,6 +45,8 @@ pub(super) struct FiledJoint {
     pub(super) links: [usize; 2],
     pub(super) at: Point,
     pub(super) along: Point,
+    /// The end that has the pin, or the block of a guide: what moves, where the other is the frame.
+    pub(super) pin: usize,
     pub(super) driven: bool,
 }
 
@@ -91,28 +93,15 @@ impl FiledJoint {
             _ => (Holds::Slide, "axis"),
         };
         let along = [0, 1].map(|k| real(&j[lies][k]));
+        let block = holds == Holds::Slide && j["links"][1].as_str() != Some("frame");
         FiledJoint {
             id: j["id"].as_str().unwrap().to_owned(),
             holds,
             links: [0, 1].map(|k| link(&j["links"][k])),
             at: [0, 1].map(|k| real(&j["point"][k])),
             along: times(1.0 / length(along), along),
+            pin: usize::from(block),
             driven: j.get("drive").is_some(),
-        }
-    }
-
-    /// The end with which the joint's point goes that the box takes in. As the catalogue has it that is the link of the lower number,
-    /// whichever has the pin.
-    pub(super) fn boxed(&self) -> usize {
-        usize::from(self.links[0] > self.links[1])
-    }
-
-    /// The end whose point is pressed on: the pin, or the middle of a guide. As the catalogue has it that goes with the link of the
-    /// higher number, be it the frame.
-    pub(super) fn pressed(&self) -> usize {
-        match self.holds {
-            Holds::Slide => 1 - self.boxed(),
-            Holds::Hinge | Holds::Slot => 0,
         }
     }
 }
