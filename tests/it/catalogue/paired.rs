@@ -6,6 +6,7 @@ mod by_hand;
 mod flat;
 mod passing;
 mod strongest;
+mod twin_figures;
 
 use super::carried_on::scattered;
 use super::command::{at, fails, ok, whole};

@@ -1,0 +1,273 @@
+//! A gripper as its file has it, moved: places and turns of all links by Newton's method with difference quotients.
+
+use super::super::super::{dense_twin::place, gauss};
+use std::array::from_fn;
+use toml::Table;
+
+pub(super) type Point = [f64; 2];
+
+/// Steps from the narrowest part to the widest: other poses than the catalogue looks at, which takes 48.
+const STEPS: f64 = 60.0;
+/// So many mm count as a radian of a link, so that turns and shifts fit as exactly.
+const ARM: f64 = 50.0;
+
+pub(super) fn sub(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+pub(super) fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub(super) fn length(a: Point) -> f64 {
+    a[0].hypot(a[1])
+}
+
+pub(super) fn quarter([x, y]: Point) -> Point {
+    [-y, x]
+}
+
+pub(super) fn times(k: f64, a: Point) -> Point {
+    a.map(|x| k * x)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Holds {
+    Hinge,
+    Slide,
+    Slot,
+}
+
+/// A joint of a file: of a slot the link with the pin is the first.
+pub(super) struct FiledJoint {
+    id: String,
+    pub(super) holds: Holds,
+    pub(super) links: [usize; 2],
+    pub(super) at: Point,
+    pub(super) along: Point,
+    /// The end that has the pin, or the block of a guide: what moves, where the other is the frame.
+    pub(super) pin: usize,
+    pub(super) driven: bool,
+}
+
+/// Teeth: the joints of their carrier that hold them, and how fast the second goes by the first.
+pub(super) struct FiledTeeth {
+    pub(super) held: [usize; 2],
+    ratio: f64,
+}
+
+pub(super) struct Gripper {
+    pub(super) links: usize,
+    pub(super) frame: usize,
+    pub(super) jaws: [usize; 2],
+    pub(super) tips: [Point; 2],
+    pub(super) joints: Vec<FiledJoint>,
+    pub(super) teeth: Vec<FiledTeeth>,
+}
+
+fn real(x: &toml::Value) -> f64 {
+    let whole = |s: &str| s.parse::<f64>().unwrap();
+    match (x.as_integer(), x.as_str()) {
+        (Some(i), _) => i as f64,
+        (None, Some(s)) => s
+            .split_once('/')
+            .map_or_else(|| whole(s), |(a, b)| whole(a) / whole(b)),
+        _ => panic!("{x}"),
+    }
+}
+
+fn filed<'t>(file: &'t Table, key: &str) -> Vec<&'t toml::Value> {
+    let all = file.get(key).and_then(toml::Value::as_array);
+    all.into_iter().flatten().collect()
+}
+
+impl FiledJoint {
+    fn of(j: &toml::Value, link: impl Fn(&toml::Value) -> usize) -> FiledJoint {
+        let options = j.get("options").map(toml::Value::to_string);
+        // Flat faces are laid out as pins in slots, since two of their constraints are redundant in the plane.
+        let faces = options.is_some_and(|o| o.contains("\"pin-in-slot\""));
+        let (holds, lies) = match j["type"].as_str().unwrap() {
+            "revolute" => (Holds::Hinge, "axis"),
+            "slotted" => (Holds::Slot, "reference"),
+            _ if faces => (Holds::Slot, "axis"),
+            _ => (Holds::Slide, "axis"),
+        };
+        let along = [0, 1].map(|k| real(&j[lies][k]));
+        let block = holds == Holds::Slide && j["links"][1].as_str() != Some("frame");
+        FiledJoint {
+            id: j["id"].as_str().unwrap().to_owned(),
+            holds,
+            links: [0, 1].map(|k| link(&j["links"][k])),
+            at: [0, 1].map(|k| real(&j["point"][k])),
+            along: times(1.0 / length(along), along),
+            pin: usize::from(block),
+            driven: j.get("drive").is_some(),
+        }
+    }
+}
+
+impl Gripper {
+    pub(super) fn read(file: &str) -> Gripper {
+        let file: Table = file.parse().unwrap();
+        let names: Vec<&str> = filed(&file, "link")
+            .iter()
+            .map(|l| l["id"].as_str().unwrap())
+            .collect();
+        let named = |name: &str| names.iter().position(|n| *n == name).unwrap();
+        let link = |name: &toml::Value| named(name.as_str().unwrap());
+        let joints: Vec<FiledJoint> = filed(&file, "joint")
+            .iter()
+            .map(|j| FiledJoint::of(j, link))
+            .collect();
+        let joint = |id: &toml::Value| joints.iter().position(|j| Some(&*j.id) == id.as_str());
+        let teeth = filed(&file, "coupling").into_iter().map(|c| FiledTeeth {
+            held: [0, 1].map(|k| joint(&c["joints"][k]).unwrap()),
+            ratio: real(&c["ratio"]),
+        });
+        let tips = filed(&file, "point");
+        Gripper {
+            teeth: teeth.collect(),
+            links: names.len(),
+            frame: named("frame"),
+            jaws: ["jaw-a", "jaw-b"].map(named),
+            tips: from_fn(|n| [0, 1].map(|k| real(&tips[n]["point"][k]))),
+            joints,
+        }
+    }
+
+    /// Where a point of a joint is that goes with one of its links.
+    pub(super) fn on(&self, x: &[f64], j: &FiledJoint, end: usize) -> Point {
+        place(x, j.links[end], j.at)
+    }
+
+    /// The direction of a guide or a slot, which goes with one of its links.
+    pub(super) fn along(&self, x: &[f64], j: &FiledJoint, end: usize) -> Point {
+        let link = j.links[end];
+        sub(place(x, link, j.along), place(x, link, [0.0; 2]))
+    }
+
+    /// How far the second link of a joint has gone against the first: rad, of a guide mm.
+    fn gone(&self, x: &[f64], j: &FiledJoint) -> f64 {
+        let [u, v] = j.links;
+        match j.holds {
+            Holds::Slide => dot(self.along(x, j, 0), sub(self.on(x, j, 1), self.on(x, j, 0))),
+            _ => x[3 * v] - x[3 * u],
+        }
+    }
+
+    pub(super) fn input(&self) -> &FiledJoint {
+        self.joints.iter().find(|j| j.driven).unwrap()
+    }
+
+    pub(super) fn tip(&self, x: &[f64], n: usize) -> Point {
+        place(x, self.jaws[n], self.tips[n])
+    }
+
+    /// Away from the part.
+    pub(super) fn outward(&self) -> [Point; 2] {
+        let apart = sub(self.tips[0], self.tips[1]);
+        let unit = times(1.0 / length(apart), apart);
+        [unit, times(-1.0, unit)]
+    }
+
+    /// How far apart the tips are, as the forces of the part go.
+    pub(super) fn width(&self, x: &[f64]) -> f64 {
+        let drawn = length(sub(self.tips[0], self.tips[1]));
+        let each = (0..2).map(|n| dot(sub(self.tip(x, n), self.tips[n]), self.outward()[n]));
+        drawn + each.sum::<f64>()
+    }
+
+    /// By how much everything misses, in mm: the frame its place, every joint, all teeth, and the tips the width of the part.
+    fn misses(&self, x: &[f64], width: f64) -> Vec<f64> {
+        let mut out: Vec<f64> = x[3 * self.frame..][..3].to_vec();
+        for j in &self.joints {
+            let apart = sub(self.on(x, j, 1), self.on(x, j, 0));
+            match j.holds {
+                Holds::Hinge => out.extend(apart),
+                Holds::Slide => {
+                    out.push(dot(quarter(self.along(x, j, 0)), apart));
+                    out.push(ARM * (x[3 * j.links[1]] - x[3 * j.links[0]]));
+                }
+                Holds::Slot => out.push(dot(quarter(self.along(x, j, 1)), apart)),
+            }
+        }
+        for t in &self.teeth {
+            let [a, b] = t.held.map(|j| &self.joints[j]);
+            let off = self.gone(x, b) - t.ratio * self.gone(x, a);
+            let arm = if b.holds == Holds::Slide { 1.0 } else { ARM };
+            out.push(arm * off);
+        }
+        out.push(self.width(x) - width);
+        out
+    }
+
+    /// How what misses changes with each of the unknown.
+    pub(super) fn columns(&self, x: &[f64], width: f64) -> Vec<Vec<f64>> {
+        let column = |c: usize| -> Vec<f64> {
+            let [a, b] = [1e-6, -1e-6].map(|h| {
+                let mut y = x.to_vec();
+                y[c] += h;
+                self.misses(&y, width)
+            });
+            a.iter().zip(&b).map(|(a, b)| (a - b) / 2e-6).collect()
+        };
+        (0..x.len()).map(column).collect()
+    }
+
+    /// Fits all links at a width, from a pose nearby.
+    fn fit(&self, x: &mut [f64], width: f64) {
+        for _ in 0..20 {
+            let off = self.misses(x, width);
+            if off.iter().all(|m| m.abs() < 1e-9) {
+                return;
+            }
+            let by = gauss(&self.columns(x, width), &off);
+            x.iter_mut().zip(by).for_each(|(x, d)| *x -= d);
+        }
+        panic!("no pose at {width} mm");
+    }
+
+    /// Poses from the drawn one on, as many for a millimetre everywhere.
+    pub(super) fn stroke(&self, narrowest: f64, widest: f64) -> Vec<Vec<f64>> {
+        let mut out = vec![vec![0.0; 3 * self.links]];
+        let drawn = self.width(&out[0]);
+        let step = (widest - narrowest) / STEPS;
+        for end in [narrowest, widest] {
+            let mut x = vec![0.0; 3 * self.links];
+            let count = ((end - drawn) / step).abs().ceil();
+            for i in 1..=count as u32 {
+                self.fit(&mut x, drawn + (end - drawn) * f64::from(i) / count);
+                out.push(x.clone());
+            }
+        }
+        out
+    }
+
+    /// Of teeth the links, the first of them a pinion where the other is a rack, and the carrier.
+    pub(super) fn meshing(&self, t: &FiledTeeth) -> [usize; 3] {
+        let [a, b] = t.held.map(|j| self.joints[j].links);
+        let carrier = a.into_iter().find(|l| b.contains(l)).unwrap();
+        let other = |ends: [usize; 2]| ends[usize::from(ends[0] == carrier)];
+        [other(a), other(b), carrier]
+    }
+
+    /// Where pitch circles touch, which is where both have the same velocity, and which way teeth press.
+    pub(super) fn pitch(&self, x: &[f64], t: &FiledTeeth) -> [Point; 2] {
+        let [first, second, carrier] = self.meshing(t);
+        let [a, b] = t.held.map(|j| &self.joints[j]);
+        let centres = [a, b].map(|j| place(x, carrier, j.at));
+        // A joint tells how its second link goes against its first.
+        let way = |j: &FiledJoint, gear: usize| if j.links[1] == gear { 1.0 } else { -1.0 };
+        let ratio = t.ratio * way(a, first) * way(b, second);
+        if b.holds == Holds::Slide {
+            let along = self.along(x, b, 0);
+            // An arm of the pinion goes a quarter of a turn ahead of where it points.
+            let arm = times(-ratio, quarter(along));
+            return [from_fn(|k| centres[0][k] + arm[k]), along];
+        }
+        let apart = sub(centres[1], centres[0]);
+        let share = ratio / (ratio - 1.0);
+        let touch = from_fn(|k| centres[0][k] + share * apart[k]);
+        [touch, times(1.0 / length(apart), quarter(apart))]
+    }
+}
