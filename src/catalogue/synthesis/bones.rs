@@ -1,5 +1,6 @@
 //! What layouts of all kinds have in common: the points of each link, and what the links are for.
 
+use crate::chains::pairs::chain::ordered;
 use crate::closure::tree::forest;
 use crate::geom::vector::{add_scaled, sub, unit};
 use crate::synthesis::point::{Point, middle};
@@ -20,7 +21,7 @@ pub struct Bones {
     pub of_link: Vec<Vec<usize>>,
     /// The same as bits.
     pub members: Vec<u32>,
-    /// The links of each joint that has a point on both.
+    /// The links of each joint that has a point on both, that with the block of a slide first.
     pub joints: Vec<Option<[usize; 2]>>,
     /// Joints that have no point on their links, where pitch circles touch, as bits.
     pub touching: u32,
@@ -145,7 +146,8 @@ impl Bones {
         let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
         let cylinder = plan.cylinder.and_then(|links| {
             let end = |link: usize| {
-                let other = |&&i: &&usize| plan.joints.get(i).is_some_and(|e| *e != Some(links));
+                let ends = |i: usize| plan.joints.get(i).map(|ends| ends.map(ordered));
+                let other = |&&i: &&usize| ends(i).is_some_and(|e| e != Some(ordered(links)));
                 let one = of_link[link].iter().filter(other).exactly_one().ok();
                 one.map(|&joint| (link, joint))
             };

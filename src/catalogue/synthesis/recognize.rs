@@ -105,17 +105,13 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     if !(3..=MOST_LINKS).contains(&bodies.len()) {
         return Err(NoStructure::Links(bodies.len()));
     }
-    let names = bodies.iter().map(|&b| {
-        let own = m
-            .links_with_ids()
-            .filter(|(l, _)| merged.find(l.index()) == b);
-        own.map(|(_, link)| link.id.clone()).collect_vec()
-    });
-    let names = names.collect_vec();
-    let joints = present.iter().zip(kinds);
-    let mut joints = joints
-        .filter_map(|(&j, pair)| Some((ends(j), pair?)))
+    let names = bodies
+        .iter()
+        .map(|&b| names_of(m, &merged, b))
         .collect_vec();
+    let moving = present.iter().zip(kinds);
+    let moving = moving.filter_map(|(&j, pair)| Some((ends(j), pair?)));
+    let mut joints = moving.collect_vec();
     for coupling in m.couplings_in(StateId::FREE) {
         let gears = geared(coupling, ends);
         let gears = gears.ok_or_else(|| NoStructure::Coupling(coupling.name(m)))?;
@@ -147,6 +143,13 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         names,
         made_as,
     })
+}
+
+/// What the links are called that are one in the plane.
+fn names_of(m: &Mechanism, merged: &UnionFind<usize>, body: usize) -> Vec<String> {
+    let own = m.links_with_ids();
+    let own = own.filter(|(l, _)| merged.find(l.index()) == body);
+    own.map(|(_, link)| link.id.clone()).collect()
 }
 
 /// Nothing but two slots is between two links beside another joint.

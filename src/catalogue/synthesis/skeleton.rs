@@ -39,11 +39,16 @@ impl<'a> Skeleton<'a> {
             Symmetry::Generic => PART,
             _ => 0.0,
         };
+        let ends = |pin: usize| match rules.pins[pin] {
+            // The block of a drive that slides is on the driver.
+            _ if pin == rules.input => Some([r.driver, r.frame]),
+            (u, v) => Some([u, v]),
+        };
         let plan = BonePlan {
             frame: r.frame,
             driver: r.driver,
             jaws: &r.jaws,
-            joints: rules.pins.iter().map(|&(u, v)| Some([u, v])).collect(),
+            joints: (0..rules.pins.len()).map(ends).collect(),
             follows: (0..rules.pins.len()).map(|i| rules.follows(i)).collect(),
             tips: tips.iter().map(|t| t.real()).collect(),
             turns: structure.form.input == Input::Turn,

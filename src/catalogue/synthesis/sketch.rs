@@ -23,6 +23,11 @@ pub trait LayoutSketch {
     /// Where the points are.
     fn points<'p>(&self, at: &'p Self::JointPlaces) -> &'p [Point];
 
+    /// The link that has the pin or the block of a joint; none of what has no point on its links.
+    fn link_of(&self, _at: &Self::JointPlaces, joint: usize) -> Option<usize> {
+        self.bones().joints[joint].map(|[link, _]| link)
+    }
+
     /// Gives every place where a point stands that is at one of them.
     fn each_copy(&self, _point: usize, at: Point, take: &mut dyn FnMut(Point)) {
         take(at);

@@ -21,6 +21,13 @@ pub(super) struct Twin<'a> {
 /// A turn and a shift of each link.
 pub(super) type Pose = Vec<f64>;
 
+/// The link that a joint's place goes with: the block of a drive that slides goes with the driver, and a pin with either link.
+pub(super) fn carrier(s: &Structure, (u, v): (usize, usize)) -> usize {
+    let r = &s.roles;
+    let drive = [(u, v), (v, u)].contains(&(r.frame, r.driver));
+    if drive { r.driver } else { u }
+}
+
 pub(super) fn place(x: &[f64], link: usize, p: [f64; 2]) -> [f64; 2] {
     let [t, u, v] = [x[3 * link], x[3 * link + 1], x[3 * link + 2]];
     [

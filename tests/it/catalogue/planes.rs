@@ -1,6 +1,6 @@
 //! The planes in which links pass each other, against what meets at poses solved afresh and all ways of stacking links.
 
-use super::dense_twin::{Pose, Twin, place};
+use super::dense_twin::{Pose, Twin, carrier, place};
 use super::stroke::poses;
 use super::{each, each_of, form};
 use itertools::Itertools;
@@ -20,7 +20,7 @@ type Named = (Result<usize, usize>, Point);
 fn points(s: &Structure, l: &Layout, x: &Pose, link: usize) -> Vec<Named> {
     let pins = l.pins.iter().enumerate().zip(&l.at);
     let own = pins.filter(|((_, (u, v)), _)| *u == link || *v == link);
-    let own = own.map(|((i, (u, _)), at)| (Ok(i), place(x, *u, at.real())));
+    let own = own.map(|((i, &pin), at)| (Ok(i), place(x, carrier(s, pin), at.real())));
     let jaw = s.roles.jaws.iter().position(|&j| j == link);
     let tip = jaw.map(|n| (Err(n), place(x, link, l.tips[n].real())));
     own.chain(tip).collect()
@@ -115,7 +115,7 @@ impl Met {
                 }
             }
             for (i, (&(u, v), at)) in l.pins.iter().zip(&l.at).enumerate() {
-                let p = place(x, u, at.real());
+                let p = place(x, carrier(s, (u, v)), at.real());
                 for k in moving().filter(|k| ![u, v].contains(k) && off(&body(*k), p) < near) {
                     met.over_pins.push((i, k));
                     met.overlaps

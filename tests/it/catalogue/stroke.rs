@@ -1,6 +1,6 @@
 //! The stroke of a task: every figure of it against poses solved afresh, and what is said where it is not reached.
 
-use super::dense_twin::{Pose, Twin, place};
+use super::dense_twin::{Pose, Twin, carrier, place};
 use super::{each, each_of, form};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
@@ -194,11 +194,8 @@ fn is_as_the_twin_says(s: &Structure, l: &Layout) {
         near(f.turns[n], most - least, 2e-3, "turn", s);
     }
     let points = |x: &Pose| {
-        let pins = l
-            .pins
-            .iter()
-            .zip(&l.at)
-            .map(|((u, _), p)| place(x, *u, p.real()));
+        let pins = l.pins.iter().zip(&l.at);
+        let pins = pins.map(|(&pin, p)| place(x, carrier(s, pin), p.real()));
         pins.chain(twin.tips(x)).collect::<Vec<_>>()
     };
     for k in 0..2 {

@@ -264,8 +264,8 @@ fn the_command_takes_three_jaws() {
     for (more, says) in [
         (&["--jaws", "4"][..], "jaws must be from 2 to 3"),
         (
-            &["--jaws", "3", "--input", "slide"],
-            "no slide is its own image",
+            &["--jaws", "3", "--input", "turn", "--parallel", "only"],
+            "each side is in a plane of its own",
         ),
         (&["--jaws", "2"], "no layout is asked for"),
     ] {

@@ -105,7 +105,6 @@ impl PairedStructure {
         let joint = &layout.rules.joints[i];
         let input = joint.links == self.structure.roles.input;
         let flat = self.flat_slots().contains(joint);
-        let links = if input { self.drive() } else { joint.links };
         let [x, y] = layout.at.along[i].whole();
         let upright = [0, 0, 1].map(Coordinate::Integer);
         let along = [i64::from(x), i64::from(y), 0].map(Coordinate::Integer);
@@ -119,15 +118,9 @@ impl PairedStructure {
             }
         };
         let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();
-        // The pin is on the first link, the slot in the second.
-        let links = if joint.pair == PairKind::Slot && layout.at.pinned[i] == links[1] {
-            [links[1], links[0]]
-        } else {
-            links
-        };
         JointEntry {
             id: joint_id(&layout.rules, i, names),
-            links: links.map(|l| names[l].clone()),
+            links: self.ends(layout, i).map(|l| names[l].clone()),
             kind: kind.to_owned(),
             freedoms: None,
             point: point(whole(layout.at.points[i])),
@@ -144,6 +137,20 @@ impl PairedStructure {
         }
     }
 
+    /// The links of a joint as a file has them: the drive's second is the driver; the pin of a slot is on the first, the block of a slide
+    /// on the second.
+    fn ends(&self, layout: &PairLayout, i: usize) -> [usize; 2] {
+        let joint = &layout.rules.joints[i];
+        let [u, v] = joint.links;
+        let second_first = match joint.pair {
+            _ if joint.links == self.structure.roles.input => self.drive() == [v, u],
+            PairKind::Slot => layout.at.pinned[i] == v,
+            PairKind::Slide => layout.rules.blocks[i] == u,
+            _ => false,
+        };
+        if second_first { [v, u] } else { [u, v] }
+    }
+
     pub(super) fn coupling(
         &self,
         layout: &PairLayout,
@@ -151,16 +158,8 @@ impl PairedStructure {
         mesh: &Mesh,
         names: &[String],
     ) -> CouplingEntry {
-        let roles = &self.structure.roles;
         // A joint's coordinate is that of its second link against the first.
-        let of = mesh.held.map(|j| layout.rules.joints[j]);
-        let first = of.map(|j| {
-            if j.links == roles.input {
-                self.drive()[0]
-            } else {
-                j.links[0]
-            }
-        });
+        let first = mesh.held.map(|j| self.ends(layout, j)[0]);
         let turned = first.iter().filter(|&&l| l != mesh.carrier).count() == 1;
         let signed = |x: i32| i64::from(if turned { -x } else { x });
         let ratio = match layout.at.teeth[i] {

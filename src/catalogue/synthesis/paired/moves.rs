@@ -110,6 +110,13 @@ impl LayoutSketch for PairSketch<'_> {
         &self.limits
     }
 
+    fn link_of(&self, at: &PairPlaces, joint: usize) -> Option<usize> {
+        match self.rules.joints[joint].pair {
+            PairKind::Slot => Some(at.pinned[joint]),
+            _ => self.bones.joints[joint].map(|[link, _]| link),
+        }
+    }
+
     fn each_copy(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
         match &self.around {
             None => take(at),

@@ -108,7 +108,7 @@ impl PoseRows<'_> {
             (PairKind::Slide, _) => {
                 let turn = RADIAN * self.turn([v, u]);
                 visit(turn, &[Term::moment(v, 1.0), Term::moment(u, -1.0)]);
-                self.line([v, u], joint, visit);
+                self.line(self.block_and_guide(joint), joint, visit);
             }
             (PairKind::Slot, _) => self.line(self.pin_and_slot(joint), joint, visit),
             (PairKind::Gear, Some(mesh)) => match seen {
@@ -118,6 +118,13 @@ impl PoseRows<'_> {
             // Two slots are two joints here.
             (PairKind::Gear, None) | (PairKind::TwoSlots, _) => {}
         }
+    }
+
+    /// The link that has the block of a slide, and the one that has the guide.
+    fn block_and_guide(&self, joint: usize) -> [usize; 2] {
+        let [u, v] = self.rules.joints[joint].links;
+        let block = self.rules.blocks[joint];
+        [block, if block == u { v } else { u }]
     }
 
     /// The link that has the pin of a slot, and the one that has the slot.

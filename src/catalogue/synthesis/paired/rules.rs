@@ -1,7 +1,7 @@
 //! Which places of a paired gripper are free, and which follow from them.
 
 use crate::chains::layout_symmetry::Symmetry;
-use crate::chains::pairs::chain::{Joint, PairChain, carried};
+use crate::chains::pairs::chain::{Joint, PairChain, carried, ordered};
 use crate::chains::pairs::kind::PairKind;
 use crate::geom::vector::{add_scaled, sub};
 use crate::synthesis::paired::direction::WholeDirection;
@@ -88,6 +88,8 @@ pub struct PairRules {
     pub rules: Vec<PairRule>,
     /// The gear pairs among them.
     pub meshes: Vec<Option<Mesh>>,
+    /// Of each slide the link that has its block, the other having the guide: the driver, or what is not the frame.
+    pub blocks: Vec<usize>,
     /// Joints in an order in which each comes after those that it follows from.
     order: Vec<usize>,
     /// Where each joint's links go.
@@ -121,13 +123,7 @@ impl PairRules {
                 continue;
             }
             if !own {
-                // Of two slots the first is the image of the first.
-                let before = joints[..i]
-                    .iter()
-                    .filter(|j| j.links == joint.links)
-                    .count();
-                let image = joints.iter().positions(|j| j.links == links).nth(before);
-                let image = image.ok_or(NoRules::Still)?;
+                let image = image_of(&joints, i, links).ok_or(NoRules::Still)?;
                 rules[image] = PairRule::Image(i);
                 meshes[image] = meshes[i].and_then(|m| m.carried(&lay.swap, &joints));
                 continue;
@@ -152,6 +148,7 @@ impl PairRules {
         }
         let order = in_order(&rules).ok_or(NoRules::Parallelograms)?;
         Ok(PairRules {
+            blocks: blocks(paired, lay, &joints, &rules),
             joints,
             rules,
             meshes,
@@ -277,6 +274,22 @@ fn image_of(joints: &[Joint], joint: usize, links: [usize; 2]) -> Option<usize> 
     let own = |j: &&Joint| j.links == joints[joint].links;
     let before = joints[..joint].iter().filter(own).count();
     joints.iter().positions(|j| j.links == links).nth(before)
+}
+
+/// The link with the block of each slide, images having images; of other joints their second.
+fn blocks(paired: &PairedStructure, lay: &Lay, joints: &[Joint], rules: &[PairRule]) -> Vec<usize> {
+    let drive = paired.drive();
+    let frame = paired.structure.roles.frame;
+    let first = |joint: &Joint| match joint.links {
+        links if links == ordered(drive) => drive[1],
+        [u, v] if v == frame => u,
+        [_, v] => v,
+    };
+    let of = |(i, rule): (usize, &PairRule)| match rule {
+        PairRule::Image(of) => lay.swap[first(&joints[*of])],
+        _ => first(&joints[i]),
+    };
+    rules.iter().enumerate().map(of).collect()
 }
 
 /// Puts hinges on one pin with their images, where they are to be so.

@@ -64,7 +64,11 @@ impl<'a> PairSketch<'a> {
             let mut own = rules.joints.iter().filter(|j| j.is_at(link));
             own.all(|j| j.pair == PairKind::Hinge)
         };
-        let point = |j: &Joint| (j.pair != PairKind::Gear).then_some(j.links);
+        let point = |(j, &block): (&Joint, &usize)| {
+            let [u, v] = j.links;
+            let links = if block == u { [u, v] } else { [v, u] };
+            (j.pair != PairKind::Gear).then_some(links)
+        };
         let hinged = |&jaw: &usize| chain.between(roles.frame, jaw) == Some(PairKind::Hinge);
         let free = |r: &PairRule| *r == PairRule::Free;
         let turned = paired.form.symmetry == Symmetry::HalfTurn;
@@ -79,7 +83,7 @@ impl<'a> PairSketch<'a> {
             frame: roles.frame,
             driver: drive[1],
             jaws: &roles.jaws,
-            joints: rules.joints.iter().map(point).collect(),
+            joints: rules.joints.iter().zip(&rules.blocks).map(point).collect(),
             follows: rules.rules.iter().map(|r| !free(r)).collect(),
             tips: tips(paired.form.symmetry, &limits).to_vec(),
             turns: paired.input() == Input::Turn,

@@ -314,7 +314,7 @@ impl<M: StrokeMotion> Judge<M> {
         let sketch = self.motion.sketch();
         let (bones, points) = (sketch.bones(), sketch.points(at));
         if let Some(meetings) = &mut self.meetings {
-            let ends = bones.joints.iter().map(|ends| ends.map(|[link, _]| link));
+            let ends = (0..bones.joints.len()).map(|joint| sketch.link_of(at, joint));
             let of = ends.chain(bones.jaws.iter().map(|&jaw| Some(jaw)));
             let now = of
                 .zip(points)
@@ -349,9 +349,9 @@ impl<M: StrokeMotion> Judge<M> {
         let apart = sketch.limits().task.pin_distance > 0.0;
         let g = &mut self.gathered;
         g.pins.clear();
-        for (i, (place, ends)) in points.iter().zip(&bones.joints).enumerate() {
+        for (i, place) in points[..bones.joints.len()].iter().enumerate() {
             let apart = apart && bones.together[i].trailing_zeros() as usize == i;
-            if let Some([link, _]) = *ends {
+            if let Some(link) = sketch.link_of(at, i) {
                 let now = self.links[link].point(*place);
                 sketch.each_copy(i, now, &mut |p| {
                     g.take(p);
@@ -363,7 +363,7 @@ impl<M: StrokeMotion> Judge<M> {
             }
         }
         sketch.each_circle(at, &mut |centre, radius, apart| {
-            let Some([link, _]) = bones.joints[centre] else {
+            let Some(link) = sketch.link_of(at, centre) else {
                 return;
             };
             let now = self.links[link].point(points[centre]);

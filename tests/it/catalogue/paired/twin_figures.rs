@@ -300,7 +300,7 @@ fn all_of(file: &str) -> Vec<Value> {
 #[test]
 fn well_known_schemes_are_as_worked_out() {
     let all = all_of(known());
-    assert_eq!(all.len(), 31);
+    assert_eq!(all.len(), 33);
     all.iter().for_each(is_as_worked_out);
 }
 
