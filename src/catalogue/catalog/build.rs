@@ -11,7 +11,7 @@ use crate::chains::pairs::sharing::Menu;
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
 use crate::synthesis::paired::known::known_schemes;
-use crate::synthesis::paired::structure::{PairedStructure, paired_structures};
+use crate::synthesis::paired::structure::{PairedStructure, generic_structures, paired_structures};
 use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::structure::{Structure, structures};
 use itertools::Itertools;
@@ -117,21 +117,15 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
         return Ok(Vec::new());
     }
     let links = spec.links().map_err(RowError::from)?;
-    let one_pin = spec.one_pin().map_err(RowError::from)?;
     let of_pairs = Pairs::new(spec)?;
-    let all = of_pairs.two_jawed(links);
+    let all = of_pairs.two_jawed(links.clone());
+    let generic = spec.generic_pairs.then(|| of_pairs.generic(links));
+    let all = all.chain(generic.into_iter().flatten());
     let all = all.flat_map(PairedStructure::with_parallelograms);
     let all = all.filter(|p| forms.contains(&(p.input(), p.form)));
-    let all = all.flat_map(|p| {
-        let shared = (one_pin != Some(false)).then(|| p.clone().with_one_pins());
-        let alone = shared.is_none().then_some(p);
-        shared.into_iter().flatten().chain(alone)
-    });
-    let asked = all.filter(|p| {
-        let shared = p.form.one_pin != 0;
-        // Those of hinges alone are made as such.
-        (shared || !p.is_hinged()) && one_pin.is_none_or(|only| only == shared)
-    });
+    // Those of hinges alone are made as such.
+    let asked = all.flat_map(|p| of_pairs.made(p));
+    let asked = asked.filter(|p| p.form.one_pin != 0 || !p.is_hinged());
     Ok(asked.filter(|p| shard.has(&p.name())).collect())
 }
 
@@ -141,6 +135,10 @@ struct Pairs {
     most: usize,
     /// Whether no pairs are asked for but a drive that slides.
     hinged: bool,
+    /// Whether hinges on one pin are asked for, where one of both is.
+    one_pin: Option<bool>,
+    /// The same of flat faces.
+    flat_faces: Option<bool>,
 }
 
 impl Pairs {
@@ -154,7 +152,31 @@ impl Pairs {
             kinds,
             most: spec.at_most,
             hinged,
+            one_pin: spec.one_pin().map_err(RowError::from)?,
+            flat_faces: spec.flat_faces().map_err(RowError::from)?,
         })
+    }
+
+    /// A structure in the ways it is to be made.
+    fn made(&self, p: PairedStructure) -> impl Iterator<Item = PairedStructure> {
+        let (one_pin, flat_faces) = (self.one_pin, self.flat_faces);
+        let pins = (one_pin != Some(false)).then(|| p.clone().with_one_pins());
+        let alone = pins.is_none().then_some(p);
+        let all = pins.into_iter().flatten().chain(alone);
+        let all = all.flat_map(|p| {
+            let flat = p.with_flat_faces();
+            std::iter::once(p).chain(flat)
+        });
+        all.filter(move |p| {
+            one_pin.is_none_or(|only| only == (p.form.one_pin != 0))
+                && flat_faces.is_none_or(|only| only == p.form.flat)
+        })
+    }
+
+    /// The structures of so many links laid out without a symmetry.
+    fn generic(&self, links: RangeInclusive<usize>) -> impl Iterator<Item = PairedStructure> {
+        let (kinds, most) = (&self.kinds, self.most);
+        links.flat_map(move |n| generic_structures(n, Menu { kinds, most }))
     }
 
     /// The structures of two jaws of so many links.
@@ -183,6 +205,7 @@ fn threefold_work(spec: &Spec, shard: Shard) -> Result<Vec<ThreefoldStructure>, 
     let two = of_pairs.two_jawed(3..=MOST_PAIRED.min(*links.end()));
     let two = two.flat_map(PairedStructure::with_parallelograms);
     let two = two.filter(|p| forms.contains(&(p.input(), p.form)));
+    let two = two.flat_map(|p| of_pairs.made(p));
     let all = two.filter_map(|p| ThreefoldStructure::new(&p));
     Ok(all
         .filter(|t| links.contains(&t.links()) && has(t))

@@ -41,7 +41,7 @@ pub(crate) fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<Pai
     Ok(StructureRow {
         jaws_at_frame: roles.jaws.iter().filter(at_frame).count(),
         truss: false,
-        graph_symmetric: true,
+        graph_symmetric: paired.is_graph_symmetric(),
         structure: paired.clone(),
         laid,
     })

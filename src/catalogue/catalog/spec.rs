@@ -41,6 +41,10 @@ pub struct Spec {
     pub pairs: Vec<String>,
     /// Pairs that are not hinges at most, a left and a right one being one.
     pub at_most: usize,
+    /// Whether structures with pairs are laid out freely, too, symmetric or not: there are many.
+    pub generic_pairs: bool,
+    /// Whether slots between links that do not turn against each other are made as flat faces, too: "with", "without" or "only".
+    pub flat_faces: String,
     /// The well-known schemes and nothing else, whatever their number of links, each as symmetric as it can be.
     pub classics: bool,
     /// What may be put in place of a hinge, by name.
@@ -78,6 +82,8 @@ impl Default for Spec {
             one_pin: "without".to_owned(),
             pairs: Vec::new(),
             at_most: 3,
+            generic_pairs: false,
+            flat_faces: "without".to_owned(),
             classics: false,
             options: words(&[
                 "cylindrical",
@@ -186,8 +192,12 @@ impl Spec {
         }
         let (inputs, symmetries) = self.words()?;
         let parallel = self.parallelograms()?;
-        let symmetric = |s: &Symmetry| matches!(s, Symmetry::Mirror | Symmetry::HalfTurn);
-        let forms = symmetries.into_iter().filter(symmetric).map(PairedForm::of);
+        let asked = |s: &Symmetry| match s {
+            Symmetry::Mirror | Symmetry::HalfTurn => true,
+            Symmetry::Generic => self.generic_pairs,
+            Symmetry::Threefold => false,
+        };
+        let forms = symmetries.into_iter().filter(asked).map(PairedForm::of);
         let forms = forms.cartesian_product([false, true]);
         let forms = forms.map(|(f, parallel)| PairedForm { parallel, ..f });
         let forms = forms.filter(|f| parallel.is_none_or(|p| p == f.parallel));
@@ -233,6 +243,11 @@ impl Spec {
         word("one_pin", &self.one_pin, &WITH)
     }
 
+    /// Whether flat faces are asked for, where one of both is.
+    pub(crate) fn flat_faces(&self) -> Result<Option<bool>, SpecError> {
+        word("flat_faces", &self.flat_faces, &WITH)
+    }
+
     fn words(&self) -> Result<(Vec<Input>, Vec<Symmetry>), SpecError> {
         let inputs = self.inputs.iter();
         let inputs = inputs
@@ -250,7 +265,7 @@ impl Spec {
     pub fn forms(&self) -> Result<Vec<Form>, SpecError> {
         let (inputs, symmetries) = self.words()?;
         let parallel = self.parallelograms()?;
-        let alone = self.one_pin()? == Some(true);
+        let alone = [self.one_pin()?, self.flat_faces()?].contains(&Some(true));
         let asked = |f: &Form| {
             !alone
                 && inputs.contains(&f.input)

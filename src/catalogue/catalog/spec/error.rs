@@ -34,8 +34,8 @@ pub enum SpecError {
     PairedLinks,
     /// Pairs in a form that they are not laid out in.
     #[error(
-        "pairs: structures with pairs are symmetric: ask for mirror or half-turn among the symmetries, or with three jaws for \
-         threefold"
+        "pairs: structures with pairs are symmetric: ask for mirror or half-turn among the symmetries, for \
+         generic with generic_pairs (--generic-pairs), or with three jaws for threefold"
     )]
     PairedForms,
     /// A number out of its range.

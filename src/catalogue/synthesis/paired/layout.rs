@@ -53,7 +53,7 @@ fn layout_as(
     seed: u64,
 ) -> Result<PairLayout, NoLayout> {
     let mut best: Option<(FoundPlaces<PairPlaces>, PairRules)> = None;
-    let mut why = NoRules::Still;
+    let mut why = NoLayout::Pairs(NoRules::Still);
     let mut start = 0;
     // Three sides are those that one way of lying has.
     let suits = |lay: &Lay| threefold.is_none_or(|t| t.lay == *lay);
@@ -61,10 +61,11 @@ fn layout_as(
         let rules = match PairRules::new(paired, &lay) {
             Ok(rules) => rules,
             Err(e) => {
-                why = e;
+                why = NoLayout::Pairs(e);
                 continue;
             }
         };
+        why = NoLayout::NotRegular;
         let sketch = PairSketch::thrice(paired, threefold, rules, *limits);
         let mut judge = Judge::of(PairMotion::new(&sketch));
         for _ in 0..starts(limits) {
@@ -83,7 +84,7 @@ fn layout_as(
             break;
         }
     }
-    let (found, rules) = best.ok_or(NoLayout::Pairs(why))?;
+    let (found, rules) = best.ok_or(why)?;
     let looks = found.looks;
     if !found.within {
         return Err(NoLayout::limits(&looks));

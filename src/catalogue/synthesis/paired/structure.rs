@@ -1,15 +1,19 @@
 //! Structures of pairs with the symmetry they are to have.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::pairs::census::visit_pair_chains;
 use crate::chains::pairs::chain::{Joint, carried, ordered};
 use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, motion, symmetric_ways};
+use crate::chains::pairs::roles::PairSubject;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::pairs::structure::PairStructure;
 use crate::chains::pairs::symmetric_census::symmetric_grippers;
 use crate::synthesis::structure::short_id;
 use itertools::Itertools;
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 /// A gripper of pairs without places.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -254,7 +258,46 @@ pub fn paired_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
     .collect()
 }
 
+/// Every essential structure of so many links that has such pairs, laid out without a symmetry.
+///
+/// # Complexity
+/// As [`visit_pair_chains`], and a canonical numbering for each.
+#[must_use]
+pub fn generic_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
+    let all = Mutex::new(BTreeSet::new());
+    visit_pair_chains(links, menu, &|subject| {
+        let drives = subject.drives().into_iter();
+        let roles = drives.flat_map(|(frame, input)| subject.grippers(frame, &input));
+        let essential = roles.filter(|r| subject.is_essential(r));
+        let keys = essential.map(|roles| {
+            let chain = subject.chain.clone();
+            PairStructure { chain, roles }.key()
+        });
+        // Numbered before others have to wait.
+        let keys: Vec<_> = keys.collect();
+        all.lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .extend(keys);
+    });
+    let all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let structure = |key| PairedStructure {
+        structure: PairStructure::of_key(&key),
+        form: PairedForm::of(Symmetry::Generic),
+    };
+    all.into_iter().map(structure).collect()
+}
+
 impl PairedStructure {
+    /// Whether an automorphism of order two keeps frame and input joint and swaps the jaws.
+    #[must_use]
+    pub fn is_graph_symmetric(&self) -> bool {
+        let chain = &self.structure.chain;
+        let automorphisms = chain.automorphisms();
+        let automorphisms: Vec<&Vec<usize>> = automorphisms.iter().collect();
+        let subject = PairSubject::new(chain, &automorphisms);
+        subject.symmetries(&self.structure.roles).graph
+    }
+
     pub(super) fn on_parallelograms_if_any(self) -> PairedStructure {
         let parallel = self.rings().is_some();
         PairedStructure {

@@ -45,6 +45,13 @@ pub(in crate::cli) struct Build {
     /// Pairs that are not hinges at most, a left and a right one being one; 3 by default.
     #[arg(long, value_name = "K")]
     at_most: Option<usize>,
+    /// With pairs, structures laid out freely, too, symmetric or not: there are many.
+    #[arg(long, requires = "pairs")]
+    generic_pairs: bool,
+    /// Slots between links that do not turn against each other made as flat faces, which are redundant in the plane already: with,
+    /// without (the default) or only.
+    #[arg(long, value_name = "WORD")]
+    flat_faces: Option<String>,
     /// The well-known schemes alone, whatever their number of links, each as symmetric as it can be.
     #[arg(long, conflicts_with_all = ["links", "pairs", "at_most"])]
     classics: bool,
@@ -117,12 +124,17 @@ impl Build {
                 there.clone_from(given);
             }
         }
-        if let Some(word) = &self.parallel {
-            spec.parallel.clone_from(word);
+        let words = [
+            (&self.parallel, &mut spec.parallel),
+            (&self.one_pin, &mut spec.one_pin),
+            (&self.flat_faces, &mut spec.flat_faces),
+        ];
+        for (given, there) in words {
+            if let Some(word) = given {
+                there.clone_from(word);
+            }
         }
-        if let Some(word) = &self.one_pin {
-            spec.one_pin.clone_from(word);
-        }
+        spec.generic_pairs |= self.generic_pairs;
         spec.classics |= self.classics;
         spec.at_most = self.most_of(&spec)?;
         spec.jaws = self.jaws.unwrap_or(spec.jaws);
