@@ -12,6 +12,8 @@ mod insert;
 #[cfg(feature = "store")]
 pub mod neighbours;
 pub(crate) mod paired_row;
+#[cfg(feature = "store")]
+mod prices;
 pub mod row;
 mod searched;
 pub mod spec;

@@ -39,7 +39,7 @@ pub const FIGURES: [Figure; 6] = [
     figure("turn", "jaws turn", "°", false),
     figure("pin_force", "pin force", "N", false),
     figure("area", "box", "mm²", false),
-    figure("cost", "cost", "", false),
+    figure("price", "price", "", false),
 ];
 
 /// The place of the least force in them, the one figure that asks how the input moves.
@@ -84,7 +84,7 @@ pub struct Neighbours {
 
 /// Of each layout with its form: what `read` needs, then the figures.
 const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.parallel, 'parallel', NULL)), s.chain, s.input, s.frame, s.driver, \
-     s.jaw_a, s.jaw_b, p.code, p.driven_from, g.least_force, g.force_ratio, g.turn, g.pin_force, g.width * g.height, g.cost \
+     s.jaw_a, s.jaw_b, p.code, p.driven_from, g.least_force, g.force_ratio, g.turn, g.pin_force, g.width * g.height, g.price \
      FROM structures s JOIN grippers g ON g.id = s.id LEFT JOIN pairs p ON p.structure = s.id \
      WHERE s.jaw_c IS NULL AND g.reached = 1 AND s.links BETWEEN ?1 - 4 AND ?1 + 4";
 /// Catalogues of earlier versions have no figures over a stroke.

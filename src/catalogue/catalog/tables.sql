@@ -83,11 +83,15 @@ CREATE TABLE planes (              -- parallel planes in which the links of a la
 ) WITHOUT ROWID;
 CREATE TABLE pairs ( -- of structures with slides, gears or slots
   structure TEXT PRIMARY KEY REFERENCES structures(id),
-  code TEXT NOT NULL,              -- a letter for each two links, (0, 1), (0, 2), (1, 2)...: R hinge, P slide, G gear or rack, S slot, - none
+  code TEXT NOT NULL,              -- a letter for each two links, (0, 1), (0, 2), (1, 2)...: R hinge, P slide, G gear or rack, S slot, D two slots, - none
   slides INTEGER NOT NULL,         -- how many
   gears INTEGER NOT NULL,
   slots INTEGER NOT NULL,
   driven_from INTEGER NOT NULL     -- the link that the driver moves against: the frame, or another that moves
+) WITHOUT ROWID;
+CREATE TABLE prices (              -- of parts, in revolute joints: whoever knows better may change them
+  part TEXT PRIMARY KEY,           -- hinge, slide, gear (a pair, or a rack and its pinion), slot (with its pin), link
+  price REAL NOT NULL
 ) WITHOUT ROWID;
 CREATE TABLE classics ( -- well-known schemes that have a structure
   structure TEXT NOT NULL REFERENCES structures(id),
@@ -142,19 +146,25 @@ SELECT s.id, s.links, s.input, s.symmetry, s.parallel, l.jaw_a_motion AS jaws, l
   k.force_ratio, l.opening_min AS narrowest, l.opening_max AS widest, l.jaw_turn AS turn,
   k.transmission, k.pin_force, k.efficiency, l.travel, k.width, k.height, l.best_cost AS cost, l.determinate_w1 AS redesigns,
   k.reached, k.shortfall, coalesce(p.slides, s.input = 'slide') AS slides, coalesce(p.gears, 0) AS gears,
-  coalesce(p.slots, 0) AS slots, b.planes
+  coalesce(p.slots, 0) AS slots, b.planes,
+  -- of all links and joints as built, and of the cheapest redesign beside them, in revolute joints
+  l.best_cost + (SELECT sum(price * CASE part WHEN 'link' THEN s.links WHEN 'slide' THEN coalesce(p.slides, s.input = 'slide')
+    WHEN 'gear' THEN coalesce(p.gears, 0) WHEN 'slot' THEN coalesce(p.slots, 0)
+    ELSE s.joints - coalesce(p.slides + p.gears + p.slots, s.input = 'slide') END) FROM prices) AS price,
+  -- work that the drive has to be made for, mm: its travel by its greatest force, N (or moment, N mm, by rad), for 1 N of each jaw
+  round(l.travel * CASE s.input WHEN 'turn' THEN 1000 ELSE 1 END / (l.force_min * k.efficiency), 2) AS actuator
 FROM structures s JOIN layouts l ON l.structure = s.id LEFT JOIN strokes k ON k.structure = s.id
   LEFT JOIN planes b ON b.structure = s.id
   LEFT JOIN pairs p ON p.structure = s.id;
-CREATE VIEW front AS               -- of those that do the task, what no other with the same input beats: as good in all six, better in one
-SELECT a.id, a.links, a.cost, a.least_force, a.pin_force, a.turn, a.width * a.height AS area, a.input
+CREATE VIEW front AS               -- of those that do the task, what no other with the same input beats: as good in all seven, better in one
+SELECT a.id, a.links, a.price, a.least_force, a.pin_force, a.turn, a.width * a.height AS area, a.actuator, a.input
 FROM grippers a
-WHERE a.cost IS NOT NULL AND a.reached = 1 AND a.shortfall IS NULL AND NOT EXISTS (
+WHERE a.price IS NOT NULL AND a.reached = 1 AND a.shortfall IS NULL AND NOT EXISTS (
   SELECT 1 FROM grippers b
-  WHERE b.cost IS NOT NULL AND b.reached = 1 AND b.shortfall IS NULL AND b.input = a.input
-    AND b.links <= a.links AND b.cost <= a.cost AND b.least_force >= a.least_force AND b.pin_force <= a.pin_force
+  WHERE b.price IS NOT NULL AND b.reached = 1 AND b.shortfall IS NULL AND b.input = a.input
+    AND b.links <= a.links AND b.price <= a.price AND b.actuator <= a.actuator AND b.least_force >= a.least_force AND b.pin_force <= a.pin_force
     AND b.turn <= a.turn AND b.width * b.height <= a.width * a.height
-    AND (b.links < a.links OR b.cost < a.cost OR b.least_force > a.least_force OR b.pin_force < a.pin_force
+    AND (b.links < a.links OR b.price < a.price OR b.actuator < a.actuator OR b.least_force > a.least_force OR b.pin_force < a.pin_force
       OR b.turn < a.turn OR b.width * b.height < a.width * a.height));
 CREATE VIEW idea_front AS          -- ideas that no other of their structure beats in cost, peak force and moment, and error
 SELECT i.* FROM ideas i

@@ -183,6 +183,11 @@ pub struct CostSpec {
     pub harmful_milli: Option<i64>,
 }
 
+impl CostSpec {
+    /// Default cost of a link, in thousandths of a revolute joint.
+    pub const LINK_MILLI: i64 = 1000;
+}
+
 /// What the file asks of a search.
 #[derive(Debug, Clone, Default)]
 pub struct SearchSpec {

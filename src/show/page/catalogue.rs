@@ -29,7 +29,8 @@ const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel
      coalesce(k.transmission, l.transmission) AS transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
      b.planes, b.links AS in_planes, b.structure IS NOT NULL AS stacked, opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
-     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, id IN (SELECT id FROM front) AS front, \
+     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, (SELECT price FROM grippers g WHERE g.id = structures.id) AS price, \
+     (SELECT actuator FROM grippers g WHERE g.id = structures.id) AS actuator, id IN (SELECT id FROM front) AS front, \
      (SELECT group_concat(c.id, ', ') FROM classics c WHERE c.structure = structures.id) AS classics FROM structures JOIN layouts l ON l.structure = id \
      LEFT JOIN strokes k ON k.structure = id LEFT JOIN planes b ON b.structure = id ORDER BY structures.links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
 /// What a card of a drawn mechanism is made of.
@@ -175,17 +176,28 @@ fn filters() -> maud::Markup {
             (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
             (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic"), ("drawn", "drawn")]))
             (select("jaws", "Jaws", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
-            label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
+            label { "Price at most " input type="number" id="price" min="0" step="0.5" inputmode="decimal"; }
             label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }
             label { "Least force from " input type="number" id="force" min="0" step="any" inputmode="decimal"; }
             label { "Forces 1 to at most " input type="number" id="ratio" min="1" step="0.5" inputmode="decimal"; }
             label { "Turn of the jaws at most " input type="number" id="turn" min="0" step="5" inputmode="numeric"; }
             label { "Planes at most " input type="number" id="planes" min="2" step="1" inputmode="numeric"; }
+            details {
+                summary { "More" }
+                label { "Joint force at most " input type="number" id="pin" min="0" step="any" inputmode="decimal"; }
+                label { "Efficiency from " input type="number" id="efficiency" min="0" max="1" step="0.05" inputmode="decimal"; }
+                label { "Stroke from " input type="number" id="stroke" min="0" step="5" inputmode="numeric"; }
+                label { "Travel at most " input type="number" id="travel" min="0" step="any" inputmode="decimal"; }
+                label { "Actuator at most " input type="number" id="actuator" min="0" step="any" inputmode="decimal"; }
+                label { "Width at most " input type="number" id="width" min="0" step="5" inputmode="numeric"; }
+                label { "Height at most " input type="number" id="height" min="0" step="5" inputmode="numeric"; }
+                label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
+            }
             label { input type="checkbox" id="does"; " Only those that do the task" }
             label { input type="checkbox" id="front"; " Only those that no other beats" }
             label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id, chain or scheme"; }
             (select("sort", "First", &[
-                ("", "fewest links, symmetric"), ("best_cost", "least cost"), ("force_min", "greatest least force"),
+                ("", "fewest links, symmetric"), ("price", "lowest price"), ("best_cost", "least cost"), ("actuator", "smallest actuator"), ("force_min", "greatest least force"),
                 ("transmission", "best transmission angle"), ("pin_force", "least joint force"), ("jaw_turn", "least turn"), ("planes", "fewest planes"),
                 ("determinate_w1", "most redesigns"), ("link_ratio", "most even links"),
             ]))

@@ -120,7 +120,7 @@ fn what_a_neighbour_does_better_stands_in_the_catalogue() {
     let data = json(&[&asked[..], &["--json"]].concat());
     let figures = |id: &str, column: &str| {
         let sql = format!(
-            "SELECT least_force, force_ratio, turn, pin_force, width * height AS area, cost FROM grippers WHERE id = '{id}' AND reached = 1"
+            "SELECT least_force, force_ratio, turn, pin_force, width * height AS area, price FROM grippers WHERE id = '{id}' AND reached = 1"
         );
         json(&["catalog", "query", db, &sql, "--format", "json"])[0][column].as_f64()
     };

@@ -105,7 +105,8 @@ fn the_fronts_are_what_no_other_beats() {
         csv.lines().skip(1).map(row).collect()
     };
     let structures = rows(
-        "SELECT s.id, input, links, best_cost, -force_min, pin_force, jaw_turn, width * height FROM structures s \
+        "SELECT s.id, input, links, best_cost + links + joints + (input = 'slide'), -force_min, pin_force, jaw_turn, width * height, \
+         round(travel * iif(input = 'turn', 1000, 1) / (force_min * efficiency), 2) FROM structures s \
          JOIN layouts l ON l.structure = s.id JOIN strokes k ON k.structure = s.id \
          WHERE best_cost IS NOT NULL AND reached = 1 AND shortfall IS NULL ORDER BY s.id",
     );

@@ -3,12 +3,14 @@
 //! Every catalogue bears the version of its tables. One of [`OLDEST`] or later is brought up to date when it is next written
 //! to, in the transaction that looks at it. Any older one can be read: what it did not keep is NULL.
 
+use crate::catalog::prices::prices;
+use itertools::Itertools;
 use rusqlite::Connection;
 
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables.
-pub(super) const VERSION: i64 = 8;
+pub(super) const VERSION: i64 = 9;
 /// The oldest version that can be carried on: those before lack counts that only building again gives.
 pub(super) const OLDEST: i64 = 4;
 
@@ -17,7 +19,7 @@ pub(crate) const TABLES: &str = include_str!("../tables.sql");
 
 /// What each version but the first has beside the one before it: views that go, and what is made, by the words it begins with in
 /// [`TABLES`].
-const STEPS: [(i64, &str, &[&str]); 4] = [
+const STEPS: [(i64, &str, &[&str]); 5] = [
     (5, "", &["CREATE TABLE parts"]),
     (
         6,
@@ -47,7 +49,22 @@ const STEPS: [(i64, &str, &[&str]); 4] = [
             "CREATE VIEW front",
         ],
     ),
+    (
+        9,
+        "DROP VIEW IF EXISTS front; DROP VIEW IF EXISTS grippers;",
+        &[
+            "CREATE TABLE prices",
+            "CREATE VIEW grippers",
+            "CREATE VIEW front",
+        ],
+    ),
 ];
+
+/// The prices of parts, as rows.
+fn price_rows() -> String {
+    let row = |(part, price): &(&str, f64)| format!("('{part}', {price:?})");
+    prices().iter().map(row).join(", ")
+}
 
 /// The statement of [`TABLES`] that begins so.
 fn statement(begins: &str) -> &'static str {
@@ -133,7 +150,8 @@ pub(super) fn kind(db: &Connection) -> rusqlite::Result<FileKind> {
 /// Makes the tables, in the transaction that is open.
 pub(super) fn make(db: &Connection) -> rusqlite::Result<()> {
     db.execute_batch(&format!(
-        "PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {VERSION}; {TABLES}"
+        "PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {VERSION}; {TABLES} INSERT INTO prices VALUES {};",
+        price_rows()
     ))
 }
 
@@ -143,6 +161,9 @@ pub(super) fn migrate(db: &Connection, from: i64) -> rusqlite::Result<()> {
         let made: String = made.iter().map(|begins| statement(begins)).collect();
         db.execute_batch(&format!("{gone} {made} PRAGMA user_version = {version};"))?;
     }
+    if from < 9 {
+        db.execute_batch(&format!("INSERT INTO prices VALUES {};", price_rows()))?;
+    }
     Ok(())
 }
 
@@ -151,7 +172,13 @@ pub(super) fn fill_in(db: &Connection, found: i64) -> rusqlite::Result<()> {
     for (_, view) in VIEWS.iter().filter(|(version, _)| found < *version) {
         db.execute_batch(view)?;
     }
-    // It is of what the others hold: that of an older version lacks columns.
+    if found < 9 {
+        db.execute_batch(&format!(
+            "CREATE TEMP VIEW prices (part, price) AS VALUES {};",
+            price_rows()
+        ))?;
+    }
+    // They are of what the others hold: those of an older version lack columns.
     if found < VERSION {
         let view = statement("CREATE VIEW grippers").replacen("CREATE VIEW", "CREATE TEMP VIEW", 1);
         db.execute_batch(&view)?;
@@ -173,7 +200,12 @@ mod tests {
 
     /// What each version lacks of the one after it, the latest first. A `front` older than the tables it looks at stands for
     /// that of its version, which had other words.
-    const WITHOUT: [(i64, &str); 7] = [
+    const WITHOUT: [(i64, &str); 8] = [
+        (
+            8,
+            "DROP VIEW front; DROP VIEW grippers; DROP TABLE prices; CREATE VIEW front AS SELECT 1 AS id; \
+             CREATE VIEW grippers AS SELECT 1 AS id;",
+        ),
         (
             7,
             "DROP VIEW front; DROP VIEW grippers; DROP TABLE planes; CREATE VIEW front AS SELECT 1 AS id; \
@@ -240,6 +272,7 @@ mod tests {
             "pairs",
             "classics",
             "planes",
+            "prices",
             "grippers",
         ];
         let columns = |db: &Connection| {

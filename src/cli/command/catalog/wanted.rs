@@ -48,6 +48,12 @@ pub(super) struct WantedGrippers {
     /// Parallel planes in which its parts pass each other at most, the frame's included.
     #[arg(long, value_name = "N", value_parser = finite)]
     planes: Option<f64>,
+    /// The work its drive has to be made for at most, in mm: travel by greatest force, for 1 N of each jaw.
+    #[arg(long, value_name = "MM", value_parser = finite)]
+    actuator: Option<f64>,
+    /// The price of all its parts with the cheapest redesign at most, in revolute joints.
+    #[arg(long, value_name = "X", value_parser = finite)]
+    price: Option<f64>,
     /// The cost of its cheapest redesign at most.
     #[arg(long, value_name = "X", value_parser = finite)]
     cost: Option<f64>,
@@ -117,6 +123,8 @@ impl WantedGrippers {
             ("--width", "width", "<=", self.width),
             ("--height", "height", "<=", self.height),
             ("--planes", "planes", "<=", self.planes),
+            ("--actuator", "actuator", "<=", self.actuator),
+            ("--price", "price", "<=", self.price),
             ("--cost", "cost", "<=", self.cost),
         ];
         let words = words.iter().filter(|(asked, ..)| *asked);
@@ -133,7 +141,7 @@ impl WantedGrippers {
         (!all.is_empty()).then(|| {
             format!(
                 "SELECT id, links, input, symmetry AS layout, jaws, least_force, force_ratio, turn, transmission, pin_force, efficiency, \
-                 travel, width, height, planes, cost FROM grippers WHERE {all} ORDER BY links, least_force DESC, id"
+                 travel, width, height, planes, actuator, price, cost FROM grippers WHERE {all} ORDER BY links, least_force DESC, id"
             )
         })
     }

@@ -14,8 +14,6 @@ use crate::model::mechanism::{CostSpec, JointOption};
 pub(crate) const CHANGE: i64 = 1000;
 /// Default cost of changing a driven joint besides, in thousandths: its motor is mounted and guided anew.
 pub(crate) const DRIVEN: i64 = 2000;
-/// Default cost of the extra link of an unloading joint, in thousandths.
-const LINK: i64 = 1000;
 /// The costs in force for one mechanism, in thousandths.
 #[derive(Debug, Clone)]
 pub struct CostTable {
@@ -39,7 +37,7 @@ impl CostTable {
             by_type: spec.by_type_milli.clone(),
             change: spec.change_milli.unwrap_or(CHANGE),
             driven: spec.driven_milli.unwrap_or(DRIVEN),
-            link: spec.link_milli.unwrap_or(LINK),
+            link: spec.link_milli.unwrap_or(CostSpec::LINK_MILLI),
             harmful: spec.harmful_milli.unwrap_or(0),
         }
     }

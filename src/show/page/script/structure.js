@@ -24,6 +24,8 @@ function figuresOf(c) {
       ['Joints', `${short(c.pin_force)} N at most for 1 N of each jaw; efficiency from ${short(c.efficiency)}`],
       ...(c.stacked ? [['Planes', c.planes ? `${c.planes}, links from the back: ${c.in_planes}` : 'something meets in whatever planes its links lie']] : []),
       ['Room', `${short(c.width)} by ${short(c.height)} mm over the stroke`],
+      ['Actuator', `work ${short(c.actuator)} N mm for 1 N of each jaw: travel by greatest force, friction included`],
+      ...(c.price ? [['Price', `${short(c.price)} revolute joints, with the cheapest redesign`]] : []),
     ] : []),
   ];
   return rows.concat([
