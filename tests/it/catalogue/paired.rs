@@ -4,6 +4,7 @@
 mod axial;
 mod by_hand;
 mod flat;
+mod made;
 mod passing;
 mod strongest;
 mod twin_figures;

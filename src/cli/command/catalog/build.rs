@@ -97,18 +97,8 @@ impl Build {
         Ok(self.at_most.unwrap_or(spec.at_most))
     }
 
-    fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
-        let text = match &self.spec {
-            None => String::new(),
-            Some(path) => bounded::text(path, MAX_BYTES)
-                .with_context(|| format!("cannot read {}", path.display()))?,
-        };
-        let file = self.spec.as_deref().map(Path::display);
-        let mut spec: Spec = match &file {
-            None => Spec::default(),
-            Some(file) => toml::from_str(&text).with_context(|| file.to_string())?,
-        };
-        let alone = spec.clone();
+    /// Puts what is given in its place.
+    fn put(&self, spec: &mut Spec) -> anyhow::Result<()> {
         if let Some(links) = &self.links {
             spec.links.clone_from(links);
         }
@@ -136,13 +126,29 @@ impl Build {
         }
         spec.generic_pairs |= self.generic_pairs;
         spec.classics |= self.classics;
-        spec.at_most = self.most_of(&spec)?;
+        spec.at_most = self.most_of(spec)?;
         spec.jaws = self.jaws.unwrap_or(spec.jaws);
         spec.ideas = self.ideas.unwrap_or(spec.ideas);
         spec.ratio = self.ratio.unwrap_or(spec.ratio);
         spec.transmission = self.transmission.unwrap_or(spec.transmission);
         spec.crossings = self.crossings.unwrap_or(spec.crossings);
         self.task.put(&mut spec.task);
+        Ok(())
+    }
+
+    fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
+        let text = match &self.spec {
+            None => String::new(),
+            Some(path) => bounded::text(path, MAX_BYTES)
+                .with_context(|| format!("cannot read {}", path.display()))?,
+        };
+        let file = self.spec.as_deref().map(Path::display);
+        let mut spec: Spec = match &file {
+            None => Spec::default(),
+            Some(file) => toml::from_str(&text).with_context(|| file.to_string())?,
+        };
+        let alone = spec.clone();
+        self.put(&mut spec)?;
         if seed != 1 {
             spec.seed = seed;
         }

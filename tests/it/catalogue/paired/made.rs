@@ -1,0 +1,142 @@
+//! Ways in which structures are made: freely, with hinges on one pin, with flat faces; and what they cost.
+
+use super::super::carried_on::scattered;
+use super::{
+    Built, LAID, at, built, first_of, known, number, ok, pulls_as_its_file_says, rows, shared,
+};
+use ozols::geom::vector::real;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+use tempfile::tempdir;
+
+/// Every structure of four links with pairs, laid out freely.
+fn free() -> &'static str {
+    static FILE: Built = OnceLock::new();
+    let words = "catalog build --pairs slide,gear,slot --generic-pairs --symmetry generic --links 4 --ideas 0 --quiet -o";
+    built(&FILE, &words.split(' ').collect::<Vec<_>>())
+}
+
+/// Hinged mirror images with hinges on one pin.
+fn on_one_pin() -> &'static str {
+    static FILE: Built = OnceLock::new();
+    let words = "catalog build --one-pin only --links 6..8 --ideas 1 --quiet -o";
+    built(&FILE, &words.split(' ').collect::<Vec<_>>())
+}
+
+#[test]
+fn free_structures_are_all_that_are_counted_and_pull_as_their_files_say() {
+    // `../shared/pairs/counts.csv`: essential ones of four links with at most three pairs that are not hinges, any place of input and
+    // jaws. Columns: links, kinds, chains and inputs, then eight for each drive, the second of which is the essential ones.
+    let mut told = 0;
+    for line in shared("counts.csv").lines().skip(1) {
+        let cells: Vec<u64> = line.split(',').map(|n| n.parse().unwrap_or(0)).collect();
+        if cells[0] == 4 && cells[1] + cells[2] + cells[3] <= 3 {
+            told += cells[9..].chunks(8).map(|drive| drive[1]).sum::<u64>();
+        }
+    }
+    // Those of hinges are built as such.
+    let found = &rows(free(), "SELECT count(*) AS n FROM structures")[0]["n"];
+    assert_eq!(found.as_u64(), Some(told));
+    let laid = rows(free(), LAID);
+    assert!(laid.len() > 600, "{}", laid.len());
+    let folder = tempdir().unwrap();
+    let of = |i: u64| usize::try_from(i % laid.len() as u64).unwrap();
+    let drawn: BTreeSet<usize> = scattered(23).take(12).map(of).collect();
+    for &i in &drawn {
+        assert_eq!(laid[i]["finite"], "1, proven");
+        pulls_as_its_file_says(free(), &laid[i], &folder);
+    }
+}
+
+/// Of each of the seven mirror images two hinges may be on one pin with their images, one of them or both.
+#[test]
+fn hinges_are_on_one_pin_with_their_images() {
+    let all = rows(
+        on_one_pin(),
+        "SELECT id, name, mechanism FROM structures JOIN layouts ON structure = id JOIN strokes k USING (structure) WHERE reached = 1",
+    );
+    assert_eq!(all.len(), 3 * (2 + 5));
+    for row in &all {
+        let m = ozols::from_toml(row["mechanism"].as_str().unwrap()).unwrap();
+        let shared = m.search.mirror.iter().filter(|(a, b)| {
+            let [a, b] = [a, b].map(|&j| real(&m.joints[j].frame.point));
+            a == b && a[1] == 0.0
+        });
+        let told = row["name"].as_str().unwrap().matches(" pin").count();
+        assert_eq!(shared.count(), told, "{row}");
+    }
+    let folder = tempdir().unwrap();
+    let laid = rows(
+        on_one_pin(),
+        "SELECT id, links, input, travel, closes, force_min, force_max, pin_force, 0 AS gears, jaw_c FROM structures \
+         JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id WHERE links = 6",
+    );
+    for row in &laid {
+        pulls_as_its_file_says(on_one_pin(), row, &folder);
+    }
+}
+
+/// What flat faces are redundant by is one constraint more for each slot, in the plane already.
+#[test]
+fn flat_faces_are_made_where_they_are_asked() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "flat.db");
+    ok(&[
+        "catalog",
+        "build",
+        "--pairs",
+        "slide,slot",
+        "--flat-faces",
+        "with",
+        "--symmetry",
+        "mirror",
+        "--links",
+        "4",
+        "--ideas",
+        "0",
+        "--quiet",
+        "-o",
+        &file,
+    ]);
+    let sql = "SELECT a.redundant AS flat, b.redundant AS slotted, p.slots AS slots FROM layouts a JOIN structures s ON s.id = a.structure \
+         JOIN structures t ON t.name || ' flat' = s.name JOIN layouts b ON b.structure = t.id JOIN pairs p ON p.structure = t.id";
+    let all = rows(&file, sql);
+    assert!(!all.is_empty());
+    for row in &all {
+        assert_eq!(
+            number(row, "flat"),
+            number(row, "slotted") + number(row, "slots"),
+            "{row}"
+        );
+    }
+}
+
+/// Four links at 1, three slides at 2, two slots at 1.5 and the redesign; its drive works for both jaws and for friction.
+#[test]
+fn prices_and_actuators_are_as_by_hand() {
+    let id = first_of("wedge-hook");
+    let sql = format!(
+        "SELECT g.*, s.joints FROM grippers g JOIN structures s ON s.id = g.id WHERE g.id = '{id}'"
+    );
+    let row = &rows(known(), &sql)[0];
+    let price = 4.0 + 3.0 * 2.0 + 2.0 * 1.5 + number(row, "cost");
+    assert!((number(row, "price") - price).abs() < 1e-9, "{row}");
+    let work = number(row, "travel") / number(row, "least_force") / number(row, "efficiency");
+    assert!((number(row, "actuator") - work).abs() < 0.01, "{row}");
+    // It closes 50 mm by two jaws, 25 each, and no drive does that with less work.
+    let all = rows(known(), "SELECT actuator, narrowest, widest FROM grippers");
+    assert!(
+        all.iter()
+            .all(|r| number(r, "actuator") > number(r, "widest") - number(r, "narrowest") - 0.01)
+    );
+    let asked = ok(&[
+        "catalog",
+        "query",
+        known(),
+        "--price",
+        "8",
+        "--format",
+        "csv",
+    ]);
+    assert_eq!(asked.lines().count(), 2, "{asked}");
+}
