@@ -3,6 +3,8 @@
 //! What a joint does in the plane is what of its motions lies there: a ball is a hinge, a pin with play along its axis is one,
 //! too. So a gripper and its redesign have the same structure.
 
+mod threads;
+
 use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
 use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::kind::PairKind;
@@ -20,6 +22,7 @@ use crate::rank::exact::field::exact_field;
 use itertools::Itertools;
 use petgraph::unionfind::UnionFind;
 use thiserror::Error;
+use threads::screw_with_nuts;
 
 /// Why a mechanism is no structure of the catalogue's kind.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -85,6 +88,9 @@ pub struct Recognized {
 /// # Complexity
 /// A few eliminations of six columns for each joint and each axis.
 pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
+    if let Some(found) = screw_with_nuts(m)? {
+        return Ok(found);
+    }
     let plane = MotionPlane::new(m)?;
     let present = m.joints_in(StateId::FREE).collect_vec();
     let mut kinds = Vec::with_capacity(present.len());
@@ -136,6 +142,7 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let made_as = MadeAs {
         flat,
         jaws_on_one_pin: plane.are_on_one_pin(at_frame)?,
+        threaded: false,
     };
     let structure = PairStructure { chain, roles };
     Ok(Recognized {

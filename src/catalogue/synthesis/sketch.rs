@@ -23,6 +23,11 @@ pub trait LayoutSketch {
     /// Where the points are.
     fn points<'p>(&self, at: &'p Self::JointPlaces) -> &'p [Point];
 
+    /// Whether its links lie in parallel planes, each drawn.
+    fn is_flat(&self) -> bool {
+        self.bones().sides == self.bones().jaws.len()
+    }
+
     /// The link that has the pin or the block of a joint; none of what has no point on its links.
     fn link_of(&self, _at: &Self::JointPlaces, joint: usize) -> Option<usize> {
         self.bones().joints[joint].map(|[link, _]| link)

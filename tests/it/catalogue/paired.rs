@@ -246,7 +246,7 @@ const LAID: &str = "SELECT id, links, input, travel, closes, force_min, force_ma
 fn strokes_are_those_of_the_files_statics() {
     let folder = tempdir().unwrap();
     let well_known = rows(known(), LAID);
-    assert_eq!(well_known.len(), 33);
+    assert_eq!(well_known.len(), 34);
     let all = rows(some(), LAID);
     let of = |i: u64| usize::try_from(i % all.len() as u64).unwrap();
     let drawn: BTreeSet<usize> = scattered(11).take(12).map(of).collect();
@@ -293,7 +293,7 @@ fn well_known_schemes_stand_in_a_catalogue_by_name() {
     let why = flat.unwrap()["match"].as_str().unwrap();
     assert!(why.starts_with("outside"), "{why}");
     // Another has two pairs between the same links, which is a pair of its own.
-    let others = ["wedge-flat-faces", "slot-guided-jaws"];
+    let others = ["wedge-flat-faces", "slot-guided-jaws", "screw-two-nuts"];
     assert_eq!(names, published.iter().copied().chain(others).collect());
     // What translates by structure, or on parallelograms, does not turn.
     for scheme in schemes

@@ -32,6 +32,8 @@ pub struct MadeAs {
     pub flat: bool,
     /// Its jaws turn in the frame on one pin.
     pub jaws_on_one_pin: bool,
+    /// Its pinion is a screw, its racks are nuts: in the plane these do the same.
+    pub threaded: bool,
 }
 
 #[derive(Deserialize)]
@@ -45,6 +47,8 @@ struct Written {
     flat: bool,
     #[serde(default)]
     jaws_on_one_pin: bool,
+    #[serde(default)]
+    threaded: bool,
 }
 
 impl Written {
@@ -82,6 +86,7 @@ static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
         made_as: MadeAs {
             flat: entry.flat,
             jaws_on_one_pin: entry.jaws_on_one_pin,
+            threaded: entry.threaded,
         },
         id,
     };

@@ -124,6 +124,10 @@ fn figures(
                 PairKind::Slide => force.max(2.0 * f.moment.abs() / friction.guide) * slid(),
                 PairKind::Slot => force * rows.sliding(i).abs(),
                 // Where pitch circles touch they roll.
+                PairKind::Gear if rules.threaded => {
+                    let round = friction.pin_radius * (u.turning - v.turning);
+                    force * slid().hypot(round)
+                }
                 PairKind::Gear | PairKind::TwoSlots => 0.0,
             };
     }

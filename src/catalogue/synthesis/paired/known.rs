@@ -14,8 +14,9 @@ pub(crate) fn known_schemes() -> Vec<PairedStructure> {
     let all = all.unique_by(|c| (c.structure.key(), c.made_as));
     let made = |c: &Classic| {
         let plain = most_symmetric(&c.structure)?;
-        let flat = plain.with_flat_faces();
-        let mut all = plain.with_one_pins().chain(flat);
+        let others = plain.with_flat_faces().into_iter();
+        let others = others.chain(plain.with_threads());
+        let mut all = plain.clone().with_one_pins().chain(others);
         all.find(|p| p.made_as() == c.made_as)
     };
     all.filter_map(made).collect()

@@ -28,6 +28,7 @@ pub(crate) fn link_names(paired: &PairedStructure) -> Vec<String> {
         l if l == roles.jaws[0] => "jaw-a".to_owned(),
         l if l == roles.jaws[1] => "jaw-b".to_owned(),
         l if l == driver && base == roles.frame && slides => "slider".to_owned(),
+        l if l == driver && paired.form.threaded => "screw".to_owned(),
         l if l == driver && base == roles.frame => "crank".to_owned(),
         l if l == driver && slides => "piston".to_owned(),
         l if l == base && slides => "cylinder".to_owned(),
@@ -94,6 +95,26 @@ fn slots() -> Vec<OptionEntry> {
     ]
 }
 
+/// What may be in place of a nut: z along the screw.
+fn nuts(lead: i64) -> Vec<OptionEntry> {
+    let nut = |(name, freedoms): (&str, &[&str])| {
+        let words = freedoms.iter().map(|f| (*f).to_owned());
+        OptionEntry::Table(Box::new(OptionTable {
+            freedoms: Some(words.collect()),
+            lead: Some(Coordinate::Integer(lead)),
+            name: Some(name.to_owned()),
+            ..OptionTable::default()
+        }))
+    };
+    let all: [(&str, &[&str]); 4] = [
+        ("nut", &["screw"]),
+        ("floating-nut", &["screw", "tx", "ty"]),
+        ("nut-in-ball", &["screw", "rx", "ry"]),
+        ("floating-nut-in-ball", &["screw", "rx", "ry", "tx", "ty"]),
+    ];
+    all.map(nut).into()
+}
+
 impl PairedStructure {
     pub(super) fn joint(
         &self,
@@ -109,24 +130,40 @@ impl PairedStructure {
         let upright = [0, 0, 1].map(Coordinate::Integer);
         let along = [i64::from(x), i64::from(y), 0].map(Coordinate::Integer);
         let (kind, axis, reference, options) = match joint.pair {
-            PairKind::Slide => ("prismatic", along, Some(upright), Some(slides())),
-            PairKind::Slot if flat => ("prismatic", along, Some(upright), Some(faces())),
-            PairKind::Slot => ("slotted", upright, Some(along), Some(slots())),
+            PairKind::Slide => ("prismatic", along, Some(upright.clone()), Some(slides())),
+            PairKind::Slot if flat => {
+                let upright = Some(upright.clone());
+                ("prismatic", along, upright, Some(faces()))
+            }
+            PairKind::Slot => ("slotted", upright.clone(), Some(along), Some(slots())),
             // Teeth are no joint, and two slots are two.
             PairKind::Hinge | PairKind::Gear | PairKind::TwoSlots => {
-                ("revolute", upright, None, None)
+                ("revolute", upright.clone(), None, None)
             }
         };
+        let thread = self.thread(layout, i);
+        let across = [0, 1, 0].map(Coordinate::Integer);
+        let (kind, axis, reference, options) = match thread {
+            None => (kind, axis, reference, options),
+            // The screw turns about its own axis.
+            Some(None) => ("revolute", across, Some(upright), None),
+            Some(Some(lead)) => ("helical", across, Some(upright), Some(nuts(lead))),
+        };
+        let mut at = layout.at.points[i];
+        if let Some(mesh) = layout.rules.meshes[i].filter(|_| thread.is_some()) {
+            // On the screw, beside the guide.
+            at[1] = layout.at.points[mesh.held[1]][1];
+        }
         let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();
         JointEntry {
             id: joint_id(&layout.rules, i, names),
             links: self.ends(layout, i).map(|l| names[l].clone()),
             kind: kind.to_owned(),
             freedoms: None,
-            point: point(whole(layout.at.points[i])),
+            point: point(whole(at)),
             axis: Some(axis),
             reference,
-            lead: None,
+            lead: thread.flatten().map(Coordinate::Integer),
             pitch: None,
             tolerance: None,
             drive: DriveWord::Driven(input),
@@ -135,6 +172,25 @@ impl PairedStructure {
             forbid: Vec::new(),
             unloading: in_series.then_some(Unloading::Allowed(true)),
         }
+    }
+
+    /// Of a joint of a screw the lead along y, of its own hinge nothing; `None` of other joints.
+    fn thread(&self, layout: &PairLayout, i: usize) -> Option<Option<i64>> {
+        if !self.form.threaded {
+            return None;
+        }
+        let mesh = layout.rules.meshes[i];
+        let lead = mesh.zip(match layout.at.teeth[i] {
+            Teeth::Thread(lead) => Some(i64::from(lead)),
+            _ => None,
+        });
+        let lead = lead.map(|(mesh, lead)| {
+            // A nut that does not turn goes back where the screw turns on.
+            let [_, y] = layout.at.along[mesh.held[1]].whole();
+            -lead * i64::from(y.signum())
+        });
+        let own = layout.rules.joints[i].links == self.structure.roles.input;
+        lead.map(Some).or(own.then_some(None))
     }
 
     /// The links of a joint as a file has them: the drive's second is the driver; the pin of a slot is on the first, the block of a slide
@@ -167,6 +223,7 @@ impl PairedStructure {
             Teeth::Gears([r, s]) => Coordinate::Expression(format!("{}/{s}", signed(-r))),
             Teeth::Rack(diameter) if diameter % 2 == 0 => Coordinate::Integer(signed(diameter / 2)),
             Teeth::Rack(diameter) => Coordinate::Expression(format!("{}/2", signed(diameter))),
+            Teeth::Thread(lead) => Coordinate::Expression(format!("{}/(2*pi)", signed(lead))),
         };
         CouplingEntry {
             joints: mesh.held.map(|j| joint_id(&layout.rules, j, names)),
@@ -210,7 +267,7 @@ pub(crate) fn mechanism_file(
         },
     };
     let couplings = joints.clone().filter_map(|i| {
-        let mesh = rules.meshes[i].as_ref()?;
+        let mesh = rules.meshes[i].as_ref().filter(|_| is_geared(layout, i))?;
         Some(paired.coupling(layout, i, mesh, &names))
     });
     let made = joints.clone().filter(|&i| !is_geared(layout, i));
@@ -226,7 +283,7 @@ pub(crate) fn mechanism_file(
 
 /// Whether a joint is a mesh of gears, which is a coupling in a file.
 fn is_geared(layout: &PairLayout, joint: usize) -> bool {
-    layout.rules.joints[joint].pair == PairKind::Gear
+    layout.rules.joints[joint].pair == PairKind::Gear && !layout.rules.threaded
 }
 
 /// The points of a link: its joints, and its tip where it is a jaw.

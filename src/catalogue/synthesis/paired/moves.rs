@@ -31,6 +31,8 @@ const RATIOS: [[i32; 2]; 9] = [
     [4, 3],
     [1, 3],
 ];
+/// Leads of screws that may turn by themselves, in millimetres a turn.
+const LEADS: [i32; 6] = [4, 5, 6, 8, 10, 12];
 /// Pitch circles of a larger radius are in the way of other parts, and teeth on smaller ones are few. In millimetres.
 const LARGE: f64 = 25.0;
 const SMALL: f64 = 8.0;
@@ -54,6 +56,7 @@ impl PairSketch<'_> {
 
     fn first_teeth(&self, joint: usize, random: &mut ChaCha8Rng) -> Teeth {
         match self.rules.meshes[joint] {
+            Some(_) if self.rules.threaded => Teeth::Thread(LEADS[below(LEADS.len(), random)]),
             Some(mesh) if mesh.rack => {
                 #[allow(clippy::cast_possible_truncation, reason = "small")]
                 #[allow(clippy::cast_possible_wrap, reason = "small")]
@@ -88,6 +91,7 @@ impl PairSketch<'_> {
     fn change_teeth(teeth: &mut Teeth, warmth: f64, random: &mut ChaCha8Rng) {
         *teeth = match *teeth {
             Teeth::Gears(_) => Teeth::Gears(RATIOS[below(RATIOS.len(), random)]),
+            Teeth::Thread(_) => Teeth::Thread(LEADS[below(LEADS.len(), random)]),
             Teeth::Rack(diameter) if unit(random) < 0.1 => Teeth::Rack(-diameter),
             Teeth::Rack(diameter) => {
                 #[allow(clippy::cast_possible_truncation, reason = "some millimetres")]
@@ -110,6 +114,10 @@ impl LayoutSketch for PairSketch<'_> {
         &self.limits
     }
 
+    fn is_flat(&self) -> bool {
+        self.bones.sides == self.bones.jaws.len() && !self.rules.threaded
+    }
+
     fn link_of(&self, at: &PairPlaces, joint: usize) -> Option<usize> {
         match self.rules.joints[joint].pair {
             PairKind::Slot => Some(at.pinned[joint]),
@@ -126,6 +134,9 @@ impl LayoutSketch for PairSketch<'_> {
 
     fn each_circle(&self, at: &PairPlaces, take: &mut dyn FnMut(usize, f64, bool)) {
         let meshes = self.rules.meshes.iter().enumerate();
+        if self.rules.threaded {
+            return;
+        }
         for (pitch, mesh) in meshes.filter_map(|(i, m)| Some((at.points[i], (*m)?))) {
             let turning = if mesh.rack { 1 } else { 2 };
             let [a, b] = mesh.held.map(|j| self.bones.halves[j]);

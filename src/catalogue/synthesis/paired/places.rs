@@ -3,6 +3,7 @@
 use crate::geom::vector::{add_scaled, quarter, sub};
 use crate::synthesis::paired::direction::WholeDirection;
 use crate::synthesis::point::Point;
+use std::f64::consts::TAU;
 
 /// Where all joints are, by their places in the chain's list.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub enum Teeth {
     Gears([i32; 2]),
     /// Of a pinion with a rack: the pitch diameter in whole millimetres, negative where the rack is on the other side of it.
     Rack(i32),
+    /// Of a screw and its nut: millimetres a turn.
+    Thread(i32),
 }
 
 impl Teeth {
@@ -34,14 +37,16 @@ impl Teeth {
         match self {
             Teeth::Gears([a, b]) => -f64::from(a) / f64::from(b),
             Teeth::Rack(diameter) => f64::from(diameter) / 2.0,
+            Teeth::Thread(lead) => f64::from(lead) / TAU,
         }
     }
 
-    /// Where pitch circles about these centres touch; of a rack, whose guide goes that way, about the first.
+    /// Where pitch circles about these centres touch; of a rack, whose guide goes that way, about the first; of a nut the screw's axis.
     pub(super) fn pitch(self, [a, b]: [Point; 2], along: Point) -> Point {
         match self {
             Teeth::Gears([r, s]) => add_scaled(a, f64::from(r) / f64::from(r + s), sub(b, a)),
             Teeth::Rack(_) => add_scaled(a, -self.ratio(), quarter(along)),
+            Teeth::Thread(_) => a,
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::chains::pairs::kind::PairKind;
 use crate::geom::vector::{cross_plane, dot, quarter, scale, sub, unit};
-use crate::synthesis::paired::places::PairPlaces;
+use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::rules::{Mesh, PairRules};
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::pose::LinkPose;
@@ -196,13 +196,16 @@ impl PoseRows<'_> {
     fn teeth(&self, joint: usize, mesh: &Mesh, visit: Visit<'_>) {
         let [at, along] = self.pitch(joint, mesh);
         let [first, second] = mesh.gears;
-        visit(
-            0.0,
-            &[
-                Term::force(first, along, at),
-                Term::force(second, scale(along, -1.0), at),
-            ],
-        );
+        let back = scale(along, -1.0);
+        let forces = [Term::force(first, along, at), Term::force(second, back, at)];
+        if let Teeth::Thread(_) = self.at.teeth[joint] {
+            // A nut pushes along the screw, and turns it.
+            let arm = self.at.teeth[joint].ratio() / RADIAN;
+            let turns = [Term::moment(first, arm), Term::moment(mesh.carrier, -arm)];
+            visit(0.0, &[forces, turns].concat());
+        } else {
+            visit(0.0, &forces);
+        }
     }
 
     /// How far the drive has gone, in mm or in rad, and the row of its speed.

@@ -95,6 +95,8 @@ pub struct PairRules {
     /// Where each joint's links go.
     swap: Vec<usize>,
     symmetry: Symmetry,
+    /// Whether pinions are screws, and racks nuts.
+    pub threaded: bool,
 }
 
 impl PairRules {
@@ -155,6 +157,7 @@ impl PairRules {
             order,
             swap: lay.swap.clone(),
             symmetry,
+            threaded: paired.form.threaded,
         })
     }
 

@@ -35,6 +35,8 @@ pub struct PairedForm {
     pub parallel: bool,
     /// Whether slots between links that keep their attitude against each other have flat faces: slides, redundant in the plane already.
     pub flat: bool,
+    /// Whether a pinion is a screw with a right and a left thread, and its racks are nuts.
+    pub threaded: bool,
     /// Hinges that are on one pin with their mirror images, by the places of the first of both among the joints, as bits.
     pub one_pin: u32,
 }
@@ -48,6 +50,7 @@ impl PairedForm {
             one_sided: false,
             parallel: false,
             flat: false,
+            threaded: false,
             one_pin: 0,
         }
     }
@@ -64,7 +67,8 @@ impl PairedForm {
     pub(super) fn name(self, symmetry: &str) -> String {
         let parallel = if self.parallel { " parallel" } else { "" };
         let flat = if self.flat { " flat" } else { "" };
-        format!("{symmetry}{parallel}{flat}")
+        let threaded = if self.threaded { " threaded" } else { "" };
+        format!("{symmetry}{parallel}{flat}{threaded}")
     }
 
     /// The symmetry in a word: "mirror", "mirror-but-input".
@@ -114,6 +118,7 @@ impl PairedStructure {
         let mut shared = joints.iter().enumerate();
         MadeAs {
             flat: self.form.flat,
+            threaded: self.form.threaded,
             jaws_on_one_pin: shared.any(|(i, j)| self.form.is_on_one_pin(i) && at_frame(j)),
         }
     }
@@ -194,6 +199,11 @@ impl PairedStructure {
             let keeps = carried(roles.input, s) == roles.input;
             back && keeps != self.form.one_sided && s[roles.frame] == roles.frame && s[a] == b
         });
+        if self.form.threaded {
+            // A screw turns as its mirror image does, so that nuts of a right and a left thread are each other's image.
+            let lay = |swap| Lay { swap, bits: 0 };
+            return involutions.map(lay).collect();
+        }
         let mut out = Vec::new();
         for swap in involutions {
             let symmetry = Swap {
@@ -325,6 +335,25 @@ impl PairedStructure {
         let flat = !self.structure.chain.flat_slots().is_empty();
         flat.then(|| PairedStructure {
             form: PairedForm { flat, ..self.form },
+            ..self.clone()
+        })
+    }
+
+    /// The same with a screw for a pinion whose racks are the jaws, guided in the frame as it is; `None` where that is not all.
+    #[must_use]
+    pub(crate) fn with_threads(&self) -> Option<PairedStructure> {
+        let (chain, roles) = (&self.structure.chain, &self.structure.roles);
+        let [base, screw] = self.drive();
+        let is_nut = |&jaw: &usize| {
+            chain.between(jaw, screw) == Some(PairKind::Gear)
+                && chain.between(jaw, base) == Some(PairKind::Slide)
+        };
+        let all = chain.links() == 4 && base == roles.frame && roles.jaws.iter().all(is_nut);
+        all.then(|| PairedStructure {
+            form: PairedForm {
+                threaded: true,
+                ..PairedForm::of(Symmetry::Mirror)
+            },
             ..self.clone()
         })
     }

@@ -126,11 +126,10 @@ impl<M: StrokeMotion> Judge<M> {
         }
     }
 
-    /// Watches what meets on the next stroke, unless a link stands for several images of it.
+    /// Watches what meets on the next stroke, unless a link stands for several images of it or turns out of the plane.
     pub fn watch(&mut self) {
-        let bones = self.motion.sketch().bones();
-        let all = bones.sides == bones.jaws.len();
-        self.meetings = all.then(|| Meetings::new(bones));
+        let sketch = self.motion.sketch();
+        self.meetings = (sketch.is_flat()).then(|| Meetings::new(sketch.bones()));
     }
 
     /// The planes in which the links passed each other on the stroke that was watched.

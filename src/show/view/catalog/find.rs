@@ -6,7 +6,7 @@ use crate::chains::pairs::census::Kinds;
 use crate::chains::pairs::classics::classics_of;
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
-use crate::chains::pairs::roles::PairSubject;
+use crate::chains::pairs::roles::{PairSubject, Symmetries};
 use crate::chains::pairs::structure::PairStructure;
 use crate::synthesis::recognize::Recognized;
 use crate::view::catalog::neighbours::{NeighbourData, neighbours_text};
@@ -38,6 +38,8 @@ pub struct FoundData {
     slides: usize,
     gears: usize,
     slots: usize,
+    /// Whether what turns by them is a screw, and they are nuts on its threads.
+    threaded: bool,
     /// `frame` or `between`.
     place: &'static str,
     /// `turn` or `slide`.
@@ -83,7 +85,16 @@ impl FoundData {
         let automorphisms = automorphisms.iter().collect_vec();
         let subject = PairSubject::new(chain, &automorphisms);
         let essential = part.len() == chain.links();
-        let symmetries = in_count.then(|| subject.symmetries(roles));
+        let threaded = found.made_as.threaded;
+        let symmetries = in_count.then(|| match subject.symmetries(roles) {
+            // In space a screw with both threads is a mirror image.
+            of_pinion if threaded => Symmetries {
+                mirror: of_pinion.half_turn,
+                mirror_but_input: of_pinion.half_turn_but_input,
+                ..Symmetries::default()
+            },
+            own => own,
+        });
         let flat = if found.made_as.flat {
             chain.flat_slots().len()
         } else {
@@ -102,6 +113,7 @@ impl FoundData {
             slides: kinds.slides,
             gears: kinds.gears,
             slots: kinds.slots_made(),
+            threaded,
             place: if roles.is_driven_from_frame() {
                 "frame"
             } else {
@@ -150,7 +162,7 @@ pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
     let pairs = [
         several(d.hinges, "hinge"),
         several(d.slides, "slide"),
-        several(d.gears, "gear pair"),
+        several(d.gears, if d.threaded { "nut" } else { "gear pair" }),
         several(d.slots, "slot"),
     ];
     let place = match d.place {

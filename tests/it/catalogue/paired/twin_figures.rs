@@ -293,7 +293,7 @@ fn all_of(file: &str) -> Vec<Value> {
     rows(
         file,
         "SELECT id, name, mechanism, narrowest, widest, efficiency, k.transmission, pin_force, k.width, k.height \
-         FROM structures JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id WHERE reached = 1",
+         FROM structures JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id WHERE reached = 1 AND name NOT LIKE '%threaded'",
     )
 }
 
