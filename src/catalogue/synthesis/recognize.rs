@@ -3,7 +3,10 @@
 //! What a joint does in the plane is what of its motions lies there: a ball is a hinge, a pin with play along its axis is one,
 //! too. So a gripper and its redesign have the same structure.
 
+mod found;
 mod threads;
+
+pub use found::{NoStructure, Recognized};
 
 use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
 use crate::chains::pairs::classics::MadeAs;
@@ -11,74 +14,18 @@ use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use crate::closure::twist::FrameValues;
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::ExactField;
 use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::coupling::Coupling;
 use crate::model::id::{JointId, LinkId, StateId};
-use crate::model::mechanism::{Joint, Mechanism, Mode, Role};
+use crate::model::mechanism::{Joint, Mechanism, Mode};
 use crate::rank::exact::field::exact_field;
+use found::jaws;
 use itertools::Itertools;
 use petgraph::unionfind::UnionFind;
-use thiserror::Error;
 use threads::screw_with_nuts;
-
-/// Why a mechanism is no structure of the catalogue's kind.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum NoStructure {
-    /// Numbers without exact values.
-    #[error(transparent)]
-    Exact(#[from] ExactError),
-    /// No joint turns, and none slides across another.
-    #[error(
-        "no joint turns and no two slide in different directions, so that there is no plane of motion"
-    )]
-    NoPlane,
-    /// A joint that has no kind.
-    #[error(
-        "joint {joint:?} leaves {turns} turns and {slides} slides in the plane of motion; hinges, slides and pins in slots are known"
-    )]
-    Kind {
-        /// The joint.
-        joint: String,
-        /// Turns.
-        turns: usize,
-        /// Slides.
-        slides: usize,
-    },
-    /// Two joints between two links.
-    #[error(
-        "{0:?} and {1:?} are joined twice; chains have one pair between two links, or two pins in two slots"
-    )]
-    Twice(String, String),
-    /// A coupling without a carrier.
-    #[error("the coupling {0} joins no two links by a third that carries both")]
-    Coupling(String),
-    /// Not one drive.
-    #[error("{0} joints are driven where one hinge or slide is to be: mark it with drive = true")]
-    Drives(usize),
-    /// Not two jaws.
-    #[error("{0} links are outputs where two jaws are to be: mark them with role = \"output\"")]
-    Jaws(usize),
-    /// Links too few or too many.
-    #[error(
-        "{0} links are left that move against each other in one plane; structures have 3 to {MOST_LINKS}"
-    )]
-    Links(usize),
-}
-
-/// A structure with the names that its links have in the mechanism.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Recognized {
-    /// The structure.
-    pub structure: PairStructure,
-    /// The names of each link: several where they are one in the plane.
-    pub names: Vec<Vec<String>>,
-    /// What it is beside that: flat faces stand in it as slots where slides are between links that other slides join already.
-    pub made_as: MadeAs,
-}
 
 /// The structure of a mechanism in its free state.
 ///
@@ -88,14 +35,18 @@ pub struct Recognized {
 /// # Complexity
 /// A few eliminations of six columns for each joint and each axis.
 pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
-    if let Some(found) = screw_with_nuts(m)? {
-        return Ok(found);
-    }
-    let plane = MotionPlane::new(m)?;
-    let present = m.joints_in(StateId::FREE).collect_vec();
+    screw_with_nuts(m)?.map_or_else(|| in_a_plane(m), Ok)
+}
+
+/// What each joint is in the plane, and which links do not move against each other there.
+fn kinds_of(
+    m: &Mechanism,
+    plane: &MotionPlane,
+    present: &[JointId],
+) -> Result<(Vec<Option<PairKind>>, UnionFind<usize>), NoStructure> {
     let mut kinds = Vec::with_capacity(present.len());
-    let mut merged = UnionFind::<usize>::new(m.links.len());
-    for &j in &present {
+    let mut merged = UnionFind::new(m.links.len());
+    for &j in present {
         let joint = &m.joints[j];
         let kind = plane.kind(joint)?;
         if kind.is_none() {
@@ -104,6 +55,14 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
         }
         kinds.push(kind);
     }
+    Ok((kinds, merged))
+}
+
+/// The structure of what moves in a plane.
+fn in_a_plane(m: &Mechanism) -> Result<Recognized, NoStructure> {
+    let plane = MotionPlane::new(m)?;
+    let present = m.joints_in(StateId::FREE).collect_vec();
+    let (kinds, merged) = kinds_of(m, &plane, &present)?;
     let used = present.iter().flat_map(|&j| m.joints[j].links);
     let bodies = used.map(|l| merged.find(l.index())).unique().collect_vec();
     let body = |l: LinkId| bodies.iter().position(|&b| b == merged.find(l.index()));
@@ -214,17 +173,6 @@ fn input(chain: &PairChain, driven: &[[usize; 2]]) -> Result<[usize; 2], NoStruc
         [one] if lower(one) => Ok(one),
         _ => Err(NoStructure::Drives(driven.len())),
     }
-}
-
-fn jaws(m: &Mechanism, body: impl Fn(LinkId) -> Option<usize>) -> Result<[usize; 2], NoStructure> {
-    let outputs = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
-    let jaws = outputs
-        .filter_map(|(l, _)| body(l))
-        .unique()
-        .sorted()
-        .collect_vec();
-    jaws.try_into()
-        .map_err(|all: Vec<usize>| NoStructure::Jaws(all.len()))
 }
 
 /// The plane of motion, with the field its numbers are in.

@@ -8,7 +8,7 @@ use crate::chains::pairs::structure::PairStructure;
 use crate::model::id::{LinkId, StateId};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, Mechanism};
-use crate::synthesis::recognize::{NoStructure, Recognized, jaws};
+use crate::synthesis::recognize::found::{NoStructure, Recognized, jaws};
 use itertools::Itertools;
 
 /// The structure of a screw that is driven in the frame with two jaws on its threads, which slide in the frame; nothing of any other

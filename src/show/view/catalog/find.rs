@@ -6,7 +6,7 @@ use crate::chains::pairs::census::Kinds;
 use crate::chains::pairs::classics::classics_of;
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
-use crate::chains::pairs::roles::{PairSubject, Symmetries};
+use crate::chains::pairs::roles::{PairRoles, PairSubject, Symmetries};
 use crate::chains::pairs::structure::PairStructure;
 use crate::synthesis::recognize::Recognized;
 use crate::view::catalog::neighbours::{NeighbourData, neighbours_text};
@@ -86,15 +86,7 @@ impl FoundData {
         let subject = PairSubject::new(chain, &automorphisms);
         let essential = part.len() == chain.links();
         let threaded = found.made_as.threaded;
-        let symmetries = in_count.then(|| match subject.symmetries(roles) {
-            // In space a screw with both threads is a mirror image.
-            of_pinion if threaded => Symmetries {
-                mirror: of_pinion.half_turn,
-                mirror_but_input: of_pinion.half_turn_but_input,
-                ..Symmetries::default()
-            },
-            own => own,
-        });
+        let symmetries = in_count.then(|| symmetries(&subject, roles, threaded));
         let flat = if found.made_as.flat {
             chain.flat_slots().len()
         } else {
@@ -148,6 +140,18 @@ impl FoundData {
     #[must_use]
     pub fn is_known(&self) -> bool {
         !self.classics.is_empty() || self.catalogue.as_ref().is_some_and(|c| !c.is_empty())
+    }
+}
+
+/// How a structure is symmetric: with a screw of both threads it is a mirror image where with a pinion it is one by half a turn.
+fn symmetries(subject: &PairSubject<'_>, roles: &PairRoles, threaded: bool) -> Symmetries {
+    match subject.symmetries(roles) {
+        of_pinion if threaded => Symmetries {
+            mirror: of_pinion.half_turn,
+            mirror_but_input: of_pinion.half_turn_but_input,
+            ..Symmetries::default()
+        },
+        own => own,
     }
 }
 

@@ -1,0 +1,81 @@
+//! A mechanism as a structure, or why it is none.
+
+use crate::chains::pairs::chain::MOST_LINKS;
+use crate::chains::pairs::classics::MadeAs;
+use crate::chains::pairs::structure::PairStructure;
+use crate::geom::exact::ExactError;
+use crate::model::id::LinkId;
+use crate::model::mechanism::{Mechanism, Role};
+use itertools::Itertools;
+use thiserror::Error;
+
+/// Why a mechanism is no structure of the catalogue's kind.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoStructure {
+    /// Numbers without exact values.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// No joint turns, and none slides across another.
+    #[error(
+        "no joint turns and no two slide in different directions, so that there is no plane of motion"
+    )]
+    NoPlane,
+    /// A joint that has no kind.
+    #[error(
+        "joint {joint:?} leaves {turns} turns and {slides} slides in the plane of motion; hinges, slides and pins in slots are known"
+    )]
+    Kind {
+        /// The joint.
+        joint: String,
+        /// Turns.
+        turns: usize,
+        /// Slides.
+        slides: usize,
+    },
+    /// Two joints between two links.
+    #[error(
+        "{0:?} and {1:?} are joined twice; chains have one pair between two links, or two pins in two slots"
+    )]
+    Twice(String, String),
+    /// A coupling without a carrier.
+    #[error("the coupling {0} joins no two links by a third that carries both")]
+    Coupling(String),
+    /// Not one drive.
+    #[error("{0} joints are driven where one hinge or slide is to be: mark it with drive = true")]
+    Drives(usize),
+    /// Not two jaws.
+    #[error("{0} links are outputs where two jaws are to be: mark them with role = \"output\"")]
+    Jaws(usize),
+    /// Links too few or too many.
+    #[error(
+        "{0} links are left that move against each other in one plane; structures have 3 to {MOST_LINKS}"
+    )]
+    Links(usize),
+}
+
+/// A structure with the names that its links have in the mechanism.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recognized {
+    /// The structure.
+    pub structure: PairStructure,
+    /// The names of each link: several where they are one in the plane.
+    pub names: Vec<Vec<String>>,
+    /// What it is beside that: flat faces stand in it as slots where slides are between links that other slides join already.
+    pub made_as: MadeAs,
+}
+
+/// The jaws, where there are two.
+pub(super) fn jaws(
+    m: &Mechanism,
+    body: impl Fn(LinkId) -> Option<usize>,
+) -> Result<[usize; 2], NoStructure> {
+    let outputs = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
+    let jaws = outputs
+        .filter_map(|(l, _)| body(l))
+        .unique()
+        .sorted()
+        .collect_vec();
+    jaws.try_into()
+        .map_err(|all: Vec<usize>| NoStructure::Jaws(all.len()))
+}
