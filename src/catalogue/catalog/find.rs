@@ -8,7 +8,8 @@ use crate::chains::pairs::structure::PairStructure;
 use serde_json::Value;
 
 /// A structure of two jaws, its id and form first.
-const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
+const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL), \
+     iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin', NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
      code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.
@@ -20,14 +21,26 @@ pub struct Entry {
     pub form: String,
 }
 
-/// The entries of a catalogue that are a structure, in whatever form they are laid out, symmetric ones first.
+/// Those of three jaws whose sides are those of a structure, which their names begin with.
+const THREEFOLD: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL)) \
+     FROM structures WHERE name LIKE ?1 || ' threefold%' ORDER BY parallel, id";
+
+/// The entries of a catalogue that are a structure, with two sides or three, in whatever form they are laid out, symmetric ones first.
 ///
 /// # Errors
 /// Those of the database.
 ///
 /// # Complexity
 /// One canonical numbering for each structure of as many links.
-pub fn entries(store: &Store, structure: &PairStructure) -> Result<Vec<Entry>, StoreError> {
+pub fn entries(
+    store: &Store,
+    structure: &PairStructure,
+    sides: usize,
+) -> Result<Vec<Entry>, StoreError> {
+    if sides == 3 {
+        let (_, rows) = store.query(THREEFOLD, Some(&structure.name()))?;
+        return Ok(rows.iter().map(|r| Entry::new(r)).collect());
+    }
     let key = structure.key();
     let links = structure.chain.links().to_string();
     let (_, rows) = store.query(STRUCTURES, Some(&links))?;

@@ -33,6 +33,17 @@ const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel
      (SELECT actuator FROM grippers g WHERE g.id = structures.id) AS actuator, id IN (SELECT id FROM front) AS front, \
      (SELECT group_concat(c.id, ', ') FROM classics c WHERE c.structure = structures.id) AS classics FROM structures JOIN layouts l ON l.structure = id \
      LEFT JOIN strokes k ON k.structure = id LEFT JOIN planes b ON b.structure = id ORDER BY structures.links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
+/// Filters that are asked less often: id, label and step.
+const MORE: [(&str, &str, &str); 8] = [
+    ("pin", "Joint force at most", "any"),
+    ("efficiency", "Efficiency from", "0.05"),
+    ("stroke", "Stroke from", "5"),
+    ("travel", "Travel at most", "any"),
+    ("actuator", "Actuator at most", "any"),
+    ("width", "Width at most", "5"),
+    ("height", "Height at most", "5"),
+    ("cost", "Cost at most", "0.5"),
+];
 /// What a card of a drawn mechanism is made of.
 const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
      CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
@@ -184,14 +195,9 @@ fn filters() -> maud::Markup {
             label { "Planes at most " input type="number" id="planes" min="2" step="1" inputmode="numeric"; }
             details {
                 summary { "More" }
-                label { "Joint force at most " input type="number" id="pin" min="0" step="any" inputmode="decimal"; }
-                label { "Efficiency from " input type="number" id="efficiency" min="0" max="1" step="0.05" inputmode="decimal"; }
-                label { "Stroke from " input type="number" id="stroke" min="0" step="5" inputmode="numeric"; }
-                label { "Travel at most " input type="number" id="travel" min="0" step="any" inputmode="decimal"; }
-                label { "Actuator at most " input type="number" id="actuator" min="0" step="any" inputmode="decimal"; }
-                label { "Width at most " input type="number" id="width" min="0" step="5" inputmode="numeric"; }
-                label { "Height at most " input type="number" id="height" min="0" step="5" inputmode="numeric"; }
-                label { "Cost at most " input type="number" id="cost" min="0" step="0.5" inputmode="decimal"; }
+                @for (id, label, step) in MORE {
+                    label { (label) " " input type="number" id=(id) min="0" step=(step) inputmode="decimal"; }
+                }
             }
             label { input type="checkbox" id="does"; " Only those that do the task" }
             label { input type="checkbox" id="front"; " Only those that no other beats" }

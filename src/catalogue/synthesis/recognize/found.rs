@@ -59,6 +59,8 @@ pub enum NoStructure {
 pub struct Recognized {
     /// The structure.
     pub structure: PairStructure,
+    /// How many sides there are: of three, which are alike, the structure is that of two.
+    pub sides: usize,
     /// The names of each link: several where they are one in the plane.
     pub names: Vec<Vec<String>>,
     /// What it is beside that: flat faces stand in it as slots where slides are between links that other slides join already.

@@ -68,6 +68,7 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
             chain: PairChain::new(4, pairs.map(joint)),
             roles,
         },
+        sides: 2,
         names: links.map(|l| vec![m.links[l].id.clone()]).into(),
         made_as: MadeAs {
             threaded: true,

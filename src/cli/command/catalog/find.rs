@@ -2,7 +2,7 @@
 
 use super::look::open;
 use crate::catalog::find::entries;
-use crate::catalog::neighbours::neighbours;
+use crate::catalog::neighbours::{Neighbours, neighbours};
 use crate::cli::done::Done;
 use crate::cli::option::load;
 use crate::cli::option::named::File;
@@ -32,7 +32,7 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     let m = load::mechanism(&a.file.file)?;
     let found = recognize(&m).with_context(|| {
         format!(
-            "{}: not a structure of two jaws that links, hinges, slides, gears and slots make",
+            "{}: not a structure of two jaws, or of three with sides alike, that links, hinges, slides, gears and slots make",
             a.file.file
         )
     })?;
@@ -41,8 +41,12 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     let essential = found.structure.part(&part);
     let known = store.map(|s| -> anyhow::Result<InCatalogue> {
         Ok(InCatalogue {
-            entries: entries(&s, &essential)?,
-            neighbours: neighbours(&s, &essential)?,
+            entries: entries(&s, &essential, found.sides)?,
+            // Those of three jaws are not compared.
+            neighbours: match found.sides {
+                2 => neighbours(&s, &essential)?,
+                _ => Neighbours::default(),
+            },
         })
     });
     let data = FoundData::new(&found, &part, known.transpose()?);

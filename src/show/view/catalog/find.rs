@@ -33,6 +33,8 @@ struct EntryData {
 pub struct FoundData {
     /// The same for two mechanisms exactly where their structures are the same.
     name: String,
+    /// How many sides there are; of three what follows is of two.
+    sides: usize,
     links: usize,
     hinges: usize,
     slides: usize,
@@ -100,6 +102,7 @@ impl FoundData {
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
+            sides: found.sides,
             links: chain.links(),
             hinges: chain.count(PairKind::Hinge),
             slides: kinds.slides,
@@ -183,6 +186,9 @@ pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
         d.links,
         pairs.into_iter().flatten().join(", ")
     );
+    if d.sides > 2 {
+        out += "It has three sides that are alike: all this is of two of them.\n";
+    }
     out += &format!("Structure: {}\n", d.name);
     out += &motion(d);
     for classic in &d.classics {

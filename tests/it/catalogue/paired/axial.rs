@@ -106,6 +106,46 @@ fn well_known_schemes_have_three_jaws() {
     );
 }
 
+/// Three sides that are alike are found by two of them, in a plane or round an axis, with the catalogue's own entry.
+#[test]
+fn sides_of_three_jaws_are_found() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "three.db");
+    ok(&[
+        "catalog",
+        "build",
+        "--classics",
+        "--jaws",
+        "3",
+        "--ideas",
+        "0",
+        "--quiet",
+        "-o",
+        &file,
+    ]);
+    let all = rows(
+        &file,
+        "SELECT structure, group_concat(id) AS ids FROM classics GROUP BY structure",
+    );
+    assert_eq!(all.len(), 21);
+    for row in &all {
+        let id = row["structure"].as_str().unwrap();
+        let toml = at(&folder, "chuck.toml");
+        ok(&["catalog", "export", &file, id, "-o", &toml]);
+        let found = ok(&["catalog", "find", &toml, "--in", &file]);
+        assert!(
+            found.contains("three sides") && found.contains(id),
+            "{id}: {found}"
+        );
+        for known in row["ids"].as_str().unwrap().split(',') {
+            assert!(
+                found.contains(&format!("Known as {known}:")),
+                "{known}: {found}"
+            );
+        }
+    }
+}
+
 fn first(file: &str, scheme: &str) -> String {
     let sql = format!("SELECT structure FROM classics WHERE id = '{scheme}'");
     let found = rows(file, &sql);

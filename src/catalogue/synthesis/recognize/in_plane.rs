@@ -1,0 +1,170 @@
+//! What joints make in their plane: links that are one there, and pairs between them.
+
+use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, ordered};
+use crate::chains::pairs::kind::PairKind;
+use crate::model::coupling::Coupling;
+use crate::model::id::{JointId, LinkId, StateId};
+use crate::model::mechanism::{Joint, Mechanism};
+use crate::synthesis::recognize::found::NoStructure;
+use crate::synthesis::recognize::motion_plane::MotionPlane;
+use itertools::Itertools;
+use petgraph::unionfind::UnionFind;
+
+/// What each joint is in the plane, and which links do not move against each other there.
+fn kinds_of(
+    m: &Mechanism,
+    plane: &MotionPlane,
+    present: &[JointId],
+) -> Result<(Vec<Option<PairKind>>, UnionFind<usize>), NoStructure> {
+    let mut kinds = Vec::with_capacity(present.len());
+    let mut merged = UnionFind::new(m.links.len());
+    for &j in present {
+        let joint = &m.joints[j];
+        let kind = plane.kind(joint)?;
+        if kind.is_none() {
+            let [a, b] = joint.links.map(LinkId::index);
+            merged.union(a, b);
+        }
+        kinds.push(kind);
+    }
+    Ok((kinds, merged))
+}
+
+/// What some joints make in their plane.
+pub(super) struct InPlane<'a> {
+    m: &'a Mechanism,
+    present: &'a [JointId],
+    pub(super) plane: MotionPlane,
+    /// The links that are one there, by the names they have.
+    pub(super) names: Vec<Vec<String>>,
+    /// Of each link the one of these that it is, where it is any.
+    body: Vec<Option<usize>>,
+    pub(super) joints: Vec<PairJoint>,
+    pub(super) frame: usize,
+    /// The links of the drive.
+    pub(super) input: [usize; 2],
+    pub(super) flat: bool,
+}
+
+impl<'a> InPlane<'a> {
+    pub(super) fn new(
+        m: &'a Mechanism,
+        present: &'a [JointId],
+    ) -> Result<InPlane<'a>, NoStructure> {
+        let plane = MotionPlane::new(m, present)?;
+        let (kinds, merged) = kinds_of(m, &plane, present)?;
+        let used = present.iter().flat_map(|&j| m.joints[j].links);
+        let bodies = used.map(|l| merged.find(l.index())).unique().collect_vec();
+        let body = |l: LinkId| bodies.iter().position(|&b| b == merged.find(l.index()));
+        let ends = |j: JointId| ordered(m.joints[j].links.map(|l| body(l).unwrap_or(0)));
+        if !(3..=MOST_LINKS).contains(&bodies.len()) {
+            return Err(NoStructure::Links(bodies.len()));
+        }
+        let names = bodies.iter().map(|&b| names_of(m, &merged, b));
+        let names = names.collect_vec();
+        let moving = present.iter().zip(kinds);
+        let moving = moving.filter_map(|(&j, pair)| Some((ends(j), pair?)));
+        let mut joints = moving.collect_vec();
+        for coupling in m.couplings_in(StateId::FREE) {
+            if !coupling.ends.iter().all(|e| present.contains(&e.joint)) {
+                continue;
+            }
+            let gears = geared(coupling, ends);
+            let gears = gears.ok_or_else(|| NoStructure::Coupling(coupling.name(m)))?;
+            joints.push((gears, PairKind::Gear));
+        }
+        no_others_twice(&joints, &names)?;
+        let frame = body(m.frame()).unwrap_or(0);
+        let driven = present.iter().filter(|&&j| m.joints[j].drive);
+        let driven = driven.map(|&j| ends(j)).collect_vec();
+        let is_guide = |links: &[usize; 2]| links.contains(&frame) || driven.contains(links);
+        let (joints, flat) = faces_as_slots(bodies.len(), joints, is_guide);
+        Ok(InPlane {
+            body: m.link_ids().map(body).collect(),
+            input: input(&joints, &driven)?,
+            plane,
+            m,
+            present,
+            names,
+            joints,
+            frame,
+            flat,
+        })
+    }
+
+    pub(super) fn body(&self, link: LinkId) -> Option<usize> {
+        self.body[link.index()]
+    }
+
+    /// The joint of the frame with a link, where there is one.
+    pub(super) fn at_frame(&self, link: usize) -> Option<&'a Joint> {
+        let ends = |j: &Joint| ordered(j.links.map(|l| self.body(l).unwrap_or(0)));
+        let all = self.present.iter().map(|&j| &self.m.joints[j]);
+        let mut all = all.filter(|j| ends(j) == ordered([self.frame, link]));
+        all.next()
+    }
+}
+
+/// What the links are called that are one in the plane.
+fn names_of(m: &Mechanism, merged: &UnionFind<usize>, body: usize) -> Vec<String> {
+    let own = m.links_with_ids();
+    let own = own.filter(|(l, _)| merged.find(l.index()) == body);
+    own.map(|(_, link)| link.id.clone()).collect()
+}
+
+/// Nothing but two slots is between two links beside another joint.
+fn no_others_twice(
+    joints: &[([usize; 2], PairKind)],
+    names: &[Vec<String>],
+) -> Result<(), NoStructure> {
+    let are_slots = |links: &[usize; 2]| {
+        let between = joints.iter().filter(|j| j.0 == *links);
+        between.map(|j| j.1).eq([PairKind::Slot; 2])
+    };
+    let mut twice = joints.iter().duplicates_by(|j| j.0).map(|j| j.0);
+    match twice.find(|links| !are_slots(links)) {
+        None => Ok(()),
+        Some(links) => {
+            let [a, b] = links.map(|l| names[l].join(" "));
+            Err(NoStructure::Twice(a, b))
+        }
+    }
+}
+
+/// Joints with slots in the place of flat faces, the slides between links that others join already, guides before others; and whether
+/// there are any.
+fn faces_as_slots(
+    links: usize,
+    joints: Vec<([usize; 2], PairKind)>,
+    is_guide: impl Fn(&[usize; 2]) -> bool,
+) -> (Vec<PairJoint>, bool) {
+    let mut together = UnionFind::<usize>::new(links);
+    let mut flat = false;
+    let mut one = |(links, mut pair): ([usize; 2], PairKind)| {
+        if pair == PairKind::Slide && !together.union(links[0], links[1]) {
+            pair = PairKind::Slot;
+            flat = true;
+        }
+        PairJoint { links, pair }
+    };
+    let (guides, others): (Vec<_>, Vec<_>) = joints.into_iter().partition(|j| is_guide(&j.0));
+    let all = guides.into_iter().chain(others).map(&mut one).collect();
+    (all, flat)
+}
+
+/// The links that a coupling gears: those of its two joints but the one that both have.
+fn geared(coupling: &Coupling, ends: impl Fn(JointId) -> [usize; 2]) -> Option<[usize; 2]> {
+    let [a, b] = [0, 1].map(|i| ends(coupling.ends[i].joint));
+    let carrier = a.into_iter().find(|l| b.contains(l))?;
+    let other = |links: [usize; 2]| links.into_iter().find(|l| *l != carrier);
+    let (u, v) = (other(a)?, other(b)?);
+    (u != v).then(|| ordered([u, v]))
+}
+
+fn input(joints: &[PairJoint], driven: &[[usize; 2]]) -> Result<[usize; 2], NoStructure> {
+    let lower = |links| joints.iter().any(|j| j.links == links && j.pair.is_lower());
+    match driven[..] {
+        [one] if lower(one) => Ok(one),
+        _ => Err(NoStructure::Drives(driven.len())),
+    }
+}

@@ -1,0 +1,148 @@
+//! The plane in which joints move, and what each of them is there.
+
+use crate::chains::pairs::kind::PairKind;
+use crate::closure::twist::FrameValues;
+use crate::geom::exact::ExactField;
+use crate::geom::scalars::Scalars;
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::id::JointId;
+use crate::model::mechanism::{Joint, Mechanism, Mode};
+use crate::rank::exact::field::exact_field;
+use crate::synthesis::recognize::found::NoStructure;
+use itertools::Itertools;
+
+/// The plane of motion, with the field its numbers are in.
+pub(super) struct MotionPlane {
+    exact: ExactField,
+    normal: [Residue; 3],
+}
+
+impl MotionPlane {
+    pub(super) fn new(m: &Mechanism, present: &[JointId]) -> Result<MotionPlane, NoStructure> {
+        let exact = exact_field(m, 0)?;
+        if let Mode::Planar { normal } = &m.mode {
+            let normal = exact.eval3(normal)?;
+            return Ok(MotionPlane { exact, normal });
+        }
+        // The axis about which the most joints turn or across which they slide.
+        let mut axes = Vec::new();
+        let mut ways = Vec::new();
+        for &j in present {
+            let joint = &m.joints[j];
+            let frame = FrameValues::new(&exact, &joint.frame)?;
+            for freedom in joint.joint_type.freedoms() {
+                let [x, y, z, a, b, c] = frame.twist(&exact, *freedom);
+                if freedom.turns() {
+                    axes.push([x, y, z]);
+                } else {
+                    ways.push([a, b, c]);
+                }
+            }
+        }
+        // Where nothing turns, wedges alone, what is square to two slides.
+        if axes.is_empty() {
+            let two = ways.iter().tuple_combinations();
+            axes = two.map(|(a, b)| exact.cross(*a, *b)).collect();
+            let zero = exact.field().zero();
+            axes.retain(|n| n.iter().any(|x| *x != zero));
+        }
+        let mut best: Option<(usize, [Residue; 3])> = None;
+        let normal = [exact.field().zero(); 3];
+        let mut plane = MotionPlane { exact, normal };
+        for normal in axes {
+            plane.normal = normal;
+            let moving = plane.moving(m, present)?;
+            if best.is_none_or(|(most, _)| moving > most) {
+                best = Some((moving, normal));
+            }
+        }
+        plane.normal = best.ok_or(NoStructure::NoPlane)?.1;
+        Ok(plane)
+    }
+
+    /// Whether two joints are hinges in the plane, at one place there.
+    pub(super) fn are_on_one_pin(&self, joints: [Option<&Joint>; 2]) -> Result<bool, NoStructure> {
+        let [Some(a), Some(b)] = joints else {
+            return Ok(false);
+        };
+        let joints = [a, b];
+        let kinds = [self.kind(joints[0])?, self.kind(joints[1])?];
+        let [a, b] = joints.map(|j| FrameValues::new(&self.exact, &j.frame));
+        let (a, b) = (a?.point, b?.point);
+        let apart = [0, 1, 2].map(|k| self.exact.field().sub(a[k], b[k]));
+        let zero = self.exact.field().zero();
+        let along = self.exact.cross(apart, self.normal) == [zero; 3];
+        Ok(along && kinds == [Some(PairKind::Hinge); 2])
+    }
+
+    /// How many joints are of a kind in the plane.
+    fn moving(&self, m: &Mechanism, present: &[JointId]) -> Result<usize, NoStructure> {
+        let mut out = 0;
+        for &j in present {
+            match self.kind(&m.joints[j]) {
+                Ok(kind) => out += usize::from(kind.is_some()),
+                Err(NoStructure::Kind { .. }) => {}
+                Err(e) => return Err(e),
+            }
+        }
+        Ok(out)
+    }
+
+    fn span(&self, twists: impl IntoIterator<Item = [Residue; 6]>) -> Echelon {
+        let mut out = Echelon::new(self.exact.field());
+        for twist in twists {
+            out.insert(&twist);
+        }
+        out
+    }
+
+    /// What a joint is in the plane; nothing where it does not move there.
+    pub(super) fn kind(&self, joint: &Joint) -> Result<Option<PairKind>, NoStructure> {
+        let frame = FrameValues::new(&self.exact, &joint.frame)?;
+        let freedoms = joint.joint_type.freedoms();
+        let twists = freedoms.iter().map(|&f| frame.twist(&self.exact, f));
+        let twists = twists.collect_vec();
+        // How much of the joint's motions is in a space: dimensions add up to those of the sum and of what both have.
+        let own = self.span(twists.iter().copied()).rank();
+        let shared = |space: &[[Residue; 6]]| {
+            let both = twists.iter().chain(space).copied();
+            own + self.span(space.iter().copied()).rank() - self.span(both).rank()
+        };
+        let slides = self.slides();
+        let turn = {
+            let [x, y, z] = self.normal;
+            let p = frame.point;
+            let [a, b, c] = self.exact.cross(p, self.normal);
+            [x, y, z, a, b, c]
+        };
+        let all = slides.into_iter().chain([turn]).collect_vec();
+        let slides = shared(&slides);
+        let turns = shared(&all) - slides;
+        match (turns, slides) {
+            (0, 0) => Ok(None),
+            (1, 0) => Ok(Some(PairKind::Hinge)),
+            (0, 1) => Ok(Some(PairKind::Slide)),
+            (1, 1) => Ok(Some(PairKind::Slot)),
+            _ => Err(NoStructure::Kind {
+                joint: joint.id.clone(),
+                turns,
+                slides,
+            }),
+        }
+    }
+
+    /// Two slides across the normal.
+    fn slides(&self) -> [[Residue; 6]; 2] {
+        let zero = self.exact.field().zero();
+        let one = self.exact.field().one();
+        let units = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        let across = units.map(|u| self.exact.cross(self.normal, u));
+        let independent = across.into_iter().tuple_combinations().find(|&(a, b)| {
+            let wide = |[x, y, z]: [Residue; 3]| [zero, zero, zero, x, y, z];
+            self.span([wide(a), wide(b)]).rank() == 2
+        });
+        let (a, b) = independent.unwrap_or((units[0], units[1]));
+        [a, b].map(|[x, y, z]| [zero, zero, zero, x, y, z])
+    }
+}

@@ -1,0 +1,98 @@
+//! Three sides that are alike, each in one plane with frame and driver or in a plane of its own: their structure is that of two of them.
+
+use crate::chains::pairs::chain::{Joint as PairJoint, PairChain, ordered};
+use crate::chains::pairs::classics::MadeAs;
+use crate::chains::pairs::roles::PairRoles;
+use crate::chains::pairs::structure::PairStructure;
+use crate::model::id::{JointId, LinkId, StateId};
+use crate::model::mechanism::{Mechanism, Role};
+use crate::synthesis::recognize::found::{NoStructure, Recognized};
+use crate::synthesis::recognize::in_plane::InPlane;
+use itertools::Itertools;
+use petgraph::unionfind::UnionFind;
+
+/// The structure of two sides of a gripper of three; nothing of one with other jaws than three.
+///
+/// # Errors
+/// Where a side has no structure, or they are not alike.
+pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructure> {
+    let jaws = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
+    let jaws = jaws.map(|(l, _)| l).collect_vec();
+    if jaws.len() != 3 {
+        return Ok(None);
+    }
+    let all = m.joints_in(StateId::FREE).collect_vec();
+    let driven = all.iter().filter(|&&j| m.joints[j].drive);
+    let Some(drive) = driven.exactly_one().ok().map(|&j| &m.joints[j]) else {
+        return Err(NoStructure::Jaws(3));
+    };
+    let once = |l: LinkId| l == m.frame() || drive.links.contains(&l);
+    let mut parts = UnionFind::<usize>::new(m.links.len());
+    for &j in &all {
+        let [a, b] = m.joints[j].links;
+        if !once(a) && !once(b) {
+            parts.union(a.index(), b.index());
+        }
+    }
+    let side = |jaw: LinkId| -> Result<Recognized, NoStructure> {
+        let part = parts.find(jaw.index());
+        let own = |l: &LinkId| once(*l) || parts.find(l.index()) == part;
+        let present = all.iter().copied();
+        let present = present.filter(|&j| m.joints[j].links.iter().all(own));
+        twice(m, &present.collect_vec(), jaw, once)
+    };
+    let found = jaws.iter().map(|&jaw| side(jaw));
+    let found: Vec<Recognized> = found.collect::<Result<_, _>>()?;
+    let apart = jaws.iter().map(|j| parts.find(j.index())).all_unique();
+    let mut alike = found.iter().map(|f| (f.structure.key(), f.made_as));
+    if !apart || !alike.all_equal() {
+        return Err(NoStructure::Jaws(3));
+    }
+    Ok(found.into_iter().next())
+}
+
+/// The structure of a side with its image.
+fn twice(
+    m: &Mechanism,
+    present: &[JointId],
+    jaw: LinkId,
+    once: impl Fn(LinkId) -> bool,
+) -> Result<Recognized, NoStructure> {
+    let one = InPlane::new(m, present)?;
+    let stands_once = m.link_ids().filter(|l| once(*l));
+    let stands_once = stands_once.filter_map(|l| one.body(l)).collect_vec();
+    let links = one.names.len();
+    let side = (0..links)
+        .filter(|l| !stands_once.contains(l))
+        .collect_vec();
+    let image = |l: usize| {
+        let at = side.iter().position(|&s| s == l);
+        at.map_or(l, |at| links + at)
+    };
+    let carried = |j: &PairJoint| PairJoint {
+        links: ordered(j.links.map(image)),
+        pair: j.pair,
+    };
+    let images = one.joints.iter().map(carried);
+    let images = images.filter(|j| !one.joints.contains(j)).collect_vec();
+    let joints = one.joints.iter().copied().chain(images);
+    let jaw = one.body(jaw).filter(|j| side.contains(j));
+    let jaw = jaw.ok_or(NoStructure::Jaws(3))?;
+    let names = side.iter().map(|&l| one.names[l].clone());
+    Ok(Recognized {
+        structure: PairStructure {
+            chain: PairChain::new(links + side.len(), joints),
+            roles: PairRoles {
+                frame: one.frame,
+                input: one.input,
+                jaws: ordered([jaw, image(jaw)]),
+            },
+        },
+        made_as: MadeAs {
+            flat: one.flat,
+            ..MadeAs::default()
+        },
+        sides: 3,
+        names: one.names.iter().cloned().chain(names).collect(),
+    })
+}
