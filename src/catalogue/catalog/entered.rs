@@ -136,6 +136,8 @@ impl Entered for ThreefoldStructure {
         let chain = self.chain();
         let [base, driver] = self.two.drive();
         let link = |l: usize| self.link(l, 0).unwrap_or(0);
+        let flat = self.two.flat_slots();
+        let flat = flat.iter().map(|j| self.copies(j)).sum();
         StructureColumns {
             id: self.id(),
             name: self.name(),
@@ -150,7 +152,7 @@ impl Entered for ThreefoldStructure {
             parallel: self.two.form.parallel,
             pairs: Some(PairColumns {
                 code: chain.code(),
-                kinds: Kinds::of(&chain),
+                kinds: Kinds::of(&chain).with_flat(flat),
                 driven_from: link(base),
             }),
             classics: classics_of(&self.two.structure.key(), self.two.made_as()).collect(),

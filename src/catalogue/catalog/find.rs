@@ -3,13 +3,15 @@
 use crate::catalog::store::{Store, StoreError};
 use crate::chains::graph6;
 use crate::chains::pairs::chain::{PairChain, ordered};
+use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
+use itertools::Itertools;
 use serde_json::Value;
 
 /// A structure of two jaws, its id and form first.
 const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL), \
-     iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin', NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
+     iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin:' || replace(substr(name, instr(name, ' pin')), ' pin', ' '), NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
      code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.
@@ -36,6 +38,7 @@ pub fn entries(
     store: &Store,
     structure: &PairStructure,
     sides: usize,
+    made_as: MadeAs,
 ) -> Result<Vec<Entry>, StoreError> {
     if sides == 3 {
         let (_, rows) = store.query(THREEFOLD, Some(&structure.name()))?;
@@ -45,7 +48,14 @@ pub fn entries(
     let links = structure.chain.links().to_string();
     let (_, rows) = store.query(STRUCTURES, Some(&links))?;
     let same = |row: &&Vec<Value>| read(row).is_some_and(|s| s.key() == key);
-    Ok(rows.iter().filter(same).map(|r| Entry::new(r)).collect())
+    let found = rows.iter().filter(same).map(|r| Entry::new(r));
+    // A screw is no pinion; other forms of the same structure are told after those made alike.
+    let alike = found.filter(|e| e.has("threaded") == made_as.threaded);
+    let other = |e: &Entry| {
+        let pins = e.has("on one pin") != made_as.jaws_on_one_pin;
+        pins || e.has("flat") != made_as.flat
+    };
+    Ok(alike.sorted_by_key(other).collect())
 }
 
 impl Entry {
@@ -56,6 +66,10 @@ impl Entry {
             id: word(&row[0]),
             form: word(&row[1]),
         }
+    }
+
+    fn has(&self, word: &str) -> bool {
+        self.form.contains(word)
     }
 
     pub(super) fn is_symmetric(&self) -> bool {

@@ -162,7 +162,8 @@ impl Spec {
     pub fn links(&self) -> Result<RangeInclusive<usize>, SpecError> {
         let wrong = || SpecError::Links(self.links.clone());
         let all = range(&self.links).map_err(|_| wrong())?;
-        let known = *all.start() >= 4 && *all.end() <= MOST_LINKS;
+        let least = if self.pairs.is_empty() { 4 } else { 3 };
+        let known = *all.start() >= least && *all.end() <= MOST_LINKS;
         let some = known && all.clone().any(|n| n % 2 == 0 || !self.pairs.is_empty());
         let paired = !self.pairs.is_empty() || self.one_pin()? != Some(false);
         if some && self.jaws == 2 && paired && *all.end() > MOST_PAIRED {
@@ -346,6 +347,12 @@ impl Spec {
             return Err(SpecError::NoLoad);
         }
         self.check_task()?;
+        if self.jaws == 3 && self.one_pin()? != Some(false) {
+            return Err(SpecError::TwoJaws("one_pin"));
+        }
+        if self.jaws == 3 && self.generic_pairs {
+            return Err(SpecError::TwoJaws("generic_pairs"));
+        }
         self.links()?;
         self.forms()?;
         if !self.pairs()?.is_empty() && !self.has_paired_forms()? {

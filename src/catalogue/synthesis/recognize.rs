@@ -21,7 +21,7 @@ use found::jaws;
 use in_plane::InPlane;
 use itertools::Itertools;
 use sides::three_sides;
-use threads::screw_with_nuts;
+use threads::{is_thread, screw_with_nuts};
 
 /// The structure of a mechanism in its free state.
 ///
@@ -34,6 +34,10 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     if let Some(found) = screw_with_nuts(m)? {
         return Ok(found);
     }
+    let mut joints = m.joints_in(StateId::FREE).map(|j| &m.joints[j]);
+    if let Some(thread) = joints.find(|j| is_thread(j)) {
+        return Err(NoStructure::Thread(thread.id.clone()));
+    }
     three_sides(m)?.map_or_else(|| in_a_plane(m), Ok)
 }
 
@@ -42,20 +46,20 @@ fn in_a_plane(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let present = m.joints_in(StateId::FREE).collect_vec();
     let found = InPlane::new(m, &present)?;
     let roles = PairRoles {
-        frame: found.frame,
-        input: found.input,
+        frame: found.links.frame,
+        input: found.links.input,
         jaws: jaws(m, |l| found.body(l))?,
     };
     let at_frame = roles.jaws.map(|jaw| found.at_frame(jaw));
     let made_as = MadeAs {
-        flat: found.flat,
+        flat: found.links.flat,
         jaws_on_one_pin: found.plane.are_on_one_pin(at_frame)?,
         threaded: false,
     };
-    let chain = PairChain::new(found.names.len(), found.joints);
+    let chain = PairChain::new(found.links.names.len(), found.links.joints);
     Ok(Recognized {
         structure: PairStructure { chain, roles },
-        names: found.names,
+        names: found.links.names,
         sides: 2,
         made_as,
     })

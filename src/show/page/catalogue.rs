@@ -144,7 +144,7 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
                 header {
                     h1 { (title) }
                     p.lead {
-                        "Kinematic chains with a frame, a driver and jaws, each laid out in a plane and searched for the redesigns "
+                        "Kinematic chains with a frame, a driver and jaws, each laid out and searched for the redesigns "
                         "without redundant constraints. Counts are of all joint assignments; costs are per joint changed."
                     }
                     p.meta { (count) " grippers from " code { (file) } @if left_out > 0 { "; " (left_out) " structures have no layout" } }
@@ -186,6 +186,7 @@ fn filters() -> maud::Markup {
             label { "Links " select id="links" { option value="" { "all" } } }
             (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
             (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic"), ("drawn", "drawn")]))
+            (select("sides", "Number of jaws", &[("", "all"), ("2", "2"), ("3", "3")]))
             (select("jaws", "Jaws", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
             label { "Price at most " input type="number" id="price" min="0" step="0.5" inputmode="decimal"; }
             label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }

@@ -24,7 +24,8 @@ pub enum SpecError {
     },
     /// Links that are no range.
     #[error(
-        "links: {0:?} is not a range of even numbers from 4 to {MOST_LINKS}, such as 4..8: chains of mobility 1 have an even number of links"
+        "links: {0:?} is not a range of even numbers from 4 to {MOST_LINKS}, such as 4..8: chains of mobility 1 have an even number of links; \
+         with gears and slots any number from 3 to {MOST_PAIRED}"
     )]
     Links(String),
     /// Too many links for pairs.
@@ -53,6 +54,9 @@ pub enum SpecError {
         "workload: nothing acts on the gripper; give closing, or gravity with part or link_mass"
     )]
     NoLoad,
+    /// What structures of three jaws do not have.
+    #[error("{0}: of structures with two jaws alone")]
+    TwoJaws(&'static str),
     /// A part that is wider than the widest.
     #[error("narrowest must be less than widest by a millimetre at least")]
     Widths,
@@ -69,7 +73,9 @@ impl SpecError {
     #[must_use]
     pub fn key(&self) -> Option<&'static str> {
         match self {
-            SpecError::Word { what, .. } | SpecError::Range { what, .. } => Some(what),
+            SpecError::Word { what, .. }
+            | SpecError::Range { what, .. }
+            | SpecError::TwoJaws(what) => Some(what),
             SpecError::Links(_) | SpecError::PairedLinks => Some("links"),
             SpecError::PairedForms => Some("pairs"),
             SpecError::NoLoad => Some("closing"),

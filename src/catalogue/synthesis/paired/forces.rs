@@ -125,8 +125,9 @@ fn figures(
                 PairKind::Slot => force * rows.sliding(i).abs(),
                 // Where pitch circles touch they roll.
                 PairKind::Gear if rules.threaded => {
-                    let round = friction.pin_radius * (u.turning - v.turning);
-                    force * slid().hypot(round)
+                    // Flanks press and slide aslant, by the angle of the thread.
+                    let round = friction.pin_radius * (u.turning - v.turning).abs();
+                    force * (round + slid() * slid() / round.max(1e-9))
                 }
                 PairKind::Gear | PairKind::TwoSlots => 0.0,
             };

@@ -315,9 +315,10 @@ fn search_entry(
         Symmetry::Mirror => (images, Vec::new()),
         _ => (Vec::new(), images.into_iter().map(Vec::from).collect()),
     };
+    let hinged = paired.has_free_hinges();
     SearchEntry {
-        options: menu.options.clone(),
-        unloading: menu.unloading.clone(),
+        options: menu.options.iter().filter(|_| hinged).cloned().collect(),
+        unloading: menu.unloading.iter().filter(|_| hinged).cloned().collect(),
         mirror,
         turn,
         ..SearchEntry::default()

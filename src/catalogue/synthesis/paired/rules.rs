@@ -60,7 +60,9 @@ impl Mesh {
 #[non_exhaustive]
 pub enum NoRules {
     /// A slot between links that change places.
-    #[error("a pin in a slot between links that change places is not its own image as it moves")]
+    #[error(
+        "a pin in a slot, or a flat face, between links that change places is not its own image as it moves"
+    )]
     SwappedSlot,
     /// A slot by half a turn onto itself.
     #[error("a pin at the centre of half a turn moves in no slot")]

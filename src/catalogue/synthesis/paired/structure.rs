@@ -319,6 +319,13 @@ impl PairedStructure {
         }
     }
 
+    /// Whether a hinge is not driven, so that something may be put in its place.
+    pub(super) fn has_free_hinges(&self) -> bool {
+        let joints = self.structure.chain.joints().into_iter();
+        let mut hinges = joints.filter(|j| j.pair == PairKind::Hinge);
+        hinges.any(|j| j.links != self.structure.roles.input)
+    }
+
     /// The slots that have flat faces.
     #[must_use]
     pub fn flat_slots(&self) -> Vec<Joint> {

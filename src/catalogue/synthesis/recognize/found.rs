@@ -42,14 +42,23 @@ pub enum NoStructure {
     #[error("the coupling {0} joins no two links by a third that carries both")]
     Coupling(String),
     /// Not one drive.
-    #[error("{0} joints are driven where one hinge or slide is to be: mark it with drive = true")]
+    #[error("{0} joints are driven where one is to be: mark it with drive = true")]
     Drives(usize),
+    /// A drive that is no hinge or slide.
+    #[error("the driven joint is no hinge and no slide in the plane of motion")]
+    DriveKind,
+    /// A thread of another screw than those known.
+    #[error(
+        "joint {0:?} is a thread: of screws those are known that are driven in the frame and have two nuts, which slide along them as \
+         jaws, with a right and a left thread of one lead"
+    )]
+    Thread(String),
     /// Not two jaws.
     #[error("{0} links are outputs where two jaws are to be: mark them with role = \"output\"")]
     Jaws(usize),
     /// Links too few or too many.
     #[error(
-        "{0} links are left that move against each other in one plane; structures have 3 to {MOST_LINKS}"
+        "links that move against each other in one plane: {0}; structures have 3 to {MOST_LINKS}"
     )]
     Links(usize),
 }

@@ -1,7 +1,8 @@
 //! What joints make in their plane: links that are one there, and pairs between them.
 
-use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, ordered};
+use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
 use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::motion::moves_throughout;
 use crate::model::coupling::Coupling;
 use crate::model::id::{JointId, LinkId, StateId};
 use crate::model::mechanism::{Joint, Mechanism};
@@ -35,9 +36,14 @@ pub(super) struct InPlane<'a> {
     m: &'a Mechanism,
     present: &'a [JointId],
     pub(super) plane: MotionPlane,
-    /// The links that are one there, by the names they have.
+    pub(super) links: PlaneLinks,
+}
+
+/// Links that are one in a plane, and pairs between them.
+pub(super) struct PlaneLinks {
+    /// The names that each has.
     pub(super) names: Vec<Vec<String>>,
-    /// Of each link the one of these that it is, where it is any.
+    /// Of each link of the mechanism the one of these that it is, where it is any.
     body: Vec<Option<usize>>,
     pub(super) joints: Vec<PairJoint>,
     pub(super) frame: usize,
@@ -46,13 +52,13 @@ pub(super) struct InPlane<'a> {
     pub(super) flat: bool,
 }
 
-impl<'a> InPlane<'a> {
-    pub(super) fn new(
-        m: &'a Mechanism,
-        present: &'a [JointId],
-    ) -> Result<InPlane<'a>, NoStructure> {
-        let plane = MotionPlane::new(m, present)?;
-        let (kinds, merged) = kinds_of(m, &plane, present)?;
+impl PlaneLinks {
+    fn new(
+        m: &Mechanism,
+        present: &[JointId],
+        plane: &MotionPlane,
+    ) -> Result<PlaneLinks, NoStructure> {
+        let (kinds, merged) = kinds_of(m, plane, present)?;
         let used = present.iter().flat_map(|&j| m.joints[j].links);
         let bodies = used.map(|l| merged.find(l.index())).unique().collect_vec();
         let body = |l: LinkId| bodies.iter().position(|&b| b == merged.find(l.index()));
@@ -79,12 +85,9 @@ impl<'a> InPlane<'a> {
         let driven = driven.map(|&j| ends(j)).collect_vec();
         let is_guide = |links: &[usize; 2]| links.contains(&frame) || driven.contains(links);
         let (joints, flat) = faces_as_slots(bodies.len(), joints, is_guide);
-        Ok(InPlane {
+        Ok(PlaneLinks {
             body: m.link_ids().map(body).collect(),
             input: input(&joints, &driven)?,
-            plane,
-            m,
-            present,
             names,
             joints,
             frame,
@@ -92,15 +95,48 @@ impl<'a> InPlane<'a> {
         })
     }
 
+    /// Whether it moves as structures that are counted do.
+    fn moves(&self) -> bool {
+        let chain = PairChain::new(self.names.len(), self.joints.iter().copied());
+        chain.has_carriers() && moves_throughout(&chain)
+    }
+}
+
+impl<'a> InPlane<'a> {
+    /// In the plane in which the most joints move, of those in which all moves together, where it does in any.
+    pub(super) fn new(
+        m: &'a Mechanism,
+        present: &'a [JointId],
+    ) -> Result<InPlane<'a>, NoStructure> {
+        let (mut plane, normals) = MotionPlane::all(m, present)?;
+        let first = *normals.first().ok_or(NoStructure::NoPlane)?;
+        let mut moving = None;
+        for normal in normals {
+            plane.turn_to(normal);
+            let links = PlaneLinks::new(m, present, &plane);
+            if links.is_ok_and(|l| l.moves()) {
+                moving = Some(normal);
+                break;
+            }
+        }
+        plane.turn_to(moving.unwrap_or(first));
+        Ok(InPlane {
+            links: PlaneLinks::new(m, present, &plane)?,
+            plane,
+            m,
+            present,
+        })
+    }
+
     pub(super) fn body(&self, link: LinkId) -> Option<usize> {
-        self.body[link.index()]
+        self.links.body[link.index()]
     }
 
     /// The joint of the frame with a link, where there is one.
     pub(super) fn at_frame(&self, link: usize) -> Option<&'a Joint> {
         let ends = |j: &Joint| ordered(j.links.map(|l| self.body(l).unwrap_or(0)));
         let all = self.present.iter().map(|&j| &self.m.joints[j]);
-        let mut all = all.filter(|j| ends(j) == ordered([self.frame, link]));
+        let mut all = all.filter(|j| ends(j) == ordered([self.links.frame, link]));
         all.next()
     }
 }
@@ -165,6 +201,7 @@ fn input(joints: &[PairJoint], driven: &[[usize; 2]]) -> Result<[usize; 2], NoSt
     let lower = |links| joints.iter().any(|j| j.links == links && j.pair.is_lower());
     match driven[..] {
         [one] if lower(one) => Ok(one),
+        [_] => Err(NoStructure::DriveKind),
         _ => Err(NoStructure::Drives(driven.len())),
     }
 }

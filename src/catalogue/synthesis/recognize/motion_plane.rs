@@ -11,6 +11,7 @@ use crate::model::mechanism::{Joint, Mechanism, Mode};
 use crate::rank::exact::field::exact_field;
 use crate::synthesis::recognize::found::NoStructure;
 use itertools::Itertools;
+use std::cmp::Reverse;
 
 /// The plane of motion, with the field its numbers are in.
 pub(super) struct MotionPlane {
@@ -19,13 +20,16 @@ pub(super) struct MotionPlane {
 }
 
 impl MotionPlane {
-    pub(super) fn new(m: &Mechanism, present: &[JointId]) -> Result<MotionPlane, NoStructure> {
+    /// The planes in which some joints may move, those first in which the most do: across the axes about which they turn.
+    pub(super) fn all(
+        m: &Mechanism,
+        present: &[JointId],
+    ) -> Result<(MotionPlane, Vec<[Residue; 3]>), NoStructure> {
         let exact = exact_field(m, 0)?;
         if let Mode::Planar { normal } = &m.mode {
             let normal = exact.eval3(normal)?;
-            return Ok(MotionPlane { exact, normal });
+            return Ok((MotionPlane { exact, normal }, vec![normal]));
         }
-        // The axis about which the most joints turn or across which they slide.
         let mut axes = Vec::new();
         let mut ways = Vec::new();
         for &j in present {
@@ -40,25 +44,32 @@ impl MotionPlane {
                 }
             }
         }
-        // Where nothing turns, wedges alone, what is square to two slides.
-        if axes.is_empty() {
-            let two = ways.iter().tuple_combinations();
-            axes = two.map(|(a, b)| exact.cross(*a, *b)).collect();
-            let zero = exact.field().zero();
-            axes.retain(|n| n.iter().any(|x| *x != zero));
-        }
-        let mut best: Option<(usize, [Residue; 3])> = None;
-        let normal = [exact.field().zero(); 3];
-        let mut plane = MotionPlane { exact, normal };
-        for normal in axes {
-            plane.normal = normal;
-            let moving = plane.moving(m, present)?;
-            if best.is_none_or(|(most, _)| moving > most) {
-                best = Some((moving, normal));
+        // Wedges turn nowhere, or not in their plane: what is square to two slides.
+        let zero = [exact.field().zero(); 3];
+        let two = ways.iter().tuple_combinations();
+        axes.extend(two.map(|(a, b)| exact.cross(*a, *b)));
+        let mut distinct: Vec<[Residue; 3]> = Vec::new();
+        for axis in axes.into_iter().filter(|a| *a != zero) {
+            if distinct.iter().all(|d| exact.cross(*d, axis) != zero) {
+                distinct.push(axis);
             }
         }
-        plane.normal = best.ok_or(NoStructure::NoPlane)?.1;
-        Ok(plane)
+        let mut plane = MotionPlane {
+            exact,
+            normal: zero,
+        };
+        let mut counted = Vec::with_capacity(distinct.len());
+        for normal in distinct {
+            plane.normal = normal;
+            counted.push((plane.moving(m, present)?, normal));
+        }
+        counted.sort_by_key(|(moving, _)| Reverse(*moving));
+        Ok((plane, counted.into_iter().map(|(_, n)| n).collect()))
+    }
+
+    /// The same with another normal.
+    pub(super) fn turn_to(&mut self, normal: [Residue; 3]) {
+        self.normal = normal;
     }
 
     /// Whether two joints are hinges in the plane, at one place there.

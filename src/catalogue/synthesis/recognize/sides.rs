@@ -34,6 +34,13 @@ pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructu
             parts.union(a.index(), b.index());
         }
     }
+    for coupling in m.couplings_in(StateId::FREE) {
+        let links = coupling.ends.iter().flat_map(|e| m.joints[e.joint].links);
+        let own = links.filter(|l| !once(*l)).map(LinkId::index);
+        for (a, b) in own.tuple_windows() {
+            parts.union(a, b);
+        }
+    }
     let side = |jaw: LinkId| -> Result<Recognized, NoStructure> {
         let part = parts.find(jaw.index());
         let own = |l: &LinkId| once(*l) || parts.find(l.index()) == part;
@@ -61,7 +68,8 @@ fn twice(
     let one = InPlane::new(m, present)?;
     let stands_once = m.link_ids().filter(|l| once(*l));
     let stands_once = stands_once.filter_map(|l| one.body(l)).collect_vec();
-    let links = one.names.len();
+    let side_of = &one.links;
+    let links = side_of.names.len();
     let side = (0..links)
         .filter(|l| !stands_once.contains(l))
         .collect_vec();
@@ -73,26 +81,26 @@ fn twice(
         links: ordered(j.links.map(image)),
         pair: j.pair,
     };
-    let images = one.joints.iter().map(carried);
-    let images = images.filter(|j| !one.joints.contains(j)).collect_vec();
-    let joints = one.joints.iter().copied().chain(images);
+    let images = side_of.joints.iter().map(carried);
+    let images = images.filter(|j| !side_of.joints.contains(j)).collect_vec();
+    let joints = side_of.joints.iter().copied().chain(images);
     let jaw = one.body(jaw).filter(|j| side.contains(j));
     let jaw = jaw.ok_or(NoStructure::Jaws(3))?;
-    let names = side.iter().map(|&l| one.names[l].clone());
+    let names = side.iter().map(|&l| side_of.names[l].clone());
     Ok(Recognized {
         structure: PairStructure {
             chain: PairChain::new(links + side.len(), joints),
             roles: PairRoles {
-                frame: one.frame,
-                input: one.input,
+                frame: side_of.frame,
+                input: side_of.input,
                 jaws: ordered([jaw, image(jaw)]),
             },
         },
         made_as: MadeAs {
-            flat: one.flat,
+            flat: side_of.flat,
             ..MadeAs::default()
         },
         sides: 3,
-        names: one.names.iter().cloned().chain(names).collect(),
+        names: side_of.names.iter().cloned().chain(names).collect(),
     })
 }

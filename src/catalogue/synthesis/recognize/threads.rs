@@ -5,21 +5,87 @@ use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
+use crate::closure::twist::FrameValues;
+use crate::geom::exact::ExactField;
+use crate::geom::scalars::Scalars;
+use crate::linalg::modp::Residue;
 use crate::model::id::{LinkId, StateId};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, Mechanism};
+use crate::rank::exact::field::exact_field;
 use crate::synthesis::recognize::found::{NoStructure, Recognized, jaws};
 use itertools::Itertools;
 
-/// The structure of a screw that is driven in the frame with two jaws on its threads, which slide in the frame; nothing of any other
+/// Along the screw: which way it goes, where it is, and of a thread how far for a radian times the square of the direction's length.
+struct Axis {
+    way: [Residue; 3],
+    at: [Residue; 3],
+    pitch: Residue,
+}
+
+impl Axis {
+    fn of(
+        exact: &ExactField,
+        joint: &Joint,
+        is: impl Fn(Freedom) -> bool,
+    ) -> Result<Axis, NoStructure> {
+        let frame = FrameValues::new(exact, &joint.frame)?;
+        let mut freedoms = joint.joint_type.freedoms().iter().copied();
+        let freedom = freedoms.find(|f| is(*f)).unwrap_or(Freedom::Rz);
+        let [x, y, z, a, b, c] = frame.twist(exact, freedom);
+        let field = exact.field();
+        let along = |p: [Residue; 3], q: [Residue; 3]| {
+            let terms = p.into_iter().zip(q).map(|(p, q)| field.mul(p, q));
+            terms.fold(field.zero(), |sum, t| field.add(sum, t))
+        };
+        let slides = [x, y, z] == [field.zero(); 3];
+        Ok(Axis {
+            way: if slides { [a, b, c] } else { [x, y, z] },
+            at: frame.point,
+            pitch: along([x, y, z], [a, b, c]),
+        })
+    }
+
+    fn is_parallel(&self, exact: &ExactField, other: &Axis) -> bool {
+        exact.cross(self.way, other.way) == [exact.field().zero(); 3]
+    }
+
+    fn is_on(&self, exact: &ExactField, other: &Axis) -> bool {
+        let field = exact.field();
+        let apart = [0, 1, 2].map(|k| field.sub(self.at[k], other.at[k]));
+        self.is_parallel(exact, other) && exact.cross(apart, other.way) == [field.zero(); 3]
+    }
+}
+
+/// Whether two nuts that slide along a screw go opposite ways as it turns.
+fn go_apart(
+    m: &Mechanism,
+    bearing: &Joint,
+    threads: [&Joint; 2],
+    guides: [&Joint; 2],
+) -> Result<bool, NoStructure> {
+    let exact = exact_field(m, 0)?;
+    let screw = Axis::of(&exact, bearing, Freedom::turns)?;
+    let [a, b] = threads.map(|j| Axis::of(&exact, j, |f| f == Freedom::Screw));
+    let (a, b) = (a?, b?);
+    let zero = exact.field().zero();
+    let opposite = a.pitch != zero && exact.field().add(a.pitch, b.pitch) == zero;
+    let mut fits = opposite && a.is_on(&exact, &screw) && b.is_on(&exact, &screw);
+    for guide in guides {
+        let guide = Axis::of(&exact, guide, Freedom::slides)?;
+        fits &= guide.is_parallel(&exact, &screw);
+    }
+    Ok(fits)
+}
+
+/// The structure of a screw that is driven in the frame with two jaws on its threads, a right and a left one, which slide along it in the frame; nothing of any other
 /// mechanism.
 ///
 /// # Errors
 /// Where it has not two jaws.
 pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStructure> {
     let joints = m.joints_in(StateId::FREE).map(|j| &m.joints[j]);
-    let (threads, others): (Vec<&Joint>, Vec<&Joint>) =
-        joints.partition(|j| has(j, |f| f == Freedom::Screw));
+    let (threads, others): (Vec<&Joint>, Vec<&Joint>) = joints.partition(|j| is_thread(j));
     let [a, b] = threads[..] else {
         return Ok(None);
     };
@@ -38,11 +104,13 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
         let own = |j: &&Joint| j.links.contains(&frame) && j.links.contains(&link);
         others.iter().copied().filter(own).exactly_one().ok()
     };
-    let is_held = between(screw).is_some_and(|j| j.drive && has(j, Freedom::turns));
-    let are_guided = nuts
-        .iter()
-        .all(|&n| between(n).is_some_and(|j| has(j, Freedom::slides)));
-    if others.len() != 3 || !is_held || !are_guided {
+    let [Some(bearing), Some(one), Some(two)] = [screw, nuts[0], nuts[1]].map(between) else {
+        return Ok(None);
+    };
+    let guides = [one, two];
+    let is_driven = bearing.drive && has(bearing, Freedom::turns);
+    let fits = others.len() == 3 && is_driven && guides.iter().all(|j| has(j, Freedom::slides));
+    if !fits || !go_apart(m, bearing, [a, b], guides)? {
         return Ok(None);
     }
     let links = [frame, screw, nuts[0], nuts[1]];
@@ -75,6 +143,11 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
             ..MadeAs::default()
         },
     }))
+}
+
+/// Whether a joint is a thread.
+pub(super) fn is_thread(joint: &Joint) -> bool {
+    has(joint, |f| f == Freedom::Screw)
 }
 
 fn has(joint: &Joint, is: impl Fn(Freedom) -> bool) -> bool {

@@ -53,7 +53,7 @@ pub(in crate::cli) struct Build {
     #[arg(long, value_name = "WORD")]
     flat_faces: Option<String>,
     /// The well-known schemes alone, whatever their number of links, each as symmetric as it can be.
-    #[arg(long, conflicts_with_all = ["links", "pairs", "at_most"])]
+    #[arg(long, conflicts_with_all = ["links", "pairs", "at_most", "one_pin", "flat_faces", "generic_pairs"])]
     classics: bool,
     /// What may be put in place of a hinge.
     #[arg(long, value_name = "TYPES", value_delimiter = ',')]
@@ -173,11 +173,17 @@ impl Build {
 
 pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     let spec = a.spec(args.seed)?;
-    let mut store = Store::create(&a.output, &spec)?;
-    let there = store.ids()?;
     let part = a.shard.unwrap_or(Shard::WHOLE);
     let work = work(&spec, part)?;
     let all = work.count();
+    ensure!(
+        all > 0 || part != Shard::WHOLE,
+        "no structure is as asked with {} links: hinges on one pin are of mirror images with a slide, flat faces of slots between links \
+         that slides join, three sides of links that frame and driver alone join",
+        spec.links
+    );
+    let mut store = Store::create(&a.output, &spec)?;
+    let there = store.ids()?;
     interrupt::be_patient();
     let mut bar = Bar::new(args.quiet);
     let mut count = 0;

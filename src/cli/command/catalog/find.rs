@@ -41,7 +41,7 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     let essential = found.structure.part(&part);
     let known = store.map(|s| -> anyhow::Result<InCatalogue> {
         Ok(InCatalogue {
-            entries: entries(&s, &essential, found.sides)?,
+            entries: entries(&s, &essential, found.sides, found.made_as)?,
             // Those of three jaws are not compared.
             neighbours: match found.sides {
                 2 => neighbours(&s, &essential)?,

@@ -16,7 +16,8 @@ use super::listing::Listing;
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct PairArgs {
-    /// Chains with other pairs than hinges, too: slide, gear (or rack), slot (pin in a slot, cam, wedge).
+    /// Chains with other pairs than hinges, too: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins
+    /// in two slots between the same links).
     #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
     pairs: Vec<PairKind>,
     /// Pairs that are not hinges at most; with --up-to-symmetry a left and a right one count once.

@@ -31,7 +31,7 @@ function cardOf(c) {
   button.append(
     gripper(c, `Gripper ${c.drawn ? c.name : c.id}`),
     text('b', c.drawn ? c.name : c.id),
-    ...(c.classics ? [text('span', `known as ${c.classics}`)] : []),
+    ...(c.classics ? [text('span', `${c.jaw_c_motion ? 'with two jaws ' : ''}known as ${c.classics}`)] : []),
     text('span', `${c.links} links, ${formOf(c)}`),
     text('span', c.drawn ? c.description : `${c.jaw_c_motion ? 'three jaws' : 'jaws'} ${jawsOf(c)}, ${short(c.force_min)} ${unit(c)} at least`),
     text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
@@ -50,6 +50,7 @@ const FILTERS = {
   links: (c, v) => String(c.links) === v,
   input: (c, v) => c.input === v,
   symmetry: (c, v) => (c.drawn ? 'drawn' : c.symmetry) === v,
+  sides: (c, v) => !c.drawn && (c.jaw_c_motion ? '3' : '2') === v,
   jaws: (c, v) => !c.drawn && motions(c).every((m) => m === v),
   price: number((c, v) => c.price > 0 && c.price <= v),
   pin: number((c, v) => c.pin_force > 0 && c.pin_force <= v),

@@ -86,7 +86,7 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, PairCensus>) -> Vec<PairCou
 }
 
 const LEGEND: &str = "\
-All up to isomorphism; pairs of one freedom are hinges, slides and two slots between the same links, of two gear pairs (racks, too) and slots (pins in slots, cams, wedges).
+All up to isomorphism; hinges, slides and two slots between the same links leave one freedom, gear pairs (racks, too) and slots (pins in slots, cams, wedges) two.
 A chain has one motion in nearly all places, in which every two links move; a gear pair has a carrier.
 Columns: the input, a hinge or a slide, is at the frame or between two moving links; a jaw is one of its links (driven), or apart from it.
 Essential: no smaller moving part holds frame, input joint and jaws; what stands below counts these alone.

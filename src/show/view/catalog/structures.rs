@@ -214,7 +214,12 @@ fn pairs_text(d: &StructureData) -> String {
     let kinds = ["slide", "gear", "slot"];
     let some = kinds.iter().map(|k| (k, p(&format!("{k}s"))));
     let some = some.filter(|(_, n)| n != "0");
-    let words = some.map(|(kind, n)| plural_of(&n, kind)).join(", ");
+    let threaded = of(&d.structure)("name").ends_with(" threaded");
+    let word = |kind: &'static str| match kind {
+        "gear" if threaded => "nut",
+        _ => kind,
+    };
+    let words = some.map(|(kind, n)| plural_of(&n, word(kind))).join(", ");
     format!(" ({words})")
 }
 
