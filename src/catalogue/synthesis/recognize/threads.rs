@@ -16,6 +16,15 @@ use crate::rank::exact::field::exact_field;
 use crate::synthesis::recognize::found::{NoStructure, Recognized, jaws};
 use itertools::Itertools;
 
+/// What stands for a screw and two nuts in the frame: frame, screw, nuts.
+const PAIRS: [(usize, usize, PairKind); 5] = [
+    (0, 1, PairKind::Hinge),
+    (0, 2, PairKind::Slide),
+    (0, 3, PairKind::Slide),
+    (1, 2, PairKind::Gear),
+    (1, 3, PairKind::Gear),
+];
+
 /// Along the screw: which way it goes, where it is, and of a thread how far for a radian times the square of the direction's length.
 struct Axis {
     way: [Residue; 3],
@@ -119,13 +128,6 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
         links: [u, v],
         pair,
     };
-    let pairs = [
-        (0, 1, PairKind::Hinge),
-        (0, 2, PairKind::Slide),
-        (0, 3, PairKind::Slide),
-        (1, 2, PairKind::Gear),
-        (1, 3, PairKind::Gear),
-    ];
     let roles = PairRoles {
         frame: 0,
         input: [0, 1],
@@ -133,7 +135,7 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
     };
     Ok((roles.jaws == [2, 3]).then(|| Recognized {
         structure: PairStructure {
-            chain: PairChain::new(4, pairs.map(joint)),
+            chain: PairChain::new(4, PAIRS.map(joint)),
             roles,
         },
         sides: 2,

@@ -140,3 +140,179 @@ fn prices_and_actuators_are_as_by_hand() {
     ]);
     assert_eq!(asked.lines().count(), 2, "{asked}");
 }
+
+fn exported(folder: &tempfile::TempDir, scheme: &str, more: &[&str]) -> String {
+    let toml = at(folder, "gripper.toml");
+    let id = first_of(scheme);
+    ok(&[&["catalog", "export", known(), &id, "-o", &toml], more].concat());
+    toml
+}
+
+/// Thread and guides by hand: a nut pushes 1 N along the screw, its flanks slide aslant, and the guide holds the moment of the tip.
+#[test]
+fn a_screw_loses_by_its_thread_and_guides() {
+    let folder = tempdir().unwrap();
+    let toml = exported(&folder, "screw-two-nuts", &[]);
+    let m = ozols::from_toml(&std::fs::read_to_string(toml).unwrap()).unwrap();
+    let told = format!(
+        "SELECT * FROM grippers WHERE id = '{}'",
+        first_of("screw-two-nuts")
+    );
+    let row = &rows(known(), &told)[0];
+    // Of 25 mm each jaw, and a radian of the drive.
+    let pitch = 25.0 / number(row, "travel");
+    let screw = m.joints.iter().find(|j| j.drive).unwrap();
+    let arm = 120.0 - 1e3 * real(&screw.frame.point)[0];
+    let thread = 0.1 * (4.0 + pitch * pitch / 4.0);
+    let guide = 0.1 * 2.0 * arm / 40.0 * pitch;
+    let by_hand = pitch / (pitch + thread + guide);
+    assert!(
+        (number(row, "efficiency") - by_hand).abs() < 2e-4,
+        "{by_hand}: {row}"
+    );
+    assert!(
+        (number(row, "least_force") - 1e3 / (2.0 * pitch)).abs() < 0.1,
+        "{row}"
+    );
+}
+
+/// Nuts of one hand, of other leads, beside the screw or on guides aslant are no gripper of that name.
+#[test]
+fn what_looks_like_a_screw_is_told_from_one() {
+    let folder = tempdir().unwrap();
+    let toml = exported(&folder, "screw-two-nuts", &[]);
+    let text = std::fs::read_to_string(&toml).unwrap();
+    let other = at(&folder, "other.toml");
+    let with = |change: &dyn Fn(&mut toml::Table)| {
+        let mut file: toml::Table = text.parse().unwrap();
+        for joint in file["joint"].as_array_mut().unwrap() {
+            let joint = joint.as_table_mut().unwrap();
+            joint.remove("options");
+            if joint["id"].as_str().unwrap().contains("jaw-a") {
+                change(joint);
+            }
+        }
+        file.remove("search");
+        std::fs::write(&other, file.to_string()).unwrap();
+        crate::common::run(&["catalog", "find", &other])
+    };
+    let thread = |joint: &toml::Table| joint["type"].as_str() == Some("helical");
+    assert_eq!(with(&|_| ()).status.code(), Some(0));
+    let changes: [&dyn Fn(&mut toml::Table); 5] = [
+        &|j| {
+            let lead = j.get("lead").and_then(toml::Value::as_integer);
+            lead.map(|l| j.insert("lead".into(), (-l).into()));
+        },
+        &|j| {
+            let lead = j.get("lead").and_then(toml::Value::as_integer);
+            lead.map(|l| j.insert("lead".into(), (l + 1).into()));
+        },
+        &|j| {
+            let lead = j.get("lead").is_some();
+            lead.then(|| j.insert("lead".into(), 0.into()));
+        },
+        &|j| {
+            let beside = thread(j).then(|| j["point"].as_array_mut().unwrap());
+            beside.map(|p| p[0] = 77.into());
+        },
+        &|j| {
+            let aslant = (!thread(j)).then(|| j["axis"].as_array_mut().unwrap());
+            aslant.map(|a| a[0] = 1.into());
+        },
+    ];
+    for change in changes {
+        let told = with(change);
+        assert_eq!(told.status.code(), Some(2));
+        assert!(crate::common::text(&told.stderr).contains("is a thread"));
+    }
+}
+
+/// Of several planes in which joints might turn it is that in which all moves: that of the redesign's own structure.
+#[test]
+fn redesigns_are_found_in_their_plane() {
+    let folder = tempdir().unwrap();
+    for scheme in [
+        "wedge-flat-faces",
+        "wedge-hook",
+        "screw-two-nuts",
+        "toggle-sliding-jaws",
+    ] {
+        for idea in 1..=4 {
+            let idea = idea.to_string();
+            let id = first_of(scheme);
+            let toml = at(&folder, "idea.toml");
+            let words = [
+                "catalog",
+                "export",
+                known(),
+                &id,
+                "--idea",
+                &idea,
+                "-o",
+                &toml,
+            ];
+            if crate::common::run(&words).status.code() == Some(0) {
+                let found = ok(&["catalog", "find", &toml, "--in", known()]);
+                assert!(found.contains(&id), "{scheme} {idea}: {found}");
+            }
+        }
+    }
+}
+
+/// Three sides of a wedge with flat faces have slides and no slots, and are priced so.
+#[test]
+fn flat_faces_of_three_sides_are_slides() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "three.db");
+    ok(&[
+        "catalog",
+        "build",
+        "--classics",
+        "--jaws",
+        "3",
+        "--ideas",
+        "1",
+        "--quiet",
+        "-o",
+        &file,
+    ]);
+    let sql = "SELECT g.* FROM grippers g JOIN classics c ON c.structure = g.id WHERE c.id = 'wedge-flat-faces'";
+    let row = &rows(&file, sql)[0];
+    assert_eq!([number(row, "slides"), number(row, "slots")], [7.0, 0.0]);
+    assert_eq!(number(row, "price"), 5.0 + 7.0 * 2.0 + number(row, "cost"));
+}
+
+/// Words that contradict each other, or lead to nothing, are refused.
+#[test]
+fn what_leads_to_nothing_is_refused() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "none.db");
+    for (words, says) in [
+        (
+            "--one-pin only --symmetry half-turn",
+            "no structure is as asked",
+        ),
+        ("--flat-faces only --pairs gear", "no structure is as asked"),
+        (
+            "--jaws 3 --one-pin only",
+            "one_pin: of structures with two jaws alone",
+        ),
+        (
+            "--jaws 3 --pairs slide --generic-pairs",
+            "generic_pairs: of structures with two jaws alone",
+        ),
+        ("--classics --one-pin only", "cannot be used with"),
+        (
+            "--flat-faces maybe --pairs slot",
+            "none of with, without, only",
+        ),
+        ("--generic-pairs", "--pairs"),
+    ] {
+        let words: Vec<&str> = words.split(' ').collect();
+        super::super::command::fails(
+            &[&["catalog", "build", "-o", &file], &words[..]].concat(),
+            says,
+        );
+        assert!(!std::path::Path::new(&file).exists(), "{words:?}");
+    }
+}
