@@ -71,14 +71,16 @@ pub(super) fn neighbours_text(all: &[NeighbourData]) -> String {
     if useful.is_empty() {
         return String::new();
     }
-    let mut out = String::from("Next to it in the catalogue, and what that does better:\n");
+    let mut out = String::from(
+        "Next to it in the catalogue, and what that does better than each of its own layouts:\n",
+    );
     for n in useful.iter().take(NAMED) {
         let relation = match n.relation {
             "other-roles" => "other roles".to_owned(),
             "fewer-links" => format!("{} links less", n.links),
             _ => format!("{} links more", n.links),
         };
-        let better = n.better.iter().map(BetterData::said).join(", ");
+        let better = n.better.iter().map(BetterData::said).join("; ");
         out += &format!("  {}, {}, {relation}: {better}\n", n.id, n.form);
     }
     if useful.len() > NAMED {
@@ -98,7 +100,7 @@ impl BetterData {
         };
         let value = format!("{}{space}{unit}", significant(self.value));
         match self.own {
-            Some(own) => format!("{name} {value} instead of {}", significant(own)),
+            Some(own) => format!("{name} {value}, here {} at best", significant(own)),
             None => format!("{name} {value}"),
         }
     }

@@ -375,18 +375,21 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
     };
     let ideas = match d.ideas.len() {
         0 => String::new(),
-        n => format!(
-            "{}{found}; each stands for {least}as many variants, of which the first is exported:\n\n{}\n",
-            if n == 1 {
+        n => {
+            let which = if n == 1 {
                 "The cheapest idea".to_owned()
             } else {
                 format!("The {n} cheapest ideas")
-            },
-            table(&heads, d.ideas.iter().map(row).collect(), width)
-        ),
+            };
+            let line = format!(
+                "{which}{found}; each stands for {least}as many variants, of which the first is exported:\n"
+            );
+            let ideas = table(&heads, d.ideas.iter().map(row).collect(), width);
+            format!("{}\n{ideas}\n", fit(&line, width))
+        }
     };
     let next = format!(
-        "\nozols catalog export {0} {1} -o gripper.toml               the mechanism\nozols catalog export {0} {1} --idea 1 -o redesign.toml     idea 1 carried out\n",
+        "\nThe mechanism, and with idea 1 carried out:\n\n  ozols catalog export {0} {1} -o gripper.toml\n  ozols catalog export {0} {1} --idea 1 -o redesign.toml\n",
         plain(&file.display().to_string()),
         s("id"),
     );
