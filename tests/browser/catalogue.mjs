@@ -39,6 +39,7 @@ export function catalogueTests(test) {
       await tab.selectOption("#symmetry", "mirror");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length === 2);
       assert.match(await tab.locator("#count").innerText(), /^2 of \d+ grippers/);
+      await tab.click("#filters summary");
       await tab.fill("#cost", "0.5");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length === 0);
       assert.match(await tab.locator("#count").innerText(), /^None of \d+ grippers is like that: without “Cost at most” 2\.$/);

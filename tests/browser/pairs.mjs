@@ -68,7 +68,7 @@ export function pairTests(test) {
             const [x, y, r] = ["cx", "cy", "r"].map((k) => g[k].baseVal.value);
             if (x - r < box.x || y - r < box.y || x + r > box.x + box.width || y + r > box.y + box.height) out.push([card.dataset.id, "a pitch circle is cut off"]);
           }
-          for (const g of d.gears) {
+          for (const g of d.gears.filter((g) => !g.thread)) {
             const far = (i) => Math.hypot(g.pitch[0] - d.pins[i][0], g.pitch[1] - d.pins[i][1]);
             const [i, j] = g.joints, rolls = d.kinds[i] === "slide" ? Math.abs(1 / g.ratio) - far(j) : d.kinds[j] === "slide" ? Math.abs(g.ratio) - far(i) : Math.abs(g.ratio) - far(i) / far(j);
             if (Math.abs(rolls) > 1e-9) out.push([card.dataset.id, "teeth", rolls]);

@@ -30,7 +30,7 @@ enum What {
     /// The chains, by the codes that name them.
     Chains(chains::Chains),
     /// Lay out, search and score every structure, into a database; carries on where it was ended.
-    Build(build::Build),
+    Build(Box<build::Build>),
     /// Search mechanisms that were drawn, and keep them beside the structures.
     Search(drawn::SearchDrawn),
     /// Put the parts of a catalogue together.

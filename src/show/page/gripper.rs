@@ -48,8 +48,10 @@ struct GearData {
     /// The links: of the first joint, and of the second.
     links: [usize; 2],
     carrier: usize,
-    /// Where the pitch circles touch.
+    /// Where the pitch circles touch, or a nut is on its screw.
     pitch: [f64; 2],
+    /// Whether it is a nut on a screw, which turns about its axis in the plane.
+    thread: bool,
 }
 
 /// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y, nor to planes at 120° through the
@@ -72,6 +74,8 @@ pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
     };
     let gears = m.couplings_in(StateId::FREE).filter(|c| c.gear);
     let gears = gears.filter_map(|c| GearData::new(&view, c, scaled));
+    let threads = view.threads.iter();
+    let gears = gears.chain(threads.filter_map(|t| GearData::of_thread(m, &view, t, scaled)));
     let link = |l: LinkId| view.links.iter().position(|&k| k == l);
     let ends = joints.iter().map(|j| match j.joint.links.map(link) {
         [Some(a), Some(b)] => Some([a, b]),
@@ -108,6 +112,8 @@ struct SeenJoint<'a> {
 /// What of a mechanism is seen in the plane of x and y.
 struct View<'a> {
     joints: Vec<SeenJoint<'a>>,
+    /// Threads along the axis in the plane about which the drive turns.
+    threads: Vec<&'a Joint>,
     links: Vec<LinkId>,
     /// Whether it is one of three sides round the x axis, with the next laid opposite it.
     folded: bool,
@@ -124,14 +130,24 @@ const NEAR: f64 = 1e-9;
 
 impl<'a> View<'a> {
     fn of(m: &'a Mechanism) -> Option<View<'a>> {
-        let ids: Vec<JointId> = m.joints_in(StateId::FREE).collect();
-        if ids.iter().all(|&j| is_square(&m.joints[j], 0)) {
+        let all = m.joints_in(StateId::FREE);
+        let (threads, ids): (Vec<JointId>, Vec<JointId>) =
+            all.partition(|&j| is_thread(&m.joints[j]));
+        let threads: Vec<&Joint> = threads.into_iter().map(|j| &m.joints[j]).collect();
+        let lies = |j: &Joint| real(&j.frame.axis)[2] == 0.0;
+        let is_screw = |j: &Joint| !threads.is_empty() && j.drive && lies(j);
+        let seen = |&j: &JointId| is_square(&m.joints[j], 0) || is_screw(&m.joints[j]);
+        if threads.iter().all(|j| lies(j)) && ids.iter().all(seen) {
             let joints = ids.into_iter().map(|id| SeenJoint::new(m, id, 0));
             return Some(View {
                 joints: joints.collect(),
+                threads,
                 links: m.link_ids().collect(),
                 folded: false,
             });
+        }
+        if !threads.is_empty() {
+            return None;
         }
         // In its own plane, or the sides at 120° and at 240° laid into it.
         let side = |&id: &JointId| {
@@ -148,6 +164,7 @@ impl<'a> View<'a> {
         let joined = |l: &LinkId| joints.iter().any(|j| j.joint.links.contains(l));
         Some(View {
             links: m.link_ids().filter(joined).collect(),
+            threads,
             joints,
             folded: true,
         })
@@ -184,6 +201,10 @@ impl<'a> SeenJoint<'a> {
             id,
         }
     }
+}
+
+fn is_thread(joint: &Joint) -> bool {
+    joint.joint_type.freedoms().contains(&Freedom::Screw)
 }
 
 /// Whether a pin is square to the plane of x and y after so many sixths of a turn about x; a slide may lie in it.
@@ -256,6 +277,36 @@ impl GearData {
             links: [link(links[0])?, link(links[1])?],
             carrier: link(carrier)?,
             pitch: pitch.map(|x| x * scale),
+            thread: false,
+        })
+    }
+
+    /// Of a nut that slides along a screw which is driven in the frame.
+    fn of_thread(m: &Mechanism, view: &View<'_>, thread: &Joint, scale: f64) -> Option<GearData> {
+        let drive = view.joints.iter().position(|j| j.joint.drive)?;
+        let held = view.joints[drive].joint;
+        let screw = *held.links.iter().find(|l| thread.links.contains(l))?;
+        let nut = *thread.links.iter().find(|l| **l != screw)?;
+        let guides =
+            |j: &&SeenJoint<'_>| j.joint.links.contains(&nut) && j.joint.links.contains(&m.frame());
+        let guide = view.joints.iter().position(|j| guides(&j))?;
+        let [x, y] = flat(real(&held.frame.axis));
+        let [u, v] = flat(real(&thread.frame.axis));
+        let [p, q] = view.joints[guide].along;
+        let along = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        // A nut that does not turn goes back where the screw turns on, each joint by the order of its own links.
+        let way = along([x, y], [u, v]).signum() * along([u, v], [p, q]).signum();
+        let order =
+            |joint: &Joint, second: LinkId| if joint.links[1] == second { 1.0 } else { -1.0 };
+        let order = order(held, screw) * order(view.joints[guide].joint, nut);
+        let link = |l: LinkId| view.links.iter().position(|&k| k == l);
+        Some(GearData {
+            joints: [drive, guide],
+            ratio: -way * order * thread.frame.pitch.to_f64() * scale,
+            links: [link(screw)?, link(nut)?],
+            carrier: link(m.frame())?,
+            pitch: flat(real(&thread.frame.point)).map(|x| x * scale),
+            thread: true,
         })
     }
 }

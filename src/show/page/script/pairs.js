@@ -27,7 +27,7 @@ const pitchRadius = (d, g, i) => Math.hypot(g.pitch[0] - d.pins[i][0], g.pitch[1
 /** Corners of what pitch circles and racks take up as drawn. */
 function pitchBounds(d) {
   return d.gears.flatMap((g) => g.joints.flatMap((i) => {
-    const [at, r] = d.kinds[i] === 'slide' ? [g.pitch, 14] : [d.pins[i], pitchRadius(d, g, i)];
+    const [at, r] = d.kinds[i] === 'slide' ? [g.pitch, 14] : [d.pins[i], g.thread ? 3 : pitchRadius(d, g, i)];
     return [[at[0] - r, at[1] - r], [at[0] + r, at[1] + r]];
   }));
 }
@@ -38,11 +38,12 @@ function rackPoints(d, pose, link) {
   return own.map((g) => flip(placed(pose, link, g.pitch)));
 }
 
-/** Pitch circles, and of a rack the line on which it rolls. */
+/** Pitch circles, and of a rack the line on which it rolls; of a screw its axis to the nut, and the nut's thread. */
 function gearsOf(d, pose) {
   return d.gears.flatMap((g) => g.joints.map((i, k) => {
     if (d.kinds[i] === 'slide') return symbol('gear', d, pose, g.links[k], g.pitch, d.along[i], [[[-20, 0], [20, 0]]]);
     const [x, y] = flip(placed(pose, g.carrier, d.pins[i])), r = pitchRadius(d, g, i);
+    if (g.thread) return element('path', { class: 'gear', d: path([[x, y], flip(placed(pose, g.links[1], g.pitch))]) });
     return element('circle', { class: 'gear', cx: x, cy: y, r });
   }));
 }

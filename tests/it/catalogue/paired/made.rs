@@ -212,12 +212,14 @@ fn what_looks_like_a_screw_is_told_from_one() {
             lead.then(|| j.insert("lead".into(), 0.into()));
         },
         &|j| {
-            let beside = thread(j).then(|| j["point"].as_array_mut().unwrap());
-            beside.map(|p| p[0] = 77.into());
+            if thread(j) {
+                j["point"].as_array_mut().unwrap()[0] = 77.into();
+            }
         },
         &|j| {
-            let aslant = (!thread(j)).then(|| j["axis"].as_array_mut().unwrap());
-            aslant.map(|a| a[0] = 1.into());
+            if !thread(j) {
+                j["axis"].as_array_mut().unwrap()[0] = 1.into();
+            }
         },
     ];
     for change in changes {
