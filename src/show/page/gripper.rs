@@ -107,6 +107,8 @@ struct SeenJoint<'a> {
     pin: [f64; 2],
     /// Which way a slide or a slot goes, of length 1.
     along: [f64; 2],
+    /// Whether a turn about its axis is seen counter-clockwise, 1, or clockwise, -1.
+    way: f64,
 }
 
 /// What of a mechanism is seen in the plane of x and y.
@@ -197,6 +199,10 @@ impl<'a> SeenJoint<'a> {
         SeenJoint {
             pin: laid(&joint.frame.point),
             along: unit(laid(towards)),
+            way: match round_x(real(&joint.frame.axis), sixths) {
+                [_, _, z] if kind(joint) == "hinge" && z < 0.0 => -1.0,
+                _ => 1.0,
+            },
             joint,
             id,
         }
@@ -249,7 +255,7 @@ impl GearData {
         let links = [other(0)?, other(1)?];
         let link = |l: LinkId| view.links.iter().position(|&k| k == l);
         // By how much the second goes for a turn of the first, both against the carrier.
-        let told = coupling.ratio.to_f64();
+        let told = seen[0].way * seen[1].way * coupling.ratio.to_f64();
         let turned = ends.iter().filter(|links| links[0] != carrier).count() == 1;
         let rate = if turned { -told } else { told };
         let [a, b] = seen.map(|s| s.pin);
