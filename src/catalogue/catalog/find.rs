@@ -9,10 +9,12 @@ use crate::chains::pairs::structure::PairStructure;
 use itertools::Itertools;
 use serde_json::Value;
 
-/// A structure of two jaws, its id and form first.
-const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL), \
-     iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin:' || replace(substr(name, instr(name, ' pin')), ' pin', ' '), NULL)), chain, input, frame, driver, jaw_a, jaw_b, \
-     code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
+/// How a structure is laid out, in words.
+const FORM: &str = "concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL), \
+     iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin:' || replace(substr(name, instr(name, ' pin')), ' pin', ' '), NULL))";
+
+/// What is read of a structure of two jaws after its id and form.
+const STRUCTURES: &str = "chain, input, frame, driver, jaw_a, jaw_b, code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,8 +26,7 @@ pub struct Entry {
 }
 
 /// Those of three jaws whose sides are those of a structure, which their names begin with.
-const THREEFOLD: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL)) \
-     FROM structures WHERE name LIKE ?1 || ' threefold%' ORDER BY parallel, id";
+const THREEFOLD: &str = "FROM structures WHERE name LIKE ?1 || ' threefold%' ORDER BY parallel, id";
 
 /// The entries of a catalogue that are a structure, with two sides or three, in whatever form they are laid out, symmetric ones first.
 ///
@@ -41,12 +42,15 @@ pub fn entries(
     made_as: MadeAs,
 ) -> Result<Vec<Entry>, StoreError> {
     if sides == 3 {
-        let (_, rows) = store.query(THREEFOLD, Some(&structure.name()))?;
+        let (_, rows) = store.query(
+            &format!("SELECT id, {FORM} {THREEFOLD}"),
+            Some(&structure.name()),
+        )?;
         return Ok(rows.iter().map(|r| Entry::new(r)).collect());
     }
     let key = structure.key();
     let links = structure.chain.links().to_string();
-    let (_, rows) = store.query(STRUCTURES, Some(&links))?;
+    let (_, rows) = store.query(&format!("SELECT id, {FORM}, {STRUCTURES}"), Some(&links))?;
     let same = |row: &&Vec<Value>| read(row).is_some_and(|s| s.key() == key);
     let found = rows.iter().filter(same).map(|r| Entry::new(r));
     // A screw is no pinion; other forms of the same structure are told after those made alike.
@@ -77,7 +81,7 @@ impl Entry {
     }
 }
 
-/// The structure of a row that begins as [`STRUCTURES`] does.
+/// The structure of a row that has id and form, and then what [`STRUCTURES`] has.
 pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     let chain = graph6::read(row.get(2)?.as_str()?).ok()?;
     let slides = row.get(3)?.as_str()? == "slide";

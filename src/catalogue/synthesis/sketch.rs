@@ -23,9 +23,9 @@ pub trait LayoutSketch {
     /// Where the points are.
     fn points<'p>(&self, at: &'p Self::JointPlaces) -> &'p [Point];
 
-    /// Whether its links lie in parallel planes, each drawn.
-    fn is_flat(&self) -> bool {
-        self.bones().sides == self.bones().jaws.len()
+    /// Whether a link turns out of the plane: a screw.
+    fn turns_out(&self) -> bool {
+        false
     }
 
     /// The link that has the pin or the block of a joint; none of what has no point on its links.

@@ -29,10 +29,9 @@ const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel
      coalesce(k.transmission, l.transmission) AS transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
      b.planes, b.links AS in_planes, b.structure IS NOT NULL AS stacked, opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
-     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, (SELECT price FROM grippers g WHERE g.id = structures.id) AS price, \
-     (SELECT actuator FROM grippers g WHERE g.id = structures.id) AS actuator, id IN (SELECT id FROM front) AS front, \
+     CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, price, actuator, id IN (SELECT id FROM front) AS front, \
      (SELECT group_concat(c.id, ', ') FROM classics c WHERE c.structure = structures.id) AS classics FROM structures JOIN layouts l ON l.structure = id \
-     LEFT JOIN strokes k ON k.structure = id LEFT JOIN planes b ON b.structure = id ORDER BY structures.links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
+     JOIN (SELECT id AS gripper, price, actuator FROM grippers) ON gripper = id LEFT JOIN strokes k ON k.structure = id LEFT JOIN planes b ON b.structure = id ORDER BY structures.links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
 /// Filters that are asked less often: id, label and step.
 const MORE: [(&str, &str, &str); 8] = [
     ("pin", "Joint force at most", "any"),

@@ -76,7 +76,7 @@ pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
     let gears = gears.filter_map(|c| GearData::new(&view, c, scaled));
     let threads = view.threads.iter();
     let gears = gears.chain(threads.filter_map(|t| GearData::of_thread(m, &view, t, scaled)));
-    let link = |l: LinkId| view.links.iter().position(|&k| k == l);
+    let link = |l: LinkId| view.link(l);
     let ends = joints.iter().map(|j| match j.joint.links.map(link) {
         [Some(a), Some(b)] => Some([a, b]),
         _ => None,
@@ -130,7 +130,17 @@ fn round_x([x, y, z]: Vector, sixths: i32) -> Vector {
 /// Coordinates that are less than this of a size are rounding errors of turns.
 const NEAR: f64 = 1e-9;
 
+/// Whether a point is in the plane of x and y, but for rounding.
+fn is_in_plane([x, y, z]: Vector) -> bool {
+    z.abs() <= NEAR * (1.0 + x.abs() + y.abs())
+}
+
 impl<'a> View<'a> {
+    /// The place of a link among those that are seen.
+    fn link(&self, link: LinkId) -> Option<usize> {
+        self.links.iter().position(|&l| l == link)
+    }
+
     fn of(m: &'a Mechanism) -> Option<View<'a>> {
         let all = m.joints_in(StateId::FREE);
         let (threads, ids): (Vec<JointId>, Vec<JointId>) =
@@ -155,8 +165,8 @@ impl<'a> View<'a> {
         let side = |&id: &JointId| {
             let joint = &m.joints[id];
             let in_plane = |&sixths: &i32| {
-                let [x, y, z] = round_x(real(&joint.frame.point), sixths);
-                z.abs() <= NEAR * (1.0 + x.abs() + y.abs()) && is_square(joint, sixths)
+                let at = round_x(real(&joint.frame.point), sixths);
+                is_in_plane(at) && is_square(joint, sixths)
             };
             [0, 1, -1].into_iter().find(in_plane).map(|s| (id, s))
         };
@@ -179,10 +189,8 @@ impl<'a> View<'a> {
             let forces = m.loads.forces.iter().map(|f| (f.link, &f.point));
             let (_, at) = points.chain(forces).find(|(l, _)| l == jaw)?;
             let at = real(at);
-            let laid = [0, 1].map(|sixths| round_x(at, sixths));
-            let [x, y, z] = laid[0];
-            let in_plane = !self.folded || z.abs() <= NEAR * (1.0 + x.abs() + y.abs());
-            Some(flat(laid[usize::from(!in_plane)]))
+            let aside = self.folded && !is_in_plane(at);
+            Some(flat(round_x(at, i32::from(aside))))
         };
         jaws.iter().map(tip).collect()
     }
@@ -253,7 +261,7 @@ impl GearData {
         let carrier = *ends[0].iter().find(|l| ends[1].contains(l))?;
         let other = |k: usize| ends[k].into_iter().find(|l| *l != carrier);
         let links = [other(0)?, other(1)?];
-        let link = |l: LinkId| view.links.iter().position(|&k| k == l);
+        let link = |l: LinkId| view.link(l);
         // By how much the second goes for a turn of the first, both against the carrier.
         let told = seen[0].way * seen[1].way * coupling.ratio.to_f64();
         let turned = ends.iter().filter(|links| links[0] != carrier).count() == 1;
@@ -305,7 +313,7 @@ impl GearData {
         let order =
             |joint: &Joint, second: LinkId| if joint.links[1] == second { 1.0 } else { -1.0 };
         let order = order(held, screw) * order(view.joints[guide].joint, nut);
-        let link = |l: LinkId| view.links.iter().position(|&k| k == l);
+        let link = |l: LinkId| view.link(l);
         Some(GearData {
             joints: [drive, guide],
             ratio: -way * order * thread.frame.pitch.to_f64() * scale,

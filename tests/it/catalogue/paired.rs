@@ -39,6 +39,13 @@ fn known() -> &'static str {
     built(&FILE, &["catalog", "build", "--classics", "--quiet", "-o"])
 }
 
+/// Those that have three jaws, too.
+fn known_three() -> &'static str {
+    static FILE: Built = OnceLock::new();
+    let words = "catalog build --classics --jaws 3 --ideas 1 --quiet -o";
+    built(&FILE, &words.split(' ').collect::<Vec<_>>())
+}
+
 /// Every structure of up to five links, and of six with a left and a right pair that is no hinge.
 fn some() -> &'static str {
     static FILE: Built = OnceLock::new();
@@ -315,11 +322,14 @@ fn well_known_schemes_stand_in_a_catalogue_by_name() {
 }
 
 fn first_of(scheme: &str) -> String {
+    scheme_in(known(), scheme)
+}
+
+/// The structure of a catalogue that is a scheme.
+fn scheme_in(file: &str, scheme: &str) -> String {
     let sql = format!("SELECT structure FROM classics WHERE id = '{scheme}'");
-    rows(known(), &sql)[0]["structure"]
-        .as_str()
-        .unwrap()
-        .to_owned()
+    let found = rows(file, &sql);
+    found[0]["structure"].as_str().unwrap().to_owned()
 }
 
 /// A catalogue finds its own files again.

@@ -52,8 +52,13 @@ pub(super) fn joint_id(rules: &PairRules, joint: usize, names: &[String]) -> Str
 }
 
 fn named(name: &str, freedoms: &[&str]) -> OptionEntry {
+    with_lead(None, name, freedoms)
+}
+
+fn with_lead(lead: Option<i64>, name: &str, freedoms: &[&str]) -> OptionEntry {
     OptionEntry::Table(Box::new(OptionTable {
         freedoms: Some(freedoms.iter().map(|f| (*f).to_owned()).collect()),
+        lead: lead.map(Coordinate::Integer),
         name: Some(name.to_owned()),
         ..OptionTable::default()
     }))
@@ -97,22 +102,13 @@ fn slots() -> Vec<OptionEntry> {
 
 /// What may be in place of a nut: z along the screw.
 fn nuts(lead: i64) -> Vec<OptionEntry> {
-    let nut = |(name, freedoms): (&str, &[&str])| {
-        let words = freedoms.iter().map(|f| (*f).to_owned());
-        OptionEntry::Table(Box::new(OptionTable {
-            freedoms: Some(words.collect()),
-            lead: Some(Coordinate::Integer(lead)),
-            name: Some(name.to_owned()),
-            ..OptionTable::default()
-        }))
-    };
-    let all: [(&str, &[&str]); 4] = [
-        ("nut", &["screw"]),
-        ("floating-nut", &["screw", "tx", "ty"]),
-        ("nut-in-ball", &["screw", "rx", "ry"]),
-        ("floating-nut-in-ball", &["screw", "rx", "ry", "tx", "ty"]),
-    ];
-    all.map(nut).into()
+    let nut = |name, freedoms: &[&str]| with_lead(Some(lead), name, freedoms);
+    vec![
+        nut("nut", &["screw"]),
+        nut("floating-nut", &["screw", "tx", "ty"]),
+        nut("nut-in-ball", &["screw", "rx", "ry"]),
+        nut("floating-nut-in-ball", &["screw", "rx", "ry", "tx", "ty"]),
+    ]
 }
 
 impl PairedStructure {
@@ -205,6 +201,20 @@ impl PairedStructure {
             _ => false,
         };
         if second_first { [v, u] } else { [u, v] }
+    }
+
+    /// What the search may put in place of hinges, where there are any that are not driven.
+    pub(super) fn offers(&self, menu: &Menu) -> SearchEntry {
+        let joints = self.structure.chain.joints().into_iter();
+        let mut hinges = joints.filter(|j| j.pair == PairKind::Hinge);
+        if hinges.all(|j| j.links == self.structure.roles.input) {
+            return SearchEntry::default();
+        }
+        SearchEntry {
+            options: menu.options.clone(),
+            unloading: menu.unloading.clone(),
+            ..SearchEntry::default()
+        }
     }
 
     pub(super) fn coupling(
@@ -315,12 +325,9 @@ fn search_entry(
         Symmetry::Mirror => (images, Vec::new()),
         _ => (Vec::new(), images.into_iter().map(Vec::from).collect()),
     };
-    let hinged = paired.has_free_hinges();
     SearchEntry {
-        options: menu.options.iter().filter(|_| hinged).cloned().collect(),
-        unloading: menu.unloading.iter().filter(|_| hinged).cloned().collect(),
         mirror,
         turn,
-        ..SearchEntry::default()
+        ..paired.offers(menu)
     }
 }

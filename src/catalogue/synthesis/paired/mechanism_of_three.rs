@@ -193,17 +193,14 @@ pub(crate) fn mechanism_file_of_three(
         (0..joints.len()).filter(|&i| structure.copies(&joints[i]) == SIDES && !sides.is_geared(i));
     let couplings = sides.each().filter_map(|(i, side)| sides.coupling(i, side));
     let made = sides.each().filter(|of| !sides.is_geared(of.0));
-    let hinged = structure.two.has_free_hinges();
     MechanismFile {
         joint: made.map(|(i, side)| sides.joint(i, side, menu)).collect(),
         coupling: couplings.collect(),
         search: SearchEntry {
-            options: menu.options.iter().filter(|_| hinged).cloned().collect(),
-            unloading: menu.unloading.iter().filter(|_| hinged).cloned().collect(),
             turn: rounds
                 .map(|i| (0..SIDES).map(|side| sides.name(i, side)).collect())
                 .collect(),
-            ..SearchEntry::default()
+            ..structure.two.offers(menu)
         },
         ..told.file(workload)
     }

@@ -114,8 +114,8 @@ impl LayoutSketch for PairSketch<'_> {
         &self.limits
     }
 
-    fn is_flat(&self) -> bool {
-        self.bones.sides == self.bones.jaws.len() && !self.rules.threaded
+    fn turns_out(&self) -> bool {
+        self.rules.threaded
     }
 
     fn link_of(&self, at: &PairPlaces, joint: usize) -> Option<usize> {

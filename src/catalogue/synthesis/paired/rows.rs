@@ -122,16 +122,18 @@ impl PoseRows<'_> {
 
     /// The link that has the block of a slide, and the one that has the guide.
     fn block_and_guide(&self, joint: usize) -> [usize; 2] {
-        let [u, v] = self.rules.joints[joint].links;
-        let block = self.rules.blocks[joint];
-        [block, if block == u { v } else { u }]
+        self.with_other(joint, self.rules.blocks[joint])
     }
 
     /// The link that has the pin of a slot, and the one that has the slot.
     pub(super) fn pin_and_slot(&self, joint: usize) -> [usize; 2] {
+        self.with_other(joint, self.at.pinned[joint])
+    }
+
+    /// A link of a joint, then the other.
+    fn with_other(&self, joint: usize, link: usize) -> [usize; 2] {
         let [u, v] = self.rules.joints[joint].links;
-        let pinned = self.at.pinned[joint];
-        [pinned, if pinned == u { v } else { u }]
+        [link, if link == u { v } else { u }]
     }
 
     /// A point of the first link stays on a line of the second.

@@ -102,24 +102,28 @@ impl PairedStructure {
     #[must_use]
     pub fn name(&self) -> String {
         let form = self.form.name(&self.form.symmetry_name());
-        let joints = self.structure.chain.joints_made();
-        let shared = joints.iter().enumerate();
-        let shared = shared.filter(|(i, _)| self.form.is_on_one_pin(*i));
-        let pins = shared.map(|(_, j)| format!(" pin{}-{}", j.links[0], j.links[1]));
+        let pins = self.on_one_pin();
+        let pins = pins.map(|j| format!(" pin{}-{}", j.links[0], j.links[1]));
         format!("{} {form}{}", self.structure.name(), pins.format(""))
+    }
+
+    /// The hinges that are on one pin with their images, of both the first.
+    fn on_one_pin(&self) -> impl Iterator<Item = Joint> {
+        let joints = self.structure.chain.joints_made().into_iter();
+        let shared = joints.enumerate();
+        let shared = shared.filter(|(i, _)| self.form.is_on_one_pin(*i));
+        shared.map(|(_, joint)| joint)
     }
 
     /// What it is beside its structure.
     #[must_use]
     pub fn made_as(&self) -> MadeAs {
         let roles = &self.structure.roles;
-        let at_frame = |j: &Joint| j.is_at(roles.frame) && roles.jaws.iter().any(|&a| j.is_at(a));
-        let joints = self.structure.chain.joints_made();
-        let mut shared = joints.iter().enumerate();
+        let at_frame = |j: Joint| j.is_at(roles.frame) && roles.jaws.iter().any(|&a| j.is_at(a));
         MadeAs {
             flat: self.form.flat,
             threaded: self.form.threaded,
-            jaws_on_one_pin: shared.any(|(i, j)| self.form.is_on_one_pin(i) && at_frame(j)),
+            jaws_on_one_pin: self.on_one_pin().any(at_frame),
         }
     }
 
@@ -317,13 +321,6 @@ impl PairedStructure {
             },
             ..self
         }
-    }
-
-    /// Whether a hinge is not driven, so that something may be put in its place.
-    pub(super) fn has_free_hinges(&self) -> bool {
-        let joints = self.structure.chain.joints().into_iter();
-        let mut hinges = joints.filter(|j| j.pair == PairKind::Hinge);
-        hinges.any(|j| j.links != self.structure.roles.input)
     }
 
     /// The slots that have flat faces.

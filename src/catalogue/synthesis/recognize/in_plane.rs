@@ -109,19 +109,20 @@ impl<'a> InPlane<'a> {
         present: &'a [JointId],
     ) -> Result<InPlane<'a>, NoStructure> {
         let (mut plane, normals) = MotionPlane::all(m, present)?;
-        let first = *normals.first().ok_or(NoStructure::NoPlane)?;
-        let mut moving = None;
+        let mut found = None;
         for normal in normals {
             plane.turn_to(normal);
             let links = PlaneLinks::new(m, present, &plane);
-            if links.is_ok_and(|l| l.moves()) {
-                moving = Some(normal);
+            if links.as_ref().is_ok_and(PlaneLinks::moves) {
+                found = Some((normal, links));
                 break;
             }
+            found.get_or_insert((normal, links));
         }
-        plane.turn_to(moving.unwrap_or(first));
+        let (normal, links) = found.ok_or(NoStructure::NoPlane)?;
+        plane.turn_to(normal);
         Ok(InPlane {
-            links: PlaneLinks::new(m, present, &plane)?,
+            links: links?,
             plane,
             m,
             present,

@@ -129,7 +129,9 @@ impl<M: StrokeMotion> Judge<M> {
     /// Watches what meets on the next stroke, unless a link stands for several images of it or turns out of the plane.
     pub fn watch(&mut self) {
         let sketch = self.motion.sketch();
-        self.meetings = (sketch.is_flat()).then(|| Meetings::new(sketch.bones()));
+        let bones = sketch.bones();
+        let each_drawn = bones.sides == bones.jaws.len();
+        self.meetings = (each_drawn && !sketch.turns_out()).then(|| Meetings::new(bones));
     }
 
     /// The planes in which the links passed each other on the stroke that was watched.

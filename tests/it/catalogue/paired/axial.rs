@@ -1,7 +1,10 @@
 //! Three jaws round the axis along which their drive slides, each in a plane of its own: wedge chucks, fingers on a piston.
 
 use super::super::carried_on::scattered;
-use super::{Built, LAID, are_images, at, built, number, ok, pulls_as_its_file_says, rows, shared};
+use super::{
+    Built, LAID, are_images, at, built, known_three, number, ok, pulls_as_its_file_says, rows,
+    scheme_in, shared,
+};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -60,23 +63,10 @@ fn sides_in_planes_of_their_own_are_images_of_each_other() {
 /// Well-known schemes whose sides meet at frame and driver alone have three jaws, too, among them the three-jaw scroll that is told.
 #[test]
 fn well_known_schemes_have_three_jaws() {
-    let folder = tempdir().unwrap();
-    let file = at(&folder, "three.db");
-    ok(&[
-        "catalog",
-        "build",
-        "--classics",
-        "--jaws",
-        "3",
-        "--ideas",
-        "0",
-        "--quiet",
-        "-o",
-        &file,
-    ]);
+    let file = known_three();
     let sql = "SELECT c.id, s.links, s.joints, l.redundant, s.input FROM classics c JOIN structures s ON s.id = c.structure \
          JOIN layouts l ON l.structure = s.id JOIN strokes k ON k.structure = s.id WHERE shortfall IS NULL";
-    let found = rows(&file, sql);
+    let found = rows(file, sql);
     let of = |id: &str| found.iter().find(|r| r["id"] == id).unwrap();
     // `../shared/pairs/classic.json`: links and pairs of the scroll with three jaws.
     let told: Value = serde_json::from_str(&shared("classic.json")).unwrap();
@@ -99,7 +89,7 @@ fn well_known_schemes_have_three_jaws() {
     ] {
         assert_eq!(of(id)["input"], "slide", "{id}");
     }
-    let shown = ok(&["catalog", "show", &file, &first(&file, "wedge-hook")]);
+    let shown = ok(&["catalog", "show", file, &scheme_in(file, "wedge-hook")]);
     assert!(
         shown.contains("With two jaws known as wedge-hook"),
         "{shown}"
@@ -110,29 +100,17 @@ fn well_known_schemes_have_three_jaws() {
 #[test]
 fn sides_of_three_jaws_are_found() {
     let folder = tempdir().unwrap();
-    let file = at(&folder, "three.db");
-    ok(&[
-        "catalog",
-        "build",
-        "--classics",
-        "--jaws",
-        "3",
-        "--ideas",
-        "0",
-        "--quiet",
-        "-o",
-        &file,
-    ]);
+    let file = known_three();
     let all = rows(
-        &file,
+        file,
         "SELECT structure, group_concat(id) AS ids FROM classics GROUP BY structure",
     );
     assert_eq!(all.len(), 21);
     for row in &all {
         let id = row["structure"].as_str().unwrap();
         let toml = at(&folder, "chuck.toml");
-        ok(&["catalog", "export", &file, id, "-o", &toml]);
-        let found = ok(&["catalog", "find", &toml, "--in", &file]);
+        ok(&["catalog", "export", file, id, "-o", &toml]);
+        let found = ok(&["catalog", "find", &toml, "--in", file]);
         assert!(
             found.contains("three sides") && found.contains(id),
             "{id}: {found}"
@@ -144,10 +122,4 @@ fn sides_of_three_jaws_are_found() {
             );
         }
     }
-}
-
-fn first(file: &str, scheme: &str) -> String {
-    let sql = format!("SELECT structure FROM classics WHERE id = '{scheme}'");
-    let found = rows(file, &sql);
-    found[0]["structure"].as_str().unwrap().to_owned()
 }

@@ -2,7 +2,8 @@
 
 use super::super::carried_on::scattered;
 use super::{
-    Built, LAID, at, built, first_of, known, number, ok, pulls_as_its_file_says, rows, shared,
+    Built, LAID, at, built, first_of, known, known_three, number, ok, pulls_as_its_file_says, rows,
+    shared,
 };
 use ozols::geom::vector::real;
 use std::collections::BTreeSet;
@@ -264,22 +265,8 @@ fn redesigns_are_found_in_their_plane() {
 /// Three sides of a wedge with flat faces have slides and no slots, and are priced so.
 #[test]
 fn flat_faces_of_three_sides_are_slides() {
-    let folder = tempdir().unwrap();
-    let file = at(&folder, "three.db");
-    ok(&[
-        "catalog",
-        "build",
-        "--classics",
-        "--jaws",
-        "3",
-        "--ideas",
-        "1",
-        "--quiet",
-        "-o",
-        &file,
-    ]);
     let sql = "SELECT g.* FROM grippers g JOIN classics c ON c.structure = g.id WHERE c.id = 'wedge-flat-faces'";
-    let row = &rows(&file, sql)[0];
+    let row = &rows(known_three(), sql)[0];
     assert_eq!([number(row, "slides"), number(row, "slots")], [7.0, 0.0]);
     assert_eq!(number(row, "price"), 5.0 + 7.0 * 2.0 + number(row, "cost"));
 }
