@@ -2,12 +2,14 @@
 
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
-use crate::synthesis::random::{below, unit};
+use crate::synthesis::random::{below, random, unit};
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::task::Aim;
 use chacha20::ChaCha8Rng;
+use std::cmp::Ordering;
+use std::ops::Range;
 
 /// Places at the end of a start.
 pub(super) struct FoundPlaces<P> {
@@ -20,12 +22,16 @@ pub(super) struct FoundPlaces<P> {
     pub(super) cost: f64,
     pub(super) at: P,
     pub(super) start: u32,
+    /// Whether the search was given up before its end.
+    given_up: bool,
 }
 
 impl<P> FoundPlaces<P> {
     /// Limits first, then the task, then what all costs.
-    fn order(&self) -> (bool, bool, f64) {
-        (!self.within, !self.does, self.cost)
+    fn compare(&self, other: &FoundPlaces<P>) -> Ordering {
+        let misses = |of: &FoundPlaces<P>| (!of.within, !of.does);
+        let cheaper = || self.cost.total_cmp(&other.cost);
+        misses(self).cmp(&misses(other)).then_with(cheaper)
     }
 
     /// Whether no better ones need be looked for.
@@ -36,7 +42,7 @@ impl<P> FoundPlaces<P> {
 
     /// Whether they are better than others, where there are any.
     pub(super) fn is_better_than(&self, best: Option<&FoundPlaces<P>>) -> bool {
-        best.is_none_or(|b| self.order() < b.order())
+        best.is_none_or(|b| self.compare(b).is_lt())
     }
 }
 
@@ -48,14 +54,59 @@ pub(super) fn starts(limits: &Limits) -> u32 {
     }
 }
 
+/// The best places of some starts of a structure of this name, the first good ones being enough; `None` where all end in singular poses.
+///
+/// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task.
+pub(super) fn best_of_starts<M: StrokeMotion>(
+    sketch: &M::Of,
+    judge: &mut Judge<M>,
+    name: &str,
+    seed: u64,
+    starts: Range<u32>,
+) -> Option<FoundPlaces<PlacesOf<M>>> {
+    let mut search = |start, patience| {
+        let random = random(name, seed, start);
+        search_from(sketch, judge, random, start, patience)
+    };
+    let mut all = Vec::new();
+    for found in starts.filter_map(|start| search(start, Patience::Racing)) {
+        if found.are_good(sketch) {
+            return Some(found);
+        }
+        all.push(found);
+    }
+    all.sort_by(FoundPlaces::compare);
+    let mut best = None;
+    for found in all {
+        let whole = found.given_up.then(|| search(found.start, Patience::Whole));
+        let found = whole.flatten().unwrap_or(found);
+        let does = found.within && found.does;
+        if found.is_better_than(best.as_ref()) {
+            best = Some(found);
+        }
+        if does {
+            break;
+        }
+    }
+    best
+}
+
+/// Whether starts that lag behind are given up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Patience {
+    Racing,
+    Whole,
+}
+
 /// What a search for places from one start ends with; `None` where that is a singular pose.
-pub(super) fn search_from<M: StrokeMotion>(
+fn search_from<M: StrokeMotion>(
     sketch: &M::Of,
     judge: &mut Judge<M>,
     random: ChaCha8Rng,
     start: u32,
+    patience: Patience,
 ) -> Option<FoundPlaces<PlacesOf<M>>> {
-    let at = anneal(sketch, judge, random, start);
+    let (at, given_up) = anneal(sketch, judge, random, start, patience);
     let looks = sketch.looks(&at)?;
     let stroke = judge.fine(&at)?;
     let limits = sketch.limits();
@@ -70,6 +121,7 @@ pub(super) fn search_from<M: StrokeMotion>(
         looks,
         at,
         start,
+        given_up,
     })
 }
 
@@ -94,12 +146,12 @@ struct Phase {
 const PHASES: [Phase; 3] = [
     Phase {
         look: Look::Places,
-        moves: 800,
+        moves: 700,
         warmth: [1.0, 0.47],
     },
     Phase {
         look: Look::Motion,
-        moves: 700,
+        moves: 500,
         warmth: [0.47, 0.0],
     },
     Phase {
@@ -108,6 +160,10 @@ const PHASES: [Phase; 3] = [
         warmth: [0.5, 0.0],
     },
 ];
+
+/// Starts of which few become good: after such a share of the moves that look at strokes the cheapest costs so many times what good
+/// places do: of those of hinged structures one in twelve.
+const LAGGING: [(f64, f64); 4] = [(0.1, 7.0), (0.2, 4.0), (0.3, 3.0), (0.4, 2.0)];
 
 /// How wide limits are within which places are taken.
 const WITHIN: f64 = 1.0;
@@ -137,6 +193,7 @@ struct Annealing<'s, 'j, M: StrokeMotion> {
     before: PlacesOf<M>,
     /// The cheapest of the phase.
     best: (f64, PlacesOf<M>),
+    given_up: bool,
 }
 
 impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
@@ -145,6 +202,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
         Annealing {
             before: at.clone(),
             best: (f64::INFINITY, at.clone()),
+            given_up: false,
             now: f64::INFINITY,
             sketch,
             judge,
@@ -160,7 +218,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
             let limits = *self.sketch.limits();
             let stroke = self.judge.coarse(&self.at, f64::INFINITY)?;
             let mut all = drawn + limits.force_cost(&stroke, slack);
-            // What seems good enough at a dozen poses is looked at between them, too.
+            // What seems good enough at some poses is looked at between them, too.
             if all <= most && slack <= WITHIN {
                 all = drawn + limits.force_cost(&self.judge.fine(&self.at)?, slack);
             }
@@ -182,7 +240,14 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
         stroke.is_some_and(|f| self.sketch.limits().shortfall(&f, swings).is_none())
     }
 
-    fn phase(&mut self, phase: &Phase) {
+    /// Whether so many moves of a phase have led to so little that the start is given up.
+    fn lags(&self, phase: &Phase, moves: usize) -> bool {
+        let share = |part: f64| (part * phase.moves as f64) as usize;
+        let bound = LAGGING.iter().find(|(part, _)| share(*part) == moves);
+        bound.is_some_and(|(_, times)| self.best.0 > times * self.sketch.good())
+    }
+
+    fn phase(&mut self, phase: &Phase, patience: Patience) {
         // A stroke is judged from the best of what was drawn.
         if matches!(phase.look, Look::Stroke | Look::Force(_)) {
             self.at.clone_from(&self.best.1);
@@ -195,7 +260,14 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
             return;
         }
         let [from, to] = phase.warmth;
+        let races = patience == Patience::Racing
+            && phase.look == Look::Stroke
+            && self.sketch.limits().task.aim == Aim::Balanced;
         for step in 0..phase.moves {
+            if races && self.lags(phase, step) {
+                self.given_up = true;
+                return;
+            }
             #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
             let done = step as f64 / phase.moves as f64;
             self.step(phase.look, from + (to - from) * done);
@@ -236,7 +308,8 @@ fn anneal<M: StrokeMotion>(
     judge: &mut Judge<M>,
     random: ChaCha8Rng,
     start: u32,
-) -> PlacesOf<M> {
+    patience: Patience,
+) -> (PlacesOf<M>, bool) {
     let mut search = Annealing::new(sketch, judge, random);
     let phases: &[&[Phase]] = match sketch.limits().task.aim {
         Aim::Balanced => &[&PHASES],
@@ -245,7 +318,7 @@ fn anneal<M: StrokeMotion>(
         Aim::Force => &[&FOR_FORCE],
     };
     for phase in phases.iter().copied().flatten() {
-        search.phase(phase);
+        search.phase(phase, patience);
     }
-    search.best.1
+    (search.best.1, search.given_up)
 }

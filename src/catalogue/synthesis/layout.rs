@@ -4,14 +4,14 @@
 
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
-use crate::synthesis::annealing::{FoundPlaces, search_from, starts};
+use crate::synthesis::annealing::{best_of_starts, starts};
 use crate::synthesis::bones::Bones;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::rules::NoRules;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
-use crate::synthesis::random::{bell, below, random};
+use crate::synthesis::random::{bell, below};
 use crate::synthesis::rules::{Rule, Rules};
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
@@ -118,7 +118,9 @@ pub fn layout(
     let swap = working_swap(subject, &structure.roles, symmetry, input)?;
     let rules = Rules::new(structure, &swap).ok_or(NoLayout::Parallelograms)?;
     let skeleton = Skeleton::new(structure, rules, *limits);
-    let found = best_of_starts(&skeleton, seed);
+    let mut judge = Judge::new(&skeleton);
+    let name = structure.name();
+    let found = best_of_starts(&skeleton, &mut judge, &name, seed, 0..starts(limits));
     let found = found.ok_or(NoLayout::Motion(NoGripper::DeadDrive))?;
     let looks = found.looks;
     if !found.within {
@@ -134,25 +136,6 @@ pub fn layout(
         looks,
         start: found.start,
     })
-}
-
-/// The best places of some starts; of the first alone where those are good. `None` where all end in singular poses.
-fn best_of_starts(skeleton: &Skeleton<'_>, seed: u64) -> Option<FoundPlaces<Vec<Point>>> {
-    let mut judge = Judge::new(skeleton);
-    let name = skeleton.structure.name();
-    let mut best = None;
-    for start in 0..starts(&skeleton.limits) {
-        let found = search_from(skeleton, &mut judge, random(&name, seed, start), start);
-        let Some(found) = found else { continue };
-        let good = found.are_good(skeleton);
-        if found.is_better_than(best.as_ref()) {
-            best = Some(found);
-        }
-        if good {
-            break;
-        }
-    }
-    best
 }
 
 impl LayoutSketch for Skeleton<'_> {

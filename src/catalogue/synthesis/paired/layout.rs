@@ -1,6 +1,6 @@
 //! A place for every joint of a paired structure, looked for from seeds that follow from its name.
 
-use crate::synthesis::annealing::{FoundPlaces, search_from, starts};
+use crate::synthesis::annealing::{FoundPlaces, best_of_starts, starts};
 use crate::synthesis::layout::NoLayout;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
@@ -11,7 +11,6 @@ use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
 use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
 use crate::synthesis::place::third;
-use crate::synthesis::random::random;
 use crate::synthesis::stroke::judge::Judge;
 
 /// A paired structure with a place for every joint.
@@ -68,19 +67,15 @@ fn layout_as(
         why = NoLayout::NotRegular;
         let sketch = PairSketch::thrice(paired, threefold, rules, *limits);
         let mut judge = Judge::of(PairMotion::new(&sketch));
-        for _ in 0..starts(limits) {
-            let found = search_from(&sketch, &mut judge, random(name, seed, start), start);
-            start += 1;
-            let Some(found) = found else { continue };
-            let good = found.are_good(&sketch);
-            if found.is_better_than(best.as_ref().map(|b| &b.0)) {
-                best = Some((found, sketch.rules.clone()));
-            }
-            if good {
-                break;
-            }
+        let starts = start..start + starts(limits);
+        start = starts.end;
+        let found = best_of_starts(&sketch, &mut judge, name, seed, starts);
+        let Some(found) = found else { continue };
+        let good = found.are_good(&sketch);
+        if found.is_better_than(best.as_ref().map(|b| &b.0)) {
+            best = Some((found, sketch.rules));
         }
-        if best.as_ref().is_some_and(|b| b.0.are_good(&sketch)) {
+        if good {
             break;
         }
     }

@@ -13,9 +13,10 @@ use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
 
-/// Poses of a stroke while places are tried, and how near to its end it is followed: a fraction of the stroke.
+/// Poses of a stroke while places are tried, as many as rank them as fifty do, and how near to its end it is followed: a fraction of
+/// the stroke.
 const COARSE: Grid = Grid {
-    steps: 10.0,
+    steps: 5.0,
     finest: 0.01,
     settled: 3e-4,
     forces_everywhere: false,
@@ -166,11 +167,11 @@ impl<M: StrokeMotion> Judge<M> {
         self.motion.walk_mut().stand()
     }
 
-    /// The figures of places at a dozen poses, as they are looked at while places are tried; `None` where the drawn pose is
+    /// The figures of places at some poses, as they are looked at while places are tried; `None` where the drawn pose is
     /// singular, or where they cost more than `most`, which the first poses may tell.
     ///
     /// # Complexity
-    /// Some corrections of O(n³) for n links, for each of some dozen poses.
+    /// Some corrections of O(n³) for n links, for each of some seven poses.
     pub fn coarse(&mut self, at: &PlacesOf<M>, most: f64) -> Option<StrokeFigures> {
         self.follow(at, COARSE, most)
     }
