@@ -17,6 +17,7 @@ use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::structure::Structure;
+use crate::synthesis::velocities::Velocity;
 use chacha20::ChaCha8Rng;
 use thiserror::Error;
 
@@ -179,29 +180,7 @@ impl LayoutSketch for Skeleton<'_> {
         self.rules.settle(at);
     }
 
-    fn penalty(&self, at: &Vec<Point>, moving: bool, most: f64) -> Option<f64> {
-        let sum = self.bones.penalty(at, most)?;
-        if !moving {
-            return Some(sum);
-        }
-        let motion = self.bones.motion(
-            at,
-            &self.contours.velocities(at)?,
-            self.limits.task.least_force,
-        );
-        Some(sum + motion.penalty).filter(|sum| *sum <= most)
-    }
-
-    fn breaks(&self, at: &Vec<Point>) -> f64 {
-        self.bones.breaks(at, &self.limits)
-    }
-
-    fn looks(&self, at: &Vec<Point>) -> Option<Looks> {
-        let motion = self.bones.motion(
-            at,
-            &self.contours.velocities(at)?,
-            self.limits.task.least_force,
-        );
-        self.bones.looks(at, motion)
+    fn velocities(&self, at: &Vec<Point>) -> Option<Vec<Velocity>> {
+        self.contours.velocities(at)
     }
 }

@@ -152,15 +152,21 @@ pub(super) struct LayoutMotion {
 
 /// The figures of points: pins, then tips.
 impl Bones {
-    /// What places cost however they move; `None` where that is more than `most`. Every part of it only adds, so that what is too
-    /// dear is known early.
+    /// What places cost, and what they do besides, such as how they move; `None` where that is more than `most`, or the pose is singular.
+    /// Every part of it only adds, so that what is too dear is known early: what takes longest comes last.
     ///
     /// # Complexity
     /// O(p²) for p points.
-    pub(super) fn penalty(&self, at: &[Point], most: f64) -> Option<f64> {
+    pub(super) fn penalty(
+        &self,
+        at: &[Point],
+        most: f64,
+        besides: impl FnOnce() -> Option<f64>,
+    ) -> Option<f64> {
         let cheap = |sum: f64| (sum <= most).then_some(sum);
         let sum = cheap(self.places(at) + self.lengths(at).1)?;
         let sum = cheap(sum + self.spacing(at))?;
+        let sum = cheap(sum + besides()?)?;
         Some(sum + self.crossings(at, sum, most)?.1)
     }
 
@@ -172,7 +178,7 @@ impl Bones {
         Some(Looks {
             crossings: self.crossings(at, 0.0, f64::INFINITY)?.0,
             ratio: self.lengths(at).0,
-            penalty: self.penalty(at, f64::INFINITY)? + motion.penalty,
+            penalty: self.penalty(at, f64::INFINITY, || Some(motion.penalty))?,
             transmission: motion.transmission,
             closing: motion.closing,
             straightness: motion.straightness,

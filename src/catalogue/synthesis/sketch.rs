@@ -1,10 +1,16 @@
 //! A structure whose places are looked for: what is asked of it while they are tried.
 
 use crate::synthesis::bones::Bones;
-use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::layout_quality::{LayoutMotion, Looks, beyond};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
+use crate::synthesis::velocities::Velocity;
 use chacha20::ChaCha8Rng;
+use std::borrow::Cow;
+
+/// Pitch circles of a larger radius are in the way of other parts, and teeth on smaller ones are few. In millimetres.
+const LARGE: f64 = 25.0;
+const SMALL: f64 = 8.0;
 
 /// A structure with rules for its places.
 pub trait LayoutSketch {
@@ -42,6 +48,17 @@ pub trait LayoutSketch {
     /// the half of the other jaw.
     fn each_circle(&self, _at: &Self::JointPlaces, _take: &mut dyn FnMut(usize, f64, bool)) {}
 
+    /// All points that are drawn, and whose they are.
+    fn drawn<'p>(&'p self, at: &'p Self::JointPlaces) -> (Cow<'p, [Point]>, &'p Bones) {
+        (Cow::Borrowed(self.points(at)), self.bones())
+    }
+
+    /// How the links move for a unit speed of the driver; `None` where the pose is singular.
+    ///
+    /// # Complexity
+    /// O(n³) for n links.
+    fn velocities(&self, at: &Self::JointPlaces) -> Option<Vec<Velocity>>;
+
     /// Places to begin with.
     fn first_places(&self, random: &mut ChaCha8Rng) -> Self::JointPlaces;
 
@@ -52,17 +69,45 @@ pub trait LayoutSketch {
     ///
     /// # Complexity
     /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
-    fn penalty(&self, at: &Self::JointPlaces, moving: bool, most: f64) -> Option<f64>;
+    fn penalty(&self, at: &Self::JointPlaces, moving: bool, most: f64) -> Option<f64> {
+        let (points, bones) = self.drawn(at);
+        bones.penalty(&points, most, || {
+            let motion = moving.then(|| Some(motion(self, at)?.penalty));
+            Some(pitch_penalty(self, at) + motion.unwrap_or(Some(0.0))?)
+        })
+    }
 
     /// What breaks the limits as drawn, each break dear.
     ///
     /// # Complexity
     /// O(p²) for p points.
-    fn breaks(&self, at: &Self::JointPlaces) -> f64;
+    fn breaks(&self, at: &Self::JointPlaces) -> f64 {
+        let (points, bones) = self.drawn(at);
+        bones.breaks(&points, self.limits()) + pitch_penalty(self, at)
+    }
 
     /// All figures; `None` where the pose is singular.
     ///
     /// # Complexity
     /// As [`LayoutSketch::penalty`].
-    fn looks(&self, at: &Self::JointPlaces) -> Option<Looks>;
+    fn looks(&self, at: &Self::JointPlaces) -> Option<Looks> {
+        let (points, bones) = self.drawn(at);
+        let mut looks = bones.looks(&points, motion(self, at)?)?;
+        looks.penalty += pitch_penalty(self, at);
+        Some(looks)
+    }
+}
+
+fn motion<S: LayoutSketch + ?Sized>(sketch: &S, at: &S::JointPlaces) -> Option<LayoutMotion> {
+    let least_force = sketch.limits().task.least_force;
+    let velocities = sketch.velocities(at)?;
+    Some((sketch.bones()).motion(sketch.points(at), &velocities, least_force))
+}
+
+/// What pitch circles cost that are large, or too small for teeth.
+pub(super) fn pitch_penalty<S: LayoutSketch + ?Sized>(sketch: &S, at: &S::JointPlaces) -> f64 {
+    let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
+    let mut sum = 0.0;
+    sketch.each_circle(at, &mut |_, r, _| sum += cost(r));
+    sum
 }

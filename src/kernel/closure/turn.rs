@@ -19,31 +19,54 @@ pub(crate) struct Turn {
     along: Vector,
 }
 
+/// A direction, and the same in numbers.
+type Direction = (ExactVector, Vector);
+
+/// Of each joint of a mechanism the directions of its frame, which axes of turns may be along.
+pub(crate) struct FrameDirections(Vec<[Direction; 3]>);
+
+impl FrameDirections {
+    #[must_use]
+    pub(crate) fn of(mechanism: &Mechanism) -> FrameDirections {
+        let of = |j: JointId| {
+            let frame = &mechanism.joints[j].frame;
+            let [z, x] = [&frame.axis, &frame.reference];
+            [z.clone(), x.clone(), cross(z, x)].map(|d| {
+                let numbers = real(&d);
+                (d, numbers)
+            })
+        };
+        FrameDirections(mechanism.joint_ids().map(of).collect())
+    }
+}
+
 impl Turn {
     /// The turns that groups of joints may suggest: three points tell all; two the middle, and the axis is along a direction of
     /// their joints, between or across these, or along a direction of a joint that is its own image.
     #[must_use]
-    pub(crate) fn of_groups(mechanism: &Mechanism, groups: &[Vec<JointId>]) -> Vec<Turn> {
+    pub(crate) fn of_groups(
+        mechanism: &Mechanism,
+        FrameDirections(directions): &FrameDirections,
+        groups: &[Vec<JointId>],
+    ) -> Vec<Turn> {
         let frame = |j: &JointId| &mechanism.joints[*j].frame;
-        let directions = |j: JointId| {
-            let [z, x] = [&frame(&j).axis, &frame(&j).reference];
-            [z.clone(), x.clone(), cross(z, x)]
-        };
+        let directions = |j: JointId| directions[j.index()].iter().cloned();
         let alone = mechanism.joint_ids();
         let alone = alone.filter(|j| !groups.iter().any(|g| g.contains(j)));
-        let alone: Vec<ExactVector> = alone.flat_map(directions).collect();
         let mut out = Vec::new();
         for group in groups {
             let round: Vec<ExactVector> = group.iter().map(|j| frame(j).point.clone()).collect();
-            let axes = match &round[..] {
-                [a, b, c] => vec![cross(&sub(b, a), &sub(c, a))],
+            let numbered = |d: ExactVector| {
+                let numbers = real(&d);
+                (d, numbers)
+            };
+            let axes: Vec<Direction> = match &round[..] {
+                [a, b, c] => vec![numbered(cross(&sub(b, a), &sub(c, a)))],
                 _ => {
                     let [z, w] = [0, 1].map(|i| &frame(&group[i]).axis);
-                    let between = [0, 1, 2].map(|i| &z[i] + &w[i]);
-                    let own = directions(group[0]).into_iter();
-                    own.chain([between, sub(z, w)])
-                        .chain(alone.clone())
-                        .collect()
+                    let between = [[0, 1, 2].map(|i| &z[i] + &w[i]), sub(z, w)].map(numbered);
+                    let own = directions(group[0]).chain(between);
+                    own.chain(alone.clone().flat_map(directions)).collect()
                 }
             };
             #[allow(clippy::cast_precision_loss, reason = "two or three")]
@@ -52,8 +75,7 @@ impl Turn {
             let centre = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
             // Joints of a plane have their directions in common.
             let mut known: Vec<Vector> = Vec::new();
-            for axis in axes {
-                let along = real(&axis);
+            for (axis, along) in axes {
                 if length(along) == 0.0 || known.contains(&along) {
                     continue;
                 }

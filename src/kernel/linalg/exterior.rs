@@ -17,6 +17,8 @@ pub(crate) struct Exterior {
     sets: Vec<Vec<usize>>,
     /// The place of each set among those of its size.
     places: Vec<usize>,
+    /// Of each set of so many coordinates, for each of these from the last on: the place of the others, and it.
+    faces: Vec<Vec<[usize; 2]>>,
 }
 
 impl Exterior {
@@ -29,10 +31,19 @@ impl Exterior {
             alike.push(set);
             alike.len() - 1
         };
-        let places = (0..1 << width).map(place).collect();
+        let places: Vec<usize> = (0..1 << width).map(place).collect();
+        let faces = |sets: &Vec<usize>| {
+            let of = |&set: &usize| {
+                let members = (0..width).rev().filter(move |i| set >> i & 1 == 1);
+                members.map(move |i| [set & !(1 << i), i])
+            };
+            let faces = sets.iter().flat_map(of);
+            faces.map(|[rest, i]| [places[rest], i]).collect()
+        };
         Exterior {
             field,
             width,
+            faces: sets.iter().map(faces).collect(),
             sets,
             places,
         }
@@ -49,22 +60,16 @@ impl Exterior {
         let f = self.field;
         let mut product = vec![f.one()];
         for (size, vector) in vectors.into_iter().enumerate() {
-            let minor = |&set: &usize| {
-                let members = (0..self.width).filter(|i| set >> i & 1 == 1);
-                members.fold(0, |sum, i| {
-                    let term = f.mul(product[self.places[set & !(1 << i)]], vector[i]);
-                    if (set >> i).count_ones().is_multiple_of(2) {
-                        f.sub(sum, term)
-                    } else {
-                        f.add(sum, term)
-                    }
-                })
+            let term = |&[place, i]: &[usize; 2]| (product[place], vector[i]);
+            let minor = |faces: &[[usize; 2]]| {
+                let every_other = |from| faces[from..].iter().step_by(2).map(term);
+                let [plus, minus] = [0, 1].map(|from| f.sum_of_products(every_other(from)));
+                f.sub(plus, minus)
             };
             // More vectors than there are numbers are dependent.
-            product = self
-                .sets
-                .get(size + 1)
-                .map_or(Vec::new(), |sets| sets.iter().map(minor).collect());
+            let faces = self.faces.get(size + 1);
+            let faces = faces.map(|all| all.chunks_exact(size + 1));
+            product = faces.map_or(Vec::new(), |all| all.map(minor).collect());
         }
         product
     }

@@ -3,7 +3,6 @@
 use crate::chains::pairs::kind::PairKind;
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::layout_quality::{Looks, beyond};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::direction::{self, WholeDirection};
 use crate::synthesis::paired::equations::velocities;
@@ -13,6 +12,7 @@ use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::point::Point;
 use crate::synthesis::random::{bell, below, unit};
 use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::velocities::Velocity;
 use chacha20::ChaCha8Rng;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -33,9 +33,6 @@ const RATIOS: [[i32; 2]; 9] = [
 ];
 /// Leads of screws that may turn by themselves, in millimetres a turn.
 const LEADS: [i32; 6] = [4, 5, 6, 8, 10, 12];
-/// Pitch circles of a larger radius are in the way of other parts, and teeth on smaller ones are few. In millimetres.
-const LARGE: f64 = 25.0;
-const SMALL: f64 = 8.0;
 /// Pitch diameters of pinions, in millimetres.
 const DIAMETERS: RangeInclusive<i32> = 10..=80;
 
@@ -69,22 +66,6 @@ impl PairSketch<'_> {
             }
             _ => Teeth::Gears([1, 1]),
         }
-    }
-
-    /// All points that are drawn, and whose they are.
-    fn drawn<'p>(&'p self, at: &'p PairPlaces) -> (Cow<'p, [Point]>, &'p Bones) {
-        match &self.around {
-            None => (Cow::Borrowed(&at.points), &self.bones),
-            Some(around) => (Cow::Owned(around.points(&at.points)), &around.bones),
-        }
-    }
-
-    /// What pitch circles cost that are large, or too small for teeth.
-    fn pitch_penalty(&self, at: &PairPlaces) -> f64 {
-        let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
-        let mut sum = 0.0;
-        self.each_circle(at, &mut |_, r, _| sum += cost(r));
-        sum
     }
 
     /// Changes the teeth of a gear pair.
@@ -154,6 +135,13 @@ impl LayoutSketch for PairSketch<'_> {
         &at.points
     }
 
+    fn drawn<'p>(&'p self, at: &'p PairPlaces) -> (Cow<'p, [Point]>, &'p Bones) {
+        match &self.around {
+            None => (Cow::Borrowed(&at.points), &self.bones),
+            Some(around) => (Cow::Owned(around.points(&at.points)), &around.bones),
+        }
+    }
+
     fn first_places(&self, random: &mut ChaCha8Rng) -> PairPlaces {
         let joints: Vec<[usize; 2]> = self.rules.joints.iter().map(|j| j.links).collect();
         let all = 0..joints.len();
@@ -201,35 +189,8 @@ impl LayoutSketch for PairSketch<'_> {
         self.rules.settle(at);
     }
 
-    fn penalty(&self, at: &PairPlaces, moving: bool, most: f64) -> Option<f64> {
-        let (points, bones) = self.drawn(at);
-        let sum = bones.penalty(&points, most)? + self.pitch_penalty(at);
-        if !moving || sum > most {
-            return (sum <= most).then_some(sum);
-        }
-        let motion = self.bones.motion(
-            &at.points,
-            &velocities(self, at)?,
-            self.limits.task.least_force,
-        );
-        Some(sum + motion.penalty).filter(|sum| *sum <= most)
-    }
-
-    fn breaks(&self, at: &PairPlaces) -> f64 {
-        let (points, bones) = self.drawn(at);
-        bones.breaks(&points, &self.limits) + self.pitch_penalty(at)
-    }
-
-    fn looks(&self, at: &PairPlaces) -> Option<Looks> {
-        let motion = self.bones.motion(
-            &at.points,
-            &velocities(self, at)?,
-            self.limits.task.least_force,
-        );
-        let (points, bones) = self.drawn(at);
-        let mut looks = bones.looks(&points, motion)?;
-        looks.penalty += self.pitch_penalty(at);
-        Some(looks)
+    fn velocities(&self, at: &PairPlaces) -> Option<Vec<Velocity>> {
+        velocities(self, at)
     }
 }
 
@@ -240,6 +201,7 @@ mod tests {
     use crate::synthesis::paired::known::most_symmetric;
     use crate::synthesis::paired::rules::PairRules;
     use crate::synthesis::random::random;
+    use crate::synthesis::sketch::pitch_penalty;
 
     /// Places that cost more than is wanted have no cost, whatever of it makes them dear: pitch circles, too.
     #[test]
@@ -262,7 +224,7 @@ mod tests {
                     let less = cost - 1e-6 * cost.max(1.0);
                     assert_eq!(sketch.penalty(&at, moving, less), None, "{}", classic.id);
                 }
-                geared += usize::from(sketch.pitch_penalty(&at) > 0.0);
+                geared += usize::from(pitch_penalty(&sketch, &at) > 0.0);
             }
         }
         assert!(geared > 20, "{geared}");

@@ -9,6 +9,7 @@ use crate::linalg::modp::Residue;
 use crate::search::build::self_stress::Added;
 use crate::search::build::spanning_halves::{Behind, Halves};
 use crate::search::build::staging::limits;
+use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Spent;
 use crate::search::diagram::transition::Children;
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
@@ -39,6 +40,7 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
         return Some(false);
     }
     let mut layers = &known.layers[..];
+    let mut arithmetic = Arithmetic::new(halves.field);
     for (part, ends) in halves.parts.iter().enumerate() {
         let (own, others) = layers.split_at(ends[0].len());
         // Nothing is carried on from part to part, so that there is one node between them.
@@ -54,7 +56,7 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
         }
         let exterior = Exterior::new(halves.field, behind.live);
         for (front, back) in front.nodes.iter().zip(&back.nodes) {
-            if !complete(&exterior, &behind, front, back)? {
+            if !complete(&exterior, &behind, &mut arithmetic, front, back)? {
                 return Some(false);
             }
         }
@@ -64,19 +66,26 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
 }
 
 /// Whether all ways to a node from the front are completed by all from the back; none where these have more than is missing.
-fn complete(exterior: &Exterior, behind: &Behind, front: &Reached, back: &Reached) -> Option<bool> {
+fn complete(
+    exterior: &Exterior,
+    behind: &Behind,
+    arithmetic: &mut Arithmetic,
+    front: &Reached,
+    back: &Reached,
+) -> Option<bool> {
     let of_front = |packed: &Vec<Residue>| {
         let rows = behind.unpacked(packed);
-        (rows.rows().count(), exterior.product(rows.rows()))
+        (rows.rank(), exterior.product(rows.rows()))
     };
     let from_front: Vec<(usize, Vec<Residue>)> = front.keys().map(of_front).collect();
+    let mut left = Rows::default();
     for path in back.values() {
-        let Some(left) = behind.left_of(path) else {
+        if !behind.left_of(path, arithmetic, &mut left) {
             return Some(false);
-        };
-        let product = exterior.product(left.iter().map(Vec::as_slice));
-        let missing = behind.live.saturating_sub(left.len());
-        let product = exterior.complement(&product, left.len());
+        }
+        let product = exterior.product(left.rows());
+        let missing = behind.live.saturating_sub(left.rank());
+        let product = exterior.complement(&product, left.rank());
         for (rank, front) in &from_front {
             match rank.cmp(&missing) {
                 Ordering::Greater => return None,

@@ -5,7 +5,6 @@
 //! kept links where nothing of both together is in the coordinates of these alone. Nodes of the back half need no space for that: what
 //! the choices on one way to each add will do, and ways that begin alike are looked at together.
 
-use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Set, completed};
 use crate::search::build::path_tree::{PathTree, Vectors, numbered, shortest};
@@ -14,7 +13,7 @@ use crate::search::build::spanning_paths::{Annihilator, completing};
 use crate::search::diagram::Layer;
 use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::layer::Nodes;
-use crate::search::diagram::reduced_rows::Rows;
+use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
@@ -171,16 +170,23 @@ pub(in crate::search) struct Behind {
 }
 
 impl Behind {
-    /// What choices of the stages, from the last on, add where the stages before reach it, too; none where they do not span the rest.
-    pub(in crate::search) fn left_of(&self, choices: &[usize]) -> Option<Vec<Vec<Residue>>> {
-        let Vectors { field, beyond, all } = &self.vectors;
+    /// What choices of the stages, from the last on, add where the stages before reach it, too, as rows with a number of kept links
+    /// behind; `false` where they do not span the rest.
+    pub(in crate::search) fn left_of(
+        &self,
+        choices: &[usize],
+        arithmetic: &mut Arithmetic,
+        rows: &mut Rows,
+    ) -> bool {
+        let Vectors { beyond, all, .. } = &self.vectors;
+        rows.clear(beyond + self.live + 1);
         let added = self.added.iter().zip(choices);
-        let numbers = added.flat_map(|(added, &choice)| &added[choice]);
-        let span = Echelon::of(*field, numbers.map(|&number| &all[number]));
-        let (mut rows, pivots) = (span.reduced(), span.pivots());
-        let own = pivots.partition_point(|p| p < beyond);
-        let live = |row: Vec<Residue>| row[*beyond..*beyond + self.live].to_vec();
-        (own == *beyond).then(|| rows.split_off(own).into_iter().map(live).collect())
+        for &number in added.flat_map(|(added, &choice)| &added[choice]) {
+            rows.insert(arithmetic, &mut all[number].clone());
+        }
+        let spans = rows.rank_before(*beyond) == *beyond;
+        rows.drop_first(*beyond);
+        spans
     }
 
     /// The rows of the matrix of a node before these stages: in the coordinates that both reach, then in those of kept links.

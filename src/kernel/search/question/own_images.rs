@@ -3,7 +3,7 @@
 
 use crate::closure::mirror::Plane;
 use crate::closure::symmetry_image::{Carrier, Spot};
-use crate::closure::turn::Turn;
+use crate::closure::turn::{FrameDirections, Turn};
 use crate::geom::exact::ExactField;
 use crate::geom::vector::length;
 use crate::model::mechanism::{Joint, JointId, Mechanism, StateId};
@@ -51,6 +51,7 @@ pub(crate) fn own_images(
             .then(|| of(&symmetric))
     };
     let compared = ComparedJoints::new(mechanism);
+    let directions = FrameDirections::of(mechanism);
     let mut tried: Vec<(Vec<(JointId, JointId)>, bool)> = Vec::new();
     let all = mechanism.joint_ids().tuple_combinations();
     for (a, b) in all.take_while(|(a, _): &(JointId, _)| a.index() < FIRST) {
@@ -62,7 +63,7 @@ pub(crate) fn own_images(
             .into_iter()
             .map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
         let turns = match mechanism.joints.len() {
-            ..=TURNED => Turn::of_groups(mechanism, &[vec![a, b]]),
+            ..=TURNED => Turn::of_groups(mechanism, &directions, &[vec![a, b]]),
             _ => Vec::new(),
         };
         let turns = turns.into_iter();

@@ -3,7 +3,7 @@
 
 use crate::closure::mirror::Plane;
 use crate::closure::symmetry_image::{Carrier, PlacedType, Spot};
-use crate::closure::turn::Turn;
+use crate::closure::turn::{FrameDirections, Turn};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::{Freedom, JointType};
@@ -133,7 +133,11 @@ fn images(
 ) -> Result<(), MirrorError> {
     let mut off = None;
     let planes = Plane::of_pairs(mechanism, &mechanism.search.mirror);
-    let turns = Turn::of_groups(mechanism, &mechanism.search.turn);
+    let turns = Turn::of_groups(
+        mechanism,
+        &FrameDirections::of(mechanism),
+        &mechanism.search.turn,
+    );
     let carriers = planes
         .iter()
         .map(|(plane, _)| plane as &dyn Carrier)
