@@ -1,7 +1,6 @@
 //! A place for every joint, found by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
 use crate::synthesis::layout_quality::Looks;
-use crate::synthesis::limits::Limits;
 use crate::synthesis::random::{below, random, unit};
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::{Judge, PlacesOf};
@@ -9,7 +8,6 @@ use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::task::Aim;
 use chacha20::ChaCha8Rng;
 use std::cmp::Ordering;
-use std::ops::Range;
 
 /// Places at the end of a start.
 pub(super) struct FoundPlaces<P> {
@@ -30,8 +28,8 @@ impl<P> FoundPlaces<P> {
     /// Limits first, then the task, then what all costs.
     fn compare(&self, other: &FoundPlaces<P>) -> Ordering {
         let misses = |of: &FoundPlaces<P>| (!of.within, !of.does);
-        let cheaper = || self.cost.total_cmp(&other.cost);
-        misses(self).cmp(&misses(other)).then_with(cheaper)
+        let cost = || self.cost.total_cmp(&other.cost);
+        misses(self).cmp(&misses(other)).then_with(cost)
     }
 
     /// Whether no better ones need be looked for.
@@ -46,40 +44,45 @@ impl<P> FoundPlaces<P> {
     }
 }
 
-/// Starts of a search for places at most, for each way of lying.
-pub(super) fn starts(limits: &Limits) -> u32 {
-    match limits.task.aim {
-        Aim::Balanced => 6,
-        Aim::Force => 12,
-    }
-}
+/// Starts of a search for places at most, for each way of lying: half of them where what is balanced does the task.
+pub(super) const STARTS: u32 = 12;
 
 /// The best places of some starts of a structure of this name, the first good ones being enough; `None` where all end in singular poses.
 ///
-/// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task.
+/// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task, and then
+/// others are tried.
 pub(super) fn best_of_starts<M: StrokeMotion>(
     sketch: &M::Of,
     judge: &mut Judge<M>,
     name: &str,
     seed: u64,
-    starts: Range<u32>,
+    first: u32,
 ) -> Option<FoundPlaces<PlacesOf<M>>> {
     let mut search = |start, patience| {
         let random = random(name, seed, start);
         search_from(sketch, judge, random, start, patience)
     };
-    let mut all = Vec::new();
-    for found in starts.filter_map(|start| search(start, Patience::Racing)) {
+    let end = first + STARTS;
+    let racing = match sketch.limits().task.aim {
+        Aim::Balanced => first..first + STARTS / 2,
+        Aim::Force => first..end,
+    };
+    let others = (racing.end..end).map(|start| (start, None));
+    let mut raced = Vec::new();
+    for found in racing.filter_map(|start| search(start, Patience::Racing)) {
         if found.are_good(sketch) {
             return Some(found);
         }
-        all.push(found);
+        raced.push(found);
     }
-    all.sort_by(FoundPlaces::compare);
+    raced.sort_by(FoundPlaces::compare);
+    let raced = raced.into_iter().map(|found| (found.start, Some(found)));
     let mut best = None;
-    for found in all {
-        let whole = found.given_up.then(|| search(found.start, Patience::Whole));
-        let found = whole.flatten().unwrap_or(found);
+    for (start, found) in raced.chain(others) {
+        let ended = found.filter(|found| !found.given_up);
+        let Some(found) = ended.or_else(|| search(start, Patience::Whole)) else {
+            continue;
+        };
         let does = found.within && found.does;
         if found.is_better_than(best.as_ref()) {
             best = Some(found);

@@ -4,7 +4,7 @@
 
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::roles::Subject;
-use crate::synthesis::annealing::{best_of_starts, starts};
+use crate::synthesis::annealing::best_of_starts;
 use crate::synthesis::bones::Bones;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
@@ -121,7 +121,7 @@ pub fn layout(
     let skeleton = Skeleton::new(structure, rules, *limits);
     let mut judge = Judge::new(&skeleton);
     let name = structure.name();
-    let found = best_of_starts(&skeleton, &mut judge, &name, seed, 0..starts(limits));
+    let found = best_of_starts(&skeleton, &mut judge, &name, seed, 0);
     let found = found.ok_or(NoLayout::Motion(NoGripper::DeadDrive))?;
     let looks = found.looks;
     if !found.within {

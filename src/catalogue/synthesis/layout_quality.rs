@@ -82,10 +82,11 @@ impl LinkSide {
 }
 
 /// A side as the points lie about it, a bit for each.
+#[derive(Clone, Copy)]
 struct SideSeen {
     link: usize,
-    ends: [usize; 2],
-    /// Those at its ends.
+    ends: u32,
+    /// Those on one axis with its ends, these among them.
     at_ends: u32,
     /// Those on its left.
     left: u32,
@@ -115,18 +116,19 @@ impl SideSeen {
         }
         SideSeen {
             link: side.link,
-            ends: side.ends,
+            ends: 1 << side.ends[0] | 1 << side.ends[1],
             at_ends,
             left,
             near,
         }
     }
 
-    /// Whether two sides cross that end at no place in common.
+    /// Whether two sides of different links cross that end at no place in common.
     fn crosses(&self, other: &SideSeen) -> bool {
-        let parts = |left: u32, [a, b]: [usize; 2]| (left >> a ^ left >> b) & 1 == 1;
-        let apart = other.ends.iter().all(|&end| self.at_ends >> end & 1 == 0);
-        apart && parts(self.left, other.ends) && parts(other.left, self.ends)
+        let parts = |left: u32, ends: u32| (left & ends != 0) & (left & ends != ends);
+        let apart = (self.link != other.link) & (self.at_ends & other.ends == 0);
+        // All is looked at, which takes less than to choose.
+        apart & parts(self.left, other.ends) & parts(other.left, self.ends)
     }
 }
 
@@ -254,9 +256,7 @@ impl Bones {
         let (mut count, mut penalty, mut cost) = (0, 0.0, 0.0);
         for side in &sides {
             let seen = SideSeen::new(side, at, &self.together);
-            for other in &before {
-                count += usize::from(other.link != side.link && seen.crosses(other));
-            }
+            count += before.iter().filter(|other| seen.crosses(other)).count();
             // Where pitch circles touch is on no link.
             let mut near = seen.near & !self.touching;
             while near != 0 {

@@ -1,6 +1,6 @@
 //! A place for every joint of a paired structure, looked for from seeds that follow from its name.
 
-use crate::synthesis::annealing::{FoundPlaces, best_of_starts, starts};
+use crate::synthesis::annealing::{FoundPlaces, STARTS, best_of_starts};
 use crate::synthesis::layout::NoLayout;
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::limits::Limits;
@@ -67,9 +67,8 @@ fn layout_as(
         why = NoLayout::NotRegular;
         let sketch = PairSketch::thrice(paired, threefold, rules, *limits);
         let mut judge = Judge::of(PairMotion::new(&sketch));
-        let starts = start..start + starts(limits);
-        start = starts.end;
-        let found = best_of_starts(&sketch, &mut judge, name, seed, starts);
+        let found = best_of_starts(&sketch, &mut judge, name, seed, start);
+        start += STARTS;
         let Some(found) = found else { continue };
         let good = found.are_good(&sketch);
         if found.is_better_than(best.as_ref().map(|b| &b.0)) {

@@ -58,17 +58,7 @@ pub(crate) fn own_images(
         if !compared.are_alike(a, b) || compared.apart(a, b) < compared.near {
             continue;
         }
-        let planes = Plane::of_pairs(mechanism, &[(a, b)]);
-        let planes = planes
-            .into_iter()
-            .map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
-        let turns = match mechanism.joints.len() {
-            ..=TURNED => Turn::of_groups(mechanism, &directions, &[vec![a, b]]),
-            _ => Vec::new(),
-        };
-        let turns = turns.into_iter();
-        let turns = turns.map(|t| (Box::new(t) as Box<dyn Carrier>, false));
-        for (carrier, mirrored) in planes.chain(turns) {
+        for (carrier, mirrored) in suggested(mechanism, &directions, [a, b]) {
             let Some(pairs) = compared.pairs(mechanism, &*carrier) else {
                 continue;
             };
@@ -86,6 +76,22 @@ pub(crate) fn own_images(
         }
     }
     None
+}
+
+/// The mirrors and turns that may carry two joints to each other, and whether it is a mirror.
+fn suggested(
+    mechanism: &Mechanism,
+    directions: &FrameDirections,
+    [a, b]: [JointId; 2],
+) -> impl Iterator<Item = (Box<dyn Carrier>, bool)> {
+    let planes = Plane::of_pairs(mechanism, &[(a, b)]).into_iter();
+    let planes = planes.map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
+    let turns = match mechanism.joints.len() {
+        ..=TURNED => Turn::of_groups(mechanism, directions, &[vec![a, b]]),
+        _ => Vec::new(),
+    };
+    let turns = turns.into_iter();
+    planes.chain(turns.map(|t| (Box::new(t) as Box<dyn Carrier>, false)))
 }
 
 /// A mechanism's joints as they are looked at for each candidate.
