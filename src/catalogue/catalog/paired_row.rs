@@ -1,6 +1,6 @@
 //! Rows of structures with slides, gears and slots.
 
-use crate::catalog::row::{Laid, LaidFile, StructureRow, of_its_own};
+use crate::catalog::row::{Laid, LaidFile, StructureRow, of_its_own, regular};
 use crate::catalog::searched::{RowError, mechanism};
 use crate::catalog::spec::Spec;
 use crate::file::schema::MechanismFile;
@@ -28,14 +28,14 @@ pub(crate) type ThreefoldRow = StructureRow<ThreefoldStructure, PairLayout>;
 /// A search for places and one of the variants.
 pub(crate) fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow, RowError> {
     let menu = spec.menu()?;
-    let laid = match layout(paired, &spec.limits(), spec.seed) {
-        Err(why) => Err(why),
+    let laid = regular(spec, |seed| match layout(paired, &spec.limits(), seed) {
+        Err(why) => Ok(Err(why)),
         Ok(layout) => {
             let file = mechanism_file(paired, &layout, &menu, &spec.workload);
             let figures = figures(paired, &layout);
-            lay_pairs(paired.name(), file, figures, layout, spec)?
+            lay_pairs(paired.name(), file, figures, layout, spec)
         }
-    };
+    })?;
     let (chain, roles) = (&paired.structure.chain, &paired.structure.roles);
     let at_frame = |&&jaw: &&usize| chain.between(roles.frame, jaw).is_some();
     Ok(StructureRow {
@@ -59,14 +59,16 @@ pub(crate) fn row_of_three(
     spec: &Spec,
 ) -> Result<ThreefoldRow, RowError> {
     let menu = spec.menu()?;
-    let laid = match layout_of_three(structure, &spec.limits(), spec.seed) {
-        Err(why) => Err(why),
-        Ok(layout) => {
-            let file = mechanism_file_of_three(structure, &layout, &menu, &spec.workload);
-            let figures = of_three(structure, &layout);
-            lay_pairs(structure.name(), file, figures, layout, spec)?
+    let laid = regular(spec, |seed| {
+        match layout_of_three(structure, &spec.limits(), seed) {
+            Err(why) => Ok(Err(why)),
+            Ok(layout) => {
+                let file = mechanism_file_of_three(structure, &layout, &menu, &spec.workload);
+                let figures = of_three(structure, &layout);
+                lay_pairs(structure.name(), file, figures, layout, spec)
+            }
         }
-    };
+    })?;
     let roles = &structure.two.structure.roles;
     let at_frame = structure
         .two

@@ -173,10 +173,12 @@ pub fn row_of_pair(
     spec: &Spec,
     general: Option<&General>,
 ) -> Result<StructureRow, RowError> {
-    let laid = match layout(subject, structure, &spec.limits(), spec.seed) {
-        Ok(layout) => lay(structure, layout, spec, general)?,
-        Err(why) => Err(why),
-    };
+    let laid = regular(spec, |seed| {
+        match layout(subject, structure, &spec.limits(), seed) {
+            Ok(layout) => lay(structure, layout, spec, general),
+            Err(why) => Ok(Err(why)),
+        }
+    })?;
     Ok(StructureRow {
         jaws_at_frame: subject.jaws_at_frame(&structure.roles),
         truss: subject.is_truss(&structure.roles),
@@ -184,6 +186,25 @@ pub fn row_of_pair(
         structure: structure.clone(),
         laid,
     })
+}
+
+/// Seeds under which places are looked for until their pose is proven to be a regular one, at most: it is nearly always so at once.
+const SEEDS: u64 = 3;
+
+/// The first layout of some seeds whose pose is proven to be a regular one; what keeps it from being laid out otherwise.
+pub(super) fn regular<L>(
+    spec: &Spec,
+    lay: impl Fn(u64) -> Result<Result<L, NoLayout>, RowError>,
+) -> Result<Result<L, NoLayout>, RowError> {
+    let seeds = (1..SEEDS).map(|n| spec.seed.wrapping_add(n << 32));
+    let mut laid = lay(spec.seed)?;
+    for seed in seeds {
+        if !matches!(laid, Err(NoLayout::NotRegular)) {
+            break;
+        }
+        laid = lay(seed)?;
+    }
+    Ok(laid)
 }
 
 /// A layout as a file, and the mechanism that it describes.
