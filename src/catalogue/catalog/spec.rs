@@ -352,6 +352,9 @@ impl Spec {
         if self.jaws == 3 && self.one_pin()? != Some(false) {
             return Err(SpecError::TwoJaws("one_pin"));
         }
+        if self.generic_pairs && !self.words()?.1.contains(&Symmetry::Generic) {
+            return Err(SpecError::Freely);
+        }
         self.links()?;
         self.forms()?;
         if !self.pairs()?.is_empty() && !self.has_paired_forms()? {

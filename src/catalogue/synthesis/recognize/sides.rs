@@ -11,7 +11,7 @@ use crate::synthesis::recognize::in_plane::InPlane;
 use itertools::Itertools;
 use petgraph::unionfind::UnionFind;
 
-/// The structure of two sides of a gripper of three; nothing of one with other jaws than three, or whose sides are joined or not alike.
+/// The structure of two sides of a gripper of three; nothing of one with other jaws than three, or whose sides are joined, not alike or not all of it.
 ///
 /// # Errors
 /// Where a side has no structure.
@@ -41,7 +41,12 @@ pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructu
             parts.union(a, b);
         }
     }
-    if !jaws.iter().map(|j| parts.find(j.index())).all_unique() {
+    let held = jaws.iter().map(|j| parts.find(j.index())).collect_vec();
+    let links = all.iter().flat_map(|&j| m.joints[j].links);
+    let mut others = links.filter(|l| !once(*l));
+    // What is on no side stands once, and is more than frame and driver.
+    let on_sides = others.all(|l| held.contains(&parts.find(l.index())));
+    if !on_sides || !held.iter().all_unique() {
         return Ok(None);
     }
     let side = |jaw: LinkId| -> Result<Recognized, NoStructure> {

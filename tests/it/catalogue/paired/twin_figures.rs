@@ -4,7 +4,7 @@
 mod filed;
 
 use super::super::{dense_twin::place, gauss};
-use super::{known, number, rows, some};
+use super::{known, number, rows, some, three_generic};
 use filed::{FiledJoint, Gripper, Holds, Point, dot, length, quarter, sub, times};
 use serde_json::Value;
 use std::array::from_fn;
@@ -124,7 +124,9 @@ impl Gripper {
     /// Points of the box round pins, tips and pitch circles at a pose.
     fn outermost(&self, x: &[f64]) -> Vec<Point> {
         let pins = self.joints.iter().map(|j| self.on(x, j, j.pin));
-        let mut out: Vec<Point> = pins.chain((0..2).map(|n| self.tip(x, n))).collect();
+        let mut out: Vec<Point> = pins
+            .chain((0..self.jaws.len()).map(|n| self.tip(x, n)))
+            .collect();
         for t in &self.teeth {
             let [touch, _] = self.pitch(x, t);
             let held = t.held.map(|j| &self.joints[j]);
@@ -223,7 +225,7 @@ impl Looked<'_> {
                 .sum();
             (work / could).min(1.0).asin().to_degrees()
         };
-        let jaws = (0..2).map(|n| {
+        let jaws = (0..g.jaws.len()).map(|n| {
             let goes = self.speed(g.jaws[n], g.tip(&self.x, n));
             angle(dot(goes, g.outward()[n]).abs(), g.jaws[n])
         });
@@ -301,6 +303,13 @@ fn all_of(file: &str) -> Vec<Value> {
 fn well_known_schemes_are_as_worked_out() {
     let all = all_of(known());
     assert_eq!(all.len(), 33);
+    all.iter().for_each(is_as_worked_out);
+}
+
+#[test]
+fn three_jaws_without_symmetry_are_as_worked_out() {
+    let all = all_of(three_generic::free());
+    assert!(all.len() > 150, "{}", all.len());
     all.iter().for_each(is_as_worked_out);
 }
 
