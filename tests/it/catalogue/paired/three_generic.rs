@@ -70,7 +70,7 @@ fn keys_of_three_jaws_are_read_back() {
 fn forces_and_strokes_are_those_of_the_files_statics() {
     let folder = tempdir().unwrap();
     let all = rows(free(), LAID);
-    assert!(all.len() > 150, "{}", all.len());
+    assert!(all.len() > 75, "{}", all.len());
     for row in &all {
         let found = (&row["finite"], &row["mobility"], &row["certainty"]);
         assert_eq!(found, (&"1, proven".into(), &1.into(), &"exact".into()));
@@ -96,7 +96,7 @@ fn what_is_laid_out_has_an_id_of_its_own_and_is_found() {
     let told: BTreeSet<String> = own.iter().map(|p| p.id()).collect();
     assert_eq!(ids, told.iter().map(String::as_str).collect());
     let laid = all.iter().filter(|r| r["laid"] == 1);
-    for row in laid.step_by(7) {
+    for row in laid.step_by(3) {
         let id = row["id"].as_str().unwrap();
         let toml = at(&folder, "gripper.toml");
         ok(&["catalog", "export", free(), id, "-o", &toml]);
@@ -136,7 +136,7 @@ fn jaws_that_slide_in_the_frame_go_straight_to_the_part() {
             seen[n] += 1;
         }
     }
-    assert!(seen.iter().all(|n| *n > 3), "{seen:?}");
+    assert!(seen.iter().all(|n| *n > 2), "{seen:?}");
 }
 
 #[test]

@@ -41,8 +41,7 @@ pub(super) fn code(s: &PairStructure) -> Code {
     least(&joined, s.roles.frame, &s.roles.input, &s.roles.jaws, n)
 }
 
-/// The motions of some links against the first of them, joints scattered over the plane: an orthogonal-free basis of what elimination
-/// leaves, three numbers a link.
+/// The motions of some links against the first of them, joints scattered over the plane, three numbers a link.
 fn motions(joined: &[char], links: &[usize]) -> Vec<Vec<f64>> {
     let n = 3 * links.len();
     let mut rows: Vec<Vec<f64>> = Vec::new();
@@ -54,7 +53,8 @@ fn motions(joined: &[char], links: &[usize]) -> Vec<Vec<f64>> {
     (0..3).for_each(|k| add(&[(k, 1.0)]));
     for (j, i) in (0..links.len()).tuple_combinations() {
         let at = place(links[j], links[i]);
-        let off = |k: usize| ((5 * at + k + 1) as f64 * 0.618_033_988_7).fract() - 0.5;
+        // Digits far behind the point: no three places are on one line, no three lines through one point.
+        let off = |k: usize| (1e5 * ((5 * at + k + 1) as f64).sin()).fract();
         // Of the turning and the velocity at the origin of one link against the other.
         let mut line = |[m, x, y]: [f64; 3]| {
             let side = |l: usize, sign: f64| {
