@@ -43,10 +43,8 @@ pub(super) fn round(jaws: usize, symmetry: Symmetry) -> Option<f64> {
 /// Where the tips of so many jaws are drawn for a task, in millimetres: ahead, or round the middle.
 #[must_use]
 pub(super) fn tips(jaws: usize, symmetry: Symmetry, task: &Task) -> Vec<Place> {
-    let ahead = match round(jaws, symmetry) {
-        Some(_) => 0,
-        None => REACH,
-    };
+    let is_round = round(jaws, symmetry).is_some();
+    let ahead = if is_round { 0 } else { REACH };
     let mut tips = outward(jaws, task.half_opening());
     // Tips that are turned are round the middle.
     tips.iter_mut().for_each(|tip| tip.whole[0] += ahead);

@@ -52,7 +52,6 @@ impl<'a> PairSketch<'a> {
     ) -> PairSketch<'a> {
         let (chain, roles) = (&paired.structure.chain, &paired.structure.roles);
         let drive = paired.drive();
-        let tips = paired.tips(&limits.task);
         let pinned = |link: usize| {
             let mut own = rules.joints.iter().filter(|j| j.is_at(link));
             own.all(|j| j.pair == PairKind::Hinge)
@@ -78,7 +77,7 @@ impl<'a> PairSketch<'a> {
             jaws: &roles.jaws,
             joints: rules.joints.iter().zip(&rules.blocks).map(point).collect(),
             follows: rules.rules.iter().map(|r| !free(r)).collect(),
-            tips: tips.iter().map(|t| t.real()).collect(),
+            tips: (paired.tips(&limits.task).iter().map(|t| t.real())).collect(),
             turns: paired.input() == Input::Turn,
             hinged: roles.jaws.iter().map(hinged).collect(),
             round: round(roles.jaws.len(), paired.form.symmetry),

@@ -79,10 +79,13 @@ pub struct Recognized {
 }
 
 impl Recognized {
-    /// Whether three sides are alike, of which the structure has two.
+    /// How many sides there are: 2; 3 that are alike, of which the structure has two; or 1, with three jaws that are no such sides.
     #[must_use]
-    pub fn is_of_two_sides(&self) -> bool {
-        self.structure.roles.jaws.len() < self.whole.roles.jaws.len()
+    pub fn sides(&self) -> usize {
+        match self.structure.roles.jaws.len() {
+            2 => self.whole.roles.jaws.len(),
+            _ => 1,
+        }
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
         Ok(InCatalogue {
             entries: entries(&s, &whole, found.made_as)?,
             // Three sides that are alike are not compared.
-            neighbours: if found.is_of_two_sides() {
+            neighbours: if found.sides() == 3 {
                 Neighbours::default()
             } else {
                 neighbours(&s, &essential)?

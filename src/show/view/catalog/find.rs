@@ -102,10 +102,7 @@ impl FoundData {
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
-            sides: match found.structure.roles.jaws.len() {
-                2 => found.whole.roles.jaws.len(),
-                _ => 1,
-            },
+            sides: found.sides(),
             links: chain.links(),
             hinges: chain.count(PairKind::Hinge),
             slides: kinds.slides,
