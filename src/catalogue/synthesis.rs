@@ -26,5 +26,6 @@ pub mod sketch;
 pub mod stroke;
 pub mod structure;
 pub mod task;
+mod tips;
 pub(crate) mod velocities;
 pub mod workload;

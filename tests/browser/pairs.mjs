@@ -7,10 +7,11 @@ export function pairTests(test) {
   const known = catalogue("known", "--classics", "--ideas", "2");
   const some = catalogue("pairs", "--pairs", "slide,gear,slot", "--at-most", "2", "--symmetry", "mirror,half-turn", "--links", "4..6", "--ideas", "1");
   const three = catalogue("three", "--jaws", "3", "--pairs", "slide,gear,slot", "--symmetry", "threefold", "--links", "5..8", "--at-most", "2", "--ideas", "1");
+  const free = catalogue("free", "--jaws", "3", "--pairs", "slide,gear,slot", "--generic-pairs", "--symmetry", "generic", "--links", "4", "--at-most", "2", "--ideas", "1");
   const cards = (tab) => tab.locator("#cards .card");
 
   test("slides, slots and gears hold all the way from open to closed", async () => {
-    for (const [file, least] of [[known, 30], [some, 100], [three, 50]]) {
+    for (const [file, least] of [[known, 30], [some, 100], [three, 50], [free, 80]]) {
       await open(file, {}, async (tab) => {
         const [count, wrong] = await tab.evaluate(() => {
           const out = [];

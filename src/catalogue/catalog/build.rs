@@ -39,7 +39,7 @@ pub struct Work {
     chains: Vec<ChainWork>,
     /// Structures with slides, gears and slots.
     paired: Vec<PairedStructure>,
-    /// Those with three jaws.
+    /// Those with three jaws, threefold.
     threefold: Vec<ThreefoldStructure>,
 }
 
@@ -118,8 +118,9 @@ fn paired_work(spec: &Spec, shard: Shard) -> Result<Vec<PairedStructure>, BuildE
     }
     let links = spec.links().map_err(RowError::from)?;
     let of_pairs = Pairs::new(spec)?;
-    let all = of_pairs.two_jawed(links.clone());
-    let generic = spec.generic_pairs.then(|| of_pairs.generic(links));
+    let symmetric = (spec.jaws == 2).then(|| of_pairs.two_jawed(links.clone()));
+    let generic = (spec.generic_pairs).then(|| of_pairs.generic(links, spec.jaws));
+    let all = symmetric.into_iter().flatten();
     let all = all.chain(generic.into_iter().flatten());
     let all = all.flat_map(PairedStructure::with_parallelograms);
     let all = all.filter(|p| forms.contains(&(p.input(), p.form)));
@@ -173,13 +174,17 @@ impl Pairs {
         })
     }
 
-    /// The structures of so many links laid out without a symmetry.
-    fn generic(&self, links: RangeInclusive<usize>) -> impl Iterator<Item = PairedStructure> {
+    /// The structures of so many links and jaws laid out without a symmetry.
+    fn generic(
+        &self,
+        links: RangeInclusive<usize>,
+        jaws: usize,
+    ) -> impl Iterator<Item = PairedStructure> {
         let (kinds, most) = (&self.kinds, self.most);
-        links.flat_map(move |n| generic_structures(n, Menu { kinds, most }))
+        links.flat_map(move |n| generic_structures(n, jaws, Menu { kinds, most }))
     }
 
-    /// The structures of two jaws of so many links.
+    /// The symmetric structures of two jaws of so many links.
     fn two_jawed(&self, links: RangeInclusive<usize>) -> impl Iterator<Item = PairedStructure> {
         let (kinds, most) = (&self.kinds, self.most);
         let all = links.flat_map(move |n| paired_structures(n, Menu { kinds, most }));

@@ -80,28 +80,25 @@ impl Entered for Structure {
             symmetry: self.form.symmetry.name().to_owned(),
             parallel: self.form.parallel,
             pairs: None,
-            classics: self.pairs().map_or_else(Vec::new, |p| {
-                classics_of(&p.key(), MadeAs::default()).collect()
-            }),
+            classics: classics_of(&self.pairs().key(), MadeAs::default()).collect(),
         }
     }
 }
 
 impl Structure {
-    /// The same as a structure of pairs; of two jaws.
-    fn pairs(&self) -> Option<PairStructure> {
+    /// The same as a structure of pairs.
+    fn pairs(&self) -> PairStructure {
         let r = &self.roles;
         let input = ordered([r.frame, r.driver]);
         let slide = (self.form.input == Input::Slide).then_some(input);
-        let jaws: [usize; 2] = r.jaws.clone().try_into().ok()?;
-        Some(PairStructure {
+        PairStructure {
             chain: PairChain::hinged(&self.chain, slide),
             roles: PairRoles {
                 frame: r.frame,
                 input,
-                jaws: ordered(jaws),
+                jaws: r.jaws.clone(),
             },
-        })
+        }
     }
 }
 
@@ -117,7 +114,7 @@ impl Entered for PairedStructure {
             joints: chain.joints_made().len(),
             frame: roles.frame,
             driver,
-            jaws: roles.jaws.to_vec(),
+            jaws: roles.jaws.clone(),
             input: self.input(),
             symmetry: self.form.symmetry_name(),
             parallel: self.form.parallel,

@@ -13,8 +13,8 @@ use serde_json::Value;
 const FORM: &str = "concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL), \
      iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin:' || replace(substr(name, instr(name, ' pin')), ' pin', ' '), NULL))";
 
-/// What is read of a structure of two jaws after its id and form.
-const STRUCTURES: &str = "chain, input, frame, driver, jaw_a, jaw_b, code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 AND jaw_c IS NULL ORDER BY symmetry = 'generic', parallel, id";
+/// What is read of a structure after its id and form.
+const STRUCTURES: &str = "chain, input, frame, driver, jaw_a, jaw_b, jaw_c, code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,10 +25,7 @@ pub struct Entry {
     pub form: String,
 }
 
-/// Those of three jaws whose sides are those of a structure, which their names begin with.
-const THREEFOLD: &str = "FROM structures WHERE name LIKE ?1 || ' threefold%' ORDER BY parallel, id";
-
-/// The entries of a catalogue that are a structure, with two sides or three, in whatever form they are laid out, symmetric ones first.
+/// The entries of a catalogue that are a structure, in whatever form they are laid out, symmetric ones first.
 ///
 /// # Errors
 /// Those of the database.
@@ -38,16 +35,8 @@ const THREEFOLD: &str = "FROM structures WHERE name LIKE ?1 || ' threefold%' ORD
 pub fn entries(
     store: &Store,
     structure: &PairStructure,
-    sides: usize,
     made_as: MadeAs,
 ) -> Result<Vec<Entry>, StoreError> {
-    if sides == 3 {
-        let (_, rows) = store.query(
-            &format!("SELECT id, {FORM} {THREEFOLD}"),
-            Some(&structure.name()),
-        )?;
-        return Ok(rows.iter().map(|r| Entry::new(r)).collect());
-    }
     let key = structure.key();
     let links = structure.chain.links().to_string();
     let (_, rows) = store.query(&format!("SELECT id, {FORM}, {STRUCTURES}"), Some(&links))?;
@@ -87,16 +76,17 @@ pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     let slides = row.get(3)?.as_str()? == "slide";
     let link = |i: usize| usize::try_from(row.get(i)?.as_u64()?).ok();
     let (frame, driver) = (link(4)?, link(5)?);
-    let input = ordered([link(9).unwrap_or(frame), driver]);
+    let input = ordered([link(10).unwrap_or(frame), driver]);
+    let jaws = [link(6)?, link(7)?].into_iter().chain(link(8));
     Some(PairStructure {
-        chain: match row.get(8)?.as_str() {
+        chain: match row.get(9)?.as_str() {
             Some(code) => PairChain::of_code(chain.links(), code)?,
             None => PairChain::hinged(&chain, slides.then_some(input)),
         },
         roles: PairRoles {
             frame,
             input,
-            jaws: ordered([link(6)?, link(7)?]),
+            jaws: jaws.sorted().collect(),
         },
     })
 }

@@ -84,15 +84,15 @@ pub struct Neighbours {
 
 /// Of each layout with its form: what `read` needs, then the figures.
 const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.parallel, 'parallel', NULL)), s.chain, s.input, s.frame, s.driver, \
-     s.jaw_a, s.jaw_b, p.code, p.driven_from, g.least_force, g.force_ratio, g.turn, g.pin_force, g.width * g.height, g.price \
+     s.jaw_a, s.jaw_b, s.jaw_c, p.code, p.driven_from, g.least_force, g.force_ratio, g.turn, g.pin_force, g.width * g.height, g.price \
      FROM structures s JOIN grippers g ON g.id = s.id LEFT JOIN pairs p ON p.structure = s.id \
-     WHERE s.jaw_c IS NULL AND g.reached = 1 AND s.links BETWEEN ?1 - 4 AND ?1 + 4";
+     WHERE g.reached = 1 AND s.links BETWEEN ?1 - 4 AND ?1 + 4";
 /// Catalogues of earlier versions have no figures over a stroke.
 const HAS_FIGURES: &str = "SELECT 1 FROM sqlite_schema WHERE name = 'grippers'";
 /// Where the figures of a row begin.
-const FIRST_FIGURE: usize = 10;
+const FIRST_FIGURE: usize = 11;
 
-/// What of a catalogue is next to a structure: the same chain with other roles, and what two links less or more, or four, make of
+/// What of a catalogue is next to a structure, with as many jaws: the same chain with other roles, and what two links less or more, or four, make of
 /// it, taken out two and two in a row (`without_two_links`); four only where a layout is symmetric, whose two halves
 /// lose two links each. Nothing of a catalogue that knows no strokes.
 ///
@@ -110,7 +110,10 @@ pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Neighbours
     let (_, rows) = store.query(LAYOUTS, Some(&links.to_string()))?;
     let own = Own::new(structure);
     for row in rows {
-        let Some(other) = read(&row) else { continue };
+        let jaws = |s: &PairStructure| s.roles.jaws.len();
+        let Some(other) = read(&row).filter(|other| jaws(other) == jaws(structure)) else {
+            continue;
+        };
         let mut figures: Figures = std::array::from_fn(|i| row[FIRST_FIGURE + i].as_f64());
         if other.slides() != structure.slides() {
             // A force for a force, and one for a moment.

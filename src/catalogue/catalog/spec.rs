@@ -11,7 +11,7 @@ use crate::file::schema::{OptionEntry, OptionTable};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::mechanism::Menu;
 use crate::synthesis::paired::structure::PairedForm;
-use crate::synthesis::structure::Form;
+use crate::synthesis::structure::{Form, suits};
 use crate::synthesis::task::Task;
 use crate::synthesis::workload::Workload;
 use itertools::Itertools;
@@ -166,7 +166,8 @@ impl Spec {
         let known = *all.start() >= least && *all.end() <= MOST_LINKS;
         let some = known && all.clone().any(|n| n % 2 == 0 || !self.pairs.is_empty());
         let paired = !self.pairs.is_empty() || self.one_pin()? != Some(false);
-        if some && self.jaws == 2 && paired && *all.end() > MOST_PAIRED {
+        let many = self.jaws == 2 || self.generic_pairs;
+        if some && many && paired && *all.end() > MOST_PAIRED {
             return Err(SpecError::PairedLinks);
         }
         some.then_some(all).ok_or_else(wrong)
@@ -188,7 +189,7 @@ impl Spec {
     /// # Errors
     /// Where a word means nothing.
     pub(crate) fn paired_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
-        if self.jaws != 2 || self.pairs()?.is_empty() && self.one_pin()? == Some(false) {
+        if self.pairs()?.is_empty() && self.one_pin()? == Some(false) {
             return Ok(Vec::new());
         }
         let (inputs, symmetries) = self.words()?;
@@ -202,6 +203,7 @@ impl Spec {
         let forms = forms.cartesian_product([false, true]);
         let forms = forms.map(|(f, parallel)| PairedForm { parallel, ..f });
         let forms = forms.filter(|f| parallel.is_none_or(|p| p == f.parallel));
+        let forms = forms.filter(|f| suits(f.symmetry, f.parallel, self.jaws));
         let forms: Vec<PairedForm> = forms.collect();
         Ok(inputs.into_iter().cartesian_product(forms).collect())
     }
@@ -350,8 +352,8 @@ impl Spec {
         if self.jaws == 3 && self.one_pin()? != Some(false) {
             return Err(SpecError::TwoJaws("one_pin"));
         }
-        if self.jaws == 3 && self.generic_pairs {
-            return Err(SpecError::TwoJaws("generic_pairs"));
+        if self.generic_pairs && !self.words()?.1.contains(&Symmetry::Generic) {
+            return Err(SpecError::Freely);
         }
         self.links()?;
         self.forms()?;

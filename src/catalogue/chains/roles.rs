@@ -26,12 +26,27 @@ pub struct Roles {
     pub jaws: Vec<usize>,
 }
 
+/// Where an automorphism takes jaws, in order of their numbers.
+#[must_use]
+pub(crate) fn jaws_carried(jaws: &[usize], by: &[usize]) -> Vec<usize> {
+    jaws.iter().map(|&j| by[j]).sorted_unstable().collect()
+}
+
+/// Whether an automorphism carries each jaw to the next and the last to the first, and changes nothing when it is done as often as
+/// there are jaws.
+#[must_use]
+pub(crate) fn carries_round(jaws: &[usize], by: &[usize]) -> bool {
+    let next = jaws.iter().cycle().skip(1);
+    let back = |l: usize| jaws.iter().fold(l, |l, _| by[l]) == l;
+    jaws.iter().zip(next).all(|(&a, &b)| by[a] == b) && (0..by.len()).all(back)
+}
+
 impl Roles {
     fn image(&self, by: &[usize]) -> Roles {
         Roles {
             frame: by[self.frame],
             driver: by[self.driver],
-            jaws: self.jaws.iter().map(|&j| by[j]).sorted_unstable().collect(),
+            jaws: jaws_carried(&self.jaws, by),
         }
     }
 
@@ -142,12 +157,9 @@ impl<'a> Subject<'a> {
     /// The automorphisms that keep frame and driver, carry each jaw to the next and the last to the first, and change nothing
     /// when they are done as often as there are jaws: those that swap two.
     pub fn swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
-        let jaws = &roles.jaws;
         self.automorphisms.iter().filter(move |s| {
             let kept = s[roles.frame] == roles.frame && s[roles.driver] == roles.driver;
-            let next = || jaws.iter().cycle().skip(1);
-            let back = |l: usize| jaws.iter().fold(l, |l, _| s[l]) == l;
-            kept && jaws.iter().zip(next()).all(|(&a, &b)| s[a] == b) && (0..s.len()).all(back)
+            kept && carries_round(&roles.jaws, s)
         })
     }
 }

@@ -176,6 +176,15 @@ impl Bones {
         }
     }
 
+    /// Away from the part at each jaw, over the number of pairs of jaws: by this the tips' ways add up to the opening.
+    #[must_use]
+    pub(super) fn apart(&self) -> Vec<Point> {
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let pairs = self.inward.len() as f64 / 2.0;
+        let inward = self.inward.iter();
+        inward.map(|i| i.map(|x| -x / pairs)).collect()
+    }
+
     /// The force of each jaw where the drive goes so far for a millimetre of the opening, by work: N for 1 N of the drive, or for 1 Nm
     /// where it turns.
     #[must_use]

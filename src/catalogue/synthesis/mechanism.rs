@@ -11,6 +11,7 @@ use crate::synthesis::layout::Layout;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
 use crate::synthesis::structure::Structure;
+use crate::synthesis::tips;
 use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
 
@@ -25,7 +26,7 @@ pub(crate) fn link_names(structure: &Structure) -> Vec<String> {
             Input::Turn => "crank".to_owned(),
         },
         l => match r.jaws.iter().position(|&j| j == l) {
-            Some(n) => ["jaw-a", "jaw-b", "jaw-c"][n].to_owned(),
+            Some(n) => tips::NAMES[n].to_owned(),
             None => format!("link-{l}"),
         },
     };
@@ -254,7 +255,7 @@ pub fn mechanism_file(
         jaws: &r.jaws,
         held: HeldPart {
             tips: &layout.tips,
-            outward: &structure.outward(1),
+            outward: &tips::outward(r.jaws.len(), 1),
             grip: layout.limits.task.grip.sign(),
             pivot: Pivot::Normal,
         },

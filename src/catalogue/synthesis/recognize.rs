@@ -38,7 +38,12 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
     if let Some(thread) = joints.find(|j| is_thread(j)) {
         return Err(NoStructure::Thread(thread.id.clone()));
     }
-    three_sides(m)?.map_or_else(|| in_a_plane(m), Ok)
+    match three_sides(m) {
+        Ok(Some(found)) => Ok(found),
+        Ok(None) => in_a_plane(m),
+        // Three jaws that are no sides may be all in one plane.
+        Err(why) => in_a_plane(m).map_err(|_| why),
+    }
 }
 
 /// The structure of what moves in a plane.
@@ -50,17 +55,24 @@ fn in_a_plane(m: &Mechanism) -> Result<Recognized, NoStructure> {
         input: found.links.input,
         jaws: jaws(m, |l| found.body(l))?,
     };
-    let at_frame = roles.jaws.map(|jaw| found.at_frame(jaw));
+    let jaws_on_one_pin = match roles.jaws[..] {
+        [a, b] => {
+            let at_frame = [a, b].map(|jaw| found.at_frame(jaw));
+            found.plane.are_on_one_pin(at_frame)?
+        }
+        _ => false,
+    };
     let made_as = MadeAs {
         flat: found.links.flat,
-        jaws_on_one_pin: found.plane.are_on_one_pin(at_frame)?,
+        jaws_on_one_pin,
         threaded: false,
     };
     let chain = PairChain::new(found.links.names.len(), found.links.joints);
+    let structure = PairStructure { chain, roles };
     Ok(Recognized {
-        structure: PairStructure { chain, roles },
+        whole: structure.clone(),
+        structure,
         names: found.links.names,
-        sides: 2,
         made_as,
     })
 }

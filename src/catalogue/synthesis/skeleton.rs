@@ -1,15 +1,13 @@
 //! What of a structure does not depend on where its pins are, gathered once for the many places that are tried.
 
-use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::layout_symmetry::Input;
 use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::stroke::closure::Closure;
 use crate::synthesis::structure::Structure;
+use crate::synthesis::tips::round;
 use crate::synthesis::velocities::Contours;
-
-/// A pin nearer than this to the middle of the part that is held is in its way.
-const PART: f64 = 25.0;
 
 /// A structure with the rules of its pins.
 #[derive(Debug)]
@@ -34,11 +32,6 @@ impl<'a> Skeleton<'a> {
     pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Skeleton<'a> {
         let r = &structure.roles;
         let tips = structure.tips(&limits.task);
-        // Pins where the part is are in its way, but for those of a drive behind it.
-        let near = match structure.form.symmetry {
-            Symmetry::Generic => PART,
-            _ => 0.0,
-        };
         let ends = |pin: usize| match rules.pins[pin] {
             // The block of a drive that slides is on the driver.
             _ if pin == rules.input => Some([r.driver, r.frame]),
@@ -53,7 +46,7 @@ impl<'a> Skeleton<'a> {
             tips: tips.iter().map(|t| t.real()).collect(),
             turns: structure.form.input == Input::Turn,
             hinged: (r.jaws.iter().map(|&j| structure.chain.joined(r.frame, j))).collect(),
-            round: structure.is_round().then_some(near),
+            round: round(r.jaws.len(), structure.form.symmetry),
             wished: limits.task.distances(),
             cylinder: None,
             together: Vec::new(),
@@ -62,7 +55,7 @@ impl<'a> Skeleton<'a> {
         let contours = Contours::new(structure);
         Skeleton {
             structure,
-            closure: Closure::new(&contours, &bones.inward),
+            closure: Closure::new(&contours, bones.apart()),
             bones,
             contours,
             limits,

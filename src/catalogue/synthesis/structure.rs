@@ -6,6 +6,7 @@ use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::roles::{Roles, Subject};
 use crate::synthesis::place::Place;
 use crate::synthesis::task::Task;
+use crate::synthesis::tips;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -36,10 +37,10 @@ impl Form {
             .filter(|f| f.symmetry.suits(f.input))
     }
 
-    /// Whether a gripper of so many jaws can have it. Parallelograms for three jaws need more than ten links.
+    /// Whether a gripper of so many jaws can have it, as [`suits`].
     #[must_use]
     pub fn suits(self, jaws: usize) -> bool {
-        self.symmetry.jaws().is_none_or(|n| n == jaws) && (jaws == 2 || !self.parallel)
+        suits(self.symmetry, self.parallel, jaws)
     }
 
     /// The form in words: "slide mirror parallel".
@@ -58,6 +59,13 @@ pub(super) fn short_id(links: usize, name: &str) -> String {
         let _ = write!(id, "{byte:02x}");
     }
     id
+}
+
+/// Whether grippers of so many jaws are laid out so in a plane, on parallelograms or not. Three jaws stand on none: that takes many
+/// links.
+#[must_use]
+pub(crate) fn suits(symmetry: Symmetry, parallel: bool, jaws: usize) -> bool {
+    symmetry.jaws().is_none_or(|n| n == jaws) && (jaws == 2 || !parallel)
 }
 
 /// A gripper without places.
@@ -139,42 +147,11 @@ pub struct Ring {
     pub jaw: usize,
 }
 
-/// How far ahead the tips of jaws in front are, in millimetres.
-pub(super) const REACH: i32 = 120;
-
 impl Structure {
-    /// Whether the jaws close on a part over the centre, all of the gripper round it, instead of in front.
-    #[must_use]
-    pub(crate) fn is_round(&self) -> bool {
-        self.form.symmetry == Symmetry::HalfTurn || self.roles.jaws.len() > 2
-    }
-
     /// Where the tips of the jaws are drawn for a task, in millimetres.
     #[must_use]
     pub fn tips(&self, task: &Task) -> Vec<Place> {
-        let ahead = if self.is_round() { 0 } else { REACH };
-        self.outward(task.half_opening())
-            .into_iter()
-            .map(|p| Place {
-                whole: [p.whole[0] + ahead, p.whole[1]],
-                ..p
-            })
-            .collect()
-    }
-
-    /// What is so long and points from the part to each jaw: opposite ways for two, at 120° for three.
-    #[must_use]
-    pub fn outward(&self, length: i32) -> Vec<Place> {
-        match self.roles.jaws.len() {
-            2 => [[0, length], [0, -length]].map(Place::from).into(),
-            _ => (0..3)
-                .map(|thirds| Place {
-                    whole: [0, length],
-                    thirds,
-                    ..Place::default()
-                })
-                .collect(),
-        }
+        tips::tips(self.roles.jaws.len(), self.form.symmetry, task)
     }
 
     /// A ring for each jaw, or `None` where one has none. The first by numbers, base before rods.

@@ -34,12 +34,14 @@ fn is_left(small: &PairStructure, large: &PairStructure) -> bool {
         let pairs = (0..links - 2).tuple_combinations();
         let same =
             |(a, b): (usize, usize)| small.chain.between(a, b) == large.chain.between(at[a], at[b]);
-        let roles = small.roles;
-        let jaws = roles.jaws.map(|j| at[j]);
+        let roles = &small.roles;
+        let jaws = [0, 1].map(|n| at[roles.jaws[n]]);
         let stands_for =
             |jaw: usize, by: usize| jaw == by || (out.contains(&jaw) && [x, y].contains(&by));
         let gripping = |[a, b]: [usize; 2]| {
-            let [p, q] = large.roles.jaws;
+            let [p, q] = large.roles.jaws[..] else {
+                return false;
+            };
             stands_for(p, a) && stands_for(q, b)
         };
         let input = large.roles.input;

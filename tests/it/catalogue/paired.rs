@@ -7,6 +7,7 @@ mod flat;
 mod made;
 mod passing;
 mod strongest;
+mod three_generic;
 mod twin_figures;
 
 use super::carried_on::scattered;
@@ -209,7 +210,7 @@ fn pulls_as_its_file_says(file: &str, row: &Value, folder: &TempDir) {
     let (mut gone, mut all) = (0.0, Vec::new());
     // Three jaws go as far to the middle each.
     let jaws = if row["jaw_c"].is_null() { 2.0 } else { 3.0 };
-    let flat = jaws == 2.0 || row["input"] == "turn";
+    let flat = row["symmetry"] != "threefold" || row["input"] == "turn";
     for (way, work) in [(closes, 1500.0 * jaws), (-closes, 1000.0 * jaws)] {
         // Beyond the end links may lock: a little less, where that does.
         let found = [0.8, 0.999]
@@ -246,7 +247,7 @@ fn pulls_as_its_file_says(file: &str, row: &Value, folder: &TempDir) {
     }
 }
 
-const LAID: &str = "SELECT id, links, input, travel, closes, force_min, force_max, pin_force, gears, finite, certainty, mobility, jaw_c FROM structures \
+const LAID: &str = "SELECT id, links, input, symmetry, travel, closes, force_min, force_max, pin_force, gears, finite, certainty, mobility, jaw_c FROM structures \
      JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id JOIN pairs p ON p.structure = id WHERE reached = 1 ORDER BY id";
 
 #[test]

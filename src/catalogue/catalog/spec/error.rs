@@ -30,7 +30,8 @@ pub enum SpecError {
     Links(String),
     /// Too many links for pairs.
     #[error(
-        "links: structures with pairs, or hinges on one pin, have {MOST_PAIRED} links at most: there are too many beyond"
+        "links: structures with pairs, or hinges on one pin, have {MOST_PAIRED} links at most: there are too many beyond; with three jaws \
+         leave generic_pairs (--generic-pairs) out for more"
     )]
     PairedLinks,
     /// Pairs in a form that they are not laid out in.
@@ -39,6 +40,12 @@ pub enum SpecError {
          generic with generic_pairs (--generic-pairs), or with three jaws for threefold"
     )]
     PairedForms,
+    /// Free layouts that no symmetry asked for allows.
+    #[error(
+        "generic_pairs: nothing is laid out freely without generic among the symmetries: add it (--symmetry generic), or leave \
+         generic_pairs (--generic-pairs) out"
+    )]
+    Freely,
     /// A number out of its range.
     #[error("{what} must be from {from} to {to}")]
     Range {
@@ -55,7 +62,7 @@ pub enum SpecError {
     )]
     NoLoad,
     /// What structures of three jaws do not have.
-    #[error("{0}: of structures with two jaws alone")]
+    #[error("{0}: of structures with two jaws alone: leave it out, or ask for two (--jaws 2)")]
     TwoJaws(&'static str),
     /// A part that is wider than the widest.
     #[error("narrowest must be less than widest by a millimetre at least")]
@@ -78,6 +85,7 @@ impl SpecError {
             | SpecError::TwoJaws(what) => Some(what),
             SpecError::Links(_) | SpecError::PairedLinks => Some("links"),
             SpecError::PairedForms => Some("pairs"),
+            SpecError::Freely => Some("generic_pairs"),
             SpecError::NoLoad => Some("closing"),
             SpecError::Nothing => Some("symmetries"),
             SpecError::Widths => Some("narrowest"),

@@ -140,7 +140,7 @@ impl PairCensus {
             let between = !input.is_at(frame);
             out.inputs_at_frame += u64::from(!between);
             out.inputs_between += u64::from(between);
-            let all = grippers.then(|| subject.grippers(frame, &input));
+            let all = grippers.then(|| subject.grippers(frame, &input, 2));
             for roles in all.into_iter().flatten() {
                 let drive = DriveKind {
                     between,

@@ -70,7 +70,7 @@ impl Written {
             roles: PairRoles {
                 frame: place("f")?,
                 input: both(&self.input)?,
-                jaws: both(&self.jaws)?,
+                jaws: both(&self.jaws)?.to_vec(),
             },
             chain: PairChain::new(names.len(), joints),
         })

@@ -1,21 +1,21 @@
-//! What links of a chain of pairs do in a gripper: frame, input joint and two jaws, each choice once up to the chain's
-//! automorphisms.
+//! What links of a chain of pairs do in a gripper: frame, input joint and jaws, each choice once up to the chain's automorphisms.
 
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, Velocity, motion, symmetric_motions};
+use crate::chains::roles::{carries_round, jaws_carried};
 use itertools::Itertools;
 use std::cell::OnceCell;
 
 /// Frame, input joint and jaws of a gripper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PairRoles {
     /// The link that stands still.
     pub frame: usize,
     /// The links of the driven joint, the lesser first.
     pub input: [usize; 2],
-    /// The jaws, the lesser first.
-    pub jaws: [usize; 2],
+    /// The jaws, two or three, in order of their numbers.
+    pub jaws: Vec<usize>,
 }
 
 impl PairRoles {
@@ -25,7 +25,7 @@ impl PairRoles {
         PairRoles {
             frame: by[self.frame],
             input: carried(self.input, by),
-            jaws: carried(self.jaws, by),
+            jaws: jaws_carried(&self.jaws, by),
         }
     }
 
@@ -44,9 +44,9 @@ impl PairRoles {
     /// Whether input and jaws move in a motion, the jaws also against each other.
     #[must_use]
     pub(crate) fn moves_in(&self, motion: &[Velocity]) -> bool {
-        let [a, b] = self.jaws;
+        let apart = self.jaws.iter().chain([&self.frame]);
         let [u, v] = self.input;
-        [a, b, self.frame].iter().map(|&l| motion[l]).all_unique() && motion[u] != motion[v]
+        apart.map(|&l| motion[l]).all_unique() && motion[u] != motion[v]
     }
 
     fn links(&self) -> usize {
@@ -142,16 +142,16 @@ impl<'a> PairSubject<'a> {
         all.filter(first).map(|(j, frame)| (frame, *j)).collect()
     }
 
-    /// Every choice of jaws with a drive.
+    /// Every choice of so many jaws with a drive.
     #[must_use]
-    pub fn grippers(&self, frame: usize, input: &Joint) -> Vec<PairRoles> {
+    pub fn grippers(&self, frame: usize, input: &Joint, jaws: usize) -> Vec<PairRoles> {
         let keeps = |a: &&&Vec<usize>| a[frame] == frame && carried(input.links, a) == input.links;
         let keeping: Vec<_> = self.automorphisms.iter().filter(keeps).collect();
-        let jaws = (0..self.chain.links()).filter(|&l| l != frame);
-        let all = jaws.tuple_combinations().map(|(a, b)| PairRoles {
+        let others = (0..self.chain.links()).filter(|&l| l != frame);
+        let all = others.combinations(jaws).map(|jaws| PairRoles {
             frame,
             input: input.links,
-            jaws: [a, b],
+            jaws,
         });
         all.filter(|r| keeping.iter().all(|a| r.image(a) >= *r))
             .collect()
@@ -164,7 +164,8 @@ impl<'a> PairSubject<'a> {
         let own = |j: &&Joint| j.pair.is_lower() && carried(j.links, swap) == j.links;
         let inputs = self.joints.iter().filter(own);
         let frames = (0..n).filter(|&l| swap[l] == l);
-        let jaws = (0..n).filter(|&l| l < swap[l]).map(|l| [l, swap[l]]);
+        let jaws = (0..n).filter(|&l| l < swap[l]);
+        let jaws = jaws.map(|l| vec![l, swap[l]]);
         let all = inputs.cartesian_product(frames).cartesian_product(jaws);
         let roles = all.map(|((input, frame), jaws)| PairRoles {
             frame,
@@ -189,7 +190,7 @@ impl<'a> PairSubject<'a> {
         self.moving_parts_with(roles).next().is_none()
     }
 
-    /// Whether both jaws keep their attitude in nearly all places.
+    /// Whether all jaws keep their attitude in nearly all places.
     #[must_use]
     pub fn is_translating(&self, roles: &PairRoles) -> bool {
         let motion = self
@@ -202,11 +203,23 @@ impl<'a> PairSubject<'a> {
             .all(|&j| turning(j) == turning(roles.frame))
     }
 
-    /// How it is symmetric.
+    /// Whether an automorphism keeps frame and input joint and carries each jaw to the next, back after as many times as there are
+    /// jaws.
+    #[must_use]
+    pub(crate) fn is_graph_symmetric(&self, roles: &PairRoles) -> bool {
+        let kept =
+            |s: &[usize]| s[roles.frame] == roles.frame && carried(roles.input, s) == roles.input;
+        let mut all = self.automorphisms.iter();
+        all.any(|s| kept(s) && carries_round(&roles.jaws, s))
+    }
+
+    /// How one of two jaws is symmetric; nothing carries one of three to itself so.
     #[must_use]
     pub fn symmetries(&self, roles: &PairRoles) -> Symmetries {
         let mut out = Symmetries::default();
-        let [a, b] = roles.jaws;
+        let &[a, b] = &roles.jaws[..] else {
+            return out;
+        };
         for s in self.involutions() {
             if s.links[roles.frame] != roles.frame || s.links[a] != b {
                 continue;

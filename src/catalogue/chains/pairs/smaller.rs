@@ -25,7 +25,7 @@ impl PairStructure {
         let rest = (0..self.chain.links()).filter(|l| !row.links.contains(l));
         let rest = rest.collect_vec();
         let is_in = |l: &usize| row.links.contains(l);
-        let roles = self.roles;
+        let roles = &self.roles;
         let input = if roles.input.iter().any(is_in) {
             ordered(row.ends)
         } else {
@@ -35,22 +35,22 @@ impl PairStructure {
         if !driven.is_some_and(PairKind::is_lower) {
             return Vec::new();
         }
-        let becomes = |jaw: usize| {
-            if is_in(&jaw) {
+        let becomes = |jaw: &usize| {
+            if is_in(jaw) {
                 row.ends.to_vec()
             } else {
-                vec![jaw]
+                vec![*jaw]
             }
         };
-        let [a, b] = roles.jaws.map(becomes);
-        let pairs = a.into_iter().cartesian_product(b);
-        let apart = pairs.filter(|(a, b)| a != b && ![a, b].contains(&&roles.frame));
-        let left = apart.map(|(a, b)| PairStructure {
+        let jaws = roles.jaws.iter().map(becomes);
+        let jaws = jaws.multi_cartesian_product();
+        let apart = jaws.filter(|jaws| jaws.iter().chain([&roles.frame]).all_unique());
+        let left = apart.map(|jaws| PairStructure {
             chain: self.chain.clone(),
             roles: PairRoles {
                 input,
-                jaws: ordered([a, b]),
-                ..roles
+                jaws: jaws.into_iter().sorted_unstable().collect(),
+                frame: roles.frame,
             },
         });
         left.map(|s| s.part(&rest)).collect()

@@ -42,14 +42,12 @@ impl PairStructure {
             Some(Joint { links, pair })
         });
         let input = between.clone().find(driven).unwrap_or_default();
-        let mut jaws = at(2);
-        let mut jaw = || jaws.next().unwrap_or_default();
         PairStructure {
             chain: PairChain::new(key.vertices(), joints),
             roles: PairRoles {
                 frame: at(1).next().unwrap_or_default(),
                 input,
-                jaws: [jaw(), jaw()],
+                jaws: at(2).collect(),
             },
         }
     }
@@ -78,8 +76,8 @@ impl PairStructure {
     #[must_use]
     pub fn name(&self) -> String {
         let PairStructure { chain, roles } = PairStructure::of_key(&self.key());
-        let ([i, k], [a, b]) = (roles.input, roles.jaws);
-        format!("{} f{} i{i}-{k} j{a},{b}", chain.code(), roles.frame)
+        let ([i, k], jaws) = (roles.input, roles.jaws.iter().join(","));
+        format!("{} f{} i{i}-{k} j{jaws}", chain.code(), roles.frame)
     }
 
     /// The links of the smallest moving part that holds all roles: all links where the structure is essential, or has in nearly

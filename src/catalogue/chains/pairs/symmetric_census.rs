@@ -53,9 +53,10 @@ pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper>
                 let orbits = subject.other_pairs_up_to(&graph.swap);
                 let found = grippers(&subject, graph).into_iter();
                 let found = found.map(|(half_turn, roles)| {
+                    let driven_jaw = roles.has_driven_jaw();
                     let chain = chain.clone();
                     let key = PairStructure { chain, roles }.key();
-                    (half_turn, roles.has_driven_jaw(), key)
+                    (half_turn, driven_jaw, key)
                 });
                 // Numbered before others have to wait.
                 let found: Vec<_> = found.collect();

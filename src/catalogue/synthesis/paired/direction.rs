@@ -1,5 +1,6 @@
 //! Directions in the plane whose coordinates and length are whole numbers.
 
+use crate::synthesis::place::{Place, third};
 use crate::synthesis::point::Point;
 
 /// Of the first quarter, from along x to nearly along y, evenly about its middle.
@@ -24,46 +25,61 @@ const QUARTER: [[i32; 3]; 15] = [
 /// How many there are.
 pub(super) const ALL: usize = 4 * QUARTER.len();
 
-/// A direction whose coordinates and length are whole: the sides of a right triangle.
+/// A direction whose coordinates and length are whole: the sides of a right triangle; or one that thirds of a turn make of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct WholeDirection(usize);
+pub struct WholeDirection {
+    /// Which of one turn of them it is.
+    number: usize,
+    /// How often it is turned by 120°: 0, 1 or 2.
+    thirds: u8,
+}
 
 impl WholeDirection {
     /// Along x.
-    pub const AHEAD: WholeDirection = WholeDirection(0);
+    pub const AHEAD: WholeDirection = WholeDirection::of(0, 0);
     /// Along y.
-    pub const ACROSS: WholeDirection = WholeDirection(QUARTER.len());
+    pub const ACROSS: WholeDirection = WholeDirection::of(QUARTER.len(), 0);
+
+    const fn of(number: usize, thirds: u8) -> WholeDirection {
+        WholeDirection { number, thirds }
+    }
 
     /// The direction of a number: one turn of them.
     #[must_use]
     pub fn number(n: usize) -> WholeDirection {
-        WholeDirection(n % ALL)
+        WholeDirection::of(n % ALL, 0)
+    }
+
+    /// The same so many thirds of a turn on, left round.
+    #[must_use]
+    pub(super) fn turned_by_thirds(self, by: u8) -> WholeDirection {
+        WholeDirection::of(self.number, (self.thirds + by) % 3)
     }
 
     /// The next but so many, left round where positive.
     #[must_use]
     pub fn turned(self, by: isize) -> WholeDirection {
         let all = ALL.cast_signed();
-        WholeDirection((self.0.cast_signed() + by).rem_euclid(all).cast_unsigned())
+        let number = (self.number.cast_signed() + by).rem_euclid(all);
+        WholeDirection::of(number.cast_unsigned(), self.thirds)
     }
 
     /// Its image across the x axis.
     #[must_use]
     pub fn mirrored(self) -> WholeDirection {
-        WholeDirection((ALL - self.0) % ALL)
+        WholeDirection::of((ALL - self.number) % ALL, (3 - self.thirds) % 3)
     }
 
     /// The opposite one.
     #[must_use]
     pub fn reversed(self) -> WholeDirection {
-        WholeDirection((self.0 + ALL / 2) % ALL)
+        WholeDirection::of((self.number + ALL / 2) % ALL, self.thirds)
     }
 
-    /// Its coordinates.
-    #[must_use]
-    pub fn whole(self) -> [i32; 2] {
-        let [x, y, _] = QUARTER[self.0 % QUARTER.len()];
-        match self.0 / QUARTER.len() {
+    /// Its coordinates before it is turned.
+    fn whole(self) -> [i32; 2] {
+        let [x, y, _] = QUARTER[self.number % QUARTER.len()];
+        match self.number / QUARTER.len() {
             0 => [x, y],
             1 => [-y, x],
             2 => [-x, -y],
@@ -71,17 +87,29 @@ impl WholeDirection {
         }
     }
 
+    /// A place that is that way from the origin, exactly.
+    #[must_use]
+    pub(crate) fn place(self) -> Place {
+        Place {
+            whole: self.whole(),
+            thirds: self.thirds,
+            ..Place::default()
+        }
+    }
+
     /// Of length 1, in double precision.
     #[must_use]
     pub fn real(self) -> Point {
-        let length = QUARTER[self.0 % QUARTER.len()][2];
-        self.whole().map(|x| f64::from(x) / f64::from(length))
+        let length = QUARTER[self.number % QUARTER.len()][2];
+        let along = self.whole().map(|x| f64::from(x) / f64::from(length));
+        (0..self.thirds).fold(along, |p, _| third(p))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{ALL, WholeDirection};
+    use std::f64::consts::TAU;
 
     #[test]
     fn directions_go_round_once_and_have_whole_lengths() {
@@ -93,12 +121,18 @@ mod tests {
             assert_eq!(length, length.round());
             let [a, b] = d.real();
             assert!((a.hypot(b) - 1.0).abs() < 1e-15);
-            let angle = b.atan2(a).rem_euclid(std::f64::consts::TAU);
+            let angle = b.atan2(a).rem_euclid(TAU);
             assert!(angle > before, "{n}");
             before = angle;
             assert_eq!(d.mirrored().whole(), [x, -y]);
             assert_eq!(d.reversed().whole(), [-x, -y]);
             assert_eq!(d.turned(-7).turned(7), d);
+            let on = d.turned_by_thirds(2);
+            assert_eq!(on.turned_by_thirds(1), d);
+            assert_eq!(on.mirrored(), d.mirrored().turned_by_thirds(1));
+            let turn = (on.real()[1].atan2(on.real()[0]) - angle).rem_euclid(TAU);
+            assert!((turn - 2.0 * TAU / 3.0).abs() < 1e-12);
+            assert_eq!(on.place().thirds, 2);
         }
     }
 }

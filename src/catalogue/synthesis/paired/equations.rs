@@ -136,14 +136,13 @@ impl FitEquations for PairEquations<'_> {
             rows.add(row, size, gone - x[last]);
             row += 1;
             let mut open = -wider;
-            for (n, &jaw) in bones.jaws.iter().enumerate() {
+            for ((n, &jaw), outward) in bones.jaws.iter().enumerate().zip(&sketch.apart) {
                 let tip = links[jaw].point(bones.tips[n]);
-                let outward = bones.inward[n].map(|x| -x);
-                open += dot(sub(tip, bones.tips[n]), outward);
+                open += dot(sub(tip, bones.tips[n]), *outward);
                 put(
                     rows,
                     row,
-                    &[Term::force(jaw, outward, tip)],
+                    &[Term::force(jaw, *outward, tip)],
                     bones.frame,
                     shift,
                 );

@@ -14,6 +14,7 @@ use crate::synthesis::paired::rules::{Mesh, PairRules};
 use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::place::Place;
 use crate::synthesis::point::Point;
+use crate::synthesis::tips;
 use crate::synthesis::workload::{HeldPart, Workload};
 
 /// What each link is called: frame, the jaws, slider or crank, of a cylinder between two links cylinder and piston, and the rest by
@@ -23,10 +24,9 @@ pub(crate) fn link_names(paired: &PairedStructure) -> Vec<String> {
     let roles = &paired.structure.roles;
     let [base, driver] = paired.drive();
     let slides = paired.structure.slides();
+    let jaw = |l: usize| roles.jaws.iter().position(|&j| j == l);
     let name = |l: usize| match l {
         l if l == roles.frame => "frame".to_owned(),
-        l if l == roles.jaws[0] => "jaw-a".to_owned(),
-        l if l == roles.jaws[1] => "jaw-b".to_owned(),
         l if l == driver && base == roles.frame && slides => "slider".to_owned(),
         l if l == driver && paired.form.threaded => "screw".to_owned(),
         l if l == driver && base == roles.frame => "crank".to_owned(),
@@ -34,7 +34,8 @@ pub(crate) fn link_names(paired: &PairedStructure) -> Vec<String> {
         l if l == base && slides => "cylinder".to_owned(),
         l => format!("link-{l}"),
     };
-    (0..paired.structure.chain.links()).map(name).collect()
+    let of = |l: usize| jaw(l).map_or_else(|| name(l), |n| tips::NAMES[n].to_owned());
+    (0..paired.structure.chain.links()).map(of).collect()
 }
 
 /// A place of whole millimetres.
@@ -122,9 +123,8 @@ impl PairedStructure {
         let joint = &layout.rules.joints[i];
         let input = joint.links == self.structure.roles.input;
         let flat = self.flat_slots().contains(joint);
-        let [x, y] = layout.at.along[i].whole();
         let upright = [0, 0, 1].map(Coordinate::Integer);
-        let along = [i64::from(x), i64::from(y), 0].map(Coordinate::Integer);
+        let along = point(layout.at.along[i].place());
         let (kind, axis, reference, options) = match joint.pair {
             PairKind::Slide => ("prismatic", along, Some(upright.clone()), Some(slides())),
             PairKind::Slot if flat => {
@@ -182,7 +182,7 @@ impl PairedStructure {
         });
         let lead = lead.map(|(mesh, lead)| {
             // A nut that does not turn goes back where the screw turns on.
-            let [_, y] = layout.at.along[mesh.held[1]].whole();
+            let [_, y] = layout.at.along[mesh.held[1]].place().whole;
             -lead * i64::from(y.signum())
         });
         let own = layout.rules.joints[i].links == self.structure.roles.input;
@@ -255,10 +255,6 @@ pub(crate) fn mechanism_file(
     let roles = &paired.structure.roles;
     let rules = &layout.rules;
     let joints = 0..rules.joints.len();
-    let tips: Vec<Place> = layout.at.points[rules.joints.len()..]
-        .iter()
-        .map(|&p| whole(p))
-        .collect();
     let told = FileHead {
         id: paired.id(),
         name: paired.name(),
@@ -270,8 +266,8 @@ pub(crate) fn mechanism_file(
         frame: roles.frame,
         jaws: &roles.jaws,
         held: HeldPart {
-            tips: &tips,
-            outward: &[[0, 1], [0, -1]].map(Place::from),
+            tips: &paired.tips(&layout.limits.task),
+            outward: &tips::outward(roles.jaws.len(), 1),
             grip: layout.limits.task.grip.sign(),
             pivot: Pivot::Normal,
         },

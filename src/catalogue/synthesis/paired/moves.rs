@@ -12,6 +12,7 @@ use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::point::Point;
 use crate::synthesis::random::{bell, below, unit};
 use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::tips::outward;
 use crate::synthesis::velocities::Velocity;
 use chacha20::ChaCha8Rng;
 use std::borrow::Cow;
@@ -37,18 +38,23 @@ const LEADS: [i32; 6] = [4, 5, 6, 8, 10, 12];
 const DIAMETERS: RangeInclusive<i32> = 10..=80;
 
 impl PairSketch<'_> {
-    /// Whether a joint guides a jaw in the frame: such jaws slide straight across, as those do that are made.
-    fn guides_jaw(&self, joint: usize) -> bool {
+    /// The jaw that a joint guides in the frame, by its place among the jaws: such jaws slide straight to the part, as those do that
+    /// are made.
+    fn guided_jaw(&self, joint: usize) -> Option<usize> {
         let joint = &self.rules.joints[joint];
-        let jaw = self.bones.jaws.iter().any(|&j| joint.is_at(j));
-        joint.pair == PairKind::Slide && jaw && joint.is_at(self.bones.frame)
+        let guides = joint.pair == PairKind::Slide && joint.is_at(self.bones.frame);
+        let mut jaws = self.bones.jaws.iter().filter(|_| guides);
+        jaws.position(|&j| joint.is_at(j))
     }
 
     fn first_direction(&self, joint: usize, random: &mut ChaCha8Rng) -> WholeDirection {
-        if self.guides_jaw(joint) {
-            return WholeDirection::ACROSS;
+        match self.guided_jaw(joint) {
+            Some(jaw) => {
+                let outward = outward(self.bones.jaws.len(), 1);
+                WholeDirection::ACROSS.turned_by_thirds(outward[jaw].thirds)
+            }
+            None => WholeDirection::number(below(direction::ALL, random)),
         }
-        WholeDirection::number(below(direction::ALL, random))
     }
 
     fn first_teeth(&self, joint: usize, random: &mut ChaCha8Rng) -> Teeth {
@@ -169,7 +175,7 @@ impl LayoutSketch for PairSketch<'_> {
         let pair = self.rules.joints[joint].pair;
         let turns = match (pair, self.rules.rules[joint]) {
             (PairKind::Slide | PairKind::Slot, PairRule::Own(along)) => along.is_none(),
-            (PairKind::Slide | PairKind::Slot, _) => !self.guides_jaw(joint),
+            (PairKind::Slide | PairKind::Slot, _) => self.guided_jaw(joint).is_none(),
             _ => false,
         };
         if pair == PairKind::Gear {

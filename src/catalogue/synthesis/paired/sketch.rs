@@ -10,7 +10,7 @@ use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::paired::threefold::{Around, SIDES, ThreefoldStructure};
 use crate::synthesis::point::Point;
 use crate::synthesis::stroke::pose::LinkPose;
-use crate::synthesis::structure::REACH;
+use crate::synthesis::tips::round;
 
 /// A paired structure with the rules of its joints.
 #[derive(Debug)]
@@ -29,18 +29,10 @@ pub struct PairSketch<'a> {
     pub limits: Limits,
     /// All sides, where there are three in one plane.
     pub(super) around: Option<Around>,
+    /// Which way each tip opens, as [`Bones::apart`].
+    pub(super) apart: Vec<Point>,
     /// All links as drawn.
     pub(super) at_rest: Vec<LinkPose>,
-}
-
-/// Where the tips of the jaws are drawn, in millimetres: ahead, or on both sides of the middle.
-fn tips(symmetry: Symmetry, limits: &Limits) -> [Point; 2] {
-    let half = f64::from(limits.task.half_opening());
-    let ahead = match symmetry {
-        Symmetry::HalfTurn => 0.0,
-        _ => f64::from(REACH),
-    };
-    [[ahead, half], [ahead, -half]]
 }
 
 impl<'a> PairSketch<'a> {
@@ -85,10 +77,10 @@ impl<'a> PairSketch<'a> {
             jaws: &roles.jaws,
             joints: rules.joints.iter().zip(&rules.blocks).map(point).collect(),
             follows: rules.rules.iter().map(|r| !free(r)).collect(),
-            tips: tips(paired.form.symmetry, &limits).to_vec(),
+            tips: (paired.tips(&limits.task).iter().map(|t| t.real())).collect(),
             turns: paired.input() == Input::Turn,
             hinged: roles.jaws.iter().map(hinged).collect(),
-            round: turned.then_some(0.0),
+            round: round(roles.jaws.len(), paired.form.symmetry),
             wished: limits.task.distances(),
             together: shared.chain((central > 0).then_some(central)).collect(),
             cylinder: (paired.structure.slides() && drive[0] != roles.frame).then_some(drive),
@@ -102,6 +94,7 @@ impl<'a> PairSketch<'a> {
             around: threefold
                 .filter(|t| !t.is_axial())
                 .map(|t| Around::new(t, &rules, &bones)),
+            apart: bones.apart(),
             bones,
             input: rules.joints.iter().position(at_input).unwrap_or(0),
             at_rest: vec![LinkPose::AT_REST; chain.links()],

@@ -10,7 +10,10 @@ use crate::chains::pairs::roles::PairSubject;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::pairs::structure::PairStructure;
 use crate::chains::pairs::symmetric_census::symmetric_grippers;
+use crate::synthesis::place::Place;
 use crate::synthesis::structure::short_id;
+use crate::synthesis::task::Task;
+use crate::synthesis::tips;
 use itertools::Itertools;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
@@ -164,6 +167,12 @@ impl PairedStructure {
         short_id(self.structure.chain.links(), &self.name())
     }
 
+    /// Where the tips of the jaws are drawn for a task, in millimetres.
+    #[must_use]
+    pub fn tips(&self, task: &Task) -> Vec<Place> {
+        tips::tips(self.structure.roles.jaws.len(), self.form.symmetry, task)
+    }
+
     /// How it is driven.
     #[must_use]
     pub fn input(&self) -> Input {
@@ -192,11 +201,14 @@ impl PairedStructure {
     #[must_use]
     pub fn lays(&self) -> Vec<Lay> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
-        let [a, b] = roles.jaws;
         let image = match self.form.symmetry {
             Symmetry::Generic => return self.generic_lay().into_iter().collect(),
             Symmetry::HalfTurn => Image::HalfTurn,
             Symmetry::Mirror | Symmetry::Threefold => Image::Mirror,
+        };
+        // Those that carry three jaws to each other are made of two of them.
+        let &[a, b] = &roles.jaws[..] else {
+            return Vec::new();
         };
         let involutions = chain.automorphisms().into_iter().filter(|s| {
             let back = (0..s.len()).all(|l| s[s[l]] == l);
@@ -272,16 +284,16 @@ pub fn paired_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
     .collect()
 }
 
-/// Every essential structure of so many links that has such pairs, laid out without a symmetry.
+/// Every essential structure of so many links and jaws that has such pairs, laid out without a symmetry.
 ///
 /// # Complexity
 /// As [`visit_pair_chains`], and a canonical numbering for each.
 #[must_use]
-pub fn generic_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
+pub fn generic_structures(links: usize, jaws: usize, menu: Menu<'_>) -> Vec<PairedStructure> {
     let all = Mutex::new(BTreeSet::new());
     visit_pair_chains(links, menu, &|subject| {
         let drives = subject.drives().into_iter();
-        let roles = drives.flat_map(|(frame, input)| subject.grippers(frame, &input));
+        let roles = drives.flat_map(|(frame, input)| subject.grippers(frame, &input, jaws));
         let essential = roles.filter(|r| subject.is_essential(r));
         let keys = essential.map(|roles| {
             let chain = subject.chain.clone();
@@ -302,14 +314,15 @@ pub fn generic_structures(links: usize, menu: Menu<'_>) -> Vec<PairedStructure> 
 }
 
 impl PairedStructure {
-    /// Whether an automorphism of order two keeps frame and input joint and swaps the jaws.
+    /// Whether an automorphism keeps frame and input joint and carries each jaw to the next, back after as many times as there are
+    /// jaws: it swaps two.
     #[must_use]
     pub fn is_graph_symmetric(&self) -> bool {
         let chain = &self.structure.chain;
         let automorphisms = chain.automorphisms();
         let automorphisms: Vec<&Vec<usize>> = automorphisms.iter().collect();
         let subject = PairSubject::new(chain, &automorphisms);
-        subject.symmetries(&self.structure.roles).graph
+        subject.is_graph_symmetric(&self.structure.roles)
     }
 
     pub(super) fn on_parallelograms_if_any(self) -> PairedStructure {
@@ -371,7 +384,7 @@ impl PairedStructure {
 }
 
 impl PairedStructure {
-    /// Whether all joints are hinges but for a driver that slides in the frame: laid out as a hinged structure where it has two jaws.
+    /// Whether all joints are hinges but for a driver that slides in the frame, and no jaw is driven: laid out as a hinged structure.
     #[must_use]
     pub fn is_hinged(&self) -> bool {
         let roles = &self.structure.roles;

@@ -53,8 +53,10 @@ pub enum NoStructure {
          jaws, with a right and a left thread of one lead"
     )]
     Thread(String),
-    /// Not two jaws.
-    #[error("{0} links are outputs where two jaws are to be: mark them with role = \"output\"")]
+    /// Neither two jaws nor three.
+    #[error(
+        "{0} links are outputs where two or three jaws are to be: mark them with role = \"output\""
+    )]
     Jaws(usize),
     /// Links too few or too many.
     #[error(
@@ -66,27 +68,41 @@ pub enum NoStructure {
 /// A structure with the names that its links have in the mechanism.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recognized {
-    /// The structure.
+    /// The structure: of three sides that are alike that of two.
     pub structure: PairStructure,
-    /// How many sides there are: of three, which are alike, the structure is that of two.
-    pub sides: usize,
+    /// The structure with all its jaws.
+    pub whole: PairStructure,
     /// The names of each link: several where they are one in the plane.
     pub names: Vec<Vec<String>>,
     /// What it is beside that: flat faces stand in it as slots where slides are between links that other slides join already.
     pub made_as: MadeAs,
 }
 
-/// The jaws, where there are two.
+impl Recognized {
+    /// How many sides there are: 2; 3 that are alike, of which the structure has two; or 1, with three jaws that are no such sides.
+    #[must_use]
+    pub fn sides(&self) -> usize {
+        match self.structure.roles.jaws.len() {
+            2 => self.whole.roles.jaws.len(),
+            _ => 1,
+        }
+    }
+}
+
+/// The jaws, where there are two or three that are not the frame.
 pub(super) fn jaws(
     m: &Mechanism,
     body: impl Fn(LinkId) -> Option<usize>,
-) -> Result<[usize; 2], NoStructure> {
+) -> Result<Vec<usize>, NoStructure> {
     let outputs = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
     let jaws = outputs
         .filter_map(|(l, _)| body(l))
+        .filter(|&l| body(m.frame()) != Some(l))
         .unique()
         .sorted()
         .collect_vec();
-    jaws.try_into()
-        .map_err(|all: Vec<usize>| NoStructure::Jaws(all.len()))
+    match jaws.len() {
+        2 | 3 => Ok(jaws),
+        other => Err(NoStructure::Jaws(other)),
+    }
 }

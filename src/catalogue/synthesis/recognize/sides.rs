@@ -11,10 +11,10 @@ use crate::synthesis::recognize::in_plane::InPlane;
 use itertools::Itertools;
 use petgraph::unionfind::UnionFind;
 
-/// The structure of two sides of a gripper of three; nothing of one with other jaws than three.
+/// The structure of two sides of a gripper of three; nothing of one with other jaws than three, or whose sides are joined, not alike or not all of it.
 ///
 /// # Errors
-/// Where a side has no structure, or they are not alike.
+/// Where a side has no structure.
 pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructure> {
     let jaws = m.links_with_ids().filter(|(_, l)| l.role == Role::Output);
     let jaws = jaws.map(|(l, _)| l).collect_vec();
@@ -41,25 +41,30 @@ pub(super) fn three_sides(m: &Mechanism) -> Result<Option<Recognized>, NoStructu
             parts.union(a, b);
         }
     }
+    let held = jaws.iter().map(|j| parts.find(j.index())).collect_vec();
+    let links = all.iter().flat_map(|&j| m.joints[j].links);
+    let mut others = links.filter(|l| !once(*l));
+    // What is on no side stands once, and is more than frame and driver.
+    let on_sides = others.all(|l| held.contains(&parts.find(l.index())));
+    if !on_sides || !held.iter().all_unique() {
+        return Ok(None);
+    }
     let side = |jaw: LinkId| -> Result<Recognized, NoStructure> {
         let part = parts.find(jaw.index());
         let own = |l: &LinkId| once(*l) || parts.find(l.index()) == part;
         let present = all.iter().copied();
         let present = present.filter(|&j| m.joints[j].links.iter().all(own));
-        twice(m, &present.collect_vec(), jaw, once)
+        one_side(m, &present.collect_vec(), jaw, once)
     };
     let found = jaws.iter().map(|&jaw| side(jaw));
     let found: Vec<Recognized> = found.collect::<Result<_, _>>()?;
-    let apart = jaws.iter().map(|j| parts.find(j.index())).all_unique();
     let mut alike = found.iter().map(|f| (f.structure.key(), f.made_as));
-    if !apart || !alike.all_equal() {
-        return Err(NoStructure::Jaws(3));
-    }
-    Ok(found.into_iter().next())
+    let alike = alike.all_equal();
+    Ok(found.into_iter().next().filter(|_| alike))
 }
 
-/// The structure of a side with its image.
-fn twice(
+/// The structure of a side with one image, and with two.
+fn one_side(
     m: &Mechanism,
     present: &[JointId],
     jaw: LinkId,
@@ -73,34 +78,37 @@ fn twice(
     let side = (0..links)
         .filter(|l| !stands_once.contains(l))
         .collect_vec();
-    let image = |l: usize| {
-        let at = side.iter().position(|&s| s == l);
-        at.map_or(l, |at| links + at)
-    };
-    let carried = |j: &PairJoint| PairJoint {
-        links: ordered(j.links.map(image)),
-        pair: j.pair,
-    };
-    let images = side_of.joints.iter().map(carried);
-    let images = images.filter(|j| !side_of.joints.contains(j)).collect_vec();
-    let joints = side_of.joints.iter().copied().chain(images);
     let jaw = one.body(jaw).filter(|j| side.contains(j));
     let jaw = jaw.ok_or(NoStructure::Jaws(3))?;
-    let names = side.iter().map(|&l| side_of.names[l].clone());
-    Ok(Recognized {
-        structure: PairStructure {
-            chain: PairChain::new(links + side.len(), joints),
+    let image = |l: usize, copy: usize| {
+        let at = side.iter().position(|&s| s == l).filter(|_| copy > 0);
+        at.map_or(l, |at| links + (copy - 1) * side.len() + at)
+    };
+    let carried = |(copy, j): (usize, &PairJoint)| {
+        let links = ordered(j.links.map(|l| image(l, copy)));
+        let pair = j.pair;
+        // What joins links that stand once stands once.
+        (copy == 0 || links != j.links).then_some(PairJoint { links, pair })
+    };
+    let of = |sides: usize| {
+        let joints = (0..sides).cartesian_product(&side_of.joints);
+        PairStructure {
+            chain: PairChain::new(links + (sides - 1) * side.len(), joints.filter_map(carried)),
             roles: PairRoles {
                 frame: side_of.frame,
                 input: side_of.input,
-                jaws: ordered([jaw, image(jaw)]),
+                jaws: (0..sides).map(|copy| image(jaw, copy)).collect(),
             },
-        },
+        }
+    };
+    let names = side.iter().map(|&l| side_of.names[l].clone());
+    Ok(Recognized {
+        structure: of(2),
+        whole: of(3),
         made_as: MadeAs {
             flat: side_of.flat,
             ..MadeAs::default()
         },
-        sides: 3,
         names: side_of.names.iter().cloned().chain(names).collect(),
     })
 }

@@ -1,6 +1,6 @@
 //! A screw with nuts that jaws are, which moves out of any plane: in one a pinion with its racks does the same.
 
-use crate::chains::pairs::chain::{Joint as PairJoint, PairChain, ordered};
+use crate::chains::pairs::chain::{Joint as PairJoint, PairChain};
 use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
@@ -131,14 +131,18 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
     let roles = PairRoles {
         frame: 0,
         input: [0, 1],
-        jaws: ordered(jaws(m, place)?),
+        jaws: jaws(m, place)?,
     };
-    Ok((roles.jaws == [2, 3]).then(|| Recognized {
-        structure: PairStructure {
-            chain: PairChain::new(4, PAIRS.map(joint)),
-            roles,
-        },
-        sides: 2,
+    if roles.jaws != [2, 3] {
+        return Ok(None);
+    }
+    let structure = PairStructure {
+        chain: PairChain::new(4, PAIRS.map(joint)),
+        roles,
+    };
+    Ok(Some(Recognized {
+        whole: structure.clone(),
+        structure,
         names: links.map(|l| vec![m.links[l].id.clone()]).into(),
         made_as: MadeAs {
             threaded: true,

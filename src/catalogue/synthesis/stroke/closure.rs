@@ -52,9 +52,9 @@ pub struct Arms<'a> {
 }
 
 impl Closure {
-    /// Of contours, tips closing these ways.
+    /// Of contours, and of the ways that tips open, as [`crate::synthesis::bones::Bones::apart`].
     #[must_use]
-    pub fn new(contours: &Contours, inward: &[Point]) -> Closure {
+    pub fn new(contours: &Contours, outward: Vec<Point>) -> Closure {
         let drive = contours.unknown.iter().flatten().count();
         let side = |sum: usize, sign: f64, s: &Side| SumSide {
             sum,
@@ -74,13 +74,11 @@ impl Closure {
         });
         let tips = contours.tips.iter().enumerate();
         let tips = tips.flat_map(|(n, way)| way.iter().map(move |s| side(n, 1.0, s)));
-        #[allow(clippy::cast_precision_loss, reason = "two or three")]
-        let pairs = inward.len() as f64 / 2.0;
         Closure {
             size: drive + 1,
             contours: both.collect(),
             tips: tips.collect(),
-            outward: inward.iter().map(|i| i.map(|x| -x / pairs)).collect(),
+            outward,
         }
     }
 }

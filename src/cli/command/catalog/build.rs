@@ -38,14 +38,15 @@ pub(in crate::cli) struct Build {
     /// Layouts with hinges on one pin with their mirror images, as tongs have them: with, without (the default) or only.
     #[arg(long, value_name = "WORD")]
     one_pin: Option<String>,
-    /// Pairs beside hinges in symmetric structures of two jaws, or threefold ones of three: slide, gear (or rack), slot (pin in a
-    /// slot, cam, wedge), two-slots (two pins in two slots between the same links); the driver alone may slide otherwise.
+    /// Pairs beside hinges in symmetric structures of two jaws, threefold ones of three, or with --generic-pairs any: slide, gear (or
+    /// rack), slot (pin in a slot, cam, wedge), two-slots (two pins in two slots between the same links); the driver alone may slide
+    /// otherwise.
     #[arg(long, value_name = "KINDS", value_delimiter = ',')]
     pairs: Vec<String>,
     /// Pairs that are not hinges at most, a left and a right one being one; 3 by default.
     #[arg(long, value_name = "K")]
     at_most: Option<usize>,
-    /// With pairs, structures laid out freely, too, symmetric or not: there are many.
+    /// With pairs, structures of two jaws or three laid out freely, too, symmetric or not: there are many.
     #[arg(long, requires = "pairs")]
     generic_pairs: bool,
     /// Slots between links that do not turn against each other made as flat faces, which are redundant in the plane already: with,
@@ -179,7 +180,8 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     ensure!(
         all > 0 || part != Shard::WHOLE,
         "no structure is as asked with {} links: hinges on one pin are of mirror images with a slide, flat faces of slots between links \
-         that slides join, three sides of links that frame and driver alone join",
+         that slides join, three sides of links that frame and driver alone join, three jaws of four links at least; without gears and \
+         slots links are even in number",
         spec.links
     );
     let mut store = Store::create(&a.output, &spec)?;

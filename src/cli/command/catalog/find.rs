@@ -32,7 +32,7 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     let m = load::mechanism(&a.file.file)?;
     let found = recognize(&m).with_context(|| {
         format!(
-            "{}: not a structure of two jaws, or of three with sides alike, that links, hinges, slides, gears and slots make",
+            "{}: not a structure of two jaws, or of three, that links, hinges, slides, gears and slots make",
             a.file.file
         )
     })?;
@@ -40,12 +40,14 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     let part = found.structure.essential_links();
     let essential = found.structure.part(&part);
     let known = store.map(|s| -> anyhow::Result<InCatalogue> {
+        let whole = found.whole.part(&found.whole.essential_links());
         Ok(InCatalogue {
-            entries: entries(&s, &essential, found.sides, found.made_as)?,
-            // Those of three jaws are not compared.
-            neighbours: match found.sides {
-                2 => neighbours(&s, &essential)?,
-                _ => Neighbours::default(),
+            entries: entries(&s, &whole, found.made_as)?,
+            // Three sides that are alike are not compared.
+            neighbours: if found.sides() == 3 {
+                Neighbours::default()
+            } else {
+                neighbours(&s, &essential)?
             },
         })
     });

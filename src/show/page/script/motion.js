@@ -114,26 +114,29 @@ function opening(d, tips) {
   return (2 / tips.length) * tips.reduce((sum, t, n) => sum + along(t, n), 0);
 }
 
-/** Pins and tips from the widest opening to the narrowest; none of what is not laid out by a catalogue, or does not move. */
+/** Pins and tips until the jaws grip: from the widest opening to the narrowest, or in a hole the other way; none of what is not laid out by a catalogue, or does not move. */
 function framesOf(card) {
   const d = card.drawing;
   if (!d || card.drawn || !d.tips || d.driver === null || !(card.travel > 0)) return [];
   const scale = d.scale, still = new Array(3 * d.links.length).fill(0);
   const step = ((d.slides ? scale : 1) * card.travel) / STEPS;
-  const way = (sign, goesOn) => {
+  const slack = (card.opening_max - card.opening_min) / STEPS;
+  const way = (sign) => {
     const out = [];
-    let pose = still;
+    let pose = still, last = opening(d, d.tips) / scale, opens = 0;
     for (let k = 1; k <= 2 * STEPS; k += 1) {
       pose = poseAt(d, pose, sign * k * step);
       if (!pose) break;
       const frame = frameAt(d, pose);
-      if (!goesOn(opening(d, frame.tips) / scale)) break;
+      const now = opening(d, frame.tips) / scale;
+      opens ||= Math.sign(now - last);
+      const beyond = opens > 0 ? now - card.opening_max : card.opening_min - now;
+      // Jaws may turn back while the drive goes on.
+      if ((now - last) * opens <= 0 || beyond >= slack / 2) break;
+      last = now;
       out.push(frame);
     }
     return out;
   };
-  const slack = (card.opening_max - card.opening_min) / STEPS;
-  const closing = way(card.closes, (w) => w > card.opening_min - slack / 2);
-  const wider = way(-card.closes, (w) => w < card.opening_max + slack / 2);
-  return [...wider.reverse(), { pose: still, pins: d.pins, tips: d.tips }, ...closing];
+  return [...way(-card.closes).reverse(), { pose: still, pins: d.pins, tips: d.tips }, ...way(card.closes)];
 }

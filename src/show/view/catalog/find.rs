@@ -33,7 +33,7 @@ struct EntryData {
 pub struct FoundData {
     /// The same for two mechanisms exactly where their structures are the same.
     name: String,
-    /// How many sides there are; of three what follows is of two.
+    /// 2; 3 where there are three sides that are alike, of which what follows has two; 1 where three jaws are not.
     sides: usize,
     links: usize,
     hinges: usize,
@@ -102,7 +102,7 @@ impl FoundData {
         let entry = |Entry { id, form }: Entry| EntryData { id, form };
         FoundData {
             name: found.structure.name(),
-            sides: found.sides,
+            sides: found.sides(),
             links: chain.links(),
             hinges: chain.count(PairKind::Hinge),
             slides: kinds.slides,
@@ -186,9 +186,11 @@ pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
         d.links,
         pairs.into_iter().flatten().join(", ")
     );
-    if d.sides > 2 {
-        out += "It has three sides that are alike: all this is of two of them.\n";
-    }
+    out += match d.sides {
+        1 => "It has three jaws.\n",
+        3 => "It has three sides that are alike: all this is of two of them.\n",
+        _ => "",
+    };
     out += &format!("Structure: {}\n", d.name);
     out += &motion(d);
     for classic in &d.classics {

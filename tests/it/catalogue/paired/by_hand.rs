@@ -136,8 +136,8 @@ fn forces_are_those_published_for_four_schemes() {
 
     let id = "piston-links-angular";
     let mut g = ByHand::new(id);
-    let roles = g.paired.structure.roles;
-    let (f, [j, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+    let roles = g.paired.structure.roles.clone();
+    let (f, j, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
     let rod = g.between(driver, j);
     g.put(g.joint(f, j), [size(id, "hinge_x"), size(id, "hinge_y")]);
     g.put(g.joint(rod, j), [size(id, "tail_x"), size(id, "tail_y")]);
@@ -149,8 +149,8 @@ fn forces_are_those_published_for_four_schemes() {
 
     let id = "toggle-sliding-jaws";
     let mut g = ByHand::new(id);
-    let roles = g.paired.structure.roles;
-    let (f, [j, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+    let roles = g.paired.structure.roles.clone();
+    let (f, j, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
     let rod = g.between(driver, j);
     g.turn(g.joint(f, j), WholeDirection::ACROSS);
     g.put(g.joint(f, j), [60.0, 10.0]);
@@ -161,8 +161,8 @@ fn forces_are_those_published_for_four_schemes() {
 
     let id = "cylinder-between-jaws-gears";
     let mut g = ByHand::new(id);
-    let roles = g.paired.structure.roles;
-    let (frame, [jaw, _], [u, v]) = (roles.frame, roles.jaws, roles.input);
+    let roles = g.paired.structure.roles.clone();
+    let (frame, jaw, [u, v]) = (roles.frame, roles.jaws[0], roles.input);
     let chain = &g.paired.structure.chain;
     let cylinder = if chain.between(u, jaw).is_some() {
         u
@@ -182,8 +182,8 @@ fn forces_are_those_published_for_four_schemes() {
 
     let id = "rack-two-segments";
     let mut g = ByHand::new(id);
-    let roles = g.paired.structure.roles;
-    let (frame, [jaw, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+    let roles = g.paired.structure.roles.clone();
+    let (frame, jaw, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
     g.put(
         g.joint(frame, jaw),
         [size(id, "hinge_x"), size(id, "hinge_y")],
@@ -201,8 +201,8 @@ fn forces_are_those_published_for_four_schemes() {
 fn a_wedge_pulls_by_its_angle() {
     for (slot, cotangent) in [(6, 4.0 / 3.0), (5, 15.0 / 8.0), (9, 3.0 / 4.0)] {
         let mut g = ByHand::new("wedge-hook");
-        let roles = g.paired.structure.roles;
-        let (frame, [jaw, _], driver) = (roles.frame, roles.jaws, g.paired.drive()[1]);
+        let roles = g.paired.structure.roles.clone();
+        let (frame, jaw, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
         g.turn(g.joint(frame, jaw), WholeDirection::ACROSS);
         g.put(g.joint(frame, jaw), [60.0, 30.0]);
         g.turn(g.joint(driver, jaw), WholeDirection::number(slot));

@@ -286,10 +286,6 @@ fn what_leads_to_nothing_is_refused() {
             "--jaws 3 --one-pin only",
             "one_pin: of structures with two jaws alone",
         ),
-        (
-            "--jaws 3 --pairs slide --generic-pairs",
-            "generic_pairs: of structures with two jaws alone",
-        ),
         ("--classics --one-pin only", "cannot be used with"),
         (
             "--flat-faces maybe --pairs slot",

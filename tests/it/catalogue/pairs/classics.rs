@@ -69,7 +69,7 @@ fn classic_schemes_are_in_the_count() {
         let roles = PairRoles {
             frame: place(scheme, &scheme["frame"]),
             input: two(scheme, &scheme["input"]),
-            jaws: two(scheme, &scheme["jaws"]),
+            jaws: two(scheme, &scheme["jaws"]).to_vec(),
         };
         let s = subject.symmetries(&roles);
         let own = [

@@ -23,7 +23,8 @@ fn code(subject: &PairSubject<'_>, roles: &PairRoles, place: &[usize]) -> String
     };
     let letters = pairs.map(letter).join("");
     let both = |[a, b]: [usize; 2]| [place[a].min(place[b]), place[a].max(place[b])];
-    let ([i, k], [a, b]) = (both(roles.input), both(roles.jaws));
+    let jaws = [roles.jaws[0], roles.jaws[1]];
+    let ([i, k], [a, b]) = (both(roles.input), both(jaws));
     format!("{letters} f{} i{i}-{k} j{a},{b}", place[roles.frame])
 }
 
@@ -76,7 +77,7 @@ fn structures_of_three_and_four_links_are_those_listed() {
         let own = Mutex::new(BTreeSet::new());
         visit_pair_chains(links, menu(ANY), &|subject| {
             for (frame, input) in subject.drives() {
-                let all = subject.grippers(frame, &input).into_iter();
+                let all = subject.grippers(frame, &input, 2).into_iter();
                 for roles in all.filter(|r| subject.is_essential(r)) {
                     let line =
                         format!("{} {}", least_code(subject, &roles), words(subject, &roles));

@@ -59,21 +59,28 @@ pub(super) struct FiledTeeth {
 pub(super) struct Gripper {
     pub(super) links: usize,
     pub(super) frame: usize,
-    pub(super) jaws: [usize; 2],
-    pub(super) tips: [Point; 2],
+    pub(super) jaws: Vec<usize>,
+    pub(super) tips: Vec<Point>,
     pub(super) joints: Vec<FiledJoint>,
     pub(super) teeth: Vec<FiledTeeth>,
 }
 
+/// A number of a file: a quotient may have a root of three above, alone or beside a number: "(1 - 2*sqrt(3))/2".
 fn real(x: &toml::Value) -> f64 {
-    let whole = |s: &str| s.parse::<f64>().unwrap();
-    match (x.as_integer(), x.as_str()) {
-        (Some(i), _) => i as f64,
-        (None, Some(s)) => s
-            .split_once('/')
-            .map_or_else(|| whole(s), |(a, b)| whole(a) / whole(b)),
-        _ => panic!("{x}"),
-    }
+    let Some(words) = x.as_str() else {
+        return x
+            .as_float()
+            .unwrap_or_else(|| x.as_integer().unwrap() as f64);
+    };
+    let (above, below) = words.split_once('/').unwrap_or((words, "1"));
+    let sum = above.replace(['(', ')', ' '], "").replace("*sqrt3", "r");
+    let second = sum.rfind(['+', '-']).filter(|&at| at > 0).unwrap_or(0);
+    let term = |s: &str| match s.strip_suffix('r') {
+        Some(factor) => factor.parse::<f64>().unwrap() * 3.0_f64.sqrt(),
+        None if s.is_empty() => 0.0,
+        None => s.parse().unwrap(),
+    };
+    (term(&sum[..second]) + term(&sum[second..])) / term(below)
 }
 
 fn filed<'t>(file: &'t Table, key: &str) -> Vec<&'t toml::Value> {
@@ -129,8 +136,8 @@ impl Gripper {
             teeth: teeth.collect(),
             links: names.len(),
             frame: named("frame"),
-            jaws: ["jaw-a", "jaw-b"].map(named),
-            tips: from_fn(|n| [0, 1].map(|k| real(&tips[n]["point"][k]))),
+            jaws: tips.iter().map(|t| link(&t["link"])).collect(),
+            tips: (tips.iter().map(|t| [0, 1].map(|k| real(&t["point"][k])))).collect(),
             joints,
         }
     }
@@ -163,18 +170,25 @@ impl Gripper {
         place(x, self.jaws[n], self.tips[n])
     }
 
-    /// Away from the part.
-    pub(super) fn outward(&self) -> [Point; 2] {
-        let apart = sub(self.tips[0], self.tips[1]);
-        let unit = times(1.0 / length(apart), apart);
-        [unit, times(-1.0, unit)]
+    /// From the middle of the part to each tip as drawn.
+    fn arms(&self) -> impl Iterator<Item = Point> {
+        let count = self.tips.len() as f64;
+        let sum = |k: usize| self.tips.iter().map(|t| t[k]).sum::<f64>();
+        let middle: Point = from_fn(|k| sum(k) / count);
+        self.tips.iter().map(move |t| sub(*t, middle))
     }
 
-    /// How far apart the tips are, as the forces of the part go.
+    /// Away from the part.
+    pub(super) fn outward(&self) -> Vec<Point> {
+        self.arms().map(|a| times(1.0 / length(a), a)).collect()
+    }
+
+    /// How far apart the tips are, as the forces of the part go: twice as far as they are from its middle on the average.
     pub(super) fn width(&self, x: &[f64]) -> f64 {
-        let drawn = length(sub(self.tips[0], self.tips[1]));
-        let each = (0..2).map(|n| dot(sub(self.tip(x, n), self.tips[n]), self.outward()[n]));
-        drawn + each.sum::<f64>()
+        let ways = self.arms().zip(self.outward()).enumerate();
+        let each =
+            ways.map(|(n, (arm, out))| length(arm) + dot(sub(self.tip(x, n), self.tips[n]), out));
+        2.0 * each.sum::<f64>() / self.tips.len() as f64
     }
 
     /// By how much everything misses, in mm: the frame its place, every joint, all teeth, and the tips the width of the part.

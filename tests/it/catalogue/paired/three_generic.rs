@@ -1,0 +1,212 @@
+//! Three jaws with slides, gears and slots, laid out without symmetry.
+
+mod every_way;
+
+use super::super::carried_on::scattered;
+use super::super::command::{at, fails, ok, whole};
+use super::{Built, LAID, built, pulls_as_its_file_says, rows};
+use crate::common::json;
+use ozols::chains::pairs::sharing::Menu;
+use ozols::chains::pairs::{kind::PairKind, structure::PairStructure};
+use ozols::geom::vector::real;
+use ozols::model::joint_type::Freedom;
+use ozols::synthesis::paired::structure::generic_structures;
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+use tempfile::tempdir;
+
+const BUILD: &str = "catalog build --jaws 3 --symmetry generic --generic-pairs --quiet -o";
+
+/// Every structure of four links with two pairs at most that are no hinges.
+pub(super) fn free() -> &'static str {
+    static FILE: Built = OnceLock::new();
+    let more = "catalog build --pairs slide,gear,slot --at-most 2 --links 4 --ideas 2";
+    let words = more.split(' ').chain(BUILD.split(' ').skip(2));
+    built(&FILE, &words.collect::<Vec<_>>())
+}
+
+/// As many as there are by trying all, and these: every chain of labelled links, every choice of roles, up to every numbering.
+#[test]
+fn structures_are_those_of_every_way_to_join_links_and_to_choose_jaws() {
+    let all = [PairKind::Slide, PairKind::Gear, PairKind::Slot];
+    let cases = [
+        (4, &all[..], 3, 314),
+        (4, &all[..1], 4, 22),
+        (5, &all[2..], 3, 1_399),
+    ];
+    for (links, kinds, most, count) in cases {
+        let own = generic_structures(links, 3, Menu { kinds, most });
+        let codes: BTreeSet<_> = own.iter().map(|p| every_way::code(&p.structure)).collect();
+        assert_eq!(codes.len(), own.len(), "{links} links: twice the same");
+        let tried = every_way::grippers(links, kinds, most);
+        let both = codes.symmetric_difference(&tried).count();
+        assert_eq!((both, tried.len()), (0, count), "{links} links, {kinds:?}");
+    }
+}
+
+/// Hinges and a drive that slides in the frame beside jaws that are not driven make what is counted without pairs: 31 for each
+/// input.
+#[test]
+fn hinges_alone_make_what_is_counted_without_pairs() {
+    let kinds = &[PairKind::Slide];
+    let all = generic_structures(6, 3, Menu { kinds, most: 1 });
+    let hinged = all.iter().filter(|p| p.is_hinged());
+    let (slides, turns): (Vec<_>, Vec<_>) = hinged.partition(|p| p.structure.slides());
+    assert_eq!([slides.len(), turns.len()], [31, 31]);
+}
+
+#[test]
+fn keys_of_three_jaws_are_read_back() {
+    let kinds = &[PairKind::Slide, PairKind::Gear, PairKind::Slot];
+    for paired in generic_structures(4, 3, Menu { kinds, most: 3 }) {
+        let structure = &paired.structure;
+        assert_eq!(&PairStructure::of_key(&structure.key()), structure);
+        assert_eq!(structure.roles.jaws.len(), 3);
+    }
+}
+
+#[test]
+fn forces_and_strokes_are_those_of_the_files_statics() {
+    let folder = tempdir().unwrap();
+    let all = rows(free(), LAID);
+    assert!(all.len() > 75, "{}", all.len());
+    for row in &all {
+        let found = (&row["finite"], &row["mobility"], &row["certainty"]);
+        assert_eq!(found, (&"1, proven".into(), &1.into(), &"exact".into()));
+    }
+    let of = |i: u64| usize::try_from(i % all.len() as u64).unwrap();
+    let drawn: BTreeSet<usize> = scattered(3).take(12).map(of).collect();
+    for &i in &drawn {
+        pulls_as_its_file_says(free(), &all[i], &folder);
+    }
+}
+
+/// Ids are those of one structure each, and every exported file is found again, by its own entry alone.
+#[test]
+fn what_is_laid_out_has_an_id_of_its_own_and_is_found() {
+    let folder = tempdir().unwrap();
+    let all = rows(
+        free(),
+        "SELECT id, no_layout IS NULL AS laid FROM structures",
+    );
+    let ids: BTreeSet<&str> = all.iter().map(|r| r["id"].as_str().unwrap()).collect();
+    let kinds = &[PairKind::Slide, PairKind::Gear, PairKind::Slot];
+    let own = generic_structures(4, 3, Menu { kinds, most: 2 });
+    let told: BTreeSet<String> = own.iter().map(|p| p.id()).collect();
+    assert_eq!(ids, told.iter().map(String::as_str).collect());
+    let laid = all.iter().filter(|r| r["laid"] == 1);
+    for row in laid.step_by(3) {
+        let id = row["id"].as_str().unwrap();
+        let toml = at(&folder, "gripper.toml");
+        ok(&["catalog", "export", free(), id, "-o", &toml]);
+        let found = json(&["catalog", "find", &toml, "--in", free(), "--json"]);
+        assert_eq!(found["sides"], 1, "{found}");
+        let entries = found["catalogue"].as_array().unwrap();
+        let [entry] = &entries[..] else {
+            panic!("{id}: {found}");
+        };
+        assert_eq!(entry["id"], id);
+        // What is near has three jaws, too.
+        let near = found["neighbours"].as_array().unwrap();
+        assert!(near.iter().all(|n| ids.contains(n["id"].as_str().unwrap())));
+    }
+}
+
+/// Jaws that slide in the frame go straight to the middle: each along the line from there to its tip, exactly.
+#[test]
+fn jaws_that_slide_in_the_frame_go_straight_to_the_part() {
+    let mut seen = [0; 3];
+    for row in rows(free(), "SELECT mechanism FROM layouts") {
+        let m = ozols::from_toml(row["mechanism"].as_str().unwrap()).unwrap();
+        for joint in &m.joints {
+            let ends = joint.links.map(|l| m.links[l].id.as_str());
+            let jaw = ["jaw-a", "jaw-b", "jaw-c"]
+                .iter()
+                .position(|j| ends.contains(j));
+            let guides = joint.joint_type.freedoms() == [Freedom::Tz] && ends.contains(&"frame");
+            let Some(n) = jaw.filter(|_| guides) else {
+                continue;
+            };
+            let [x, y, _] = real(&joint.frame.axis);
+            // Upward, and so much more of a turn to the left.
+            let angle = TAU / 4.0 + n as f64 * TAU / 3.0;
+            let off = (x * angle.sin() - y * angle.cos()) / x.hypot(y);
+            assert!(off.abs() < 1e-12, "{}: {x} {y}", joint.id);
+            seen[n] += 1;
+        }
+    }
+    assert!(seen.iter().all(|n| *n > 2), "{seen:?}");
+}
+
+#[test]
+fn it_is_queried_shown_drawn_and_merged() {
+    let folder = tempdir().unwrap();
+    let build = |file: &str, more: &str| {
+        let words = BUILD.split(' ').chain([file]).chain(more.split(' '));
+        ok(&words.collect::<Vec<_>>())
+    };
+    let small = "--pairs slide --links 4..5 --ideas 1";
+    let one = at(&folder, "one.db");
+    assert!(build(&one, small).contains("22 structures added"));
+    let parts = [1, 2].map(|i| {
+        let part = at(&folder, &format!("{i}.db"));
+        build(&part, &format!("{small} --shard {i}/2"));
+        part
+    });
+    let merged = at(&folder, "merged.db");
+    ok(&["catalog", "merge", &parts[0], &parts[1], "-o", &merged]);
+    assert_eq!(whole(&merged), whole(&one));
+    let row = &rows(
+        &one,
+        "SELECT id FROM structures JOIN pairs ON structure = id WHERE slides = 2 AND no_layout IS NULL LIMIT 1",
+    )[0];
+    let id = row["id"].as_str().unwrap();
+    let shown = ok(&["catalog", "show", &one, id]);
+    assert!(
+        shown.contains("round the part") && shown.contains("laid out generic"),
+        "{shown}"
+    );
+    assert!(shown.contains("(2 slides)"), "{shown}");
+    let page = at(&folder, "page.html");
+    ok(&["catalog", "page", &one, "-o", &page]);
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.contains(id) && html.contains("\"tip_c_dx\":"));
+}
+
+#[test]
+fn what_is_not_laid_out_is_refused_with_a_way_out() {
+    let folder = tempdir().unwrap();
+    let file = at(&folder, "none.db");
+    for (words, says) in [
+        (
+            "--pairs slide --links 4 --one-pin with",
+            "leave it out, or ask for two (--jaws 2)",
+        ),
+        (
+            "--pairs slide --links 4..9",
+            "leave generic_pairs (--generic-pairs) out for more",
+        ),
+        (
+            "--pairs slide --links 4 --parallel only",
+            "each side is in a plane of its own",
+        ),
+        (
+            "--pairs slide --links 3",
+            "three jaws of four links at least",
+        ),
+        ("--pairs slide --links 5", "links are even in number"),
+        ("--links 4", "--pairs"),
+    ] {
+        let words: Vec<&str> = BUILD
+            .split(' ')
+            .chain([&*file])
+            .chain(words.split(' '))
+            .collect();
+        fails(&words, says);
+        assert!(!std::path::Path::new(&file).exists(), "{words:?}");
+    }
+    let says = "add it (--symmetry generic), or leave generic_pairs (--generic-pairs) out";
+    let words = "catalog build --jaws 3 --symmetry threefold --generic-pairs --pairs slide -o";
+    fails(&words.split(' ').chain([&*file]).collect::<Vec<_>>(), says);
+}
