@@ -5,6 +5,7 @@ use crate::synthesis::random::{below, random, unit};
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
+use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::task::Aim;
 use chacha20::ChaCha8Rng;
 use std::cmp::Ordering;
@@ -14,7 +15,9 @@ pub(super) struct FoundPlaces<P> {
     /// Whether the drawn pose keeps the limits, or links that cross pass each other in planes of their own.
     pub(super) within: bool,
     /// Whether the stroke does what the task asks.
-    pub(super) does: bool,
+    does: bool,
+    /// Whether links meet in whatever planes.
+    meets: bool,
     pub(super) looks: Looks,
     /// What drawn pose and stroke cost.
     pub(super) cost: f64,
@@ -25,9 +28,14 @@ pub(super) struct FoundPlaces<P> {
 }
 
 impl<P> FoundPlaces<P> {
-    /// Limits first, then the task, then what all costs.
+    /// Whether they are worth no other start but for what they cost.
+    fn will_do(&self) -> bool {
+        self.within && self.does && !self.meets
+    }
+
+    /// Limits first, then the task, then whether it can be built, then what all costs.
     fn compare(&self, other: &FoundPlaces<P>) -> Ordering {
-        let misses = |of: &FoundPlaces<P>| (!of.within, !of.does);
+        let misses = |of: &FoundPlaces<P>| (!of.within, !of.does, of.meets);
         let cost = || self.cost.total_cmp(&other.cost);
         misses(self).cmp(&misses(other)).then_with(cost)
     }
@@ -35,7 +43,7 @@ impl<P> FoundPlaces<P> {
     /// Whether no better ones need be looked for.
     pub(super) fn are_good(&self, sketch: &impl LayoutSketch) -> bool {
         let enough = sketch.limits().task.aim == Aim::Balanced && self.cost < sketch.good();
-        self.within && self.does && enough
+        self.will_do() && enough
     }
 
     /// Whether they are better than others, where there are any.
@@ -49,8 +57,8 @@ pub(super) const STARTS: u32 = 12;
 
 /// The best places of some starts of a structure of this name, the first good ones being enough; `None` where all end in singular poses.
 ///
-/// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task, and then
-/// others are tried.
+/// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task and can
+/// be built, and then others are tried.
 pub(super) fn best_of_starts<M: StrokeMotion>(
     sketch: &M::Of,
     judge: &mut Judge<M>,
@@ -83,11 +91,11 @@ pub(super) fn best_of_starts<M: StrokeMotion>(
         let Some(found) = ended.or_else(|| search(start, Patience::Whole)) else {
             continue;
         };
-        let does = found.within && found.does;
+        let will_do = found.will_do();
         if found.is_better_than(best.as_ref()) {
             best = Some(found);
         }
-        if does {
+        if will_do {
             break;
         }
     }
@@ -111,16 +119,21 @@ fn search_from<M: StrokeMotion>(
 ) -> Option<FoundPlaces<PlacesOf<M>>> {
     let (at, given_up) = anneal(sketch, judge, random, start, patience);
     let looks = sketch.looks(&at)?;
-    let stroke = judge.fine(&at)?;
+    // What is given up is only compared by what it costs.
+    if !given_up {
+        judge.watch();
+    }
+    let (stroke, stacking) = (judge.fine(&at), judge.stacking());
+    let stroke = stroke?;
     let limits = sketch.limits();
-    let within = looks.keep(limits, || judge.passing(&at).is_known());
     Some(FoundPlaces {
         cost: match limits.task.aim {
             Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
             Aim::Force => sketch.breaks(&at) + limits.force_cost(&stroke, WITHIN),
         },
         does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
-        within,
+        within: looks.keep(limits, stacking.is_known()),
+        meets: stacking == Stacking::Meets,
         looks,
         at,
         start,

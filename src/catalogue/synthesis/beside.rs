@@ -14,7 +14,8 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use sha2::{Digest, Sha256};
 
 /// The layout with its pins moved by less than half a millimetre each, to thousandths; the same for the same seed and number.
-/// `None` where it no longer keeps the limits, or does not do the task that it did. What slides stays on its line.
+/// `None` where it no longer keeps the limits, does not do the task that it did, or has no planes where it had. What slides stays on its
+/// line.
 ///
 /// # Complexity
 /// That of the figures of a stroke, twice.
@@ -49,8 +50,10 @@ pub(crate) fn beside(
         looks,
         ..layout.clone()
     };
-    let does = |l: &Layout| figures(structure, l).is_some_and(|f| f.shortfall.is_none());
-    let pass = || figures(structure, &moved).is_some_and(|f| f.stacking.is_known());
-    let kept = moved.looks.keep(&moved.limits, pass) && (does(&moved) || !does(layout));
+    let [before, now] = [figures(structure, layout)?, figures(structure, &moved)?];
+    let (passed, passes) = (before.stacking.is_known(), now.stacking.is_known());
+    let kept = moved.looks.keep(&moved.limits, passes)
+        && (now.shortfall.is_none() || before.shortfall.is_some())
+        && (passes || !passed);
     kept.then_some(moved)
 }

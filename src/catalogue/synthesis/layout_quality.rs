@@ -39,11 +39,11 @@ const LEAST_CLOSING: f64 = 0.35;
 
 impl Looks {
     /// Whether the drawn pose keeps the limits; with more crossings where the links pass each other in planes of their own.
-    pub(super) fn keep(&self, limits: &Limits, pass: impl FnOnce() -> bool) -> bool {
+    pub(super) fn keep(&self, limits: &Limits, passes: bool) -> bool {
         self.ratio <= limits.ratio
             && self.transmission >= limits.transmission
             && self.straightness >= LEAST_CLOSING
-            && (self.crossings <= limits.crossings || pass())
+            && (self.crossings <= limits.crossings || passes)
     }
 }
 

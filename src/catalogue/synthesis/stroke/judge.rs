@@ -145,18 +145,6 @@ impl<M: StrokeMotion> Judge<M> {
         met.map_or(Stacking::NotAsked, |m| m.stacking(bones))
     }
 
-    /// The planes in which the links of places pass each other over their stroke.
-    ///
-    /// # Complexity
-    /// As [`Judge::fine`], and that of [`Meetings::stacking`].
-    pub fn passing(&mut self, at: &PlacesOf<M>) -> Stacking {
-        self.watch();
-        match self.fine(at) {
-            Some(_) => self.stacking(),
-            None => Stacking::NotAsked,
-        }
-    }
-
     fn limits(&self) -> &Limits {
         self.motion.sketch().limits()
     }
