@@ -41,7 +41,8 @@ fn sides_of_one_link_are_six() {
 fn forces_and_strokes_are_those_of_the_files_statics_in_space() {
     let folder = tempdir().unwrap();
     let all = rows(axial(), LAID);
-    assert!(all.len() >= 45, "{}", all.len());
+    // All of them: where a pose is not proven to be a regular one, others are looked for.
+    assert_eq!(all.len(), 46);
     for row in &all {
         assert_eq!(
             (&row["finite"], &row["mobility"]),
