@@ -346,7 +346,7 @@ fn shares_are_told_by_the_hundred() {
         ..Limits::default()
     };
     let mut told = 0;
-    for refused in laid(&strict) {
+    for refused in laid(&strict, 3) {
         if let Err(NoLayout::Limits { straightness, .. }) = refused {
             assert!((0.0..=100.0).contains(&straightness), "{straightness}");
             told += usize::from(straightness > 1.0);
