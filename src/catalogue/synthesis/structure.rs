@@ -37,7 +37,7 @@ impl Form {
             .filter(|f| f.symmetry.suits(f.input))
     }
 
-    /// Whether a gripper of so many jaws can have it, as [`suits`].
+    /// Whether a gripper of so many jaws can have it: three stand on no parallelograms.
     #[must_use]
     pub fn suits(self, jaws: usize) -> bool {
         suits(self.symmetry, self.parallel, jaws)

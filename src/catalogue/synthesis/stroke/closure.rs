@@ -52,7 +52,7 @@ pub struct Arms<'a> {
 }
 
 impl Closure {
-    /// Of contours, and of the ways that tips open, as [`crate::synthesis::bones::Bones::apart`].
+    /// Of contours, and of the ways that tips open, over the number of pairs of jaws.
     #[must_use]
     pub fn new(contours: &Contours, outward: Vec<Point>) -> Closure {
         let drive = contours.unknown.iter().flatten().count();
