@@ -53,7 +53,14 @@ fn misplaced(root: &Path, m: &Mutant) -> Option<String> {
     let whole = !cut.ends_with('.');
     // What a branch of a switch names is not known behind it.
     let named = m.before.ends_with(';') && m.before.starts_with("let ");
-    (!once || !whole || named || m.after == m.before).then(|| {
+    // A switch is an expression or statements of its own, in brackets: none of the place's is open behind it.
+    let open = [&m.before, &m.after].iter().any(|text| {
+        let count = |c: char| text.matches(c).count();
+        ["{}", "()", "[]"]
+            .iter()
+            .any(|pair| pair.chars().map(count).collect::<BTreeSet<_>>().len() > 1)
+    });
+    (!once || !whole || named || open || m.after == m.before).then(|| {
         format!(
             "{}: {:?} does not stand there once, or no switch can",
             m.file, m.before
