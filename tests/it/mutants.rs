@@ -53,13 +53,11 @@ fn misplaced(root: &Path, m: &Mutant) -> Option<String> {
     let whole = !cut.ends_with('.');
     // What a branch of a switch names is not known behind it.
     let named = m.before.ends_with(';') && m.before.starts_with("let ");
-    // A switch is an expression or statements of its own, in brackets: none of the place's is open behind it.
-    let open = [&m.before, &m.after].iter().any(|text| {
-        let count = |c: char| text.matches(c).count();
-        ["{}", "()", "[]"]
-            .iter()
-            .any(|pair| pair.chars().map(count).collect::<BTreeSet<_>>().len() > 1)
-    });
+    // A switch is a block, and so are its branches.
+    let open = [&m.before, &m.after].map(|text| format!("{{ {text} }}"));
+    let open = open
+        .iter()
+        .any(|text| syn::parse_str::<syn::Block>(text).is_err());
     (!once || !whole || named || open || m.after == m.before).then(|| {
         format!(
             "{}: {:?} does not stand there once, or no switch can",
