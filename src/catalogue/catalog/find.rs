@@ -9,12 +9,10 @@ use crate::chains::pairs::structure::PairStructure;
 use itertools::Itertools;
 use serde_json::Value;
 
-/// How a structure is laid out, in words.
-const FORM: &str = "concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL), \
-     iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin:' || replace(substr(name, instr(name, ' pin')), ' pin', ' '), NULL))";
-
-/// What is read of a structure after its id and form.
-const STRUCTURES: &str = "chain, input, frame, driver, jaw_a, jaw_b, jaw_c, code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 ORDER BY symmetry = 'generic', parallel, id";
+/// A structure, its id and form first.
+const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(parallel, 'parallel', NULL), iif(name LIKE '% flat', 'flat', NULL), \
+     iif(name LIKE '% threaded', 'threaded', NULL), iif(name LIKE '% pin%', 'on one pin:' || replace(substr(name, instr(name, ' pin')), ' pin', ' '), NULL)), \
+     chain, input, frame, driver, jaw_a, jaw_b, jaw_c, code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,7 +37,7 @@ pub fn entries(
 ) -> Result<Vec<Entry>, StoreError> {
     let key = structure.key();
     let links = structure.chain.links().to_string();
-    let (_, rows) = store.query(&format!("SELECT id, {FORM}, {STRUCTURES}"), Some(&links))?;
+    let (_, rows) = store.query(STRUCTURES, Some(&links))?;
     let same = |row: &&Vec<Value>| read(row).is_some_and(|s| s.key() == key);
     let found = rows.iter().filter(same).map(|r| Entry::new(r));
     // A screw is no pinion; other forms of the same structure are told after those made alike.
@@ -70,7 +68,7 @@ impl Entry {
     }
 }
 
-/// The structure of a row that has id and form, and then what [`STRUCTURES`] has.
+/// The structure of a row that begins as [`STRUCTURES`] does.
 pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     let chain = graph6::read(row.get(2)?.as_str()?).ok()?;
     let slides = row.get(3)?.as_str()? == "slide";

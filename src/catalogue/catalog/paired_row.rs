@@ -28,14 +28,13 @@ pub(crate) type ThreefoldRow = StructureRow<ThreefoldStructure, PairLayout>;
 /// A search for places and one of the variants.
 pub(crate) fn row_of_paired(paired: &PairedStructure, spec: &Spec) -> Result<PairedRow, RowError> {
     let menu = spec.menu()?;
-    let laid = regular(spec, |seed| match layout(paired, &spec.limits(), seed) {
-        Err(why) => Ok(Err(why)),
-        Ok(layout) => {
-            let file = mechanism_file(paired, &layout, &menu, &spec.workload);
-            let figures = figures(paired, &layout);
-            lay_pairs(paired.name(), file, figures, layout, spec)
-        }
-    })?;
+    let laid = lay_pairs(
+        spec,
+        || paired.name(),
+        |seed| layout(paired, &spec.limits(), seed),
+        |layout| mechanism_file(paired, layout, &menu, &spec.workload),
+        |layout| figures(paired, layout),
+    )?;
     let (chain, roles) = (&paired.structure.chain, &paired.structure.roles);
     let at_frame = |&&jaw: &&usize| chain.between(roles.frame, jaw).is_some();
     Ok(StructureRow {
@@ -59,16 +58,13 @@ pub(crate) fn row_of_three(
     spec: &Spec,
 ) -> Result<ThreefoldRow, RowError> {
     let menu = spec.menu()?;
-    let laid = regular(spec, |seed| {
-        match layout_of_three(structure, &spec.limits(), seed) {
-            Err(why) => Ok(Err(why)),
-            Ok(layout) => {
-                let file = mechanism_file_of_three(structure, &layout, &menu, &spec.workload);
-                let figures = of_three(structure, &layout);
-                lay_pairs(structure.name(), file, figures, layout, spec)
-            }
-        }
-    })?;
+    let laid = lay_pairs(
+        spec,
+        || structure.name(),
+        |seed| layout_of_three(structure, &spec.limits(), seed),
+        |layout| mechanism_file_of_three(structure, layout, &menu, &spec.workload),
+        |layout| of_three(structure, layout),
+    )?;
     let roles = &structure.two.structure.roles;
     let at_frame = structure
         .two
@@ -84,18 +80,26 @@ pub(crate) fn row_of_three(
     })
 }
 
+/// What is laid out under a seed, as a file with its figures, searched.
 fn lay_pairs(
-    name: String,
-    file: MechanismFile,
-    figures: Option<LayoutFigures>,
-    layout: PairLayout,
     spec: &Spec,
+    name: impl Fn() -> String,
+    layout: impl Fn(u64) -> Result<PairLayout, NoLayout>,
+    file: impl Fn(&PairLayout) -> MechanismFile,
+    figures: impl Fn(&PairLayout) -> Option<LayoutFigures>,
 ) -> Result<Result<Laid<PairLayout>, NoLayout>, RowError> {
-    let as_file = LaidFile {
-        built: mechanism(&name, &file)?,
-        name,
-        figures,
-        file,
-    };
-    as_file.searched(layout, |built| of_its_own(built, spec))
+    regular(spec, |seed| {
+        let layout = match layout(seed) {
+            Ok(layout) => layout,
+            Err(why) => return Ok(Err(why)),
+        };
+        let (name, file) = (name(), file(&layout));
+        let as_file = LaidFile {
+            built: mechanism(&name, &file)?,
+            figures: figures(&layout),
+            name,
+            file,
+        };
+        as_file.searched(layout, |built| of_its_own(built, spec))
+    })
 }

@@ -71,13 +71,13 @@ pub(super) fn best_of_starts<M: StrokeMotion>(
         search_from(sketch, judge, random, start, patience)
     };
     let end = first + STARTS;
-    let racing = match sketch.limits().task.aim {
-        Aim::Balanced => first..first + STARTS / 2,
-        Aim::Force => first..end,
+    let (racing, patience) = match sketch.limits().task.aim {
+        Aim::Balanced => (first..first + STARTS / 2, Patience::Racing),
+        Aim::Force => (first..end, Patience::Whole),
     };
     let others = (racing.end..end).map(|start| (start, None));
     let mut raced = Vec::new();
-    for found in racing.filter_map(|start| search(start, Patience::Racing)) {
+    for found in racing.filter_map(|start| search(start, patience)) {
         if found.are_good(sketch) {
             return Some(found);
         }
@@ -119,7 +119,7 @@ fn search_from<M: StrokeMotion>(
 ) -> Option<FoundPlaces<PlacesOf<M>>> {
     let (at, given_up) = anneal(sketch, judge, random, start, patience);
     let looks = sketch.looks(&at)?;
-    // What is given up is only compared by what it costs.
+    // Whether what is given up can be built is not asked.
     if !given_up {
         judge.watch();
     }
@@ -177,9 +177,9 @@ const PHASES: [Phase; 3] = [
     },
 ];
 
-/// Starts of which few become good: after such a share of the moves that look at strokes the cheapest costs so many times what good
-/// places do: of those of hinged structures one in twelve.
-const LAGGING: [(f64, f64); 4] = [(0.1, 7.0), (0.2, 4.0), (0.3, 3.0), (0.4, 2.0)];
+/// Starts of which few become good: after so many moves that look at strokes the cheapest costs so many times what good places do. Of
+/// those of hinged structures one in twelve.
+const LAGGING: [(usize, f64); 4] = [(50, 7.0), (100, 4.0), (150, 3.0), (200, 2.0)];
 
 /// How wide limits are within which places are taken.
 const WITHIN: f64 = 1.0;
@@ -256,10 +256,9 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
         stroke.is_some_and(|f| self.sketch.limits().shortfall(&f, swings).is_none())
     }
 
-    /// Whether so many moves of a phase have led to so little that the start is given up.
-    fn lags(&self, phase: &Phase, moves: usize) -> bool {
-        let share = |part: f64| (part * phase.moves as f64) as usize;
-        let bound = LAGGING.iter().find(|(part, _)| share(*part) == moves);
+    /// Whether so many moves that look at strokes have led to so little that the start is given up.
+    fn lags(&self, moves: usize) -> bool {
+        let bound = LAGGING.iter().find(|(after, _)| *after == moves);
         bound.is_some_and(|(_, times)| self.best.0 > times * self.sketch.good())
     }
 
@@ -276,11 +275,9 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
             return;
         }
         let [from, to] = phase.warmth;
-        let races = patience == Patience::Racing
-            && phase.look == Look::Stroke
-            && self.sketch.limits().task.aim == Aim::Balanced;
+        let races = patience == Patience::Racing && phase.look == Look::Stroke;
         for step in 0..phase.moves {
-            if races && self.lags(phase, step) {
+            if races && self.lags(step) {
                 self.given_up = true;
                 return;
             }

@@ -18,7 +18,7 @@ use sha2::{Digest, Sha256};
 /// line.
 ///
 /// # Complexity
-/// That of the figures of a stroke, twice.
+/// That of the figures of a stroke, twice at most.
 #[must_use]
 pub(crate) fn beside(
     structure: &Structure,
@@ -50,10 +50,14 @@ pub(crate) fn beside(
         looks,
         ..layout.clone()
     };
-    let [before, now] = [figures(structure, layout)?, figures(structure, &moved)?];
-    let (passed, passes) = (before.stacking.is_known(), now.stacking.is_known());
-    let kept = moved.looks.keep(&moved.limits, passes)
-        && (now.shortfall.is_none() || before.shortfall.is_some())
-        && (passes || !passed);
+    let now = figures(structure, &moved)?;
+    let (does, passes) = (now.shortfall.is_none(), now.stacking.is_known());
+    // What it does not it may not have done before.
+    let no_less = || {
+        figures(structure, layout).is_some_and(|before| {
+            (does || before.shortfall.is_some()) && (passes || !before.stacking.is_known())
+        })
+    };
+    let kept = moved.looks.keep(&moved.limits, passes) && (does && passes || no_less());
     kept.then_some(moved)
 }

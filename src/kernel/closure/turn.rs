@@ -22,6 +22,11 @@ pub(crate) struct Turn {
 /// A direction, and the same in numbers.
 type Direction = (ExactVector, Vector);
 
+fn numbered(direction: ExactVector) -> Direction {
+    let numbers = real(&direction);
+    (direction, numbers)
+}
+
 /// Of each joint of a mechanism the directions of its frame, which axes of turns may be along.
 pub(crate) struct FrameDirections(Vec<[Direction; 3]>);
 
@@ -31,10 +36,7 @@ impl FrameDirections {
         let of = |j: JointId| {
             let frame = &mechanism.joints[j].frame;
             let [z, x] = [&frame.axis, &frame.reference];
-            [z.clone(), x.clone(), cross(z, x)].map(|d| {
-                let numbers = real(&d);
-                (d, numbers)
-            })
+            [z.clone(), x.clone(), cross(z, x)].map(numbered)
         };
         FrameDirections(mechanism.joint_ids().map(of).collect())
     }
@@ -56,10 +58,6 @@ impl Turn {
         let mut out = Vec::new();
         for group in groups {
             let round: Vec<ExactVector> = group.iter().map(|j| frame(j).point.clone()).collect();
-            let numbered = |d: ExactVector| {
-                let numbers = real(&d);
-                (d, numbers)
-            };
             let axes: Vec<Direction> = match &round[..] {
                 [a, b, c] => vec![numbered(cross(&sub(b, a), &sub(c, a)))],
                 _ => {

@@ -42,9 +42,10 @@ impl PairSketch<'_> {
     /// are made.
     fn guided_jaw(&self, joint: usize) -> Option<usize> {
         let joint = &self.rules.joints[joint];
-        let guides = joint.pair == PairKind::Slide && joint.is_at(self.bones.frame);
-        let mut jaws = self.bones.jaws.iter().filter(|_| guides);
-        jaws.position(|&j| joint.is_at(j))
+        if joint.pair != PairKind::Slide || !joint.is_at(self.bones.frame) {
+            return None;
+        }
+        self.bones.jaws.iter().position(|&j| joint.is_at(j))
     }
 
     fn first_direction(&self, joint: usize, random: &mut ChaCha8Rng) -> WholeDirection {
