@@ -3,7 +3,7 @@
 mod error;
 
 use crate::closure::matrix::Closure;
-use crate::geom::exact::ExactField;
+use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::scalars::Reals;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
@@ -421,6 +421,24 @@ fn exactly(
         as_written: None,
         meant: None,
     })
+}
+
+/// Dimension of the output links' joint motion, alone.
+///
+/// # Errors
+/// Where a coordinate has no image in the field.
+///
+/// # Complexity
+/// O(f³) field operations for f freedoms.
+pub fn working_mobility(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<usize, ExactError> {
+    let closure = Closure::new(exact, mechanism, state)?;
+    let kernel = motions(exact, &closure);
+    let outputs = outputs(mechanism);
+    Ok(span_of_links(exact, mechanism, &closure, &kernel, &outputs))
 }
 
 /// Dimension of the joint motion of some links over a basis of motions.

@@ -37,7 +37,7 @@ pub struct Question {
     pub space: Space,
     /// Its costs.
     pub steps: Steps,
-    pub(in crate::search) exact: ExactField,
+    pub exact: ExactField,
     /// What its diagrams are built of.
     pub(in crate::search) least: LeastModel,
     /// The contours of the free state, and the rows of J in it.

@@ -8,8 +8,10 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, ErrorCode, OptionalExtension, TransactionBehavior, params};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, sync_channel};
+use std::time::{Duration, Instant};
 
 /// An open catalogue.
 #[derive(Debug)]
@@ -20,8 +22,9 @@ pub struct Store {
     pub(super) version: i64,
 }
 
-/// Rows that wait for the disk at most.
+/// Rows that wait for the disk at most, and for how long: it takes as long for many as for one.
 const WAITING: usize = 256;
+const GATHERED: Duration = Duration::from_millis(500);
 
 pub(super) type Stored<T> = Result<T, StoreError>;
 
@@ -82,8 +85,8 @@ impl Store {
         self.ok(done)
     }
 
-    /// Adds structures while `make` makes them and sends them: those that wait when the disk is ready go together, since the disk
-    /// takes as long for many as for one. Where the file cannot be written sending fails.
+    /// Adds structures while `make` makes them and sends them: those of half a second go together. Where the file cannot be written
+    /// sending fails.
     ///
     /// # Errors
     /// Where the file cannot be written.
@@ -95,7 +98,13 @@ impl Store {
         std::thread::scope(|scope| {
             let writer = scope.spawn(move || -> Stored<()> {
                 while let Ok(first) = made.recv() {
-                    let all: Vec<_> = std::iter::once(first).chain(made.try_iter()).collect();
+                    let until = Instant::now() + GATHERED;
+                    let more = || {
+                        let left = until.saturating_duration_since(Instant::now());
+                        made.recv_timeout(left).ok()
+                    };
+                    let all = iter::once(first).chain(iter::from_fn(more));
+                    let all: Vec<_> = all.take(WAITING).collect();
                     self.add(&all)?;
                 }
                 Ok(())

@@ -1,9 +1,10 @@
 //! The scores of variants, fast.
 
+use crate::geom::exact::ExactError;
 use crate::geom::vector::dot;
 use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
-use crate::redundancy::analysis::{AnalysisError, Method, analyse};
+use crate::redundancy::analysis::working_mobility;
 use crate::score::evaluation::elimination::{Ended, Scratch};
 use crate::score::evaluation::floor::Floor;
 use crate::score::evaluation::load_cases::{CaseError, Cases, cases};
@@ -29,9 +30,9 @@ pub enum ScoreError {
     /// The present mechanism has no numbers.
     #[error(transparent)]
     Unsolved(#[from] Unsolved),
-    /// The present mechanism could not be analysed.
+    /// A coordinate has no value.
     #[error(transparent)]
-    Analysis(#[from] AnalysisError),
+    Exact(#[from] ExactError),
     /// It has no cases to be scored in.
     #[error(transparent)]
     Cases(#[from] CaseError),
@@ -106,10 +107,7 @@ impl<'s> Evaluator<'s> {
             .iter()
             .map(|case| PoseTable::new(search, &types, &outputs, &drives, case))
             .collect::<Result<_, _>>()?;
-        let states = analyse(m, &[StateId::FREE], Method::Modular)?;
-        let working = states
-            .first()
-            .map_or(0, |s| i64::try_from(s.working_mobility).unwrap_or(0));
+        let working = working_mobility(&search.exact, m, StateId::FREE)?;
         Ok(Evaluator {
             search,
             types,
@@ -118,7 +116,7 @@ impl<'s> Evaluator<'s> {
             cases,
             outputs,
             tables,
-            working,
+            working: i64::try_from(working).unwrap_or(i64::MAX),
             floor: OnceLock::new(),
         })
     }
