@@ -13,18 +13,34 @@ use crate::linalg::modp::{Field, Residue};
 pub(crate) struct Exterior {
     field: Field,
     width: usize,
-    /// The sets of so many coordinates as bits, ascending.
-    sets: Vec<Vec<usize>>,
-    /// The place of each set among those of its size.
-    places: Vec<usize>,
     /// Of each set of so many coordinates, for each of these from the last on: the place of the others, and it.
     faces: Vec<Vec<[usize; 2]>>,
+    /// For each set of so many coordinates: the place of the others, and whether the sign changes where these come first.
+    others: Vec<Vec<(usize, bool)>>,
+}
+
+/// A product of some vectors, all minors of theirs by the set of their coordinates, in memory that the next one uses again.
+#[derive(Debug, Default)]
+pub(crate) struct Product {
+    minors: Vec<Residue>,
+    /// Those of one vector less.
+    before: Vec<Residue>,
+    /// The numbers of a vector, with their negatives.
+    signed: Vec<[Residue; 2]>,
+}
+
+impl Product {
+    /// The minors.
+    pub(crate) fn minors(&self) -> &[Residue] {
+        &self.minors
+    }
 }
 
 impl Exterior {
     /// # Complexity
-    /// O(2^n) for vectors of n numbers.
+    /// O(n·2^n) for vectors of n numbers.
     pub(crate) fn new(field: Field, width: usize) -> Exterior {
+        // The sets of so many coordinates as bits, ascending, and the place of each among those of its size.
         let mut sets = vec![Vec::new(); width + 1];
         let place = |set: usize| {
             let alike: &mut Vec<usize> = &mut sets[set.count_ones() as usize];
@@ -32,46 +48,64 @@ impl Exterior {
             alike.len() - 1
         };
         let places: Vec<usize> = (0..1 << width).map(place).collect();
+        let members = |set: usize| (0..width).rev().filter(move |i| set >> i & 1 == 1);
         let faces = |sets: &Vec<usize>| {
-            let of = |&set: &usize| {
-                let members = (0..width).rev().filter(move |i| set >> i & 1 == 1);
-                members.map(move |i| [set & !(1 << i), i])
-            };
+            let of = |&set: &usize| members(set).map(move |i| [set & !(1 << i), i]);
             let faces = sets.iter().flat_map(of);
             faces.map(|[rest, i]| [places[rest], i]).collect()
+        };
+        let others = |&set: &usize| {
+            let rest = ((1 << width) - 1) & !set;
+            // Each coordinate of the set goes past the smaller ones of the rest.
+            let passed = members(set).map(|i| (rest & ((1 << i) - 1)).count_ones());
+            (places[rest], !passed.sum::<u32>().is_multiple_of(2))
         };
         Exterior {
             field,
             width,
             faces: sets.iter().map(faces).collect(),
-            sets,
-            places,
+            others: sets
+                .iter()
+                .map(|sets| sets.iter().map(others).collect())
+                .collect(),
         }
     }
 
-    /// The product of some vectors: all minors of theirs, by the set of their coordinates.
+    /// How many numbers vectors have.
+    pub(crate) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// The product of some vectors; nothing where there are more than numbers of each.
     ///
     /// # Complexity
     /// O(n·b) field operations for n vectors and b minors.
     pub(crate) fn product<'v>(
         &self,
         vectors: impl IntoIterator<Item = &'v [Residue]>,
-    ) -> Vec<Residue> {
+        product: &mut Product,
+    ) {
         let f = self.field;
-        let mut product = vec![f.one()];
+        let Product {
+            minors,
+            before,
+            signed,
+        } = product;
+        minors.clear();
+        minors.push(f.one());
         for (size, vector) in vectors.into_iter().enumerate() {
-            let term = |&[place, i]: &[usize; 2]| (product[place], vector[i]);
+            std::mem::swap(minors, before);
+            minors.clear();
+            signed.clear();
+            signed.extend(vector[..self.width].iter().map(|&x| [x, f.neg(x)]));
             let minor = |faces: &[[usize; 2]]| {
-                let every_other = |from| faces[from..].iter().step_by(2).map(term);
-                let [plus, minus] = [0, 1].map(|from| f.sum_of_products(every_other(from)));
-                f.sub(plus, minus)
+                let faces = faces.iter().enumerate();
+                f.sum_of_products(faces.map(|(j, &[place, i])| (before[place], signed[i][j & 1])))
             };
-            // More vectors than there are numbers are dependent.
             let faces = self.faces.get(size + 1);
             let faces = faces.map(|all| all.chunks_exact(size + 1));
-            product = faces.map_or(Vec::new(), |all| all.map(minor).collect());
+            minors.extend(faces.into_iter().flatten().map(minor));
         }
-        product
     }
 
     /// Whether the vectors of a product, and those of a [complement](Self::complement), are independent.
@@ -79,32 +113,28 @@ impl Exterior {
         self.field.dot(product, complement) != 0
     }
 
-    /// A product of so many vectors in such an order, and with such signs, that its sum of products with another of the others that a
+    /// The minors of so many vectors in such an order, and with such signs, that their sum of products with those of the others that a
     /// whole needs is the determinant of all.
-    ///
-    /// # Complexity
-    /// O(n·b) for vectors of n numbers and b minors.
-    pub(crate) fn complement(&self, product: &[Residue], vectors: usize) -> Vec<Residue> {
-        let whole = (1 << self.width) - 1;
-        let of = |&set: &usize| {
-            let rest = whole & !set;
-            // Each coordinate of the set goes past the smaller ones of the rest.
-            let members = (0..self.width).filter(|i| set >> i & 1 == 1);
-            let passed: u32 = members.map(|i| (rest & ((1 << i) - 1)).count_ones()).sum();
-            let minor = product[self.places[rest]];
-            if passed.is_multiple_of(2) {
-                minor
-            } else {
+    pub(crate) fn complement(
+        &self,
+        product: &Product,
+        vectors: usize,
+    ) -> impl Iterator<Item = Residue> {
+        let others = &self.others[self.width - vectors];
+        others.iter().map(|&(place, changes)| {
+            let minor = product.minors[place];
+            if changes {
                 self.field.neg(minor)
+            } else {
+                minor
             }
-        };
-        self.sets[self.width - vectors].iter().map(of).collect()
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Exterior;
+    use super::{Exterior, Product};
     use crate::linalg::echelon::rank;
     use crate::linalg::modp::{Field, Residue};
     use proptest::prelude::*;
@@ -125,11 +155,19 @@ mod tests {
             let rows = |of: &[Vec<Residue>]| rank(f, of.iter().map(Vec::as_slice));
             let exterior = Exterior::new(f, width);
             let [one, other] = [&all[..first], &all[first..]];
-            let [a, b] = [one, other].map(|of| exterior.product(of.iter().map(Vec::as_slice)));
+            // In memory that another product has left.
+            let mut of = Product::default();
+            let mut product = |vectors: &[Vec<Residue>]| {
+                exterior.product(vectors.iter().map(Vec::as_slice), &mut of);
+                of.minors().to_vec()
+            };
+            let [a, at_once] = [one, &all].map(&mut product);
             prop_assert_eq!(a.iter().all(|&x| x == 0), rows(one) < first);
-            let determinant = f.dot(&a, &exterior.complement(&b, width - first));
+            product(other);
+            let complement: Vec<Residue> = exterior.complement(&of, width - first).collect();
+            let determinant = f.dot(&a, &complement);
             prop_assert_eq!(determinant == 0, rows(&all) < width);
-            let at_once = exterior.product(all.iter().map(Vec::as_slice));
+            prop_assert_eq!(exterior.whole(&a, &complement), determinant != 0);
             prop_assert_eq!(at_once, vec![determinant]);
         }
     }

@@ -4,18 +4,19 @@
 //! only its ways are followed: half of the variables from the front, half from the back, and where they meet, what is added there is
 //! put together only at one and the same node of what is known.
 
-use crate::linalg::exterior::Exterior;
-use crate::linalg::modp::Residue;
+use crate::linalg::exterior::{Exterior, Product};
+use crate::linalg::modp::{Field, Residue};
 use crate::search::build::self_stress::Added;
-use crate::search::build::spanning_halves::{Behind, Halves};
+use crate::search::build::spanning_halves::{Behind, Halves, Ways};
 use crate::search::build::staging::limits;
-use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
+use crate::search::diagram::reduced_rows::Rows;
 use crate::search::diagram::redundancy_so_far::Spent;
 use crate::search::diagram::transition::Children;
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use hashbrown::HashMap;
-use std::cmp::Ordering;
+use itertools::Itertools;
+use std::collections::BTreeSet;
 
 /// Coordinates of contours that both halves reach, at most: of more there are thousands of minors.
 const WIDEST: usize = 12;
@@ -40,7 +41,6 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
         return Some(false);
     }
     let mut layers = &known.layers[..];
-    let mut arithmetic = Arithmetic::new(halves.field);
     for (part, ends) in halves.parts.iter().enumerate() {
         let (own, others) = layers.split_at(ends[0].len());
         // Nothing is carried on from part to part, so that there is one node between them.
@@ -54,9 +54,9 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
         if behind.live > WIDEST {
             return None;
         }
-        let exterior = Exterior::new(halves.field, behind.live);
+        let mut completion = Completion::new(halves.field, &behind);
         for (front, back) in front.nodes.iter().zip(&back.nodes) {
-            if !complete(&exterior, &behind, &mut arithmetic, front, back)? {
+            if !completion.is_whole(front, back)? {
                 return Some(false);
             }
         }
@@ -65,36 +65,59 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
     Some(true)
 }
 
-/// Whether all ways to a node from the front are completed by all from the back; none where these have more than is missing.
-fn complete(
-    exterior: &Exterior,
-    behind: &Behind,
-    arithmetic: &mut Arithmetic,
-    front: &Reached,
-    back: &Reached,
-) -> Option<bool> {
-    let of_front = |packed: &Vec<Residue>| {
-        let rows = behind.unpacked(packed);
-        (rows.rank(), exterior.product(rows.rows()))
-    };
-    let from_front: Vec<(usize, Vec<Residue>)> = front.keys().map(of_front).collect();
-    let mut left = Rows::default();
-    for path in back.values() {
-        if !behind.left_of(path, arithmetic, &mut left) {
-            return Some(false);
-        }
-        let product = exterior.product(left.rows());
-        let missing = behind.live.saturating_sub(left.rank());
-        let product = exterior.complement(&product, left.rank());
-        for (rank, front) in &from_front {
-            match rank.cmp(&missing) {
-                Ordering::Greater => return None,
-                Ordering::Equal if exterior.whole(front, &product) => {}
-                _ => return Some(false),
-            }
+/// Whether ways from both ends complete each other, in memory that is used again.
+struct Completion<'a> {
+    exterior: Exterior,
+    ways: Ways<'a>,
+    product: Product,
+    /// The products of all ways from the front, one after another, and that of a way from the back.
+    front: Vec<Residue>,
+    back: Vec<Residue>,
+}
+
+impl<'a> Completion<'a> {
+    fn new(field: Field, behind: &'a Behind) -> Completion<'a> {
+        Completion {
+            exterior: Exterior::new(field, behind.live),
+            ways: Ways::new(behind, field),
+            product: Product::default(),
+            front: Vec::new(),
+            back: Vec::new(),
         }
     }
-    Some(true)
+
+    /// Whether all ways to a node from the front are completed by all from the back; none where these have more than is missing.
+    fn is_whole(&mut self, front: &Reached, back: &Reached) -> Option<bool> {
+        let (mut ranks, mut rows) = (BTreeSet::new(), Rows::default());
+        self.front.clear();
+        for packed in front.keys() {
+            self.ways.behind.unpacked(packed, &mut rows);
+            self.exterior.product(rows.rows(), &mut self.product);
+            self.front.extend_from_slice(self.product.minors());
+            ranks.insert(rows.rank());
+        }
+        // Those that begin alike one after another.
+        for path in back.values().sorted_unstable() {
+            let Some(left) = self.ways.left_of(path) else {
+                return Some(false);
+            };
+            let missing = self.exterior.width().saturating_sub(left.rank());
+            match (ranks.first(), ranks.last()) {
+                (_, Some(most)) if *most > missing => return None,
+                (Some(least), _) if *least < missing => return Some(false),
+                _ => {}
+            }
+            self.exterior.product(left.rows(), &mut self.product);
+            let complement = self.exterior.complement(&self.product, left.rank());
+            self.back.clear();
+            self.back.extend(complement);
+            let mut all = self.front.chunks_exact(self.back.len());
+            if !all.all(|front| self.exterior.whole(front, &self.back)) {
+                return Some(false);
+            }
+        }
+        Some(true)
+    }
 }
 
 /// The different spaces that ways to a known node add, packed, each with the choices on one of them.
