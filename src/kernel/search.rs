@@ -20,7 +20,7 @@ pub mod testing;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::Mechanism;
 use crate::search::answer::counts::{self, Counts};
-use crate::search::answer::ideas::{self, Idea};
+use crate::search::answer::ideas::{self, Idea, IdeaBasis};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order;
@@ -159,8 +159,15 @@ impl Search {
         ideas::ideas(self, diagrams, top)
     }
 
-    /// The same among those that [ideas are made of](Self::idea_variants).
-    pub fn ideas_among(&self, variants: &Diagram, top: usize) -> Vec<Idea> {
-        ideas::ideas_in_steps(self, variants, top, &mut 0)
+    /// What they depend on besides variants and costs: of another search that has the same variants at the same costs they are the same
+    /// where this is.
+    #[must_use]
+    pub fn idea_basis(&self) -> IdeaBasis {
+        IdeaBasis::of(self)
+    }
+
+    /// The same among those that [ideas are made of](Self::idea_variants), of this search's own basis.
+    pub fn ideas_among(&self, basis: &IdeaBasis, variants: &Diagram, top: usize) -> Vec<Idea> {
+        ideas::ideas_in_steps(self, basis, variants, top, &mut 0)
     }
 }

@@ -14,6 +14,7 @@ use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::roles::Roles;
 use crate::model::mechanism::Mechanism;
 use crate::search::Search;
+use crate::search::answer::ideas::{Idea, IdeaBasis};
 use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Stop};
 use crate::synthesis::mechanism::bare_file;
@@ -24,6 +25,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// Pairs of random places that are looked at until both have the same variants: nearly always the first do.
 const PAIRS_OF_PLACES: usize = 4;
@@ -38,7 +40,9 @@ pub struct General {
     /// Of these the minimal ones, where they are known.
     minimal: Option<Diagram>,
     /// Those that ideas are made of.
-    pub(super) idea_variants: Diagram,
+    idea_variants: Diagram,
+    /// The first ideas of layouts, each with what they depend on.
+    ideas: Mutex<Vec<(IdeaBasis, Vec<Idea>)>>,
     /// These by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
 }
@@ -143,6 +147,7 @@ impl General {
                     orders,
                     minimal: one.minimal_variants(&diagrams),
                     idea_variants: one.idea_variants(&diagrams),
+                    ideas: Mutex::default(),
                     diagram: diagrams.determinate,
                 }));
             }
@@ -172,5 +177,22 @@ impl General {
             same(&self.diagram, &built.determinate)
         });
         Ok(has_all.then_some(search))
+    }
+
+    /// The first ideas of a layout that is certified, `top` of them at most: those of an earlier one, where they depend on the same.
+    /// All layouts of the pair are asked for as many.
+    ///
+    /// # Complexity
+    /// That of looking for them, once for each way in which the links of the pair are frame, jaws and rods.
+    pub(super) fn ideas(&self, search: &Search, top: usize) -> Vec<Idea> {
+        let basis = search.idea_basis();
+        // What a thread that panicked has put there is whole.
+        let known = || self.ideas.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, ideas)) = known().iter().find(|(of, _)| *of == basis) {
+            return ideas.clone();
+        }
+        let ideas = search.ideas_among(&basis, &self.idea_variants, top);
+        known().push((basis, ideas.clone()));
+        ideas
     }
 }

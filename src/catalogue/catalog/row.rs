@@ -257,10 +257,7 @@ fn in_general_position(
                 counts: general.counts.clone(),
                 symmetric: Symmetric::none(),
                 exact: true,
-                ideas: rows(
-                    &search,
-                    search.ideas_among(&general.idea_variants, spec.ideas),
-                ),
+                ideas: rows(&search, general.ideas(&search, spec.ideas)),
             };
             return Ok(Some((as_file, variants)));
         }

@@ -37,6 +37,7 @@ pub struct Question {
     pub space: Space,
     /// Its costs.
     pub steps: Steps,
+    /// The field in which it is answered, with all numbers of the mechanism.
     pub exact: ExactField,
     /// What its diagrams are built of.
     pub(in crate::search) least: LeastModel,

@@ -1,6 +1,6 @@
 //! What tests alone need of the inside of a search, and nothing else may use.
 
-use super::answer::ideas::{idea_variants, ideas_in_steps};
+use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
 use super::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
 use super::build::orders::orders;
@@ -129,6 +129,13 @@ pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) ->
 #[must_use]
 pub fn walked_for_ideas(question: &Question, found: &Diagrams, top: usize) -> Walked {
     let mut steps = 0;
-    let listed = ideas_in_steps(question, &idea_variants(question, found), top, &mut steps).len();
+    let listed = ideas_in_steps(
+        question,
+        &IdeaBasis::of(question),
+        &idea_variants(question, found),
+        top,
+        &mut steps,
+    )
+    .len();
     Walked { listed, steps }
 }

@@ -51,7 +51,7 @@ pub(in crate::search) type Pattern = Vec<u8>;
 type Item = (Vec<JointId>, String);
 
 /// The groups of joints in series, and what every choice adds to them.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq)]
 pub(in crate::search) struct Patterns {
     /// What the numbers of a pattern are about.
     items: Vec<Item>,

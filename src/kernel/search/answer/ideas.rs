@@ -57,29 +57,47 @@ pub(in crate::search) fn idea_variants<'d>(
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
 /// pattern; then for each idea two passes over the part of the diagram that it uses.
 pub(crate) fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
-    ideas_in_steps(question, &idea_variants(question, diagrams), top, &mut 0)
+    let variants = idea_variants(question, diagrams);
+    ideas_in_steps(question, &IdeaBasis::of(question), &variants, top, &mut 0)
+}
+
+/// What ideas depend on besides the variants that they are made of and what these cost: what each choice adds to which contours, what
+/// joints the mechanism's own image makes of them, and the weights of their places.
+#[derive(Debug, PartialEq, Eq)]
+pub struct IdeaBasis {
+    patterns: Patterns,
+    weights: Vec<u64>,
+}
+
+impl IdeaBasis {
+    pub(in crate::search) fn of(question: &Question) -> IdeaBasis {
+        IdeaBasis {
+            patterns: patterns(question),
+            weights: weights(&question.mechanism, &question.space),
+        }
+    }
 }
 
 /// The same among minimal variants, and how many steps down their diagram were taken to find them.
 pub(in crate::search) fn ideas_in_steps(
     question: &Question,
+    basis: &IdeaBasis,
     diagram: &Diagram,
     top: usize,
     steps_down: &mut usize,
 ) -> Vec<Idea> {
-    let patterns = patterns(question);
-    let weights = weights(&question.mechanism, &question.space);
+    let IdeaBasis { patterns, weights } = basis;
     // Many weights make many kinds of each cost; then they only choose among those that stand for the same.
     let few = weights.iter().sum::<u64>() <= WEIGHED;
     let steps = if few {
-        question.steps.then(&weights)
+        question.steps.then(weights)
     } else {
         question.steps.clone()
     };
-    let firsts = firsts(question, diagram, &patterns, &steps, top, steps_down);
+    let firsts = firsts(question, diagram, patterns, &steps, top, steps_down);
     let one = |first| {
-        let first = preferred::preferred(question, diagram, &patterns, &weights, first);
-        idea(question, diagram, &patterns, first)
+        let first = preferred::preferred(question, diagram, patterns, weights, first);
+        idea(question, diagram, patterns, first)
     };
     firsts.into_iter().map(one).collect()
 }
