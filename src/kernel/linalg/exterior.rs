@@ -71,11 +71,6 @@ impl Exterior {
         }
     }
 
-    /// How many numbers vectors have.
-    pub(crate) fn width(&self) -> usize {
-        self.width
-    }
-
     /// The product of some vectors; nothing where there are more than numbers of each.
     ///
     /// # Complexity

@@ -5,18 +5,17 @@
 //! put together only at one and the same node of what is known.
 
 use crate::linalg::exterior::{Exterior, Product};
-use crate::linalg::modp::{Field, Residue};
+use crate::linalg::modp::Field;
+use crate::search::build::known_spaces::Spaces;
 use crate::search::build::self_stress::Added;
-use crate::search::build::spanning_halves::{Behind, Halves, Ways};
+use crate::search::build::spanning_halves::{Behind, Halves};
 use crate::search::build::staging::limits;
-use crate::search::diagram::reduced_rows::Rows;
+use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Spent;
 use crate::search::diagram::transition::Children;
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
-use hashbrown::HashMap;
-use itertools::Itertools;
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
 
 /// Coordinates of contours that both halves reach, at most: of more there are thousands of minors.
 const WIDEST: usize = 12;
@@ -54,87 +53,63 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
         if behind.live > WIDEST {
             return None;
         }
-        let mut completion = Completion::new(halves.field, &behind);
-        for (front, back) in front.nodes.iter().zip(&back.nodes) {
-            if !completion.is_whole(front, back)? {
-                return Some(false);
-            }
+        if !are_whole(halves.field, &behind, &front.spaces, &back.spaces)? {
+            return Some(false);
         }
         layers = others;
     }
     Some(true)
 }
 
-/// Whether ways from both ends complete each other, in memory that is used again.
-struct Completion<'a> {
-    exterior: Exterior,
-    ways: Ways<'a>,
-    product: Product,
-    /// The products of all ways from the front, one after another, and that of a way from the back.
-    front: Vec<Residue>,
-    back: Vec<Residue>,
-}
-
-impl<'a> Completion<'a> {
-    fn new(field: Field, behind: &'a Behind) -> Completion<'a> {
-        Completion {
-            exterior: Exterior::new(field, behind.live),
-            ways: Ways::new(behind, field),
-            product: Product::default(),
-            front: Vec::new(),
-            back: Vec::new(),
-        }
+/// Whether all ways from the front are completed by all from the back that lead to the same node; none where these have more than is
+/// missing.
+fn are_whole(field: Field, behind: &Behind, front: &Spaces, back: &Spaces) -> Option<bool> {
+    let exterior = Exterior::new(field, behind.live);
+    let mut arithmetic = Arithmetic::new(field);
+    let (mut rows, mut product) = (Rows::default(), Product::default());
+    // Of those from the front the products, and which lead to each node.
+    let mut minors = Vec::new();
+    let mut products = Vec::with_capacity(front.len());
+    let mut at_node = vec![Vec::new(); front.node_count()];
+    for space in 0..front.len() {
+        behind.unpacked(front.packed(space), &mut rows);
+        exterior.product(rows.rows(), &mut product);
+        let start = minors.len();
+        minors.extend_from_slice(product.minors());
+        products.push((rows.rank(), start..minors.len()));
+        front
+            .nodes(space)
+            .for_each(|node| at_node[node].push(space));
     }
-
-    /// Whether all ways to a node from the front are completed by all from the back; none where these have more than is missing.
-    fn is_whole(&mut self, front: &Reached, back: &Reached) -> Option<bool> {
-        let (mut ranks, mut rows) = (BTreeSet::new(), Rows::default());
-        self.front.clear();
-        for packed in front.keys() {
-            self.ways.behind.unpacked(packed, &mut rows);
-            self.exterior.product(rows.rows(), &mut self.product);
-            self.front.extend_from_slice(self.product.minors());
-            ranks.insert(rows.rank());
+    let mut complement = Vec::new();
+    for space in 0..back.len() {
+        if !behind.left_of(back.way(space), &mut arithmetic, &mut rows) {
+            return Some(false);
         }
-        // Those that begin alike one after another.
-        for path in back.values().sorted_unstable() {
-            let Some(left) = self.ways.left_of(path) else {
-                return Some(false);
-            };
-            let missing = self.exterior.width().saturating_sub(left.rank());
-            match (ranks.first(), ranks.last()) {
-                (_, Some(most)) if *most > missing => return None,
-                (Some(least), _) if *least < missing => return Some(false),
-                _ => {}
-            }
-            self.exterior.product(left.rows(), &mut self.product);
-            let complement = self.exterior.complement(&self.product, left.rank());
-            self.back.clear();
-            self.back.extend(complement);
-            let mut all = self.front.chunks_exact(self.back.len());
-            if !all.all(|front| self.exterior.whole(front, &self.back)) {
-                return Some(false);
+        let missing = behind.live.saturating_sub(rows.rank());
+        exterior.product(rows.rows(), &mut product);
+        complement.clear();
+        complement.extend(exterior.complement(&product, rows.rank()));
+        for &other in back.nodes(space).flat_map(|node| &at_node[node]) {
+            let (rank, of) = &products[other];
+            match rank.cmp(&missing) {
+                Ordering::Greater => return None,
+                Ordering::Equal if exterior.whole(&minors[of.clone()], &complement) => {}
+                _ => return Some(false),
             }
         }
-        Some(true)
     }
+    Some(true)
 }
-
-/// The different spaces that ways to a known node add, packed, each with the choices on one of them.
-type Reached = HashMap<Vec<Residue>, Vec<usize>>;
 
 /// How far known ways were followed from one end.
 struct FollowedHalf<'a> {
     stages: &'a [Added<'a>],
     done: usize,
-    nodes: Vec<Reached>,
+    spaces: Spaces,
 }
 
 impl FollowedHalf<'_> {
-    fn size(&self) -> usize {
-        self.nodes.iter().map(HashMap::len).sum()
-    }
-
     /// Follows the ways that start at each node, each a choice and one of so many nodes that it leads to; whether all go on.
     fn advance(
         &mut self,
@@ -145,29 +120,37 @@ impl FollowedHalf<'_> {
     ) -> bool {
         let stage = &self.stages[self.done];
         let mut worker = stage.worker();
-        let mut next = vec![Reached::new(); to];
+        let mut next = Spaces::new(self.done + 1, to);
         let mut children = Children::new(choices);
-        for (reached, ways) in self.nodes.iter().zip(ways) {
-            for (space, path) in reached {
-                children.clear();
-                stage.children(&mut worker, space, spent, &mut children);
-                for &(choice, to) in ways {
-                    let Some((_, _, start, end)) = children.found[choice] else {
-                        return false;
-                    };
-                    let path = || [&path[..], &[choice]].concat();
-                    let known = next[to].entry_ref(&children.data[start..end]);
-                    known.or_insert_with(path);
-                }
+        let mut known = Vec::new();
+        for space in 0..self.spaces.len() {
+            children.clear();
+            let packed = self.spaces.packed(space);
+            stage.children(&mut worker, packed, spent, &mut children);
+            known.clear();
+            known.resize(choices, None);
+            for &(choice, to) in self.spaces.nodes(space).flat_map(|node| &ways[node]) {
+                let child = match known[choice] {
+                    Some(child) => child,
+                    None => {
+                        let Some((hash, _, start, end)) = children.found[choice] else {
+                            return false;
+                        };
+                        let packed = &children.data[start..end];
+                        next.find(hash, packed, self.spaces.way(space), choice)
+                    }
+                };
+                known[choice] = Some(child);
+                next.put(child, to);
             }
         }
-        (self.nodes, self.done) = (next, self.done + 1);
+        (self.spaces, self.done) = (next, self.done + 1);
         true
     }
 }
 
 /// Both halves of the ways through the layers of a part, where they meet; nothing where one of them does not go on, and none where they
-/// come to more than so many nodes.
+/// come to more than so many spaces.
 fn followed_halves<'a>(
     ends: &'a [Vec<Added<'a>>; 2],
     layers: &[Layer],
@@ -177,10 +160,10 @@ fn followed_halves<'a>(
     let [mut front, mut back] = ends.each_ref().map(|stages| FollowedHalf {
         stages,
         done: 0,
-        nodes: vec![Reached::from_iter([(Vec::new(), Vec::new())])],
+        spaces: Spaces::root(),
     });
     while front.done + back.done < layers.len() {
-        let from_front = front.size() <= back.size();
+        let from_front = front.spaces.len() <= back.spaces.len();
         let at = if from_front {
             front.done
         } else {
@@ -206,7 +189,7 @@ fn followed_halves<'a>(
         if !goes_on {
             return Some(None);
         }
-        if front.size() + back.size() > most {
+        if front.spaces.len() + back.spaces.len() > most {
             return None;
         }
     }

@@ -170,6 +170,25 @@ pub(in crate::search) struct Behind {
 }
 
 impl Behind {
+    /// What choices of the stages, from the last on, add where the stages before reach it, too, as rows with a number of kept links
+    /// behind; `false` where they do not span the rest.
+    pub(in crate::search) fn left_of(
+        &self,
+        choices: &[usize],
+        arithmetic: &mut Arithmetic,
+        rows: &mut Rows,
+    ) -> bool {
+        let Vectors { beyond, all, .. } = &self.vectors;
+        rows.clear(beyond + self.live + 1);
+        let added = self.added.iter().zip(choices);
+        for &number in added.flat_map(|(added, &choice)| &added[choice]) {
+            rows.insert(arithmetic, &mut all[number].clone());
+        }
+        let spans = rows.rank_before(*beyond) == *beyond;
+        rows.drop_first(*beyond);
+        spans
+    }
+
     /// The rows of the matrix of a node before these stages: in the coordinates that both reach, then in those of kept links.
     pub(in crate::search) fn unpacked(&self, matrix: &[Residue], rows: &mut Rows) {
         let width = self.live + self.weights.len();
@@ -186,55 +205,5 @@ impl Behind {
             [contours, &[f.dot(&self.weights, kept)]].concat()
         });
         Annihilator::new(f, rows, self.live + 1)
-    }
-}
-
-/// Ways through the last stages, one after another: what is added on the way to where the next one leaves the last stays.
-pub(in crate::search) struct Ways<'a> {
-    pub(in crate::search) behind: &'a Behind,
-    arithmetic: Arithmetic,
-    choices: Vec<usize>,
-    /// What the first so many of the choices add.
-    added: Vec<Rows>,
-    vector: Vec<Residue>,
-    left: Rows,
-}
-
-impl<'a> Ways<'a> {
-    pub(in crate::search) fn new(behind: &'a Behind, field: Field) -> Ways<'a> {
-        let mut nothing = Rows::default();
-        nothing.clear(behind.vectors.beyond + behind.live + 1);
-        Ways {
-            behind,
-            arithmetic: Arithmetic::new(field),
-            choices: Vec::new(),
-            added: vec![nothing; behind.added.len() + 1],
-            vector: Vec::new(),
-            left: Rows::default(),
-        }
-    }
-
-    /// What choices of all stages, from the last on, add where the stages before reach it, too, as rows with a number of kept links
-    /// behind; none where they do not span the rest.
-    pub(in crate::search) fn left_of(&mut self, choices: &[usize]) -> Option<&Rows> {
-        let Vectors { beyond, all, .. } = &self.behind.vectors;
-        let both = self.choices.iter().zip(choices);
-        let alike = both.take_while(|(a, b)| a == b).count();
-        for at in alike..choices.len() {
-            let [before, now] = &mut self.added[at..at + 2] else {
-                break;
-            };
-            now.clone_from(before);
-            for &number in &self.behind.added[at][choices[at]] {
-                self.vector.clone_from(&all[number]);
-                now.insert(&mut self.arithmetic, &mut self.vector);
-            }
-        }
-        self.choices.clear();
-        self.choices.extend_from_slice(choices);
-        self.left.clone_from(&self.added[choices.len()]);
-        let spans = self.left.rank_before(*beyond) == *beyond;
-        self.left.drop_first(*beyond);
-        spans.then_some(&self.left)
     }
 }
