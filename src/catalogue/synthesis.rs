@@ -21,6 +21,7 @@ pub mod point;
 mod random;
 pub mod recognize;
 pub mod rules;
+pub(crate) mod seen_sides;
 pub mod skeleton;
 pub mod sketch;
 pub mod stroke;

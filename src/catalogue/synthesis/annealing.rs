@@ -2,6 +2,7 @@
 
 use crate::synthesis::layout_quality::Looks;
 use crate::synthesis::random::{below, random, unit};
+use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
@@ -129,7 +130,9 @@ fn search_from<M: StrokeMotion>(
     Some(FoundPlaces {
         cost: match limits.task.aim {
             Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
-            Aim::Force => sketch.breaks(&at) + limits.force_cost(&stroke, WITHIN),
+            Aim::Force => {
+                sketch.breaks(&at, &mut SeenSides::default()) + limits.force_cost(&stroke, WITHIN)
+            }
         },
         does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
         within: looks.keep(limits, stacking.is_known()),
@@ -207,6 +210,7 @@ struct Annealing<'s, 'j, M: StrokeMotion> {
     at: PlacesOf<M>,
     now: f64,
     before: PlacesOf<M>,
+    seen: SeenSides,
     /// The cheapest of the phase.
     best: (f64, PlacesOf<M>),
     given_up: bool,
@@ -217,6 +221,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
         let at = sketch.first_places(&mut random);
         Annealing {
             before: at.clone(),
+            seen: SeenSides::default(),
             best: (f64::INFINITY, at.clone()),
             given_up: false,
             now: f64::INFINITY,
@@ -230,7 +235,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
     /// What the places cost; `None` where that is more than `most`, or the pose is singular.
     fn cost(&mut self, look: Look, most: f64) -> Option<f64> {
         if let Look::Force(slack) = look {
-            let drawn = self.sketch.breaks(&self.at);
+            let drawn = self.sketch.breaks(&self.at, &mut self.seen);
             let limits = *self.sketch.limits();
             let stroke = self.judge.coarse(&self.at, f64::INFINITY)?;
             let mut all = drawn + limits.force_cost(&stroke, slack);
@@ -240,7 +245,8 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
             }
             return (all <= most).then_some(all);
         }
-        let drawn = (self.sketch).penalty(&self.at, look != Look::Places, most)?;
+        let moving = look != Look::Places;
+        let drawn = (self.sketch).penalty(&self.at, moving, most, &mut self.seen)?;
         if look != Look::Stroke {
             return Some(drawn);
         }

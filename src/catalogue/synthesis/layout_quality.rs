@@ -4,6 +4,7 @@ use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
+use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::velocities::Velocity;
 use itertools::Itertools;
 
@@ -60,14 +61,14 @@ pub(super) fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
 
-fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
+pub(super) fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
     let (along, to) = (sub(b, a), sub(p, a));
     let t = (dot(to, along) / dot(along, along).max(1e-9)).clamp(0.0, 1.0);
     length(sub(to, along.map(|x| x * t)))
 }
 
 /// A side of a link.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LinkSide {
     pub(super) link: usize,
     /// The points at its ends.
@@ -78,57 +79,6 @@ impl LinkSide {
     /// Where its ends are.
     pub(super) fn of(&self, at: &[Point]) -> [Point; 2] {
         self.ends.map(|i| at[i])
-    }
-}
-
-/// A side as the points lie about it, a bit for each.
-#[derive(Clone, Copy)]
-struct SideSeen {
-    link: usize,
-    ends: u32,
-    /// Those on one axis with its ends, these among them.
-    at_ends: u32,
-    /// Those on its left.
-    left: u32,
-    /// Those on it or nearly so, besides those at its ends.
-    near: u32,
-}
-
-impl SideSeen {
-    fn new(side: &LinkSide, at: &[Point], together: &[u32]) -> SideSeen {
-        let [a, b] = side.of(at);
-        let along = sub(b, a);
-        // So far from the line through both, by the area of the triangle.
-        let strip = ON * ON * dot(along, along).max(1e-9);
-        let (mut left, mut near) = (0, 0);
-        for (p, &place) in at.iter().enumerate() {
-            let area = cross_plane(along, sub(place, a));
-            left |= u32::from(area > 0.0) << p;
-            near |= u32::from(area * area < strip) << p;
-        }
-        let at_ends = side.ends.iter().fold(0, |bits, &i| bits | together[i]);
-        near &= !at_ends;
-        let mut on = near;
-        while on != 0 {
-            let p = on.trailing_zeros();
-            on &= on - 1;
-            near ^= u32::from(distance(at[p as usize], [a, b]) >= ON) << p;
-        }
-        SideSeen {
-            link: side.link,
-            ends: 1 << side.ends[0] | 1 << side.ends[1],
-            at_ends,
-            left,
-            near,
-        }
-    }
-
-    /// Whether two sides of different links cross that end at no place in common.
-    fn crosses(&self, other: &SideSeen) -> bool {
-        let parts = |left: u32, ends: u32| (left & ends != 0) & (left & ends != ends);
-        let apart = (self.link != other.link) & (self.at_ends & other.ends == 0);
-        // All is looked at, which takes less than to choose.
-        apart & parts(self.left, other.ends) & parts(other.left, self.ends)
     }
 }
 
@@ -163,13 +113,14 @@ impl Bones {
         &self,
         at: &[Point],
         most: f64,
+        seen: &mut SeenSides,
         besides: impl FnOnce() -> Option<f64>,
     ) -> Option<f64> {
         let cheap = |sum: f64| (sum <= most).then_some(sum);
         let sum = cheap(self.places(at) + self.lengths(at).1)?;
         let sum = cheap(sum + self.spacing(at))?;
         let sum = cheap(sum + besides()?)?;
-        Some(sum + self.crossings(at, sum, most)?.1)
+        Some(sum + seen.crossings(self, at, sum, most)?.1)
     }
 
     /// All figures.
@@ -177,10 +128,11 @@ impl Bones {
     /// # Complexity
     /// As [`Bones::penalty`].
     pub(super) fn looks(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
+        let mut seen = SeenSides::default();
         Some(Looks {
-            crossings: self.crossings(at, 0.0, f64::INFINITY)?.0,
+            crossings: seen.crossings(self, at, 0.0, f64::INFINITY)?.0,
             ratio: self.lengths(at).0,
-            penalty: self.penalty(at, f64::INFINITY, || Some(motion.penalty))?,
+            penalty: self.penalty(at, f64::INFINITY, &mut seen, || Some(motion.penalty))?,
             transmission: motion.transmission,
             closing: motion.closing,
             straightness: motion.straightness,
@@ -233,9 +185,9 @@ impl Bones {
         (longest / shortest, penalty)
     }
 
-    /// The sides of the links but the frame, link by link.
-    pub(super) fn sides(&self, at: &[Point]) -> Vec<LinkSide> {
-        let mut out = Vec::with_capacity(3 * at.len());
+    /// Gives the sides of the links but the frame, link by link.
+    pub(super) fn sides(&self, at: &[Point], out: &mut Vec<LinkSide>) {
+        out.clear();
         let moving = self.of_link.iter().enumerate();
         for (link, points) in moving.filter(|(l, _)| *l != self.frame) {
             let side = |ends| LinkSide { link, ends };
@@ -245,36 +197,6 @@ impl Bones {
                 _ => out.extend(hull(points, at).map(side)),
             }
         }
-        out
-    }
-
-    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost; `None` where that is more
-    /// than `most` beside what else they cost.
-    fn crossings(&self, at: &[Point], besides: f64, most: f64) -> Option<(usize, f64)> {
-        let sides = self.sides(at);
-        let mut before: Vec<SideSeen> = Vec::with_capacity(sides.len());
-        let (mut count, mut penalty, mut cost) = (0, 0.0, 0.0);
-        for side in &sides {
-            let seen = SideSeen::new(side, at, &self.together);
-            count += before.iter().filter(|other| seen.crosses(other)).count();
-            // Where pitch circles touch is on no link.
-            let mut near = seen.near & !self.touching;
-            while near != 0 {
-                let p = near.trailing_zeros();
-                near &= near - 1;
-                // A point of the link itself makes it a splinter, which is no crossing.
-                count += usize::from(self.members[side.link] >> p & 1 == 0);
-                penalty += beyond(ON - distance(at[p as usize], side.of(at)), ON);
-            }
-            before.push(seen);
-            #[allow(clippy::cast_precision_loss, reason = "a few")]
-            let all = count as f64;
-            cost = penalty + 1.5 * all;
-            if besides + cost > most {
-                return None;
-            }
-        }
-        Some((count, cost))
     }
 
     /// The frame behind, the jaws in front, pins beside the middle; or all of it round the part.
@@ -326,9 +248,9 @@ impl Bones {
     ///
     /// # Complexity
     /// As [`Bones::penalty`].
-    pub(super) fn breaks(&self, at: &[Point], limits: &Limits) -> f64 {
+    pub(super) fn breaks(&self, at: &[Point], limits: &Limits, seen: &mut SeenSides) -> f64 {
         let (ratio, _) = self.lengths(at);
-        let Some((count, crossings)) = self.crossings(at, 0.0, f64::INFINITY) else {
+        let Some((count, crossings)) = seen.crossings(self, at, 0.0, f64::INFINITY) else {
             return f64::INFINITY;
         };
         let over = count.saturating_sub(limits.crossings);

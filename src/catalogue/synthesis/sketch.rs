@@ -4,6 +4,7 @@ use crate::synthesis::bones::Bones;
 use crate::synthesis::layout_quality::{LayoutMotion, Looks, beyond};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
+use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::velocities::Velocity;
 use chacha20::ChaCha8Rng;
 use std::borrow::Cow;
@@ -65,13 +66,20 @@ pub trait LayoutSketch {
     /// Other places, by how warm the search still is: 1 at first, 0 at its end.
     fn change(&self, at: &mut Self::JointPlaces, warmth: f64, random: &mut ChaCha8Rng);
 
-    /// What places cost, with `moving` their velocities, too; `None` where that is more than `most`, or the pose is singular.
+    /// What places cost, with `moving` their velocities, too; `None` where that is more than `most`, or the pose is singular. What was
+    /// seen of other places is known of these where it is the same.
     ///
     /// # Complexity
     /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
-    fn penalty(&self, at: &Self::JointPlaces, moving: bool, most: f64) -> Option<f64> {
+    fn penalty(
+        &self,
+        at: &Self::JointPlaces,
+        moving: bool,
+        most: f64,
+        seen: &mut SeenSides,
+    ) -> Option<f64> {
         let (points, bones) = self.drawn(at);
-        bones.penalty(&points, most, || {
+        bones.penalty(&points, most, seen, || {
             let motion = moving.then(|| Some(motion(self, at)?.penalty));
             Some(pitch_penalty(self, at) + motion.unwrap_or(Some(0.0))?)
         })
@@ -81,9 +89,9 @@ pub trait LayoutSketch {
     ///
     /// # Complexity
     /// O(p²) for p points.
-    fn breaks(&self, at: &Self::JointPlaces) -> f64 {
+    fn breaks(&self, at: &Self::JointPlaces, seen: &mut SeenSides) -> f64 {
         let (points, bones) = self.drawn(at);
-        bones.breaks(&points, self.limits()) + pitch_penalty(self, at)
+        bones.breaks(&points, self.limits(), seen) + pitch_penalty(self, at)
     }
 
     /// All figures; `None` where the pose is singular.

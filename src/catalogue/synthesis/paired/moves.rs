@@ -208,6 +208,7 @@ mod tests {
     use crate::synthesis::paired::known::most_symmetric;
     use crate::synthesis::paired::rules::PairRules;
     use crate::synthesis::random::random;
+    use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::pitch_penalty;
 
     /// Places that cost more than is wanted have no cost, whatever of it makes them dear: pitch circles, too.
@@ -221,19 +222,50 @@ mod tests {
                 continue;
             };
             let sketch = PairSketch::new(&paired, rules, Limits::default());
+            let mut seen = SeenSides::default();
             for start in 0..20 {
                 let at = sketch.first_places(&mut random(&classic.id, 1, start));
                 for moving in [false, true] {
-                    let Some(cost) = sketch.penalty(&at, moving, f64::INFINITY) else {
+                    let Some(cost) = sketch.penalty(&at, moving, f64::INFINITY, &mut seen) else {
                         continue;
                     };
-                    assert_eq!(sketch.penalty(&at, moving, cost), Some(cost));
+                    assert_eq!(sketch.penalty(&at, moving, cost, &mut seen), Some(cost));
                     let less = cost - 1e-6 * cost.max(1.0);
-                    assert_eq!(sketch.penalty(&at, moving, less), None, "{}", classic.id);
+                    assert_eq!(
+                        sketch.penalty(&at, moving, less, &mut seen),
+                        None,
+                        "{}",
+                        classic.id
+                    );
                 }
                 geared += usize::from(pitch_penalty(&sketch, &at) > 0.0);
             }
         }
         assert!(geared > 20, "{geared}");
+    }
+
+    /// Tries that are taken and refused in any order: what is looked at again is what has moved, and all else is known still.
+    #[test]
+    fn what_was_seen_of_other_places_is_what_is_seen_afresh() {
+        for classic in classics() {
+            let paired = most_symmetric(&classic.structure).unwrap();
+            let lay = paired.lays().swap_remove(0);
+            let Ok(rules) = PairRules::new(&paired, &lay) else {
+                continue;
+            };
+            let sketch = PairSketch::new(&paired, rules, Limits::default());
+            let mut random = random(&classic.id, 2, 0);
+            let (mut at, mut seen) = (sketch.first_places(&mut random), SeenSides::default());
+            for _ in 0..200 {
+                let before = at.clone();
+                sketch.change(&mut at, 0.5, &mut random);
+                let afresh = sketch.penalty(&at, false, f64::INFINITY, &mut SeenSides::default());
+                let known = sketch.penalty(&at, false, f64::INFINITY, &mut seen);
+                assert_eq!(known, afresh, "{}", classic.id);
+                if below(2, &mut random) == 0 {
+                    at = before;
+                }
+            }
+        }
     }
 }

@@ -103,7 +103,8 @@ impl Meetings {
     /// # Complexity
     /// O(p²) for p points.
     pub fn look(&mut self, bones: &Bones, at: &[Point]) {
-        let sides = bones.sides(at);
+        let mut sides = Vec::new();
+        bones.sides(at, &mut sides);
         let pins = bones.joints.len();
         for (i, x) in sides.iter().enumerate() {
             for y in &sides[..i] {
