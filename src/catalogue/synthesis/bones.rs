@@ -21,6 +21,8 @@ pub struct Bones {
     pub of_link: Vec<Vec<usize>>,
     /// The same as bits.
     pub members: Vec<u32>,
+    /// The points of all links but the frame that have more than three, as bits: which are at their corners depends on where they are.
+    pub hulled: u32,
     /// The links of each joint that has a point on both, that with the block of a slide first.
     pub joints: Vec<Option<[usize; 2]>>,
     /// Joints that have no point on their links, where pitch circles touch, as bits.
@@ -142,6 +144,9 @@ impl Bones {
             .map(alone)
             .collect();
         let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
+        let moving = of_link.iter().enumerate().filter(|(l, _)| *l != plan.frame);
+        let many = moving.filter(|(_, points)| points.len() > 3);
+        let hulled = many.fold(0, |all, (_, points)| all | bits(points));
         let joints = plan.joints.iter().enumerate();
         let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
         let cylinder = plan.cylinder.and_then(|links| {
@@ -157,6 +162,7 @@ impl Bones {
             halves: halves(links, &plan),
             cylinder,
             rods: rods.collect(),
+            hulled,
             members: of_link.iter().map(bits).collect(),
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             of_link,

@@ -120,7 +120,7 @@ impl Bones {
         let sum = cheap(self.places(at) + self.lengths(at).1)?;
         let sum = cheap(sum + self.spacing(at))?;
         let sum = cheap(sum + besides()?)?;
-        Some(sum + seen.crossings(self, at, sum, most)?.1)
+        cheap(sum + seen.crossings(self, at).1)
     }
 
     /// All figures.
@@ -130,7 +130,7 @@ impl Bones {
     pub(super) fn looks(&self, at: &[Point], motion: LayoutMotion) -> Option<Looks> {
         let mut seen = SeenSides::default();
         Some(Looks {
-            crossings: seen.crossings(self, at, 0.0, f64::INFINITY)?.0,
+            crossings: seen.crossings(self, at).0,
             ratio: self.lengths(at).0,
             penalty: self.penalty(at, f64::INFINITY, &mut seen, || Some(motion.penalty))?,
             transmission: motion.transmission,
@@ -250,9 +250,7 @@ impl Bones {
     /// As [`Bones::penalty`].
     pub(super) fn breaks(&self, at: &[Point], limits: &Limits, seen: &mut SeenSides) -> f64 {
         let (ratio, _) = self.lengths(at);
-        let Some((count, crossings)) = seen.crossings(self, at, 0.0, f64::INFINITY) else {
-            return f64::INFINITY;
-        };
+        let (count, crossings) = seen.crossings(self, at);
         let over = count.saturating_sub(limits.crossings);
         #[allow(clippy::cast_precision_loss, reason = "a few")]
         let over = over as f64;

@@ -8,7 +8,7 @@ use crate::synthesis::point::Point;
 /// A side as the points lie about it, a bit for each.
 #[derive(Debug, Clone, Copy)]
 struct SideSeen {
-    link: usize,
+    side: LinkSide,
     ends: u32,
     /// Those on one axis with its ends, these among them.
     at_ends: u32,
@@ -16,48 +16,58 @@ struct SideSeen {
     left: u32,
     /// Those on it, besides those at its ends.
     near: u32,
+    /// Of these those that are no part of the link, how many, and what all cost.
+    foreign: u32,
+    penalty: f64,
+    /// The sides that it crosses, as bits: the links of 32 points have no more than 64 in all.
+    crossed: u64,
 }
 
 impl SideSeen {
-    fn new(side: &LinkSide, at: &[Point], together: &[u32]) -> SideSeen {
-        let nothing = SideSeen {
-            link: side.link,
+    fn new(side: LinkSide, together: &[u32]) -> SideSeen {
+        SideSeen {
+            side,
             ends: 1 << side.ends[0] | 1 << side.ends[1],
             at_ends: side.ends.iter().fold(0, |bits, &i| bits | together[i]),
             left: 0,
             near: 0,
-        };
-        nothing.again(side, at, 0..at.len())
+            foreign: 0,
+            penalty: 0.0,
+            crossed: 0,
+        }
     }
 
-    /// With some points looked at again.
-    fn again(
-        mut self,
-        side: &LinkSide,
-        at: &[Point],
-        moved: impl Iterator<Item = usize>,
-    ) -> SideSeen {
-        let [a, b] = side.of(at);
+    /// Looks at some points again.
+    fn look(&mut self, bones: &Bones, at: &[Point], moved: impl Iterator<Item = usize>) {
+        let [a, b] = self.side.of(at);
         let along = sub(b, a);
         // So far from the line through both, by the area of the triangle.
         let strip = ON * ON * dot(along, along).max(1e-9);
+        let (mut looked_at, was_near) = (0, self.near);
         for p in moved {
             let area = cross_plane(along, sub(at[p], a));
             let bit = 1 << p;
+            looked_at |= bit;
             self.left = self.left & !bit | u32::from(area > 0.0) << p;
-            self.near &= !bit;
-            let may_be = area * area < strip && self.at_ends & bit == 0;
-            if may_be && distance(at[p], [a, b]) < ON {
-                self.near |= bit;
-            }
+            self.near = self.near & !bit | u32::from(area * area < strip) << p;
         }
-        self
+        self.near &= !self.at_ends;
+        for p in bits(self.near & looked_at) {
+            self.near ^= u32::from(distance(at[p], [a, b]) >= ON) << p;
+        }
+        if (self.near | was_near) & looked_at != 0 {
+            // Where pitch circles touch is on no link; a point of the link itself makes it a splinter, which is no crossing.
+            let near = self.near & !bones.touching;
+            self.foreign = (near & !bones.members[self.side.link]).count_ones();
+            let cost = |p: usize| beyond(ON - distance(at[p], [a, b]), ON);
+            self.penalty = bits(near).map(cost).sum();
+        }
     }
 
     /// Whether two sides of different links cross that end at no place in common.
     fn crosses(&self, other: &SideSeen) -> bool {
         let parts = |left: u32, ends: u32| (left & ends != 0) & (left & ends != ends);
-        let apart = (self.link != other.link) & (self.at_ends & other.ends == 0);
+        let apart = (self.side.link != other.side.link) & (self.at_ends & other.ends == 0);
         // All is looked at, which takes less than to choose.
         apart & parts(self.left, other.ends) & parts(other.left, self.ends)
     }
@@ -67,7 +77,7 @@ impl SideSeen {
 #[derive(Debug, Default)]
 struct SeenPlaces {
     at: Vec<Point>,
-    sides: Vec<(LinkSide, SideSeen)>,
+    sides: Vec<SideSeen>,
 }
 
 impl SeenPlaces {
@@ -79,6 +89,34 @@ impl SeenPlaces {
         let both = self.at.iter().zip(at).enumerate();
         both.fold(0, |bits, (p, (was, is))| bits | u32::from(was != is) << p)
     }
+
+    /// What is seen of other places than those before, from which so many points have moved.
+    fn look(&mut self, bones: &Bones, at: &[Point], moved: u32) {
+        let mut again = 0_u64;
+        for (i, seen) in self.sides.iter_mut().enumerate() {
+            if seen.ends & moved == 0 {
+                seen.look(bones, at, bits(moved));
+            } else {
+                seen.look(bones, at, 0..at.len());
+                again |= 1 << i;
+            }
+        }
+        // Two sides cross as they did where neither has moved.
+        while again != 0 {
+            let i = again.trailing_zeros() as usize;
+            again &= again - 1;
+            let own = self.sides[i];
+            let mut crossed = 0;
+            for (j, other) in self.sides.iter_mut().enumerate() {
+                let crosses = u64::from(own.crosses(other));
+                crossed |= crosses << j;
+                other.crossed = other.crossed & !(1 << i) | crosses << i;
+            }
+            self.sides[i].crossed = crossed;
+        }
+        self.at.clear();
+        self.at.extend_from_slice(at);
+    }
 }
 
 /// The places that were looked at last, and those before them: where a try is refused, the next begins from these.
@@ -89,68 +127,39 @@ pub struct SeenSides {
 }
 
 impl SeenSides {
-    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost; `None` where that is more
-    /// than `most` beside what else they cost.
+    /// Crossings of links and pins on links that they are no part of, and what they and splinters cost.
     ///
     /// # Complexity
-    /// O(s·(s + m) + p·c) for s sides, of which c have moved, and p points, of which m have.
-    pub(super) fn crossings(
-        &mut self,
-        bones: &Bones,
-        at: &[Point],
-        besides: f64,
-        most: f64,
-    ) -> Option<(usize, f64)> {
-        self.look(bones, at);
-        let [now, _] = &self.seen;
-        let (mut count, mut penalty, mut cost) = (0, 0.0, 0.0);
-        for (i, (side, seen)) in now.sides.iter().enumerate() {
-            let before = now.sides[..i].iter();
-            count += before.filter(|(_, other)| seen.crosses(other)).count();
-            // Where pitch circles touch is on no link.
-            let mut near = seen.near & !bones.touching;
-            while near != 0 {
-                let p = near.trailing_zeros();
-                near &= near - 1;
-                // A point of the link itself makes it a splinter, which is no crossing.
-                count += usize::from(bones.members[side.link] >> p & 1 == 0);
-                penalty += beyond(ON - distance(at[p as usize], side.of(at)), ON);
-            }
-            #[allow(clippy::cast_precision_loss, reason = "a few")]
-            let all = count as f64;
-            cost = penalty + 1.5 * all;
-            if besides + cost > most {
-                return None;
-            }
-        }
-        Some((count, cost))
-    }
-
-    /// Puts places first, with what is known of those of both that are more like them.
-    fn look(&mut self, bones: &Bones, at: &[Point]) {
+    /// O(s·(c + m) + p·c) for s sides, of which c have moved, and p points, of which m have.
+    pub(super) fn crossings(&mut self, bones: &Bones, at: &[Point]) -> (usize, f64) {
         let moved = self.seen.each_ref().map(|seen| seen.moved(at));
-        let [first, second] = moved.map(u32::count_ones);
-        if second >= first {
-            self.seen.swap(0, 1);
+        let nearer = usize::from(moved[1].count_ones() < moved[0].count_ones());
+        self.seen.swap(1, nearer);
+        let (moved, [now, known]) = (moved[nearer], &mut self.seen);
+        // Which are the sides of links of many points depends on where these are.
+        let mut same = moved & bones.hulled == 0 && !known.sides.is_empty();
+        if !same {
+            bones.sides(at, &mut self.sides);
+            let sides = known.sides.iter().map(|seen| seen.side);
+            same = sides.eq(self.sides.iter().copied());
         }
-        let moved = moved[usize::from(second < first)];
-        let [now, known] = &mut self.seen;
-        bones.sides(at, &mut self.sides);
-        now.at.clear();
-        now.at.extend_from_slice(at);
         now.sides.clear();
-        let sides = self.sides.iter().enumerate().map(|(i, side)| {
-            let known = known
-                .sides
-                .get(i)
-                .filter(|(was, seen)| was == side && seen.ends & moved == 0);
-            let seen = match known {
-                Some((_, seen)) => seen.again(side, at, bits(moved)),
-                None => SideSeen::new(side, at, &bones.together),
-            };
-            (*side, seen)
-        });
-        now.sides.extend(sides);
+        if same {
+            now.sides.extend_from_slice(&known.sides);
+            now.look(bones, at, moved);
+        } else {
+            let sides = self.sides.iter();
+            let afresh = sides.map(|side| SideSeen::new(*side, &bones.together));
+            now.sides.extend(afresh);
+            now.look(bones, at, u32::MAX);
+        }
+        let sides = now.sides.iter();
+        let crossed: u32 = sides.clone().map(|s| s.crossed.count_ones()).sum();
+        let foreign: u32 = sides.clone().map(|s| s.foreign).sum();
+        // Each of both sides crosses the other.
+        let count = crossed / 2 + foreign;
+        let penalty: f64 = sides.map(|s| s.penalty).sum();
+        (count as usize, penalty + 1.5 * f64::from(count))
     }
 }
 
