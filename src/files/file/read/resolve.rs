@@ -61,11 +61,11 @@ pub(crate) fn frame(
         );
         axis = [0, 0, 1].map(Expr::from);
     }
-    let globals = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|v| v.map(Expr::from));
-    let default = globals
-        .into_iter()
-        .find(|g| !parallel(g, &axis))
-        .unwrap_or_else(zero3);
+    let across = || {
+        let mut globals = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].into_iter();
+        let across = globals.find_map(|v| Some(v.map(Expr::from)).filter(|g| !parallel(g, &axis)));
+        across.unwrap_or_else(zero3)
+    };
     let reference = match reference {
         Some(r) if is_zero(&r) => {
             out.add(
@@ -75,7 +75,7 @@ pub(crate) fn frame(
                     what: "reference",
                 },
             );
-            default
+            across()
         }
         Some(r) if parallel(&r, &axis) => {
             out.add(
@@ -84,10 +84,10 @@ pub(crate) fn frame(
                     joint: joint.to_owned(),
                 },
             );
-            default
+            across()
         }
         Some(r) => r,
-        None => default,
+        None => across(),
     };
     Frame {
         point,
@@ -266,21 +266,29 @@ fn option_frame(
     path: &[DocumentStep],
     out: &mut Findings,
 ) -> Frame {
-    let axis = table.axis.as_ref().map_or_else(
-        || present.axis.clone(),
-        |v| direction(v, &key(path, "axis"), out),
-    );
-    let reference = match (&table.reference, &table.axis) {
-        (Some(v), _) => Some(direction(v, &key(path, "reference"), out)),
-        (None, None) => Some(present.reference.clone()),
-        (None, Some(_)) => None,
-    };
     let stated = [table.pitch.as_ref(), table.lead.as_ref()];
     let pitch = pitch(stated, path, out).unwrap_or_else(|| present.pitch.clone());
     let point = table.point.as_ref().map_or_else(
         || present.point.clone(),
         |p| vector(p, &key(path, "point"), out),
     );
+    let axis = table.axis.as_ref().map_or_else(
+        || present.axis.clone(),
+        |v| direction(v, &key(path, "axis"), out),
+    );
+    let reference = match (&table.reference, &table.axis) {
+        (Some(v), _) => Some(direction(v, &key(path, "reference"), out)),
+        // Those directions are looked at already.
+        (None, None) => {
+            return Frame {
+                point,
+                axis,
+                reference: present.reference.clone(),
+                pitch,
+            };
+        }
+        (None, Some(_)) => None,
+    };
     frame(joint, point, axis, reference, pitch, path, out)
 }
 
