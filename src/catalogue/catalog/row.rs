@@ -10,7 +10,8 @@ use crate::file::write;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::rank::finite::Finite;
-use crate::redundancy::analysis::{Method, analyse};
+use crate::rank::method::auto::{Decision, decide};
+use crate::redundancy::analysis::AnalysisError;
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Scores;
@@ -324,9 +325,11 @@ impl LaidFile {
         let Some(figures) = self.figures else {
             return Ok(Err(NoLayout::NotRegular));
         };
-        let method = Method::Auto { tolerance: None };
-        let as_built = analyse(&self.built, &[StateId::FREE], method)?.swap_remove(0);
-        if !as_built.finite.is_proven() || as_built.finite.figure() != "1" {
+        let decided = decide(&self.built, StateId::FREE, None);
+        let Decision {
+            verdict, finite, ..
+        } = decided.map_err(AnalysisError::from)?;
+        if !finite.is_proven() || finite.figure() != "1" {
             return Ok(Err(NoLayout::NotRegular));
         }
         let variants = variants(&self.built)?;
@@ -338,8 +341,8 @@ impl LaidFile {
             layout,
             figures,
             file: text,
-            as_built: (as_built.mobility, as_built.redundant),
-            finite: as_built.finite,
+            as_built: verdict.figures(verdict.rank()),
+            finite,
             counts: variants.counts,
             exact: variants.exact,
             symmetric: variants.symmetric,
