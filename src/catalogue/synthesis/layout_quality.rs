@@ -10,8 +10,9 @@ use itertools::Itertools;
 
 /// What a limit costs that is broken, where nothing but limits and one figure count.
 pub(super) const DEAR: f64 = 50.0;
-/// Links longer than this are long.
+/// Links longer than this are long, and shorter ones than this short.
 const LONG: f64 = 75.0;
+const SHORT: f64 = 18.0;
 /// A pin nearer than this to a link that it is no part of lies on it.
 pub(super) const ON: f64 = 6.0;
 
@@ -153,7 +154,8 @@ impl Bones {
                 }
                 // Pins level with each other, or square above each other, have an axis in common: a special place that costs
                 // redesigns.
-                if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
+                let level = apart.iter().any(|x| x.abs() < ALIGNED);
+                if level && i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
                         .map(|x| 0.5 * beyond(ALIGNED - x.abs(), ALIGNED))
@@ -176,13 +178,18 @@ impl Bones {
         for (_, points) in moving.filter(|(l, _)| *l != self.frame) {
             for (i, &a) in points.iter().enumerate() {
                 for &b in points[..i].iter().filter(|&&b| !self.are_together(a, b)) {
-                    let d = length(sub(at[a], at[b]));
-                    (longest, shortest) = (longest.max(d), shortest.min(d));
-                    penalty += beyond(d - LONG, 25.0) + beyond(18.0 - d, 10.0);
+                    let apart = sub(at[a], at[b]);
+                    let square = dot(apart, apart);
+                    (longest, shortest) = (longest.max(square), shortest.min(square));
+                    // Most are neither.
+                    if !(SHORT * SHORT..=LONG * LONG).contains(&square) {
+                        let d = square.sqrt();
+                        penalty += beyond(d - LONG, 25.0) + beyond(SHORT - d, 10.0);
+                    }
                 }
             }
         }
-        (longest / shortest, penalty)
+        (longest.sqrt() / shortest.sqrt(), penalty)
     }
 
     /// Gives the sides of the links but the frame, link by link.
@@ -301,16 +308,20 @@ impl Bones {
         let turning = velocities.iter().map(|v| v.turning.abs());
         let turning = turning.fold(0.0, f64::max);
         out.penalty += beyond(turning * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
-        for &(l, ends) in &self.rods {
-            let ends = ends.map(|i| at[i]);
-            out.transmission = out.transmission.min(transmission(&velocities[l], ends));
-        }
+        let rods = self.rods.iter();
+        let sines = rods.map(|(l, ends)| transmission(&velocities[*l], ends.map(|i| at[i])));
+        out.transmission = angle(sines.fold(1.0, f64::min));
         out.penalty += beyond(40.0 - out.transmission, 20.0);
         out
     }
 }
 
-/// The transmission angle of a rod: between it and the motion across it at its faster end, in degrees.
+/// An angle of up to 90° by its sine, in degrees.
+pub(super) fn angle(sine: f64) -> f64 {
+    sine.asin().to_degrees()
+}
+
+/// The sine of the transmission angle of a rod: between it and the motion across it at its faster end.
 pub(super) fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
     let along = sub(b, a);
     let (va, vb) = (velocity.at(a), velocity.at(b));
@@ -318,10 +329,10 @@ pub(super) fn transmission(velocity: &Velocity, [a, b]: [Point; 2]) -> f64 {
     // Along the rod both ends are equally fast. A rod from the frame pulls nothing: its end goes across it.
     let least = length(va).min(length(vb));
     if least < 1e-6 * speed.max(1e-9) {
-        return 90.0;
+        return 1.0;
     }
     let sine = (dot(va, along) / length(along).max(1e-9) / speed.max(1e-12)).abs();
-    sine.min(1.0).asin().to_degrees()
+    sine.min(1.0)
 }
 
 /// The edges of the convex hull of points, by their numbers.

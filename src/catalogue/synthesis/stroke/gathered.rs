@@ -33,7 +33,7 @@ impl Between {
 /// What is gathered on the way.
 #[derive(Debug, Clone)]
 pub(super) struct Gathered {
-    pub(super) transmission: f64,
+    pub(super) sine: f64,
     pub(super) straightness: f64,
     pub(super) rates: Between,
     pub(super) turns: Vec<Between>,
@@ -51,7 +51,7 @@ impl Gathered {
     /// Of so many jaws, nothing yet.
     pub(super) fn new(jaws: usize) -> Gathered {
         Gathered {
-            transmission: 90.0,
+            sine: 1.0,
             straightness: 1.0,
             rates: Between::NOTHING,
             turns: vec![Between::NOTHING; jaws],

@@ -7,7 +7,7 @@ use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
-use crate::synthesis::layout_quality::transmission;
+use crate::synthesis::layout_quality::{angle, transmission};
 use crate::synthesis::limits::Limits;
 use crate::synthesis::point::Point;
 use crate::synthesis::skeleton::Skeleton;
@@ -242,7 +242,7 @@ impl<M: StrokeMotion> Judge<M> {
             drive: way.drive,
             rates: g.rates.0,
             force: self.motion.sketch().bones().force(g.rates.0[0]),
-            transmission: g.transmission,
+            transmission: angle(g.sine),
             straightness: g.straightness,
             turn: self.turns().fold(0.0, f64::max).to_degrees(),
             size: g.sides.map(Between::span),
@@ -297,7 +297,7 @@ impl<M: StrokeMotion> Judge<M> {
         for &(link, ends) in &bones.rods {
             let pose = &self.links[link];
             let ends = ends.map(|i| pose.point(points[i]));
-            g.transmission = g.transmission.min(transmission(&pose.velocity, ends));
+            g.sine = g.sine.min(transmission(&pose.velocity, ends));
         }
         self.look_at_tips();
         self.look_at_joints(at);
