@@ -52,6 +52,15 @@ impl Plane {
         mechanism: &Mechanism,
         pairs: &[(JointId, JointId)],
     ) -> Vec<(Plane, Vec<Miss>)> {
+        Plane::among(mechanism, &Spot::of_joints(mechanism), pairs)
+    }
+
+    /// The same, of joints whose spots are known.
+    pub(crate) fn among(
+        mechanism: &Mechanism,
+        spots: &[Spot],
+        pairs: &[(JointId, JointId)],
+    ) -> Vec<(Plane, Vec<Miss>)> {
         let frame = |j: JointId| &mechanism.joints[j].frame;
         let point = |j: JointId| &frame(j).point;
         let at_one_point = |&&(a, b): &&_| real(point(a)) == real(point(b));
@@ -62,7 +71,6 @@ impl Plane {
             .flat_map(|&(a, b)| Plane::candidates(frame(a), frame(b), &own));
         let paired = |j: JointId| pairs.iter().any(|&(a, b)| j == a || j == b);
         let alone: Vec<JointId> = mechanism.joint_ids().filter(|&j| !paired(j)).collect();
-        let spots: Vec<Spot> = mechanism.joint_ids().map(|j| Spot::of(frame(j))).collect();
         let spot = |j: JointId| spots[j.index()];
         let judged = planes.map(|plane| {
             let miss =

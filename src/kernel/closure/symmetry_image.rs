@@ -8,7 +8,7 @@ use crate::geom::vector::{Vector, cross, dot, length, real};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Frame, Mode};
+use crate::model::mechanism::{Frame, Mechanism, Mode};
 
 /// Where a joint is, in numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +27,14 @@ impl Spot {
             point: real(&frame.point),
             axis: real(&frame.axis),
         }
+    }
+
+    /// Of every joint.
+    pub(crate) fn of_joints(mechanism: &Mechanism) -> Vec<Spot> {
+        let joints = mechanism.joint_ids();
+        joints
+            .map(|j| Spot::of(&mechanism.joints[j].frame))
+            .collect()
     }
 }
 

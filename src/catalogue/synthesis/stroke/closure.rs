@@ -7,6 +7,7 @@ use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{dot, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::point::Point;
+use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
 use crate::synthesis::velocities::{Contours, Side};
 
@@ -47,8 +48,8 @@ pub struct Arms<'a> {
     closure: &'a Closure,
     contours: Vec<Point>,
     tips: Vec<Point>,
-    /// Cosine and sine of each unknown.
-    turns: Vec<[f64; 2]>,
+    /// What each unknown turns by, as it was tried last.
+    pub(super) turns: Vec<LinkPose>,
 }
 
 impl Closure {
@@ -90,7 +91,7 @@ impl<'a> Arms<'a> {
             closure,
             contours: Vec::new(),
             tips: Vec::new(),
-            turns: vec![[1.0, 0.0]; closure.size],
+            turns: vec![LinkPose::AT_REST; closure.size],
         }
     }
 
@@ -122,16 +123,14 @@ impl FitEquations for Arms<'_> {
         let size = self.closure.size;
         let (last, slid) = (size - 1, x[size - 1]);
         for (turn, angle) in self.turns.iter_mut().zip(x) {
-            let (sine, cosine) = angle.sin_cos();
-            *turn = [cosine, sine];
+            *turn = LinkPose::turned(*angle);
         }
         // A side as it has turned, and by how much it differs from what was drawn.
-        let moved = |s: &SumSide, [a, b]: Point| match s.follows {
+        let moved = |s: &SumSide, arm: Point| match s.follows {
             SumMover::Slide => ([slid, 0.0], None),
             SumMover::Turn(unknown) => {
-                let [c, s] = self.turns[unknown];
-                let now = [c * a - s * b, s * a + c * b];
-                (sub(now, [a, b]), Some((unknown, quarter(now))))
+                let now = self.turns[unknown].direction(arm);
+                (sub(now, arm), Some((unknown, quarter(now))))
             }
         };
         rows.clear();

@@ -98,7 +98,8 @@ impl<'a> StrokeMotion for HingeMotion<'a> {
             }
             let unknown = unknown.unwrap_or(last);
             let (pin, turning) = (before.point(at[s.joint]), rates[unknown]);
-            let mut here = LinkPose::turned(x[unknown]);
+            let tried = &self.walk.equations.turns[unknown];
+            let mut here = tried.turned_to(x[unknown]);
             here.shift = sub(pin, here.point(at[s.joint]));
             here.velocity = Velocity {
                 turning,

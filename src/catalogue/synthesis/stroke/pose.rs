@@ -17,6 +17,9 @@ pub struct LinkPose {
     pub velocity: Velocity,
 }
 
+/// So little that what the series leave out of a sine, by^7 / 5040, and of a cosine, by^6 / 720, is nothing beside one. In rad.
+const LITTLE: f64 = 2e-3;
+
 impl LinkPose {
     /// As drawn, at rest.
     pub const AT_REST: LinkPose = LinkPose {
@@ -40,6 +43,27 @@ impl LinkPose {
         }
     }
 
+    /// Turned a little farther, as the last correction of a pose does: without another sine where it is that little.
+    #[must_use]
+    pub fn turned_to(&self, angle: f64) -> LinkPose {
+        let by = angle - self.angle;
+        if by.abs() > LITTLE {
+            return LinkPose::turned(angle);
+        }
+        let square = by * by;
+        let sine = by * (1.0 - square / 6.0 * (1.0 - square / 20.0));
+        let cosine = 1.0 - square / 2.0 * (1.0 - square / 12.0);
+        LinkPose {
+            angle,
+            turn: LinkPose {
+                turn: [cosine, sine],
+                ..*self
+            }
+            .direction(self.turn),
+            ..LinkPose::AT_REST
+        }
+    }
+
     /// What has become of a direction of it.
     #[must_use]
     pub fn direction(&self, [x, y]: Point) -> Point {
@@ -51,5 +75,36 @@ impl LinkPose {
     #[must_use]
     pub fn point(&self, at: Point) -> Point {
         add(self.direction(at), self.shift)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LITTLE, LinkPose};
+
+    /// By the sine of the whole, to the last digits.
+    #[test]
+    fn turned_a_little_farther_is_turned_so_far() {
+        for step in -40..=40 {
+            let angle = 0.37 * f64::from(step);
+            for by in [
+                0.0,
+                1e-9,
+                1e-4,
+                0.999 * LITTLE,
+                -0.999 * LITTLE,
+                1.001 * LITTLE,
+                0.3,
+            ] {
+                let [is, should] = [
+                    LinkPose::turned(angle).turned_to(angle + by),
+                    LinkPose::turned(angle + by),
+                ];
+                assert_eq!(is.angle, should.angle);
+                for (a, b) in is.turn.into_iter().zip(should.turn) {
+                    assert!((a - b).abs() < 4e-16, "{angle} {by}: {a} {b}");
+                }
+            }
+        }
     }
 }

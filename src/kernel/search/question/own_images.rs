@@ -58,7 +58,7 @@ pub(crate) fn own_images(
         if !compared.are_alike(a, b) || compared.apart(a, b) < compared.near {
             continue;
         }
-        for (carrier, mirrored) in suggested(mechanism, &directions, [a, b]) {
+        for (carrier, mirrored) in suggested(mechanism, &compared.spots, &directions, [a, b]) {
             let Some(pairs) = compared.pairs(mechanism, &*carrier) else {
                 continue;
             };
@@ -81,10 +81,11 @@ pub(crate) fn own_images(
 /// The mirrors and turns that may carry two joints to each other, and whether it is a mirror.
 fn suggested(
     mechanism: &Mechanism,
+    spots: &[Spot],
     directions: &FrameDirections,
     [a, b]: [JointId; 2],
 ) -> impl Iterator<Item = (Box<dyn Carrier>, bool)> {
-    let planes = Plane::of_pairs(mechanism, &[(a, b)]).into_iter();
+    let planes = Plane::among(mechanism, spots, &[(a, b)]).into_iter();
     let planes = planes.map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
     let turns = match mechanism.joints.len() {
         ..=TURNED => Turn::of_groups(mechanism, directions, &[vec![a, b]]),
@@ -113,10 +114,7 @@ impl ComparedJoints {
         let all = mechanism.joint_ids().map(of).collect_vec();
         let kind = |one| all.iter().position(|other| other == one);
         let mut compared = ComparedJoints {
-            spots: mechanism
-                .joint_ids()
-                .map(|j| Spot::of(&mechanism.joints[j].frame))
-                .collect(),
+            spots: Spot::of_joints(mechanism),
             kinds: all.iter().filter_map(kind).collect(),
             near: 0.0,
         };
