@@ -154,8 +154,7 @@ impl Bones {
                 }
                 // Pins level with each other, or square above each other, have an axis in common: a special place that costs
                 // redesigns.
-                let level = apart.iter().any(|x| x.abs() < ALIGNED);
-                if level && i < self.joints.len() && !self.follows[i] && !self.follows[j] {
+                if i < self.joints.len() && !self.follows[i] && !self.follows[j] {
                     penalty += apart
                         .iter()
                         .map(|x| 0.5 * beyond(ALIGNED - x.abs(), ALIGNED))

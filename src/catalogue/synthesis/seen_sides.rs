@@ -106,13 +106,14 @@ impl SeenPlaces {
             let i = again.trailing_zeros() as usize;
             again &= again - 1;
             let own = self.sides[i];
-            let mut crossed = 0;
-            for (j, other) in self.sides.iter_mut().enumerate() {
-                let crosses = u64::from(own.crosses(other));
-                crossed |= crosses << j;
-                other.crossed = other.crossed & !(1 << i) | crosses << i;
-            }
+            let others = self.sides.iter().rev();
+            let crossed = others.fold(0, |bits, other| bits << 1 | u64::from(own.crosses(other)));
+            let mut changed = own.crossed ^ crossed;
             self.sides[i].crossed = crossed;
+            while changed != 0 {
+                self.sides[changed.trailing_zeros() as usize].crossed ^= 1 << i;
+                changed &= changed - 1;
+            }
         }
         self.at.clear();
         self.at.extend_from_slice(at);

@@ -18,7 +18,7 @@ use crate::synthesis::sketch::LayoutSketch;
 const COARSE: Grid = Grid {
     steps: 5.0,
     finest: 0.01,
-    settled: 3e-4,
+    settled: 1e-3,
     forces_everywhere: false,
 };
 

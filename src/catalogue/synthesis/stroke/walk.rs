@@ -1,6 +1,6 @@
 //! From the drawn pose step by step to wider and narrower parts, by Newton's method.
 //!
-//! A step begins along the parabola that the last two poses tell. It is halved where the first correction is large beside it, where
+//! A step begins along the cubic that the last two poses and their rates tell. It is halved where the first correction is large beside it, where
 //! the determinant changes its sign, or where the drive would turn back: so no step passes a singular pose or a dead point unseen.
 
 use crate::synthesis::elimination::SmallSystem;
@@ -63,6 +63,34 @@ pub trait FitEquations {
     fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem);
 }
 
+/// A pose that was passed, if one was.
+#[derive(Debug, Clone)]
+struct PassedPose {
+    passed: bool,
+    wider: f64,
+    x: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl PassedPose {
+    /// None, of so many unknown.
+    fn none(unknown: usize) -> PassedPose {
+        PassedPose {
+            passed: false,
+            wider: 0.0,
+            x: vec![0.0; unknown],
+            rates: vec![0.0; unknown],
+        }
+    }
+
+    fn put(&mut self, wider: f64, x: &[f64], rates: &[f64]) {
+        self.passed = true;
+        self.wider = wider;
+        self.x.copy_from_slice(x);
+        self.rates.copy_from_slice(rates);
+    }
+}
+
 /// A pose on the way.
 #[derive(Debug, Clone)]
 pub struct Walk<E> {
@@ -74,8 +102,9 @@ pub struct Walk<E> {
     pub(in crate::synthesis) x: Vec<f64>,
     /// Their rates by the width.
     pub(in crate::synthesis) rates: Vec<f64>,
-    /// How these changed by the width, on the last step; nothing before the first.
-    bends: Vec<f64>,
+    /// The pose on the other side from where it goes on, and the first that was come to from the drawn one; where there are any.
+    before: PassedPose,
+    first: PassedPose,
     /// The last correction of the next poses is smaller than this, in rad: after it contours are open by about its square, and rates
     /// are as far from true as it says.
     pub(super) settled: f64,
@@ -96,7 +125,8 @@ impl<E: FitEquations> Walk<E> {
             wider: 0.0,
             x: vec![0.0; n],
             rates: vec![0.0; n],
-            bends: vec![0.0; n],
+            before: PassedPose::none(n),
+            first: PassedPose::none(n),
             settled: SETTLED,
             sign: 0.0,
             trial: vec![0.0; n],
@@ -110,6 +140,7 @@ impl<E: FitEquations> Walk<E> {
         self.trial.fill(0.0);
         self.sign = 0.0;
         let stands = self.correct(0.0, f64::INFINITY);
+        self.first.passed = false;
         self.drawn_rates.copy_from_slice(&self.rates);
         self.back();
         stands && self.rate() != 0.0
@@ -119,8 +150,10 @@ impl<E: FitEquations> Walk<E> {
     pub fn back(&mut self) {
         self.wider = 0.0;
         self.x.fill(0.0);
-        self.bends.fill(0.0);
         self.rates.copy_from_slice(&self.drawn_rates);
+        let first = &self.first;
+        self.before.put(first.wider, &first.x, &first.rates);
+        self.before.passed = first.passed;
     }
 
     /// How fast the drive goes by the width: mm or rad a millimetre.
@@ -163,15 +196,16 @@ impl<E: FitEquations> Walk<E> {
         if !same || !rate.is_finite() {
             return false;
         }
-        let gone = wider - self.wider;
-        for (i, (r, bend)) in self.rates.iter_mut().zip(&mut self.bends).enumerate() {
-            let now = self.rows.get(i, 1);
-            *bend = if gone == 0.0 { 0.0 } else { (now - *r) / gone };
-            *r = now;
+        self.before.put(self.wider, &self.x, &self.rates);
+        for (i, rate) in self.rates.iter_mut().enumerate() {
+            *rate = self.rows.get(i, 1);
         }
         self.sign = sign;
         self.x.copy_from_slice(&self.trial);
         self.wider = wider;
+        if !self.first.passed {
+            self.first.put(wider, &self.x, &self.rates);
+        }
         true
     }
 
@@ -192,9 +226,7 @@ impl<E: FitEquations> Walk<E> {
                 self.wider + step
             };
             let by = to - self.wider;
-            for i in 0..self.trial.len() {
-                self.trial[i] = self.x[i] + by * (self.rates[i] + by / 2.0 * self.bends[i]);
-            }
+            self.predict(by);
             let most = CORRECTION * self.size(|i| by * self.rates[i]);
             if self.correct(to, most) {
                 step *= 2.0;
@@ -206,6 +238,23 @@ impl<E: FitEquations> Walk<E> {
             }
         }
         Ok(())
+    }
+
+    /// Puts into the trial where the unknown are likely to be so much farther on.
+    fn predict(&mut self, by: f64) {
+        let before = &self.before;
+        for i in 0..self.trial.len() {
+            let (x, rate) = (self.x[i], self.rates[i]);
+            self.trial[i] = x + if before.passed {
+                // Hermite's cubic through both, by how many of the last step it goes on.
+                let (step, gone) = (self.wider - before.wider, x - before.x[i]);
+                let (then, now) = (step * before.rates[i], step * rate);
+                let (u, cubic) = (by / step, then + now - 2.0 * gone);
+                u * (now + u * (now - gone + (1.0 + u) * cubic))
+            } else {
+                by * rate
+            };
+        }
     }
 
     fn end(&self) -> StrokeEnd {
