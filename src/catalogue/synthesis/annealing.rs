@@ -120,12 +120,14 @@ fn search_from<M: StrokeMotion>(
 ) -> Option<FoundPlaces<PlacesOf<M>>> {
     let (at, given_up) = anneal(sketch, judge, random, start, patience);
     let looks = sketch.looks(&at)?;
-    // Whether what is given up can be built is not asked.
-    if !given_up {
+    // Of what is given up some poses say enough, and whether it can be built is not asked.
+    let stroke = if given_up {
+        judge.coarse(&at, f64::INFINITY)
+    } else {
         judge.watch();
-    }
-    let (stroke, stacking) = (judge.fine(&at), judge.stacking());
-    let stroke = stroke?;
+        judge.fine(&at)
+    };
+    let (stroke, stacking) = (stroke?, judge.stacking());
     let limits = sketch.limits();
     Some(FoundPlaces {
         cost: match limits.task.aim {
