@@ -14,6 +14,7 @@ pub mod figures;
 pub mod layout;
 pub mod layout_quality;
 pub mod limits;
+mod link_side;
 pub mod mechanism;
 pub mod paired;
 pub(crate) mod place;

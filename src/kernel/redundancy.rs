@@ -17,3 +17,4 @@ pub mod release;
 pub mod stress;
 pub mod stress_loads;
 pub mod with_drives_held;
+pub mod working_mobility;

@@ -190,7 +190,7 @@ pub fn row_of_pair(
 }
 
 /// Seeds under which places are looked for until their pose is proven to be a regular one, at most: it is nearly always so at once.
-const SEEDS: u64 = 3;
+const SEEDS: u64 = 6;
 
 /// The first layout of some seeds whose pose is proven to be a regular one; what keeps it from being laid out otherwise.
 pub(super) fn regular<L>(

@@ -144,9 +144,9 @@ impl Bones {
             .map(alone)
             .collect();
         let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
-        let moving = of_link.iter().enumerate().filter(|(l, _)| *l != plan.frame);
-        let many = moving.filter(|(_, points)| points.len() > 3);
-        let hulled = many.fold(0, |all, (_, points)| all | bits(points));
+        let members: Vec<u32> = of_link.iter().map(bits).collect();
+        let many = |link: &usize| *link != plan.frame && of_link[*link].len() > 3;
+        let hulled = (0..links).filter(many).fold(0, |all, l| all | members[l]);
         let joints = plan.joints.iter().enumerate();
         let touching = joints.fold(0, |bits, (i, j)| bits | u32::from(j.is_none()) << i);
         let cylinder = plan.cylinder.and_then(|links| {
@@ -163,7 +163,7 @@ impl Bones {
             cylinder,
             rods: rods.collect(),
             hulled,
-            members: of_link.iter().map(bits).collect(),
+            members,
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             of_link,
             touching,

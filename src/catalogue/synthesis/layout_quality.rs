@@ -2,20 +2,17 @@
 
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::limits::Limits;
+use crate::synthesis::limits::{Limits, beyond};
+use crate::synthesis::link_side::LinkSide;
 use crate::synthesis::point::Point;
 use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::velocities::Velocity;
-use itertools::Itertools;
 
 /// What a limit costs that is broken, where nothing but limits and one figure count.
 pub(super) const DEAR: f64 = 50.0;
 /// Links longer than this are long, and shorter ones than this short.
 const LONG: f64 = 75.0;
 const SHORT: f64 = 18.0;
-/// A pin nearer than this to a link that it is no part of lies on it.
-pub(super) const ON: f64 = 6.0;
-
 /// Figures of a layout at the pose it is drawn in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Looks {
@@ -51,48 +48,6 @@ impl Looks {
 
 /// Pins whose coordinates differ by less than this are nearly in line.
 const ALIGNED: f64 = 2.5;
-
-/// How far a number is beyond a limit, squared, in units of a width.
-pub(super) fn beyond(over: f64, width: f64) -> f64 {
-    (over.max(0.0) / width).powi(2)
-}
-
-pub(super) fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    let side = |p: Point, q: Point, r: Point| cross_plane(sub(q, p), sub(r, p)) > 0.0;
-    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
-}
-
-pub(super) fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (along, to) = (sub(b, a), sub(p, a));
-    let t = (dot(to, along) / dot(along, along).max(1e-9)).clamp(0.0, 1.0);
-    length(sub(to, along.map(|x| x * t)))
-}
-
-/// A side of a link.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LinkSide {
-    pub(super) link: usize,
-    /// The points at its ends.
-    pub(super) ends: [usize; 2],
-}
-
-impl LinkSide {
-    /// Where its ends are.
-    pub(super) fn of(&self, at: &[Point]) -> [Point; 2] {
-        self.ends.map(|i| at[i])
-    }
-}
-
-/// Whether a link of these sides, a bar or a plate, lies over a point.
-pub(super) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool {
-    let near = |side: &LinkSide| distance(point, side.of(at)) < ON;
-    let left = |side: &LinkSide| {
-        let [a, b] = side.of(at);
-        cross_plane(sub(b, a), sub(point, a)) > 0.0
-    };
-    let within = sides.len() > 2 && sides.iter().map(left).all_equal();
-    within || sides.iter().any(near)
-}
 
 /// What velocities say of a layout.
 pub(super) struct LayoutMotion {

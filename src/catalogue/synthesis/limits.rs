@@ -26,3 +26,8 @@ impl Default for Limits {
         }
     }
 }
+
+/// How far a number is beyond a limit, squared, in units of a width.
+pub(super) fn beyond(over: f64, width: f64) -> f64 {
+    (over.max(0.0) / width).powi(2)
+}

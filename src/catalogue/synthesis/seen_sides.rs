@@ -2,7 +2,8 @@
 
 use crate::geom::vector::{cross_plane, dot, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::layout_quality::{LinkSide, ON, beyond, distance};
+use crate::synthesis::limits::beyond;
+use crate::synthesis::link_side::{LinkSide, ON, distance};
 use crate::synthesis::point::Point;
 
 /// A side as the points lie about it, a bit for each.

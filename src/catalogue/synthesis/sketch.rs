@@ -1,8 +1,8 @@
 //! A structure whose places are looked for: what is asked of it while they are tried.
 
 use crate::synthesis::bones::Bones;
-use crate::synthesis::layout_quality::{LayoutMotion, Looks, beyond};
-use crate::synthesis::limits::Limits;
+use crate::synthesis::layout_quality::{LayoutMotion, Looks};
+use crate::synthesis::limits::{Limits, beyond};
 use crate::synthesis::point::Point;
 use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::velocities::Velocity;

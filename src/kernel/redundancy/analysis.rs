@@ -3,11 +3,9 @@
 mod error;
 
 use crate::closure::matrix::Closure;
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::ExactField;
 use crate::geom::scalars::Reals;
-use crate::linalg::echelon::Echelon;
-use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::exact::certificate::{self, Budget};
 pub use crate::rank::exact::field::exact_field;
 use crate::rank::exact::field::field_of;
@@ -25,8 +23,9 @@ pub use crate::redundancy::external::External;
 use crate::redundancy::external::{external, freedoms_of, int, present_links};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::measured::Measured;
-use crate::redundancy::motion::{Speeds, motions, twist};
+use crate::redundancy::motion::motions;
 use crate::redundancy::stress::{SelfStress, self_stresses};
+use crate::redundancy::working_mobility::{outputs, span_of_links};
 pub use error::AnalysisError;
 
 /// How the rank is found.
@@ -301,13 +300,6 @@ fn external_by(
     Ok(Some(found).filter(|x| x.redundant == x.by_rank))
 }
 
-fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
-    mechanism
-        .link_ids()
-        .filter(|&l| mechanism.links[l].role == Role::Output)
-        .collect()
-}
-
 /// Singular values of a geometry that was moved until it has a rank, below this part of the largest, are zero.
 const NEAR: f64 = 1e-9;
 
@@ -421,39 +413,4 @@ fn exactly(
         as_written: None,
         meant: None,
     })
-}
-
-/// Dimension of the output links' joint motion, alone.
-///
-/// # Errors
-/// Where a coordinate has no image in the field.
-///
-/// # Complexity
-/// O(f³) field operations for f freedoms.
-pub fn working_mobility(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    state: StateId,
-) -> Result<usize, ExactError> {
-    let closure = Closure::new(exact, mechanism, state)?;
-    let kernel = motions(exact, &closure);
-    let outputs = outputs(mechanism);
-    Ok(span_of_links(exact, mechanism, &closure, &kernel, &outputs))
-}
-
-/// Dimension of the joint motion of some links over a basis of motions.
-fn span_of_links(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    kernel: &[Speeds],
-    links: &[LinkId],
-) -> usize {
-    let paths = closure.link_motions(exact, mechanism, links);
-    let mut span = Echelon::new(exact.field());
-    for speeds in kernel {
-        let all: Vec<Residue> = paths.iter().flat_map(|p| twist(exact, p, speeds)).collect();
-        span.insert(&all);
-    }
-    span.rank()
 }

@@ -1,7 +1,7 @@
 //! What a stroke costs while places are looked for.
 
-use crate::synthesis::layout_quality::{DEAR, beyond};
-use crate::synthesis::limits::Limits;
+use crate::synthesis::layout_quality::DEAR;
+use crate::synthesis::limits::{Limits, beyond};
 use crate::synthesis::stroke::judge::StrokeFigures;
 use crate::synthesis::stroke::shortfall::NOISE;
 use crate::synthesis::task::{AskedMotion, PARALLEL, Task};

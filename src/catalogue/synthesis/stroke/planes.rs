@@ -7,7 +7,7 @@
 
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::layout_quality::{LinkSide, ON, crosses, lies_over};
+use crate::synthesis::link_side::{LinkSide, ON, crosses, lies_over};
 use crate::synthesis::point::Point;
 use itertools::Itertools;
 use std::cmp::{Reverse, max, min};
