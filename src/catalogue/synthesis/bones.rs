@@ -140,9 +140,7 @@ impl Bones {
             let of = plan.together.iter().find(|set| *set >> i & 1 == 1);
             of.copied().unwrap_or(1 << i)
         };
-        let together = (0..plan.joints.len() + plan.tips.len())
-            .map(alone)
-            .collect();
+        let points = plan.joints.len() + plan.tips.len();
         let bits = |points: &Vec<usize>| points.iter().fold(0, |bits, p| bits | 1 << p);
         let members: Vec<u32> = of_link.iter().map(bits).collect();
         let many = |link: &usize| *link != plan.frame && of_link[*link].len() > 3;
@@ -167,7 +165,7 @@ impl Bones {
             inward: plan.tips.iter().map(|t| unit(sub(centre, *t))).collect(),
             of_link,
             touching,
-            together,
+            together: (0..points).map(alone).collect(),
             joints: plan.joints,
             follows: plan.follows,
             tips: plan.tips,

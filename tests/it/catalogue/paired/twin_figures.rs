@@ -264,10 +264,20 @@ impl Looked<'_> {
     }
 }
 
+/// The least of a list over the stroke, and by how much it may be less between its poses: half of what it changes to those beside it.
+fn least(list: &[f64]) -> (f64, f64) {
+    let at = (0..list.len()).min_by(|&i, &j| list[i].total_cmp(&list[j]));
+    let at = at.unwrap();
+    // Both ends are looked at by either.
+    let beside = list.get(at.wrapping_sub(1)..at + 2).unwrap_or_default();
+    let change = beside.iter().map(|x| x - list[at]);
+    (list[at], change.fold(0.0, f64::max) / 2.0)
+}
+
 /// The figures of a layout over its stroke: four digits of them are told, and poses lie a little beside those of the catalogue.
 fn is_as_worked_out(row: &Value) {
     let g = Gripper::read(row["mechanism"].as_str().unwrap());
-    let (mut efficiency, mut angles, mut peak) = (1.0_f64, Vec::new(), 0.0_f64);
+    let (mut efficiencies, mut angles, mut peaks) = (Vec::new(), Vec::new(), Vec::new());
     let mut sides = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     for x in g.stroke(number(row, "narrowest"), number(row, "widest")) {
         for p in g.outermost(&x) {
@@ -277,9 +287,9 @@ fn is_as_worked_out(row: &Value) {
         // Forces and motion are worked out apart from each other: teeth that pressed in a wrong place would not do the work.
         let work = pose.given() / pose.done();
         assert!((work - 1.0).abs() < 1e-6, "{row}: {work}");
-        efficiency = efficiency.min(pose.efficiency());
+        efficiencies.push(pose.efficiency());
         angles.push(pose.passed().min(pose.rods()));
-        peak = peak.max(pose.peak());
+        peaks.push(-pose.peak());
     }
     let near = |key: &str, found: f64, within: f64| {
         let told = number(row, key);
@@ -290,18 +300,12 @@ fn is_as_worked_out(row: &Value) {
             row["name"]
         );
     };
-    near("efficiency", efficiency, 3e-4);
-    // Where it changes from pose to pose, half of that may be between the poses of either.
-    let least = (0..angles.len()).min_by(|&i, &j| angles[i].total_cmp(&angles[j]));
-    let least = least.unwrap();
-    let beside = &angles[least.saturating_sub(1)..(least + 2).min(angles.len())];
-    let change = beside.iter().map(|a| a - angles[least]);
-    near(
-        "transmission",
-        angles[least],
-        0.03 + change.fold(0.0, f64::max) / 2.0,
-    );
-    near("pin_force", peak, 1e-3 * peak + 1e-9);
+    let (efficiency, change) = least(&efficiencies);
+    near("efficiency", efficiency, 3e-4 + change);
+    let (angle, change) = least(&angles);
+    near("transmission", angle, 0.03 + change);
+    let (peak, change) = least(&peaks);
+    near("pin_force", -peak, 1e-9 - 1e-3 * peak + change);
     near("width", sides[0][1] - sides[0][0], 0.1);
     near("height", sides[1][1] - sides[1][0], 0.1);
 }
