@@ -177,36 +177,26 @@ fn bits(mut set: u32) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::SeenSides;
-    use crate::chains::pairs::classics::classics;
-    use crate::synthesis::limits::Limits;
-    use crate::synthesis::paired::known::most_symmetric;
-    use crate::synthesis::paired::rules::PairRules;
-    use crate::synthesis::paired::sketch::PairSketch;
+    use crate::synthesis::paired::sketch::each_classic;
     use crate::synthesis::random::{below, random};
     use crate::synthesis::sketch::LayoutSketch;
 
     /// Tries that are taken and refused in any order: what is looked at again is what has moved, and all else is known still.
     #[test]
     fn what_was_seen_of_other_places_is_what_is_seen_afresh() {
-        for classic in classics() {
-            let paired = most_symmetric(&classic.structure).unwrap();
-            let lay = paired.lays().swap_remove(0);
-            let Ok(rules) = PairRules::new(&paired, &lay) else {
-                continue;
-            };
-            let sketch = PairSketch::new(&paired, rules, Limits::default());
-            let mut random = random(&classic.id, 2, 0);
+        each_classic(|name, sketch| {
+            let mut random = random(name, 2, 0);
             let (mut at, mut seen) = (sketch.first_places(&mut random), SeenSides::default());
             for _ in 0..200 {
                 let before = at.clone();
                 sketch.change(&mut at, 0.5, &mut random);
                 let afresh = sketch.penalty(&at, false, f64::INFINITY, &mut SeenSides::default());
                 let known = sketch.penalty(&at, false, f64::INFINITY, &mut seen);
-                assert_eq!(known, afresh, "{}", classic.id);
+                assert_eq!(known, afresh, "{name}");
                 if below(2, &mut random) == 0 {
                     at = before;
                 }
             }
-        }
+        });
     }
 }

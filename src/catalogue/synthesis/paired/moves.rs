@@ -204,9 +204,7 @@ impl LayoutSketch for PairSketch<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chains::pairs::classics::classics;
-    use crate::synthesis::paired::known::most_symmetric;
-    use crate::synthesis::paired::rules::PairRules;
+    use crate::synthesis::paired::sketch::each_classic;
     use crate::synthesis::random::random;
     use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::pitch_penalty;
@@ -215,32 +213,21 @@ mod tests {
     #[test]
     fn places_are_never_dearer_than_is_wanted() {
         let mut geared = 0;
-        for classic in classics() {
-            let paired = most_symmetric(&classic.structure).unwrap();
-            let lay = paired.lays().swap_remove(0);
-            let Ok(rules) = PairRules::new(&paired, &lay) else {
-                continue;
-            };
-            let sketch = PairSketch::new(&paired, rules, Limits::default());
+        each_classic(|name, sketch| {
             let mut seen = SeenSides::default();
             for start in 0..20 {
-                let at = sketch.first_places(&mut random(&classic.id, 1, start));
+                let at = sketch.first_places(&mut random(name, 1, start));
                 for moving in [false, true] {
                     let Some(cost) = sketch.penalty(&at, moving, f64::INFINITY, &mut seen) else {
                         continue;
                     };
                     assert_eq!(sketch.penalty(&at, moving, cost, &mut seen), Some(cost));
                     let less = cost - 1e-6 * cost.max(1.0);
-                    assert_eq!(
-                        sketch.penalty(&at, moving, less, &mut seen),
-                        None,
-                        "{}",
-                        classic.id
-                    );
+                    assert_eq!(sketch.penalty(&at, moving, less, &mut seen), None, "{name}");
                 }
-                geared += usize::from(pitch_penalty(&sketch, &at) > 0.0);
+                geared += usize::from(pitch_penalty(sketch, &at) > 0.0);
             }
-        }
+        });
         assert!(geared > 20, "{geared}");
     }
 }

@@ -105,3 +105,20 @@ impl<'a> PairSketch<'a> {
         }
     }
 }
+
+/// The sketches of all well-known structures that have rules of their own, each with its name.
+#[cfg(test)]
+pub(in crate::synthesis) fn each_classic(mut take: impl FnMut(&str, &PairSketch<'_>)) {
+    use crate::chains::pairs::classics::classics;
+    use crate::synthesis::paired::known::most_symmetric;
+    for classic in classics() {
+        let paired = most_symmetric(&classic.structure).unwrap();
+        let lay = paired.lays().swap_remove(0);
+        if let Ok(rules) = PairRules::new(&paired, &lay) {
+            take(
+                &classic.id,
+                &PairSketch::new(&paired, rules, Limits::default()),
+            );
+        }
+    }
+}
