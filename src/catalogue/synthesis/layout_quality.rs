@@ -132,18 +132,13 @@ impl Bones {
         for (_, points) in moving.filter(|(l, _)| *l != self.frame) {
             for (i, &a) in points.iter().enumerate() {
                 for &b in points[..i].iter().filter(|&&b| !self.are_together(a, b)) {
-                    let apart = sub(at[a], at[b]);
-                    let square = dot(apart, apart);
-                    (longest, shortest) = (longest.max(square), shortest.min(square));
-                    // Most are neither.
-                    if !(SHORT * SHORT..=LONG * LONG).contains(&square) {
-                        let d = square.sqrt();
-                        penalty += beyond(d - LONG, 25.0) + beyond(SHORT - d, 10.0);
-                    }
+                    let d = length(sub(at[a], at[b]));
+                    (longest, shortest) = (longest.max(d), shortest.min(d));
+                    penalty += beyond(d - LONG, 25.0) + beyond(SHORT - d, 10.0);
                 }
             }
         }
-        (longest.sqrt() / shortest.sqrt(), penalty)
+        (longest / shortest, penalty)
     }
 
     /// Gives the sides of the links but the frame, link by link.

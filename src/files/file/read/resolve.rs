@@ -266,30 +266,28 @@ fn option_frame(
     path: &[DocumentStep],
     out: &mut Findings,
 ) -> Frame {
+    let axis = table.axis.as_ref().map_or_else(
+        || present.axis.clone(),
+        |v| direction(v, &key(path, "axis"), out),
+    );
+    let reference = table.reference.as_ref();
+    let reference = reference.map(|v| direction(v, &key(path, "reference"), out));
     let stated = [table.pitch.as_ref(), table.lead.as_ref()];
     let pitch = pitch(stated, path, out).unwrap_or_else(|| present.pitch.clone());
     let point = table.point.as_ref().map_or_else(
         || present.point.clone(),
         |p| vector(p, &key(path, "point"), out),
     );
-    let axis = table.axis.as_ref().map_or_else(
-        || present.axis.clone(),
-        |v| direction(v, &key(path, "axis"), out),
-    );
-    let reference = match (&table.reference, &table.axis) {
-        (Some(v), _) => Some(direction(v, &key(path, "reference"), out)),
-        // Those directions are looked at already.
-        (None, None) => {
-            return Frame {
-                point,
-                axis,
-                reference: present.reference.clone(),
-                pitch,
-            };
-        }
-        (None, Some(_)) => None,
-    };
-    frame(joint, point, axis, reference, pitch, path, out)
+    if table.axis.is_some() || table.reference.is_some() {
+        return frame(joint, point, axis, reference, pitch, path, out);
+    }
+    // Those directions are looked at already.
+    Frame {
+        point,
+        axis,
+        reference: present.reference.clone(),
+        pitch,
+    }
 }
 
 /// Whether one joint allows every motion of another at the same place: exactly, over a prime field; `None` where the
