@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, missing_docs, reason = "tests")]
 
 mod accuracy;
-mod adding;
 mod bench;
 mod catalogs;
 mod catalogue;
@@ -18,11 +17,9 @@ mod drive;
 mod first_hour;
 mod fuzz;
 mod grip;
-mod house;
 mod layering;
 mod library;
 mod licences;
-mod mutants;
 mod phrases;
 mod published;
 mod rank;
