@@ -1,11 +1,12 @@
-//! Chains of hinges, slides, gears and slots against the counts of two independent programs (`../shared/pairs/counts.md`),
+//! Chains of hinges, slides, gears and slots against the counts of two independent programs (`tests/data/README.md`),
 //! against hinged chains, in which a rod is a slot, and against a twin that tries every numbering.
 
-mod classics;
+pub(super) mod classics;
 mod codes;
 mod command;
 mod two_slots;
 
+use crate::common::data;
 use itertools::Itertools;
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
@@ -14,8 +15,6 @@ use ozols::chains::pairs::kind::PairKind;
 use ozols::chains::pairs::sharing::Menu;
 use ozols::chains::pairs::symmetric_census::{SymmetricKind, symmetric_census};
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
 
 pub(super) const ALL: [PairKind; 3] = [PairKind::Slide, PairKind::Gear, PairKind::Slot];
 
@@ -24,18 +23,6 @@ const ANY: usize = 15;
 
 pub(super) fn menu(most: usize) -> Menu<'static> {
     Menu { kinds: &ALL, most }
-}
-
-/// A file of `../shared/pairs`, beside the project's own folder or one further up.
-pub(super) fn shared_bytes(name: &str) -> Vec<u8> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let at = ["../shared/pairs", "../../shared/pairs"].map(|f| root.join(f).join(name));
-    let bytes = at.iter().find_map(|path| fs::read(path).ok());
-    bytes.expect("../shared/pairs has it")
-}
-
-pub(super) fn shared(name: &str) -> String {
-    String::from_utf8(shared_bytes(name)).unwrap()
 }
 
 /// Every cell of the published counts up to six links, with all its columns.
@@ -50,7 +37,7 @@ fn as_many_as_two_other_programs_count() {
     let inputs: [u64; 4] = [3, 4, 5, 6].map(|n| sum(n, |c| c.inputs_at_frame + c.inputs_between));
     assert_eq!(inputs, [21, 533, 23_267, 1_550_567]);
     let mut cells = 0;
-    for line in shared("counts.csv").lines().skip(1) {
+    for line in data("counts.csv").lines().skip(1) {
         let numbers = line.split(',').map(|n| n.parse::<u64>().ok()).collect_vec();
         let size = |i: usize| usize::try_from(numbers[i].unwrap()).unwrap();
         let kinds = Kinds {
@@ -95,7 +82,7 @@ fn row(c: &PairCensus) -> Vec<u64> {
 }
 
 /// The published tables of symmetric grippers by choices, of three to six links; those of hinges and one input slide are the
-/// counts of `../shared/topology.md` (half turn of ten links: 46 without a slide).
+/// counts of hinged structures by two independent programs (half turn of ten links: 46 without a slide).
 #[test]
 fn as_many_symmetric_ones_as_are_published() {
     let known: [(bool, bool, [[u64; 4]; 6]); 4] = [
@@ -273,7 +260,7 @@ fn slots_are_rods() {
     }
 }
 
-/// A chain with one slide is a hinged chain with one joint chosen, as many as there are input joints (`../shared/topology.md`).
+/// A chain with one slide is a hinged chain with one joint chosen, as many as there are input joints, which two independent programs counted.
 #[test]
 fn one_slide_is_one_input_joint() {
     for (links, inputs) in [(4, 1), (6, 6), (8, 84), (10, 2_307)] {
@@ -290,7 +277,7 @@ fn one_slide_is_one_input_joint() {
     }
 }
 
-/// `../shared/pairs/counts.md`, hinges and slides only.
+/// The published counts, hinges and slides only.
 #[test]
 fn slides_alone() {
     let known: [&[u64]; 3] = [&[1, 1, 2], &[2, 6, 16, 19, 9], &[16, 84, 345, 776]];

@@ -51,7 +51,7 @@ fn with_loops(side: Option<&str>) -> Options {
 
 // n, p, k, f, W, σ of whole models, by hand: two planar four-bars closed by balls, σ = 1 each; five hinges and a sixth in
 // parallel, σ = 3; a foot on a universal joint and two cranks with rods. tests/peers/run asks MuJoCo and Pinocchio for W and σ
-// of these and of the models of ../shared/models.
+// of these and of published models.
 #[test]
 fn figures_of_models() {
     for (path, loops, couplings, wanted) in [

@@ -1,7 +1,7 @@
-//! Well-known schemes laid out by hand, against force curves that were published with them (`../shared/pairs/dims.json`).
+//! Well-known schemes laid out by hand, against force curves that were published with them (`tests/data/forces.json`).
 
-use super::super::pairs::shared;
 use super::number;
+use crate::common::data;
 use ozols::chains::pairs::classics::classics;
 use ozols::synthesis::figures::LayoutFigures;
 use ozols::synthesis::limits::Limits;
@@ -17,7 +17,7 @@ use ozols::synthesis::sketch::LayoutSketch;
 use ozols::synthesis::task::Task;
 use serde_json::Value;
 
-/// The task of `dims.json`: tips 30 mm apart when closed, each opens by 10 mm. They are drawn closed.
+/// The task of `forces.json`: tips 30 mm apart when closed, each opens by 10 mm. They are drawn closed.
 fn published_task() -> Task {
     Task {
         narrowest: 29.999,
@@ -103,13 +103,13 @@ impl ByHand {
     }
 }
 
-/// Force curves of `../shared/pairs/dims.json`, from closed to open in eleven steps.
+/// Force curves of `forces.json`, from closed to open in eleven steps.
 #[test]
 fn forces_are_those_published_for_four_schemes() {
-    let told: Value = serde_json::from_str(&shared("dims.json")).unwrap();
+    let told: Value = serde_json::from_str(&data("forces.json")).unwrap();
     let check = |id: &str, f: LayoutFigures| {
-        let scheme = &told["schemes"][id];
-        let curve = scheme["q_closed_to_open"].as_array().unwrap().iter();
+        let scheme = &told[id];
+        let curve = scheme["closed_to_open"].as_array().unwrap().iter();
         let curve: Vec<f64> = curve.map(|q| q.as_f64().unwrap()).collect();
         let least = curve.iter().copied().fold(f64::INFINITY, f64::min);
         let most = curve.iter().copied().fold(0.0, f64::max);
@@ -120,19 +120,19 @@ fn forces_are_those_published_for_four_schemes() {
             );
         };
         near(
-            least.min(scheme["best_min_q"].as_f64().unwrap()),
+            least.min(scheme["least"].as_f64().unwrap()),
             f.force[0],
             "least",
         );
         near(most, f.force[2], "greatest");
         near(
-            scheme["mean_over_jaw_travel"].as_f64().unwrap(),
+            scheme["mean"].as_f64().unwrap(),
             f.force[1],
             "mean",
         );
-        near(scheme["drive_stroke"].as_f64().unwrap(), f.travel, "travel");
+        near(scheme["stroke"].as_f64().unwrap(), f.travel, "travel");
     };
-    let size = |id: &str, key: &str| number(&told["schemes"][id]["layout"], key);
+    let size = |id: &str, key: &str| number(&told[id]["layout"], key);
 
     let id = "piston-links-angular";
     let mut g = ByHand::new(id);
@@ -196,7 +196,7 @@ fn forces_are_those_published_for_four_schemes() {
     check(id, g.figures());
 }
 
-/// `dims.json` has a closed form of the wedge: half the cotangent of the angle between slot and drive, all over the stroke.
+/// A wedge has a closed form: half the cotangent of the angle between slot and drive, all over the stroke.
 #[test]
 fn a_wedge_pulls_by_its_angle() {
     for (slot, cotangent) in [(6, 4.0 / 3.0), (5, 15.0 / 8.0), (9, 3.0 / 4.0)] {

@@ -3,8 +3,8 @@
 use super::super::carried_on::scattered;
 use super::{
     Built, LAID, at, built, first_of, known, known_three, number, ok, pulls_as_its_file_says, rows,
-    shared,
 };
+use crate::common::data;
 use ozols::geom::vector::real;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -26,10 +26,10 @@ fn on_one_pin() -> &'static str {
 
 #[test]
 fn free_structures_are_all_that_are_counted_and_pull_as_their_files_say() {
-    // `../shared/pairs/counts.csv`: essential ones of four links with at most three pairs that are not hinges, any place of input and
+    // `counts.csv`: essential ones of four links with at most three pairs that are not hinges, any place of input and
     // jaws. Columns: links, kinds, chains and inputs, then eight for each drive, the second of which is the essential ones.
     let mut told = 0;
-    for line in shared("counts.csv").lines().skip(1) {
+    for line in data("counts.csv").lines().skip(1) {
         let cells: Vec<u64> = line.split(',').map(|n| n.parse().unwrap_or(0)).collect();
         if cells[0] == 4 && cells[1] + cells[2] + cells[3] <= 3 {
             told += cells[9..].chunks(8).map(|drive| drive[1]).sum::<u64>();

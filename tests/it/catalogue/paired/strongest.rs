@@ -1,8 +1,8 @@
-//! Layouts made for force, against the best that others found for four schemes in one box (`../shared/pairs/dims.json`), and by trying all
+//! Layouts made for force, against the best that others found for four schemes in one box (`tests/data/forces.json`), and by trying all
 //! places.
 
-use super::super::pairs::shared;
 use super::number;
+use crate::common::data;
 use itertools::Itertools;
 use ozols::chains::pairs::classics::classics;
 use ozols::chains::pairs::kind::PairKind;
@@ -13,7 +13,7 @@ use ozols::synthesis::paired::layout::layout;
 use ozols::synthesis::task::{Aim, Task};
 use serde_json::Value;
 
-/// The limits of `dims.json`: pins at 3 mm to 40 mm from the middle, tips 20 mm ahead of hinges and 30 mm apart when closed, each opening by
+/// The limits of `forces.json`: pins at 3 mm to 40 mm from the middle, tips 20 mm ahead of hinges and 30 mm apart when closed, each opening by
 /// 10 mm. They are drawn closed, so that all has the room of a rounding.
 fn published_limits(transmission: f64) -> Limits {
     Limits {
@@ -58,8 +58,8 @@ fn strongest(id: &str, transmission: f64) -> f64 {
 }
 
 fn published(id: &str) -> f64 {
-    let told: Value = serde_json::from_str(&shared("dims.json")).unwrap();
-    number(&told["schemes"][id], "best_min_q")
+    let told: Value = serde_json::from_str(&data("forces.json")).unwrap();
+    number(&told[id], "least")
 }
 
 /// Not more than two percent below what is published; above it by as much as whole millimetres and slightly other limits make.
@@ -117,7 +117,7 @@ fn of_cylinder([hx, hy]: [f64; 2], [tx, ty]: [f64; 2]) -> Option<f64> {
     fits.then_some(least)
 }
 
-/// `dims.json` tells 1.5, with gears that stand out of the box; with these in it, all whole millimetres are tried.
+/// `forces.json` tells 1.5, with gears that stand out of the box; with these in it, all whole millimetres are tried.
 #[test]
 fn a_cylinder_is_as_strong_as_any() {
     let steps = |from: i32, to: i32| (from..=to).map(f64::from);

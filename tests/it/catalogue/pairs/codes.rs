@@ -1,6 +1,7 @@
-//! Every essential structure of three and four links by its code, as the twin below numbers it and `../shared/pairs` lists it.
+//! Every essential structure of three and four links by its code, as the twin below numbers it and an independent program listed it.
 
-use super::{ANY, menu, shared_bytes};
+use super::{ANY, menu};
+use crate::common::data_bytes;
 use flate2::read::GzDecoder;
 use itertools::Itertools;
 use ozols::chains::pairs::census::visit_pair_chains;
@@ -86,7 +87,7 @@ fn structures_of_three_and_four_links_are_those_listed() {
             }
         });
         let own = own.into_inner().unwrap();
-        let packed = shared_bytes(&format!("codes_{links}.txt.gz"));
+        let packed = data_bytes(&format!("codes-{links}.txt.gz"));
         let mut text = String::new();
         GzDecoder::new(&packed[..])
             .read_to_string(&mut text)

@@ -29,7 +29,7 @@ fn place_of_the_input_and_driven_jaws_are_columns() {
             .map(|w| w.replace(',', "").parse::<u64>().ok())
             .collect_vec()
     });
-    // `../shared/pairs/counts.md`: at the frame and between, jaws apart; driven ones are one number there.
+    // The published counts: at the frame and between, jaws apart; driven ones are one number there.
     let six = numbers
         .into_iter()
         .find(|n| n.first() == Some(&Some(29_882)))

@@ -1,20 +1,15 @@
-//! Files of others, where they are: `../shared/assemblies` beside this folder. Its `expected.json` has W and σ by an independent
-//! numeric rank at the pose of each file, and how many parts and constraints there are.
+//! Files of others, where they are. `expected.json` beside them has W and σ by an independent numeric rank at the pose of each file,
+//! and how many parts and constraints there are.
 
 use super::{figures, read};
+use crate::common::assemblies_of_others;
 use ozols::robots::Options;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-
-fn folder() -> Option<PathBuf> {
-    let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/assemblies");
-    all.is_dir().then_some(all)
-}
+use std::path::Path;
 
 /// The files and what is to be found of each; nothing where the files are not there.
 fn expected() -> Vec<(String, Vec<u8>, Value)> {
-    let Some(folder) = folder() else {
-        eprintln!("no ../shared/assemblies: nothing is compared");
+    let Some(folder) = assemblies_of_others() else {
         return Vec::new();
     };
     let text = std::fs::read_to_string(folder.join("expected.json")).unwrap();
