@@ -73,7 +73,9 @@ pub(crate) fn quick_accuracy() -> (&'static str, &'static Path) {
 
 /// Returns the bytes of a file of `tests/data`.
 pub(crate) fn data_bytes(name: &str) -> Vec<u8> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data")
+        .join(name);
     fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 

@@ -125,11 +125,7 @@ fn forces_are_those_published_for_four_schemes() {
             "least",
         );
         near(most, f.force[2], "greatest");
-        near(
-            scheme["mean"].as_f64().unwrap(),
-            f.force[1],
-            "mean",
-        );
+        near(scheme["mean"].as_f64().unwrap(), f.force[1], "mean");
         near(scheme["stroke"].as_f64().unwrap(), f.travel, "travel");
     };
     let size = |id: &str, key: &str| number(&told[id]["layout"], key);

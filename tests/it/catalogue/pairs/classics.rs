@@ -39,7 +39,11 @@ pub(in super::super) fn schemes() -> Vec<SchemeFigures> {
             flags: cells[2..].iter().map(|c| flag(c)).collect(),
         }
     };
-    let all = data("schemes.csv").lines().skip(1).map(of_line).collect_vec();
+    let all = data("schemes.csv")
+        .lines()
+        .skip(1)
+        .map(of_line)
+        .collect_vec();
     assert_eq!(all.len(), 31);
     all
 }
@@ -85,7 +89,10 @@ fn classic_schemes_are_in_the_count() {
             s.half_turn_but_input,
         ];
         for (n, (own, said)) in own.into_iter().zip(&scheme.flags).enumerate() {
-            assert!(said.is_none_or(|said| said == own), "{id}: flag {n} is {own}");
+            assert!(
+                said.is_none_or(|said| said == own),
+                "{id}: flag {n} is {own}"
+            );
         }
         let pairs = (0..links).tuple_combinations();
         let kinds = pairs.filter_map(|(u, v)| chain.between(u, v));
