@@ -71,9 +71,14 @@ pub(crate) fn catalog_build(
     })
 }
 
-/// As `ozols catalog merge`; how many structures were added.
+/// As `ozols catalog merge`; how many structures were added. A part that cannot be taken in is an error after the others are.
 #[pyfunction]
 pub(crate) fn catalog_merge(py: Python<'_>, path: PathBuf, parts: Vec<PathBuf>) -> PyResult<usize> {
-    let merged = py.detach(|| Store::merge(&path, &parts));
-    merged.map(|m| m.added).map_err(failed)
+    let mut refused = None;
+    let merged =
+        py.detach(|| Store::merge(&path, &parts, |e| refused = refused.take().or(Some(e))));
+    match refused {
+        Some(e) => Err(failed(e)),
+        None => merged.map(|m| m.added).map_err(failed),
+    }
 }

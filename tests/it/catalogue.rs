@@ -4,6 +4,7 @@ mod by_hand;
 mod carried_on;
 mod chains;
 mod command;
+mod damaged;
 mod dense_twin;
 mod determinate;
 mod find;

@@ -19,6 +19,18 @@ pub enum StoreError {
         /// Why not.
         why: rusqlite::Error,
     },
+    /// The file is damaged: SQLite finds its pages inconsistent.
+    #[error(
+        "{0} is damaged ({why}): take a copy of it, or build it again under another name; `sqlite3 {0} .recover | sqlite3 NEW.db` saves \
+         what can be read",
+        path.display()
+    )]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What SQLite says of it.
+        why: String,
+    },
     /// The file is something else.
     #[error(
         "{} is not a catalogue of ozols; choose another name, `ozols catalog build -o NAME.db` makes one", .0.display()

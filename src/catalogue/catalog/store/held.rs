@@ -29,11 +29,20 @@ const GATHERED: Duration = Duration::from_millis(500);
 pub(super) type Stored<T> = Result<T, StoreError>;
 
 impl Store {
+    /// Returns what is wrong with a file, from what SQLite says.
+    pub(super) fn error(path: &Path, why: rusqlite::Error) -> StoreError {
+        let path = path.to_owned();
+        match why.sqlite_error_code() {
+            Some(ErrorCode::DatabaseCorrupt) => StoreError::Damaged {
+                path,
+                why: why.to_string(),
+            },
+            _ => StoreError::Database { path, why },
+        }
+    }
+
     pub(super) fn wrap<T>(path: &Path, result: rusqlite::Result<T>) -> Stored<T> {
-        result.map_err(|why| StoreError::Database {
-            path: path.to_owned(),
-            why,
-        })
+        result.map_err(|why| Store::error(path, why))
     }
 
     pub(super) fn ok<T>(&self, result: rusqlite::Result<T>) -> Stored<T> {

@@ -15,6 +15,8 @@ const FINEST: u64 = 100_000;
 /// What came of merging.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Merged {
+    /// Parts that were taken in.
+    pub taken: usize,
     /// Structures and drawn mechanisms that were added.
     pub added: usize,
     /// Parts that are missing of the whole, in words that `--shard` takes: none where all structures are there.
@@ -23,41 +25,66 @@ pub struct Merged {
     pub unfinished: Vec<PathBuf>,
 }
 
+impl Merged {
+    /// Takes a part into the whole, which is opened where it is not open.
+    fn take_in(&mut self, path: &Path, whole: Option<Store>, part: &Path) -> Stored<Store> {
+        let from = Store::open(part)?;
+        if from.version < OLDEST {
+            return Err(StoreError::Early {
+                path: part.to_owned(),
+                found: from.version,
+            });
+        }
+        let spec = from.meta("spec")?;
+        let is_finished = spec.is_none() || !from.parts()?.is_empty();
+        let whole = match (whole, spec) {
+            (Some(whole), None) => whole,
+            // Drawn mechanisms alone go with any.
+            (None, None) => Store::writable(path)?,
+            (whole, Some(text)) => {
+                let spec = toml::from_str::<Spec>(&text);
+                spec.map_err(|_| StoreError::Other(part.to_owned()))?;
+                match whole {
+                    Some(mut whole) if whole.meta("spec")?.is_some() => {
+                        whole.be_of(&text)?;
+                        whole
+                    }
+                    _ => Store::writable_of(path, Some(&text))?,
+                }
+            }
+        };
+        self.added += whole.take_in(part, from.version)?;
+        self.taken += 1;
+        if !is_finished {
+            self.unfinished.push(part.to_owned());
+        }
+        Ok(whole)
+    }
+}
+
 impl Store {
-    /// Takes in the structures of other catalogues of the same specification that this one has not.
+    /// Takes in the structures of other catalogues of the same specification that this one has not. A part that cannot be taken in goes
+    /// to `refuse`, and takes nothing from the others.
     ///
     /// # Errors
-    /// Where one holds another catalogue, or is too old.
-    pub fn merge(path: &Path, parts: &[PathBuf]) -> Stored<Merged> {
-        let mut store: Option<Store> = None;
+    /// Where the whole cannot be read in the end.
+    pub fn merge(
+        path: &Path,
+        parts: &[PathBuf],
+        mut refuse: impl FnMut(StoreError),
+    ) -> Stored<Merged> {
         let mut merged = Merged::default();
+        // It is opened once, as opening looks at all of it, and anew after a part was refused.
+        let mut whole: Option<Store> = None;
         for part in parts {
-            let from = Store::open(part)?;
-            if from.version < OLDEST {
-                return Err(StoreError::Early {
-                    path: part.clone(),
-                    found: from.version,
-                });
+            match merged.take_in(path, whole.take(), part) {
+                Ok(store) => whole = Some(store),
+                Err(e) => refuse(e),
             }
-            let spec = from.meta("spec")?;
-            if spec.is_some() && from.parts()?.is_empty() {
-                merged.unfinished.push(part.clone());
-            }
-            let here = match (store.take(), spec) {
-                (Some(s), None) => s,
-                // Drawn mechanisms alone go with any.
-                (None, None) => Store::writable(path)?,
-                (_, Some(text)) => {
-                    let spec = toml::from_str::<Spec>(&text);
-                    spec.map_err(|_| StoreError::Other(part.clone()))?;
-                    Store::writable_of(path, Some(&text))?
-                }
-            };
-            merged.added += here.take_in(part, from.version)?;
-            store = Some(here);
         }
-        if let Some(store) = store {
-            merged.missing = store.missing()?;
+        if merged.taken > 0 {
+            let whole = whole.map_or_else(|| Store::open(path), Ok)?;
+            merged.missing = whole.missing()?;
         }
         Ok(merged)
     }

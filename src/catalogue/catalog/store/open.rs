@@ -51,6 +51,7 @@ impl Store {
             FileKind::Other => return Err(StoreError::Other(path.to_owned())),
             FileKind::Catalogue(found) => known(path, found)?,
         };
+        check_pages(path, &db)?;
         Store::wrap(path, version::fill_in(&db, version))?;
         Store::wrap(path, db.authorizer(Some(only_questions)))?;
         Ok(Store {
@@ -91,6 +92,7 @@ impl Store {
                     let path = path.to_owned();
                     return Err(StoreError::Early { path, found });
                 }
+                check_pages(path, &db)?;
                 Store::wrap(path, version::migrate(&db, found))?;
             }
         }
@@ -108,7 +110,7 @@ impl Store {
     }
 
     /// Notes what the catalogue is of, or sees that it is the same.
-    fn be_of(&mut self, spec: &str) -> Stored<()> {
+    pub(super) fn be_of(&mut self, spec: &str) -> Stored<()> {
         let asked = now(spec);
         match self.meta("spec")?.map(|there| now(&there)) {
             Some(there) if there != asked => Err(differs(&self.path, &there, &asked)),
@@ -128,6 +130,19 @@ fn known(path: &Path, found: i64) -> Stored<i64> {
         1..=VERSION => Ok(found),
         later if later > VERSION => Err(StoreError::Later { path, found }),
         _ => Err(StoreError::Other(path)),
+    }
+}
+
+/// Refuses a file that is damaged, by SQLite's quick check: it reads every page once, and what is added to a damaged file may be lost.
+fn check_pages(path: &Path, db: &Connection) -> Stored<()> {
+    let found = db.query_row("PRAGMA quick_check(1)", [], |r| r.get::<_, String>(0));
+    match Store::wrap(path, found)? {
+        well if well == "ok" => Ok(()),
+        // The first line names the database, the last one its first flaw.
+        why => Err(StoreError::Damaged {
+            path: path.to_owned(),
+            why: why.lines().last().unwrap_or_default().to_owned(),
+        }),
     }
 }
 
@@ -158,10 +173,9 @@ fn kind(path: &Path, db: &Connection) -> Stored<FileKind> {
 
 /// What cannot be read is no database, or cannot be read.
 fn unreadable(path: &Path, why: rusqlite::Error) -> StoreError {
-    let path = path.to_owned();
     match why.sqlite_error_code() {
-        Some(ErrorCode::NotADatabase) => StoreError::Other(path),
-        _ => StoreError::Database { path, why },
+        Some(ErrorCode::NotADatabase) => StoreError::Other(path.to_owned()),
+        _ => Store::error(path, why),
     }
 }
 

@@ -27,26 +27,15 @@ pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
         "{} is one of the parts and the whole; choose another name for the whole",
         a.output.display()
     );
-    // A part that cannot be taken in takes nothing from the others.
-    let (mut merged, mut well) = (Merged::default(), true);
-    let mut whole = None;
-    for part in &a.parts {
-        match Store::merge(&a.output, std::slice::from_ref(part)) {
-            Ok(one) => {
-                merged.added += one.added;
-                merged.unfinished.extend(one.unfinished);
-                merged.missing = one.missing;
-                whole = Some(&a.output);
-            }
-            Err(e) => {
-                well = false;
-                output::complain(&e.into());
-            }
-        }
-    }
-    let Some(whole) = whole else {
+    let mut well = true;
+    let merged = Store::merge(&a.output, &a.parts, |e| {
+        well = false;
+        output::complain(&e.into());
+    })?;
+    if merged.taken == 0 {
         return Ok(Done::Partly);
-    };
+    }
+    let whole = &a.output;
     let store = Store::open(whole)?;
     built(&store, whole, merged.added, "structures", None)?;
     if !merged.missing.is_empty() {
