@@ -18,6 +18,7 @@ mod reading;
 mod room;
 mod routes;
 mod shelf;
+mod waiting;
 mod windows;
 mod work;
 
@@ -32,13 +33,16 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
+use waiting::{Waiting, WaitingPlace};
 
-/// Most requests at a time: the windows' own, and some more.
+/// Most requests with the token at a time: the windows' own, and some more.
 const CONNECTIONS: usize = 64;
 /// How often the file is looked at, and whether any window is left.
 const TICK: Duration = Duration::from_millis(100);
 /// Ticks between two looks at the file.
 const LOOK: u32 = 3;
+/// Ticks of a second.
+const SECOND: u32 = 10;
 /// So long the server waits for a window that is loaded again.
 const GRACE: Duration = Duration::from_secs(3);
 
@@ -72,11 +76,12 @@ impl Studio {
         self.door.address()
     }
 
-    /// Serves until the last window is closed, and says where unsaved work is, if any. The first window may take its time.
+    /// Serves until the last window is closed, and returns where unsaved work is, if any. The first window may take its time. Where
+    /// unsaved work cannot be kept, that goes to `say`, and the studio serves on.
     ///
     /// # Errors
     /// Where threads cannot be made.
-    pub(crate) fn serve(self) -> io::Result<Option<std::path::PathBuf>> {
+    pub(crate) fn serve(self, say: impl Fn(&str)) -> io::Result<Option<std::path::PathBuf>> {
         let Studio {
             listener,
             door,
@@ -87,7 +92,7 @@ impl Studio {
         let worker = worker.spawn(move || work::work(&at_work))?;
         let accept = std::thread::Builder::new().name("studio-door".to_owned());
         accept.spawn(move || listen(&listener, &door, &at_door))?;
-        let (mut ticks, mut alone_since) = (0_u32, None);
+        let (mut ticks, mut alone_since, mut said) = (0_u32, None, false);
         loop {
             std::thread::sleep(TICK);
             ticks = ticks.wrapping_add(1);
@@ -100,8 +105,19 @@ impl Studio {
                 (true, since) => since,
                 (false, _) => None,
             };
-            if alone_since.is_some_and(|s| s.elapsed() > GRACE) {
-                break;
+            let is_over = alone_since.is_some_and(|s| s.elapsed() > GRACE);
+            if is_over && ticks.is_multiple_of(SECOND) {
+                match room.unkept() {
+                    None => break,
+                    // The program is the one place where the work is left.
+                    Some(why) if !said => {
+                        said = true;
+                        say(&format!(
+                            "{why}; the studio goes on: open its address again, and save"
+                        ));
+                    }
+                    Some(_) => {}
+                }
             }
         }
         room.end();
@@ -113,22 +129,19 @@ impl Studio {
 /// Answers whoever comes, each on a thread of its own.
 fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
     let busy = Arc::new(AtomicUsize::new(0));
+    let waiting = Arc::new(Waiting::default());
     for stream in listener.incoming() {
         let Ok(mut stream) = stream else { continue };
-        if busy.fetch_add(1, Ordering::SeqCst) >= CONNECTIONS {
-            busy.fetch_sub(1, Ordering::SeqCst);
-            let _ = http::write(
-                &mut stream,
-                &http::Reply::refusal(503, "too many requests at once"),
-            );
+        let Some(place) = waiting.enter(&stream) else {
             continue;
-        }
-        let (door, room, one) = (door.clone(), room.clone(), Busy(busy.clone()));
+        };
+        let (door, room, busy) = (door.clone(), room.clone(), busy.clone());
         let made = std::thread::Builder::new().name("studio-request".to_owned());
         // One that cannot be made is a request that is not answered.
         let _ = made.spawn(move || {
-            let _one = one;
-            let tried = catch_unwind(AssertUnwindSafe(|| answer(&mut stream, &door, &room)));
+            let tried = catch_unwind(AssertUnwindSafe(|| {
+                answer(&mut stream, &door, &room, place, &busy)
+            }));
             if tried.is_err() {
                 let words = "the program failed at this; please report it with the file";
                 let _ = http::write(&mut stream, &http::Reply::refusal(500, words));
@@ -137,28 +150,52 @@ fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
     }
 }
 
-/// A request that is being answered.
-struct Busy(Arc<AtomicUsize>);
+/// A request with the token that is being answered.
+struct Busy<'a>(&'a AtomicUsize);
 
-impl Drop for Busy {
+impl Busy<'_> {
+    /// One more of them; none where there are as many as may be.
+    fn new(all: &AtomicUsize) -> Option<Busy<'_>> {
+        let one = Busy(all);
+        (all.fetch_add(1, Ordering::SeqCst) < CONNECTIONS).then_some(one)
+    }
+}
+
+impl Drop for Busy<'_> {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::SeqCst);
     }
 }
 
-fn answer(stream: &mut TcpStream, door: &Door, room: &Room) -> io::Result<()> {
-    let asked = match http::read(stream)? {
+/// Answers a request. It waits at `place` until it has shown the token, and is one of the `busy` ones from then on.
+fn answer(
+    stream: &mut TcpStream,
+    door: &Door,
+    room: &Room,
+    place: WaitingPlace,
+    busy: &AtomicUsize,
+) -> io::Result<()> {
+    let mut asked = match http::read_head(stream)? {
         Ok(asked) => asked,
         Err(refusal) => return http::write(stream, &refusal),
     };
-    match door.admit(&asked) {
-        Err(refusal) => http::write(stream, &refusal),
-        Ok("events") if asked.method == "GET" => {
-            room.windows.serve(stream, || room.now(), || room.ended())
-        }
-        Ok(path) => {
-            let answer = routes::answer(&asked, path, room).packed_for(&asked)?;
-            http::write(stream, &answer)
-        }
+    let path = match door.admit(&asked) {
+        Ok(path) => path.to_owned(),
+        Err(refusal) => return http::write(stream, &refusal),
+    };
+    drop(place);
+    let Some(_one) = Busy::new(busy) else {
+        return http::write(
+            stream,
+            &http::Reply::refusal(503, "too many requests at once"),
+        );
+    };
+    if let Err(refusal) = http::read_body(stream, &mut asked)? {
+        return http::write(stream, &refusal);
     }
+    if path == "events" && asked.method == "GET" {
+        return room.windows.serve(stream, || room.now(), || room.ended());
+    }
+    let answer = routes::answer(&asked, &path, room).packed_for(&asked)?;
+    http::write(stream, &answer)
 }

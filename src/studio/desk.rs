@@ -20,7 +20,7 @@ pub(super) enum Refused {
     /// Somebody else has changed it in between.
     #[error("{0}")]
     Conflict(String),
-    #[error("cannot write: {0}")]
+    #[error("{0}")]
     Disk(#[from] io::Error),
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Desk {
     theirs: Option<Arc<[u8]>>,
     /// Work that a studio left behind unsaved.
     left: Option<(PathBuf, Arc<[u8]>)>,
-    /// Why unsaved work could not be kept, if so.
+    /// Why unsaved work could not be kept when it was last tried.
     trouble: Option<String>,
 }
 
@@ -101,6 +101,11 @@ impl Desk {
     /// Another text is on the desk: it is read, and kept where it is not saved.
     fn turn(&mut self) {
         self.read();
+        self.keep();
+    }
+
+    /// Keeps the text where it is not saved.
+    fn keep(&mut self) {
         let (saved, bytes) = (self.is_saved(), self.bytes().clone());
         let number = self.steps[self.at].file;
         let file = &mut self.files[number];
@@ -113,6 +118,19 @@ impl Desk {
         self.trouble = kept.err().map(|e| {
             format!("unsaved work cannot be kept beside the file ({e}); save it, or download it")
         });
+    }
+
+    /// Why unsaved work cannot be kept; nothing where it is kept, or all is saved.
+    fn trouble(&self) -> Option<&String> {
+        self.trouble.as_ref().filter(|_| !self.is_saved())
+    }
+
+    /// Tries once more to keep what could not be kept, and returns why it cannot.
+    pub(super) fn keep_again(&mut self) -> Option<String> {
+        if self.trouble().is_some() {
+            self.keep();
+        }
+        self.trouble().cloned()
     }
 
     /// Puts a text on top of those there were; what was undone before is gone.
@@ -331,7 +349,7 @@ impl Desk {
             "redo": self.at + 1 < self.steps.len(),
             "conflict": self.theirs.is_some(),
             "left": self.left.as_ref().map(|(path, _)| path.file_name().unwrap_or_default().to_string_lossy()),
-            "trouble": self.trouble,
+            "trouble": self.trouble(),
         })
     }
 }

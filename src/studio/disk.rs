@@ -93,13 +93,12 @@ impl OpenFile {
     /// Writes it, whole or not at all, and takes the unsaved work away.
     pub(super) fn save(&mut self, bytes: &Arc<[u8]>) -> io::Result<()> {
         let permissions = fs::metadata(&self.path).ok().map(|m| m.permissions());
-        let mut beside = beside(self.folder())?;
-        beside.write_all(bytes)?;
-        if let Some(permissions) = permissions {
-            beside.as_file().set_permissions(permissions)?;
-        }
-        beside.as_file().sync_all()?;
-        beside.persist(&self.path).map_err(|e| e.error)?;
+        let place = |beside: &mut File| {
+            beside.write_all(bytes)?;
+            permissions.map_or(Ok(()), |p| beside.set_permissions(p))?;
+            beside.sync_all()
+        };
+        written(&self.path, place)?;
         self.held = Some(bytes.clone());
         self.drop_kept();
         Ok(())
@@ -126,11 +125,12 @@ impl OpenFile {
                     .ok_or_else(|| io::Error::other("too much unsaved work lies beside the file"))?
             }
         };
-        let mut beside = beside(self.folder())?;
-        beside.write_all(bytes)?;
-        // Not every file system has locks.
-        let _ = beside.as_file().try_lock();
-        let file = beside.persist(&path).map_err(|e| e.error)?;
+        let file = written(&path, |beside| {
+            beside.write_all(bytes)?;
+            // Not every file system has locks.
+            let _ = beside.try_lock();
+            Ok(())
+        })?;
         self.kept = AutosavedText {
             path: Some(path),
             lock: Some(file),
@@ -167,6 +167,20 @@ impl OpenFile {
         }
         Some((path, bytes))
     }
+}
+
+/// Writes a file beside a path and gives it that name, so that it is whole or not there; an error names the path.
+fn written(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+    let made = || {
+        let mut beside = beside(folder.unwrap_or(Path::new(".")))?;
+        write(beside.as_file_mut())?;
+        beside.persist(path).map_err(|e| e.error)
+    };
+    made().map_err(|why| {
+        let words = format!("cannot write {}: {why}", path.display());
+        io::Error::new(why.kind(), words)
+    })
 }
 
 /// A file beside another, which others may read as the system lets them: temporary files are the owner's alone otherwise.

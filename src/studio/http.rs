@@ -4,15 +4,15 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Most bytes of the first line and the headers, and most headers.
 const HEAD: usize = 16 << 10;
 const HEADERS: usize = 64;
 /// Most bytes of a body: the largest file, escaped as text of JSON.
 pub(super) const BODY: usize = 9 << 20;
-/// So long a connection may be silent.
-const SILENCE: Duration = Duration::from_secs(10);
+/// So long the head of a request may take as a whole, and its body as well; so long an answer may wait for who asked.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// What is asked for.
 #[derive(Debug)]
@@ -20,6 +20,7 @@ pub(super) struct Asked {
     pub(super) method: String,
     pub(super) path: String,
     headers: Vec<(String, String)>,
+    /// What has come of the body; all of it once [`read_body`] has returned.
     pub(super) body: Vec<u8>,
 }
 
@@ -87,11 +88,14 @@ impl Reply {
     }
 }
 
-/// Reads a request; an answer instead where it is none that is served.
-pub(super) fn read(stream: &mut TcpStream) -> io::Result<Result<Asked, Reply>> {
-    stream.set_read_timeout(Some(SILENCE))?;
-    stream.set_write_timeout(Some(SILENCE))?;
-    let refused = |status, why: &str| Ok(Err(Reply::refusal(status, why)));
+fn refused<T>(status: u16, why: &str) -> io::Result<Result<T, Reply>> {
+    Ok(Err(Reply::refusal(status, why)))
+}
+
+/// Reads the head of a request; an answer instead where it is none that is served.
+pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<Result<Asked, Reply>> {
+    stream.set_write_timeout(Some(PATIENCE))?;
+    let until = Instant::now() + PATIENCE;
     let mut bytes = Vec::new();
     let end = loop {
         if let Some(at) = bytes.windows(4).position(|w| w == b"\r\n\r\n") {
@@ -100,7 +104,7 @@ pub(super) fn read(stream: &mut TcpStream) -> io::Result<Result<Asked, Reply>> {
         if bytes.len() > HEAD {
             return refused(431, "the head of the request is too large");
         }
-        if more(stream, &mut bytes, HEAD)? == 0 {
+        if more(stream, &mut bytes, HEAD, until)? == 0 {
             return refused(400, "the request ends early");
         }
     };
@@ -117,12 +121,20 @@ pub(super) fn read(stream: &mut TcpStream) -> io::Result<Result<Asked, Reply>> {
     let Some(headers) = parsed.headers.iter().map(header).collect() else {
         return refused(400, "a header is no text");
     };
-    let mut asked = Asked {
+    Ok(Ok(Asked {
         method: method.to_owned(),
         path: path.to_owned(),
         headers,
         body: bytes[end..].to_vec(),
-    };
+    }))
+}
+
+/// Reads the rest of the body of a request; an answer instead where it is none that is served.
+pub(super) fn read_body(
+    stream: &mut TcpStream,
+    asked: &mut Asked,
+) -> io::Result<Result<(), Reply>> {
+    let until = Instant::now() + PATIENCE;
     if asked.has("transfer-encoding") {
         return refused(501, "a body comes with its length");
     }
@@ -135,18 +147,29 @@ pub(super) fn read(stream: &mut TcpStream) -> io::Result<Result<Asked, Reply>> {
         Some(l) if l > BODY => return refused(413, "the body of the request is too large"),
         Some(l) => {
             while asked.body.len() < l {
-                if more(stream, &mut asked.body, l)? == 0 {
+                if more(stream, &mut asked.body, l, until)? == 0 {
                     return refused(400, "the request ends early");
                 }
             }
             asked.body.truncate(l);
         }
     }
-    Ok(Ok(asked))
+    Ok(Ok(()))
 }
 
-/// Reads some bytes more, how many.
-fn more(stream: &mut TcpStream, to: &mut Vec<u8>, most: usize) -> io::Result<usize> {
+/// Reads some bytes more, how many, and waits for them until some time at most: who sends one byte now and then has no more time than
+/// who sends none.
+fn more(
+    stream: &mut TcpStream,
+    to: &mut Vec<u8>,
+    most: usize,
+    until: Instant,
+) -> io::Result<usize> {
+    let left = until.saturating_duration_since(Instant::now());
+    if left.is_zero() {
+        return Err(io::ErrorKind::TimedOut.into());
+    }
+    stream.set_read_timeout(Some(left))?;
     let mut piece = [0; 8 << 10];
     let room = piece.len().min(most.saturating_sub(to.len()).max(1));
     let n = stream.read(&mut piece[..room])?;

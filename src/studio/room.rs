@@ -166,6 +166,11 @@ impl Room {
         self.news.notify_all();
     }
 
+    /// Why unsaved work cannot be kept, after it was tried once more; nothing where it is kept, or all is saved.
+    pub(super) fn unkept(&self) -> Option<String> {
+        self.desk().keep_again()
+    }
+
     /// Where unsaved work is kept, if there is any.
     pub(super) fn unsaved(&self) -> Option<PathBuf> {
         self.desk().unsaved()

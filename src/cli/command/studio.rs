@@ -70,7 +70,7 @@ pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Don
         output::note("no browser could be started: open the address above in one\n");
     }
     output::note("It ends when its window is closed, or with Ctrl-C.\n");
-    let unsaved = studio.serve()?;
+    let unsaved = studio.serve(|words| output::say(&format!("{words}\n")))?;
     if let Some(path) = unsaved {
         output::say(&format!(
             "what was not saved is in {}; `ozols studio` offers it when the file is opened again\n",

@@ -239,3 +239,91 @@ fn a_file_that_is_wrong_is_opened_to_be_mended() {
             .contains("not UTF-8")
     );
 }
+
+/// All names for unsaved work are taken, so that it cannot be kept: the page is told so until it is saved or kept.
+#[test]
+fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mine.toml"), out(&["show", "four-bar"])).unwrap();
+    let taken = |n: usize| match n {
+        1 => folder.path().join("mine.toml.autosave"),
+        _ => folder.path().join(format!("mine.toml.autosave-{n}")),
+    };
+    for n in 1..=20 {
+        fs::create_dir(taken(n)).unwrap();
+    }
+    let mut s = Served::new(folder.path(), &["mine.toml"]);
+    let trouble = |s: &Served| s.status()["desk"]["trouble"].clone();
+    s.done("edit", &spherical("1-2"));
+    assert!(trouble(&s).is_string());
+    s.done("save", &json!({ "name": null }));
+    assert_eq!(trouble(&s), Value::Null);
+    s.done("edit", &spherical("2-3"));
+    assert!(trouble(&s).is_string());
+    s.done("save", &json!({ "name": "other.toml" }));
+    assert_eq!(trouble(&s), Value::Null);
+    s.done("undo", &json!({}));
+    assert_eq!(trouble(&s), Value::Null, "that is saved, too");
+    // With the last window closed the program is the one place where the work is.
+    let mine = s.done("edit", &spherical("0-1"))["text"]
+        .as_str()
+        .unwrap()
+        .to_owned();
+    assert!(trouble(&s).is_string());
+    let mut window = s.window();
+    window.next("look");
+    drop(window);
+    s.until(|v| v["windows"] == 0);
+    for _ in 0..60 {
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        assert!(s.runs(), "the work is lost");
+    }
+    fs::remove_dir(taken(7)).unwrap();
+    assert_eq!(s.end(None), Some(0));
+    assert_eq!(fs::read_to_string(taken(7)).unwrap(), mine);
+}
+
+/// A limit on the size of files stands for a full disk; its signal ended the program once, and the work with it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_takes_no_work() {
+    use std::process::Command;
+    let folder = tempfile::tempdir().unwrap();
+    let own = out(&["show", "four-bar"]);
+    fs::write(folder.path().join("mine.toml"), &own).unwrap();
+    let mut shell = Command::new("sh");
+    shell.args([
+        "-c",
+        "ulimit -S -f 1; exec \"$0\" \"$@\"",
+        env!("CARGO_BIN_EXE_ozols"),
+    ]);
+    let s = Served::run_by(shell, folder.path(), &["mine.toml"]);
+    let mine = s.done("edit", &spherical("1-2"))["text"]
+        .as_str()
+        .unwrap()
+        .to_owned();
+    let told = s.status()["desk"]["trouble"].as_str().unwrap().to_owned();
+    assert!(told.contains("mine.toml.autosave"), "{told}");
+    let (code, told) = s.post("save", &json!({ "name": null }));
+    assert_eq!(code, 422);
+    assert!(
+        told["refused"].as_str().unwrap().contains("mine.toml: "),
+        "{told}"
+    );
+    assert_eq!(names(folder.path()), ["mine.toml"]);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
+        own
+    );
+    let raised = Command::new("prlimit")
+        .args(["--fsize=unlimited", "--pid", &s.process()])
+        .status();
+    assert!(raised.unwrap().success());
+    s.done("save", &json!({ "name": null }));
+    assert_eq!(s.status()["desk"]["trouble"], Value::Null);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("mine.toml")).unwrap(),
+        mine
+    );
+    assert_eq!(names(folder.path()), ["mine.toml"]);
+}

@@ -2,6 +2,9 @@
 
 use super::served::Served;
 use serde_json::json;
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::time::Duration;
 
 fn status(s: &Served, request: &str) -> u16 {
     s.raw(request.as_bytes()).0
@@ -187,4 +190,59 @@ fn every_answer_keeps_others_out() {
         assert!(!page.contains(handler), "{handler}");
     }
     assert!(!s.get("studio.js").1.contains("https://"));
+}
+
+/// Who sends a byte now and then is let go as early as who sends none.
+#[test]
+fn a_head_that_never_ends_is_let_go() {
+    let folder = tempfile::tempdir().unwrap();
+    let s = Served::new(folder.path(), &["four-bar"]);
+    let mut stream = TcpStream::connect(&s.host).unwrap();
+    stream
+        .set_read_timeout(Some(Duration::from_millis(250)))
+        .unwrap();
+    let head = s.head("GET", "status");
+    // With a byte each quarter of a second the head alone would take more than half a minute; what would follow, over an hour.
+    let bytes = head.bytes().chain(std::iter::repeat(b'x'));
+    let is_let_go = bytes.take(400).any(|byte| {
+        let is_closed = stream.write_all(&[byte]).is_err();
+        is_closed || matches!(stream.read(&mut [0; 64]), Ok(0))
+    });
+    assert!(is_let_go);
+    assert_eq!(s.get("status").0, 200);
+}
+
+/// Connections of others take no place of the windows, however many there are, and whether they say something or not.
+#[test]
+fn a_crowd_at_the_door_keeps_nobody_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let s = Served::new(folder.path(), &["four-bar"]);
+    let mut window = s.window();
+    window.next("look");
+    let other = format!(
+        "GET /{}/status HTTP/1.1\r\nHost: {}\r\n",
+        "0".repeat(32),
+        s.host
+    );
+    let crowd: Vec<TcpStream> = (0..300)
+        .map(|n| {
+            let mut stream = TcpStream::connect(&s.host).unwrap();
+            // Some are silent, some begin a request and do not end it.
+            if n % 2 == 0 {
+                let _ = stream.write_all(other.as_bytes());
+            }
+            stream
+        })
+        .collect();
+    for _ in 0..20 {
+        assert_eq!(s.get("status").0, 200);
+    }
+    assert_eq!(s.status()["windows"], 1, "the window that was there stays");
+    s.done(
+        "edit",
+        &json!({ "edits": [{ "do": "set", "what": "joint", "id": "1-2", "key": "type", "value": "spherical" }], "revision": null }),
+    );
+    assert_eq!(window.next("look")["desk"]["saved"], false);
+    s.window().next("look");
+    drop(crowd);
 }

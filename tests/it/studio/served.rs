@@ -26,7 +26,12 @@ impl Drop for Served {
 
 impl Served {
     pub(super) fn new(folder: &Path, args: &[&str]) -> Served {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_ozols"))
+        Served::run_by(Command::new(env!("CARGO_BIN_EXE_ozols")), folder, args)
+    }
+
+    /// The same by a command that runs the program with the arguments that follow.
+    pub(super) fn run_by(mut command: Command, folder: &Path, args: &[&str]) -> Served {
+        let mut child = command
             .args(["studio", "--no-open", "--quiet"])
             .args(args)
             .current_dir(folder)
@@ -123,10 +128,20 @@ impl Served {
         }
     }
 
+    /// The number of its process.
+    pub(super) fn process(&self) -> String {
+        self.child.id().to_string()
+    }
+
+    /// Whether it still runs.
+    pub(super) fn runs(&mut self) -> bool {
+        self.child.try_wait().unwrap().is_none()
+    }
+
     /// Ends it with a signal, or waits for it to end; the exit code.
     pub(super) fn end(&mut self, signal: Option<&str>) -> Option<i32> {
         if let Some(signal) = signal {
-            let id = self.child.id().to_string();
+            let id = self.process();
             let sent = Command::new("kill").args([signal, &id]).status().unwrap();
             assert!(sent.success());
         }
