@@ -9,8 +9,11 @@ mod terminal;
 use crate::cli::command::Command;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
-use clap::{CommandFactory, Parser};
+use anyhow::Context;
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser};
 use std::ffi::OsString;
+use std::io::{ErrorKind, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// A search engine for statically determinate mechanisms.
@@ -45,23 +48,22 @@ pub fn run() -> ExitCode {
 /// bad input or failure, 130 interrupted by Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
 pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
-    let args = match Args::try_parse_from(&words) {
-        Ok(args) => args,
+    terminal::interrupt::outlive_file_limits();
+    let parsed = Args::command().try_get_matches_from(&words);
+    let parsed = parsed.and_then(|m| Ok((Args::from_arg_matches(&m)?, outputs(&m))));
+    let (args, outputs) = match parsed {
+        Ok(parsed) => parsed,
         Err(_) if words.len() == 1 => {
             return finish(terminal::output::to(None, |out| {
                 write!(out, "{}", examples::FIRST)?;
                 Ok(Done::Found)
             }));
         }
-        Err(e) => {
-            // Help and version are no failures; a closed pipe is not one either.
-            let code = if e.use_stderr() { 2 } else { 0 };
-            let _ = e.print();
-            return code;
-        }
+        Err(e) => return say_parsed(&e),
     };
     terminal::output::kept::begin();
-    let result = prepare(&args.global).and_then(|()| match &args.command {
+    let ready = terminal::output::kept::distinct(&outputs).and_then(|()| prepare(&args.global));
+    let result = ready.and_then(|()| match &args.command {
         Command::Analyze(a) => command::analyze::run(&args.global, a),
         Command::Search(a) => command::search::run(&args.global, a),
         Command::Statics(a) => command::statics::run(&args.global, a),
@@ -91,6 +93,32 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Man(a) => command::man::run(a, Args::command()),
     });
     finish(result)
+}
+
+/// Returns the files that options of a command name to be written, each with the name of its option.
+fn outputs(matches: &ArgMatches) -> Vec<(&'static str, PathBuf)> {
+    let mut all = matches
+        .subcommand()
+        .map_or_else(Vec::new, |(_, m)| outputs(m));
+    for option in ["output", "certificate", "csv", "svg"] {
+        // A command without the option has nothing there.
+        if let Ok(Some(path)) = matches.try_get_one::<PathBuf>(option) {
+            all.push((option, path.clone()));
+        }
+    }
+    all
+}
+
+/// Says what the parser of the arguments has to say. Help and version are no failures unless they cannot be written; a closed pipe is
+/// no failure either.
+fn say_parsed(e: &clap::Error) -> u8 {
+    match e.print().and_then(|()| std::io::stdout().flush()) {
+        _ if e.use_stderr() => 2,
+        Err(why) if why.kind() != ErrorKind::BrokenPipe => {
+            finish(Err(why).context("cannot write standard output"))
+        }
+        _ => 0,
+    }
 }
 
 /// The exit code, after what went wrong is said.

@@ -11,6 +11,8 @@ pub mod edit;
 pub(crate) mod findings;
 mod guessed_directions;
 #[doc(hidden)]
+pub mod identity;
+#[doc(hidden)]
 pub mod leftover;
 pub mod lint;
 pub mod locate;

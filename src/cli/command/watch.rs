@@ -54,6 +54,8 @@ pub(in crate::cli) fn run(args: &Global, a: &Watch) -> anyhow::Result<Done> {
 /// Looks at the file as it is now; what is wrong with it is told, and may be mended.
 fn look(args: &Global, a: &Report, page: &Path) {
     let file = &a.file.file;
+    // Each look is a command of its own, which writes the page once.
+    output::kept::begin();
     if !args.quiet
         && let Ok((name, bytes)) = load::named(file)
         && let Ok(checked) = check(&name, &bytes)

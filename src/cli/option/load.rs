@@ -47,6 +47,7 @@ pub(in crate::cli) fn each(files: &[Named]) -> (Vec<(&Named, Mechanism)>, bool) 
 /// The name for messages and the bytes of the file that an argument names.
 pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if &**file == "-" {
+        kept::keep_standard_input()?;
         let mut bytes = Vec::new();
         // One byte more than allowed, so that the reader can say that there are too many.
         std::io::stdin()
@@ -65,7 +66,6 @@ pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     }
     let path = file.path();
     if path.is_file() {
-        kept::keep(path);
         return Ok((file.to_string(), api::bytes(path, MAX_BYTES)?));
     }
     let Some(text) = builtin::text(file) else {

@@ -2,7 +2,6 @@
 
 use crate::api;
 use crate::cli::terminal::memory;
-use crate::cli::terminal::output::kept;
 use crate::file::text::{MAX_BYTES, text_of};
 use crate::model::ranking::Term;
 use crate::score::request::words::weighted_term;
@@ -185,7 +184,6 @@ impl Which {
 /// A file of costs.
 fn cost_file(path: &Path) -> anyhow::Result<CostFile> {
     let name = path.display().to_string();
-    kept::keep(path);
     let bytes = api::bytes(path, MAX_BYTES).map_err(|e| {
         anyhow::anyhow!("--costs: {e}; `ozols show costs > {name}` writes one to start from")
     })?;

@@ -21,6 +21,21 @@ pub(in crate::cli) fn listen() -> anyhow::Result<()> {
     handle().context("cannot listen for signals")
 }
 
+/// From now on a file that would grow beyond the limit on the size of files is an error of who writes it: by default the signal that
+/// says so ends the program at once, with its temporary files left behind.
+pub(in crate::cli) fn outlive_file_limits() {
+    #[cfg(unix)]
+    {
+        use std::sync::{Arc, Once};
+        static HEARD: Once = Once::new();
+        // A signal that somebody hears ends nothing; where it cannot be heard all is as it was.
+        HEARD.call_once(|| {
+            let flag = Arc::new(AtomicBool::new(false));
+            let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, flag);
+        });
+    }
+}
+
 #[cfg(unix)]
 fn handle() -> std::io::Result<()> {
     // nohup starts programs with SIGHUP ignored, and that is to stay so.

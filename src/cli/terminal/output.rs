@@ -2,6 +2,7 @@
 
 mod beside;
 pub(in crate::cli) mod kept;
+mod named;
 mod standard;
 
 pub(in crate::cli) use beside::{abandon, cut_short};
@@ -12,6 +13,7 @@ use crate::file::problem::ImportError;
 use crate::format::plain::{coloured, plain};
 use crate::view::contract;
 use anyhow::Context;
+use named::Named;
 use standard::Standard;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -28,12 +30,15 @@ pub(in crate::cli) fn to(
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<crate::cli::done::Done>,
 ) -> anyhow::Result<crate::cli::done::Done> {
     let Some(path) = file(path) else {
-        let mut out = BufWriter::new(Standard::new());
+        kept::apart_from_standard_output()?;
+        let named = Named::new("standard output", Standard::new());
+        let mut out = BufWriter::new(named);
         let done = write(&mut out)?;
         out.flush()?;
         return Ok(done);
     };
     kept::apart(path)?;
+    let name = path.display().to_string();
     let whole = || format!("cannot write {}", path.display());
     // A link is followed, so that its target gets the data; a device or pipe has no beside and is written to directly.
     let path = &std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
@@ -43,9 +48,9 @@ pub(in crate::cli) fn to(
             .write(true)
             .open(path)
             .with_context(whole)?;
-        let mut out = BufWriter::new(file);
+        let mut out = BufWriter::new(Named::new(&name, file));
         let done = write(&mut out)?;
-        out.flush().with_context(whole)?;
+        out.flush()?;
         return Ok(done);
     }
     let folder = path
@@ -64,9 +69,9 @@ pub(in crate::cli) fn to(
     }
     let mut temporary = beside::begin(folder).with_context(whole)?;
     let done = {
-        let mut out = BufWriter::new(temporary.as_file_mut());
+        let mut out = BufWriter::new(Named::new(&name, temporary.as_file_mut()));
         let done = write(&mut out)?;
-        out.flush().with_context(whole)?;
+        out.flush()?;
         done
     };
     let older = old.as_ref().is_some_and(|m| m.len() > 0);
@@ -75,7 +80,9 @@ pub(in crate::cli) fn to(
         file.set_permissions(old.permissions())
             .with_context(whole)?;
     }
-    if let Some(other) = beside::place(temporary, path, older).with_context(whole)? {
+    let other = beside::place(temporary, path, older).with_context(whole)?;
+    kept::note_written(path);
+    if let Some(other) = other {
         say(&format!(
             "{} stays as it was; what was found before the interruption is in {}\n",
             path.display(),

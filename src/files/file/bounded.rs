@@ -1,5 +1,6 @@
-//! Files read no further than a bound: the one way that files of any size are read by.
+//! Files read no further than a bound: the one way that files of any size are read by. Each is noted as read.
 
+use super::identity;
 use std::fs::File;
 use std::io::{self, BufRead, ErrorKind, Read};
 use std::path::Path;
@@ -61,6 +62,7 @@ pub fn regular(path: &Path) -> io::Result<File> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a file"));
     }
+    identity::note(path);
     File::open(path)
 }
 

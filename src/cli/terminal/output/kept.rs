@@ -1,54 +1,135 @@
-//! What a command reads is not written over by it.
+//! What a command reads is not written over by it, and no output takes the place of another.
 
+use crate::file::identity;
 use anyhow::ensure;
+use itertools::Itertools;
+use std::fs::{self, File, Metadata};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What was read, by its own path.
-static READ: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// The files that were written, by their places.
+static WRITTEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// What a database of SQLite begins with.
 const DATABASE: [u8; 16] = *b"SQLite format 3\0";
 
-fn read() -> MutexGuard<'static, Vec<PathBuf>> {
-    READ.lock().unwrap_or_else(PoisonError::into_inner)
+fn written() -> MutexGuard<'static, Vec<PathBuf>> {
+    WRITTEN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Lets go of what was kept: a command begins.
+/// Forgets what was read and written: a command begins.
 pub(in crate::cli) fn begin() {
-    read().clear();
+    identity::forget();
+    written().clear();
 }
 
-/// Keeps a file that is read.
+/// Keeps a file that is read by others than this program's own reader.
 pub(in crate::cli) fn keep(path: &Path) {
-    if let Ok(path) = path.canonicalize() {
-        let mut read = read();
-        if !read.contains(&path) {
-            read.push(path);
-        }
+    identity::note(path);
+}
+
+/// Keeps standard input where it is a file.
+///
+/// # Errors
+/// Where standard output is the same file.
+pub(in crate::cli) fn keep_standard_input() -> anyhow::Result<()> {
+    if let Some(file) = standard(std::io::stdin()) {
+        identity::note_open(&file);
     }
+    apart_from_standard_output()
 }
 
 /// Whether a file is kept, by whatever name.
 pub(in crate::cli) fn is_kept(path: &Path) -> bool {
-    path.canonicalize().is_ok_and(|p| read().contains(&p))
+    identity::was_read(path)
 }
 
-/// Refuses to write over what is kept, and over a catalogue.
-pub(in crate::cli) fn apart(written: &Path) -> anyhow::Result<()> {
-    let same = is_kept(written);
-    let name = written.display();
-    ensure!(!same, "{name} is what is read; name another file to write");
+/// Refuses outputs, each with the name of its option, of which one would take the place of another.
+pub(in crate::cli) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
+    let to_standard = standard(std::io::stdout());
+    for (option, path) in outputs {
+        let shown = path.display();
+        let same = to_standard
+            .as_ref()
+            .is_some_and(|file| identity::is_at(file, path));
+        ensure!(
+            !same,
+            "--{option} {shown} is also standard output, and one would take the place of the other; name another file"
+        );
+    }
+    for ((one, first), (other, second)) in outputs.iter().tuple_combinations() {
+        let shown = second.display();
+        ensure!(
+            is_device(first) || place(first) != place(second),
+            "--{one} and --{other} both write {shown}, and one would take the place of the other; name two files"
+        );
+    }
+    Ok(())
+}
+
+/// Where a file is or will be: its whole path, without links.
+fn place(path: &Path) -> PathBuf {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+    let folder = || fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
+    let new = || Some(folder()?.join(path.file_name()?));
+    let there = fs::canonicalize(path).ok();
+    there.or_else(new).unwrap_or_else(|| path.to_path_buf())
+}
+
+/// Whether what is written there goes through it, and stays nowhere: a pipe, a terminal.
+fn is_device(path: &Path) -> bool {
+    path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
+}
+
+/// Refuses to write over what is kept, over a catalogue, and over what this command has written already.
+pub(in crate::cli) fn apart(path: &Path) -> anyhow::Result<()> {
+    let name = path.display();
     ensure!(
-        !is_database(written),
+        !is_kept(path),
+        "{name} is what is read; name another file to write"
+    );
+    ensure!(
+        !is_database(path),
         "{name} is a catalogue or another database; name another file to write"
     );
+    ensure!(
+        is_device(path) || !written().contains(&place(path)),
+        "{name} was written by this command already, and would be replaced; name two files"
+    );
     Ok(())
+}
+
+/// Notes that a file was written.
+pub(super) fn note_written(path: &Path) {
+    written().push(place(path));
+}
+
+/// Refuses to write to standard output where it is a file that is read.
+pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
+    let same = standard(std::io::stdout()).is_some_and(|file| identity::open_was_read(&file));
+    ensure!(
+        !same,
+        "standard output is the file that is read; send it to another file"
+    );
+    Ok(())
+}
+
+/// What is known of standard input or output where it is a file.
+#[cfg(unix)]
+fn standard(stream: impl std::os::fd::AsFd) -> Option<Metadata> {
+    let file = File::from(stream.as_fd().try_clone_to_owned().ok()?);
+    file.metadata().ok().filter(Metadata::is_file)
+}
+
+/// The system does not tell which file it is.
+#[cfg(not(unix))]
+fn standard<T>(_: T) -> Option<Metadata> {
+    None
 }
 
 fn is_database(path: &Path) -> bool {
     let mut head = [0; DATABASE.len()];
     // A pipe would wait for what nobody writes.
-    let begins = |mut f: std::fs::File| f.read_exact(&mut head).is_ok() && head == DATABASE;
-    path.is_file() && std::fs::File::open(path).is_ok_and(begins)
+    let begins = |mut f: File| f.read_exact(&mut head).is_ok() && head == DATABASE;
+    path.is_file() && File::open(path).is_ok_and(begins)
 }
