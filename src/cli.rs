@@ -109,8 +109,8 @@ fn outputs(matches: &ArgMatches) -> Vec<(&'static str, PathBuf)> {
     all
 }
 
-/// Says what the parser of the arguments has to say. Help and version are no failures unless they cannot be written; a closed pipe is
-/// no failure either.
+/// Prints what the parser of the arguments reports and returns the exit code: 0 for help and version, also if nobody reads them to
+/// their end, and 2 if they cannot be written.
 fn say_parsed(e: &clap::Error) -> u8 {
     match e.print().and_then(|()| std::io::stdout().flush()) {
         _ if e.use_stderr() => 2,

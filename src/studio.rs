@@ -154,7 +154,7 @@ fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
 struct Busy<'a>(&'a AtomicUsize);
 
 impl Busy<'_> {
-    /// One more of them; none where there are as many as may be.
+    /// Returns one more of them, or `None` if there are too many.
     fn new(all: &AtomicUsize) -> Option<Busy<'_>> {
         let one = Busy(all);
         (all.fetch_add(1, Ordering::SeqCst) < CONNECTIONS).then_some(one)
@@ -167,7 +167,7 @@ impl Drop for Busy<'_> {
     }
 }
 
-/// Answers a request. It waits at `place` until it has shown the token, and is one of the `busy` ones from then on.
+/// Answers a request. It waits at `place` until it has shown the token, and is one of the `busy` ones after that.
 fn answer(
     stream: &mut TcpStream,
     door: &Door,

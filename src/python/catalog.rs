@@ -71,7 +71,8 @@ pub(crate) fn catalog_build(
     })
 }
 
-/// As `ozols catalog merge`; how many structures were added. A part that cannot be taken in is an error after the others are.
+/// Merges as `ozols catalog merge` and returns how many structures were added. A part that is refused is an error once the others are
+/// in.
 #[pyfunction]
 pub(crate) fn catalog_merge(py: Python<'_>, path: PathBuf, parts: Vec<PathBuf>) -> PyResult<usize> {
     let mut refused = None;

@@ -104,7 +104,7 @@ impl Desk {
         self.keep();
     }
 
-    /// Keeps the text where it is not saved.
+    /// Keeps the text if it is not saved.
     fn keep(&mut self) {
         let (saved, bytes) = (self.is_saved(), self.bytes().clone());
         let number = self.steps[self.at].file;
@@ -120,7 +120,7 @@ impl Desk {
         });
     }
 
-    /// Why unsaved work cannot be kept; nothing where it is kept, or all is saved.
+    /// Returns why unsaved work cannot be kept, or `None` if it is kept or saved.
     fn trouble(&self) -> Option<&String> {
         self.trouble.as_ref().filter(|_| !self.is_saved())
     }

@@ -169,7 +169,8 @@ impl OpenFile {
     }
 }
 
-/// Writes a file beside a path and gives it that name, so that it is whole or not there; an error names the path.
+/// Writes a file under a temporary name in the folder of a path, then renames it to the path: no part of a file stands there. An error
+/// names the path.
 fn written(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let made = || {

@@ -20,7 +20,7 @@ pub(super) struct Asked {
     pub(super) method: String,
     pub(super) path: String,
     headers: Vec<(String, String)>,
-    /// What has come of the body; all of it once [`read_body`] has returned.
+    /// The part of the body that has come; all of it once [`read_body`] has returned.
     pub(super) body: Vec<u8>,
 }
 
@@ -157,8 +157,8 @@ pub(super) fn read_body(
     Ok(Ok(()))
 }
 
-/// Reads some bytes more, how many, and waits for them until some time at most: who sends one byte now and then has no more time than
-/// who sends none.
+/// Reads some bytes more and returns how many. It waits for them until a given time, so that a sender of one byte now and then has no
+/// more time than a silent one.
 fn more(
     stream: &mut TcpStream,
     to: &mut Vec<u8>,

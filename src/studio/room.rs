@@ -166,7 +166,7 @@ impl Room {
         self.news.notify_all();
     }
 
-    /// Why unsaved work cannot be kept, after it was tried once more; nothing where it is kept, or all is saved.
+    /// Tries once more to keep unsaved work, and returns why it cannot be kept; `None` if it is kept or saved.
     pub(super) fn unkept(&self) -> Option<String> {
         self.desk().keep_again()
     }

@@ -19,7 +19,7 @@ impl Waiting {
         self.list.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets a connection wait until what is returned is dropped; none where the system has no more handles.
+    /// Lets a connection wait until the place that is returned is dropped. Returns `None` if the system has no more handles.
     pub(super) fn enter(self: &Arc<Self>, stream: &TcpStream) -> Option<WaitingPlace> {
         let handle = stream.try_clone().ok()?;
         let mut list = self.lock();

@@ -21,8 +21,8 @@ pub(in crate::cli) fn listen() -> anyhow::Result<()> {
     handle().context("cannot listen for signals")
 }
 
-/// From now on a file that would grow beyond the limit on the size of files is an error of who writes it: by default the signal that
-/// says so ends the program at once, with its temporary files left behind.
+/// Makes the limit on the size of files an error of the write that exceeds it. By default its signal ends the program at once and
+/// leaves temporary files behind.
 pub(in crate::cli) fn outlive_file_limits() {
     #[cfg(unix)]
     {

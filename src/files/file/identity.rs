@@ -44,12 +44,12 @@ pub fn forget() {
     read().clear();
 }
 
-/// Notes that a file is read.
+/// Adds a file to those that were read.
 pub fn note(path: &Path) {
     read().extend(ids(path));
 }
 
-/// Notes that an open file is read.
+/// Adds an open file to those that were read.
 pub fn note_open(file: &Metadata) {
     read().extend(number(file));
 }

@@ -26,7 +26,7 @@ pub struct Merged {
 }
 
 impl Merged {
-    /// Takes a part into the whole, which is opened where it is not open.
+    /// Takes a part into the whole, which is opened unless it is open already.
     fn take_in(&mut self, path: &Path, whole: Option<Store>, part: &Path) -> Stored<Store> {
         let from = Store::open(part)?;
         if from.version < OLDEST {

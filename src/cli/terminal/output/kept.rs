@@ -1,4 +1,4 @@
-//! What a command reads is not written over by it, and no output takes the place of another.
+//! Outputs that take the place of an input or of another output are refused.
 
 use crate::file::identity;
 use anyhow::ensure;
@@ -28,10 +28,10 @@ pub(in crate::cli) fn keep(path: &Path) {
     identity::note(path);
 }
 
-/// Keeps standard input where it is a file.
+/// Keeps standard input if it is a file.
 ///
 /// # Errors
-/// Where standard output is the same file.
+/// Returns an error if standard output is the same file.
 pub(in crate::cli) fn keep_standard_input() -> anyhow::Result<()> {
     if let Some(file) = standard(std::io::stdin()) {
         identity::note_open(&file);
@@ -67,7 +67,7 @@ pub(in crate::cli) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()
     Ok(())
 }
 
-/// Where a file is or will be: its whole path, without links.
+/// Returns the whole path of a file that exists or will be made, without links.
 fn place(path: &Path) -> PathBuf {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = || fs::canonicalize(folder.unwrap_or(Path::new("."))).ok();
@@ -114,14 +114,14 @@ pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What is known of standard input or output where it is a file.
+/// Returns the metadata of standard input or output if it is a file.
 #[cfg(unix)]
 fn standard(stream: impl std::os::fd::AsFd) -> Option<Metadata> {
     let file = File::from(stream.as_fd().try_clone_to_owned().ok()?);
     file.metadata().ok().filter(Metadata::is_file)
 }
 
-/// The system does not tell which file it is.
+/// Returns nothing: this system does not tell which file it is.
 #[cfg(not(unix))]
 fn standard<T>(_: T) -> Option<Metadata> {
     None
