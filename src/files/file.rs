@@ -14,6 +14,7 @@ mod guessed_directions;
 pub mod identity;
 #[doc(hidden)]
 pub mod leftover;
+mod lengths;
 pub mod lint;
 pub mod locate;
 pub mod loose;

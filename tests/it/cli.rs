@@ -5,6 +5,7 @@ mod bounds;
 mod formats;
 #[cfg(unix)]
 mod interrupt;
+mod lengths;
 mod lost;
 mod numbers;
 mod other_files;

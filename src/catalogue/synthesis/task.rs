@@ -1,6 +1,20 @@
 //! What a gripper is to do: which parts it takes and how, how its jaws may move, and the room there is.
 
+use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
+
+/// Returns a list of exactly N numbers: the deserializer of TOML ignores the values after those that it needs.
+///
+/// # Errors
+/// Returns an error if the list has more or fewer.
+pub(super) fn exactly<'de, const N: usize, D: Deserializer<'de>>(
+    from: D,
+) -> Result<[f64; N], D::Error> {
+    let all = Vec::<f64>::deserialize(from)?;
+    let count = all.len();
+    let wrong = |_| D::Error::custom(format!("{count} values; write {N}, no more and no fewer"));
+    all.try_into().map_err(wrong)
+}
 
 /// From which side the jaws hold a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,6 +95,7 @@ pub struct Task {
     /// The greatest force of a jaw over the least, over the stroke, at most.
     pub force_ratio: f64,
     /// Width and height of the box round pins, tips and pitch circles over the stroke at most, in mm; 0 where it may be of any size.
+    #[serde(deserialize_with = "exactly")]
     pub room: [f64; 2],
     /// How far pins are apart over the stroke at least, in mm, from middle to middle; 0 where no more than 14 as drawn is wished.
     pub pin_distance: f64,

@@ -5,6 +5,7 @@ use crate::geom::vector::{Vector, add_scaled, length, sub};
 use crate::synthesis::coordinate::{Pivot, number};
 use crate::synthesis::place::Place;
 use crate::synthesis::point::middle;
+use crate::synthesis::task::exactly;
 use serde::{Deserialize, Serialize};
 
 /// Forces and masses that every structure has alike.
@@ -16,6 +17,7 @@ pub struct Workload {
     /// Mass of the part, in kg: the jaws share its weight.
     pub part: f64,
     /// Acceleration of gravity in m/s²; z is square to the plane, of jaw a where each has its own, x is ahead.
+    #[serde(deserialize_with = "exactly")]
     pub gravity: [f64; 3],
     /// Mass of a metre of link, in kg.
     pub link_mass: f64,

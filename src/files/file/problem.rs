@@ -1,5 +1,6 @@
 //! What can be wrong with a file, in words that name the item and the remedy.
 
+use crate::format::phrase::plural;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
@@ -51,6 +52,13 @@ pub enum ProblemKind {
     ZeroVector { joint: String, what: &'static str },
     #[error("the reference of joint \"{joint}\" is parallel to its axis; give another direction")]
     ParallelReference { joint: String },
+    #[error("{list} has {}; write {}", plural(*count, "value"), lengths(*least, *most))]
+    Length {
+        list: String,
+        count: usize,
+        least: usize,
+        most: usize,
+    },
     #[error("joint \"{joint}\" of type {kind} needs {what}")]
     Missing {
         joint: String,
@@ -207,6 +215,15 @@ pub enum ProblemKind {
     Rigid { links: usize },
     #[error("{count} more problems are not listed; correct those above first")]
     More { count: usize },
+}
+
+/// Returns how many values a list may have, in words.
+fn lengths(least: usize, most: usize) -> String {
+    if least == most {
+        format!("{}, no more and no fewer", plural(least, "value"))
+    } else {
+        format!("{least} to {}", plural(most, "value"))
+    }
 }
 
 /// A problem and where it stands.

@@ -3,6 +3,7 @@
 use crate::file::control_characters::controls;
 use crate::file::digits;
 use crate::file::findings::{Finding, Findings};
+use crate::file::lengths::wrong_lengths;
 use crate::file::locate::Document;
 use crate::file::problem::{ImportError, Problem, ProblemKind};
 use crate::file::read::value::parameters::{Parameter, Values, parameters};
@@ -103,6 +104,23 @@ pub fn read<T>(
             span: None,
         }]));
     }
+    let located = |found: Vec<Finding>| {
+        let document = Document::new(text, is_json(name));
+        let mut problems: Vec<Problem> = found
+            .into_iter()
+            .map(|(path, kind)| Problem {
+                kind,
+                span: document.as_ref().and_then(|d| d.span(&path)),
+            })
+            .collect();
+        problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
+        fail(problems)
+    };
+    // First of all, as the deserializer of TOML ignores the values that a list has too many.
+    let lengths = values(text, is_json(name)).map(|all| wrong_lengths(&all));
+    if let Some(found) = lengths.filter(|found| !found.is_empty()) {
+        return Err(located(found));
+    }
     let file = if is_json(name) {
         from_json(text)
     } else {
@@ -121,18 +139,16 @@ pub fn read<T>(
     } else {
         Err(controls)
     };
-    made.map_err(|found| {
-        let document = Document::new(text, is_json(name));
-        let mut problems: Vec<Problem> = found
-            .into_iter()
-            .map(|(path, kind)| Problem {
-                kind,
-                span: document.as_ref().and_then(|d| d.span(&path)),
-            })
-            .collect();
-        problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
-        fail(problems)
-    })
+    made.map_err(located)
+}
+
+/// Returns the values of a file before they are given a meaning; `None` if it cannot be read.
+fn values(text: &str, json: bool) -> Option<serde_json::Value> {
+    if json {
+        serde_json::from_str(text).ok()
+    } else {
+        toml::from_str(text).ok()
+    }
 }
 
 /// Whether a file of this name is JSON.
@@ -158,9 +174,6 @@ fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
 fn with_remedy(message: String) -> String {
     if message == "floating-point number overflowed" {
         return format!("{message}; choose another length_unit");
-    }
-    if let Some((_, n)) = message.split_once(", expected an array of length ") {
-        return format!("{message}; write {n} values, no more and no fewer");
     }
     let missing = message.strip_prefix("missing field `");
     match missing.and_then(|rest| rest.strip_suffix('`')) {

@@ -265,6 +265,7 @@ fn a_task_is_a_table_and_options() {
         ("grip = \"above\"", "line 2"),
         ("friction = { coefficient = -1 }", "coefficient must be"),
         ("colour = 1", "colour"),
+        ("room = [200, 150, 100]", "3 values; write 2"),
     ] {
         std::fs::write(&spec, format!("[task]\n{line}\n")).unwrap();
         fails(

@@ -368,7 +368,7 @@ fn error_numbers_beyond_all_bounds() {
         ),
         (
             "[3, 0]",
-            ["expected an array of length 3", "write 3 values"],
+            ["point of joint \"j\" has 2 values", "write 3 values"],
         ),
     ] {
         bad_file("bad.toml", &place(point), "point =", &parts);

@@ -141,5 +141,5 @@ pub enum InertiaEntry {
     /// About the plane's normal.
     Plane(f64),
     /// xx, yy, zz, and perhaps xy, yz, zx.
-    List(Vec<f64>),
+    List(#[schemars(length(min = 3, max = 6))] Vec<f64>),
 }

@@ -1,0 +1,121 @@
+//! Lists that are too long or too short. The schema says how long each list is, and this module checks all of them.
+//!
+//! The deserializer of TOML ignores the values that a list has too many, and that of JSON calls them "trailing characters".
+
+use crate::file::findings::{Finding, Findings};
+use crate::file::locate::{DocumentStep, index, key};
+use crate::file::problem::ProblemKind;
+use crate::file::schema::json_schema;
+use serde_json::{Map, Value};
+use std::sync::LazyLock;
+
+static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
+
+/// Returns a problem for each list of a document whose length its schema excludes, with the path of the list.
+pub(crate) fn wrong_lengths(document: &Value) -> Vec<Finding> {
+    let mut out = Findings::default();
+    visit(&SCHEMA, document, &[], "", &mut out);
+    out.told()
+}
+
+/// Visits a value by what its schema says of it; `owner` names the last thing with an id that it is part of.
+fn visit(schema: &Value, value: &Value, path: &[DocumentStep], owner: &str, out: &mut Findings) {
+    let all = alternatives(schema);
+    match value {
+        Value::Array(items) => {
+            let lists = all.into_iter().filter(|s| is_list(s));
+            let (fit, not): (Vec<_>, Vec<_>) = lists.partition(|s| {
+                let [least, most] = lengths(s);
+                (least..=most).contains(&items.len())
+            });
+            if let Some(schema) = fit.first().and_then(|s| s.get("items")) {
+                for (i, item) in items.iter().enumerate() {
+                    visit(schema, item, &index(path, i), owner, out);
+                }
+            } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
+                let (list, count) = (name(path, owner), items.len());
+                let [least, most] = lengths(schema);
+                out.add(
+                    path,
+                    ProblemKind::Length {
+                        list,
+                        count,
+                        least,
+                        most,
+                    },
+                );
+            }
+        }
+        Value::Object(entries) => {
+            let id = entries.get("id").and_then(Value::as_str);
+            let own = id.map(|id| format!(" of {} \"{id}\"", table(path)));
+            let owner = own.as_deref().unwrap_or(owner);
+            for (k, entry) in entries {
+                if let Some(schema) = all.iter().find_map(|s| of_key(s, k)) {
+                    visit(schema, entry, &key(path, k), owner, out);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Returns what a schema may be: what it refers to, or each that it offers, or itself.
+fn alternatives(schema: &Value) -> Vec<&Map<String, Value>> {
+    let Some(own) = schema.as_object() else {
+        return Vec::new();
+    };
+    if let Some(place) = own.get("$ref").and_then(Value::as_str) {
+        let referred = SCHEMA.pointer(place.trim_start_matches('#'));
+        return referred.map(alternatives).unwrap_or_default();
+    }
+    match own.get("anyOf").and_then(Value::as_array) {
+        Some(offered) => offered.iter().flat_map(alternatives).collect(),
+        None => vec![own],
+    }
+}
+
+/// Returns whether a schema is that of a list.
+fn is_list(schema: &Map<String, Value>) -> bool {
+    match schema.get("type") {
+        Some(Value::String(word)) => word == "array",
+        Some(Value::Array(words)) => words.iter().any(|w| w == "array"),
+        _ => false,
+    }
+}
+
+/// Returns the least and the greatest length of a list.
+fn lengths(schema: &Map<String, Value>) -> [usize; 2] {
+    let limit = |name: &str| {
+        let stated = schema.get(name).and_then(Value::as_u64);
+        stated.and_then(|n| usize::try_from(n).ok())
+    };
+    [
+        limit("minItems").unwrap_or(0),
+        limit("maxItems").unwrap_or(usize::MAX),
+    ]
+}
+
+/// Returns the schema of an entry of a table.
+fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
+    let known = schema.get("properties").and_then(|all| all.get(key));
+    known.or_else(|| schema.get("additionalProperties"))
+}
+
+/// Returns the name of the table that a path leads to: its last key.
+fn table(path: &[DocumentStep]) -> &str {
+    let keys = path.iter().rev().find_map(|step| match step {
+        DocumentStep::Key(k) => Some(k.as_str()),
+        DocumentStep::Index(_) => None,
+    });
+    keys.unwrap_or_default()
+}
+
+/// Returns the name of a list in a message: its key, with its place where it is a list of a list, and its owner.
+fn name(path: &[DocumentStep], owner: &str) -> String {
+    let place = match path.last() {
+        Some(DocumentStep::Index(i)) => format!("entry {} of ", i + 1),
+        _ => String::new(),
+    };
+    format!("{place}{}{owner}", table(path))
+}
