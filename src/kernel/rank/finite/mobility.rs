@@ -176,9 +176,11 @@ impl Finite {
                 format!("{}, so this pose is a regular one", by.why(dimension))
             }
             How::Stopped { order, motions } => {
-                let what = match motions {
-                    1 => "the one instantaneous motion is",
-                    _ => "the instantaneous motions left out are",
+                let what = match (motions, motions + self.mobility) {
+                    (1, 1) => "the one instantaneous motion is".to_owned(),
+                    (n, all) if n == all => format!("all {n} instantaneous freedoms are"),
+                    (1, all) => format!("1 of {all} instantaneous freedoms is"),
+                    (n, all) => format!("{n} of {all} instantaneous freedoms are"),
                 };
                 format!("{what} stopped by {} (a shaky pose)", in_words(order))
             }

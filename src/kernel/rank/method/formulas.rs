@@ -77,7 +77,9 @@ impl MobilityMethod for Planar {
                 let freedoms = Closure::new(&exact, mechanism, state)?.columns.len();
                 Ok(counted(count(mechanism, state, 3, freedoms)))
             }
-            _ => Err(NoAnswer::DoesNotApply("not every joint moves in one plane")),
+            _ => Err(NoAnswer::DoesNotApply(
+                "not every joint moves in one plane; --planar leaves out what moves out of it",
+            )),
         }
     }
 }
