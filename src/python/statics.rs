@@ -62,7 +62,7 @@ fn reactions_of(
         }
         Err(e) => Err(failed(e)),
         Ok(SolvedReactions::Planar(found)) => {
-            let told = StaticsData::new(&m.name, &found, &GroupMethod::ALL);
+            let told = StaticsData::new(m, &found, &GroupMethod::ALL);
             let csv = csv(&told);
             Ok((json(&told)?, text::statics(&told, None), Some(csv), None))
         }
@@ -91,7 +91,7 @@ fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Told> {
     let head = grip.text(matches!(found.found, ClampingReactions::Planar(_)), None);
     match &found.found {
         ClampingReactions::Planar(s) => {
-            let told = StaticsData::new(&m.name, s, &GroupMethod::ALL);
+            let told = StaticsData::new(m, s, &GroupMethod::ALL);
             let (body, csv) = (text::statics(&told, None), csv(&told));
             let told = Gripped {
                 reactions: told,

@@ -4,18 +4,226 @@ use crate::common::{built_in, json, near, out};
 use ozols::drive::torsion::{Bar, CamSpring};
 use serde_json::{Value, json as value};
 use std::collections::BTreeSet;
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 fn claims(args: &[&str]) -> (Vec<Value>, String) {
     let found = json(&[args, &["--format", "json"]].concat());
     (found["claims"].as_array().unwrap().clone(), out(args))
 }
 
+/// The claim with these words in it.
+fn claim<'c>(claims: &'c [Value], says: &str) -> &'c Value {
+    let with = |c: &&Value| c["claim"].as_str().unwrap().contains(says);
+    let those: Vec<&Value> = claims.iter().filter(with).collect();
+    assert_eq!(those.len(), 1, "{says}: {claims:?}");
+    those[0]
+}
+
+/// A state of a mechanism as analysed.
+fn state(name: &str, at: usize) -> Value {
+    json(&["analyze", name, "--format", "json"])["states"][at].clone()
+}
+
+/// Each figure of `[Pogrebnyak 2018]` that the program confirms has a row, and a tally counts what has one.
+#[test]
+fn each_confirmed_figure_of_the_gripper_has_a_row() {
+    let (claims, text) = claims(&["analyze", "gripper-10"]);
+    let [free, clamped] = [0, 1].map(|i| state("gripper-10", i));
+    let [redesign, pad] =
+        [("gripper-10-redesign", 0), ("gripper-10-unloaded", 1)].map(|(n, i)| state(n, i));
+    let [outside, with_pad] = [&clamped, &pad].map(|s| &s["external"]);
+    let harm = |s: &Value, verdict: &str| {
+        let all = s["self_stresses"].as_array().unwrap().iter();
+        all.filter(|x| x["external"] == true && x["verdict"] == verdict)
+            .count()
+    };
+    let said = [
+        format!("n = {} links", free["links"]),
+        format!("p = {} joints", free["joints"]),
+        format!("k = {} contours", free["contours"]),
+        format!("W = {} by the planar formula", free["mobility"]),
+        format!("f = {} freedoms", free["freedoms"]),
+        format!("σ = {}", free["redundant"]),
+        format!("f = {} freedoms", redesign["freedoms"]),
+        format!("σ = {}, in 0-1-2-3 and 0-1-6-7", redesign["redundant"]),
+        format!("{} external constraints", outside["constraints"]),
+        format!("actual mobility {}", outside["actual_mobility"]),
+        format!("working mobility {}", outside["working_mobility"]),
+        format!("the part loses {} mobilities", outside["lost_mobility"]),
+        format!("{} external redundant constraints", outside["redundant"]),
+        format!("actual mobility {}", with_pad["actual_mobility"]),
+        format!("{} external redundant constraints", with_pad["redundant"]),
+    ];
+    for says in &said {
+        let row = claims.iter().find(|c| c["claim"] == says.as_str());
+        assert_eq!(
+            row.unwrap_or_else(|| panic!("{says}"))["holds"],
+            true,
+            "{says}"
+        );
+    }
+    let shares = free["per_contour"].as_array().unwrap().iter();
+    let shares: Vec<&Value> = shares.map(|c| &c["redundant"]).collect();
+    assert_eq!(value!(shares), value!([2, 3, 3, 3]));
+    assert_eq!(
+        redesign["self_stresses"][0]["contours"],
+        value!(["0-1-2-3", "0-1-6-7"])
+    );
+    let idle = redesign["idle"].as_array().unwrap().iter();
+    let idle: Vec<&Value> = idle.map(|x| &x["links"][0]).collect();
+    assert_eq!(value!(idle), value!(["5", "9"]));
+    assert_eq!(
+        [harm(&clamped, "harmless"), harm(&clamped, "harmful")],
+        [3, 2]
+    );
+    assert_eq!([harm(&pad, "harmless"), harm(&pad, "harmful")], [2, 0]);
+    assert_eq!(claims.iter().filter(|c| c["holds"] == true).count(), 19);
+    let tally = "21 claims, 19 confirmed, 1 refuted, 1 refuted if the scan of the text is right";
+    assert!(text.contains(tally), "{text}");
+}
+
+/// The file says how far its jaws, on coordinates of ours, are from the straight line that the paper asks for.
+#[test]
+fn the_jaws_of_the_gripper_swing() {
+    let text = ozols::builtin::text("gripper-10").unwrap();
+    let stroke = [
+        "statics",
+        "gripper-10-planar",
+        "--stroke",
+        "-0.5:0.5:20",
+        "--format",
+        "json",
+    ];
+    let found = json(&stroke);
+    let ends = found["positions"].as_array().unwrap().iter().map(|p| {
+        let all = p["reactions"].as_array().unwrap().iter();
+        let end = all.clone().find(|r| r["joint"] == "2-4").unwrap();
+        [0, 1].map(|i| 1e3 * end["point"][i].as_f64().unwrap())
+    });
+    let ends: Vec<[f64; 2]> = ends.collect();
+    let (first, last) = (ends[0], ends[ends.len() - 1]);
+    let along = [0, 1].map(|i| last[i] - first[i]);
+    let way = along[0].hypot(along[1]);
+    let off = ends.iter().map(|p| {
+        let to = [0, 1].map(|i| p[i] - first[i]);
+        (along[0] * to[1] - along[1] * to[0]).abs() / way
+    });
+    let off = off.fold(0.0, f64::max);
+    let said = format!("leaves its chord by {off:.1} mm on a way of {way:.1} mm");
+    let head = text.lines().take_while(|l| l.starts_with('#'));
+    let head: Vec<&str> = head.map(|l| l.trim_start_matches("# ")).collect();
+    assert!(head.join(" ").contains(&said), "{said}: {head:?}");
+    assert!(head.join(" ").contains("those here are ours"), "{head:?}");
+}
+
+/// `[Bychkov, Dvornikov & Zhukov 2018]`: what the program confirms of the method, and the slips of the paper.
+#[test]
+fn slips_of_the_shears_are_told_with_what_is_right() {
+    let (claims, text) = claims(&["statics", "parallel-shears"]);
+    let tally = "10 claims, 5 confirmed, 4 refuted, 1 refuted if the scan of the text is right";
+    assert!(text.contains(tally), "{text}");
+    let found = json(&["statics", "parallel-shears", "--format", "json"]);
+    let positions = found["positions"].as_array().unwrap();
+    let size = |v: &Value| v[0].as_f64().unwrap().hypot(v[1].as_f64().unwrap());
+    let at = |joint: &str, p: &Value| {
+        let all = p["reactions"].as_array().unwrap().iter();
+        size(&all.clone().find(|r| r["joint"] == joint).unwrap()["force"])
+    };
+    // The method agrees with the equilibrium of all links, at every position and in both groups.
+    for p in positions {
+        let greatest = at("3-0", p);
+        for (group, joints) in [
+            ["3-4", "4-6", "4-7", "6-10", "7-10"],
+            ["2-5", "5-8", "5-9", "8-11", "9-11"],
+        ]
+        .iter()
+        .enumerate()
+        {
+            let delta = &p["contour_groups"][group]["methods"]["delta"];
+            for (letter, joint) in ["D", "F", "K", "M", "L"].into_iter().zip(joints) {
+                near(size(&delta[letter]), at(joint, p), 1e-9 * greatest);
+            }
+        }
+    }
+    let cut = positions
+        .iter()
+        .find(|p| (p["drive"].as_f64().unwrap() - 165f64.to_radians()).abs() < 1e-9);
+    let kilonewtons = |joint: &str| at(joint, cut.unwrap()) / 1e3;
+    let swapped = claim(&claims, "R64 and R74");
+    for number in [
+        format!("{:.2} and", kilonewtons("4-6")),
+        format!("{:.2} kN", kilonewtons("4-7")),
+    ] {
+        assert!(
+            swapped["evidence"].as_str().unwrap().contains(&number),
+            "{number}"
+        );
+    }
+    let twice = claim(&claims, "R0/10 stands twice");
+    assert!(
+        twice["evidence"]
+            .as_str()
+            .unwrap()
+            .contains(&format!("{:.3} kN", kilonewtons("0-10")))
+    );
+    assert!(twice["scan"].is_string());
+    // A force R0/10 alone closes the sum of forces of the group.
+    let m = built_in("parallel-shears");
+    let joint = |id: &str| {
+        m.joints
+            .iter()
+            .find(|j| j.id == id)
+            .unwrap()
+            .links
+            .map(|l| m.links[l].id.clone())
+    };
+    assert_eq!(joint("4-6"), ["4", "6"]);
+    assert_eq!(joint("4-7"), ["4", "7"]);
+    // The weights of the rods alone have a moment about D.
+    let bare = with_weights_of_rods_alone(ozols::builtin::text("parallel-shears").unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rods.toml");
+    std::fs::write(&file, bare).unwrap();
+    let found = json(&["statics", file.to_str().unwrap(), "--format", "json"]);
+    let h = found["positions"][0]["contour_groups"][0]["methods"]["equilibrium"]["h"]
+        .as_f64()
+        .unwrap();
+    let zero = claim(&claims, "so h = 0");
+    assert!(
+        zero["evidence"]
+            .as_str()
+            .unwrap()
+            .contains(&format!("h = {h:.3} m")),
+        "{h}"
+    );
+}
+
+/// The shears at rest in the pose of the file, with no mass but that of rods 6 and 7, and no force.
+fn with_weights_of_rods_alone(text: &str) -> String {
+    let mut file: toml::Table = text.parse().unwrap();
+    for link in file["link"].as_array_mut().unwrap() {
+        let link = link.as_table_mut().unwrap();
+        if !["6", "7"].contains(&link["id"].as_str().unwrap()) {
+            for key in ["mass", "centre", "inertia"] {
+                link.remove(key);
+            }
+        }
+    }
+    let workload = file["workload"].as_table_mut().unwrap();
+    for key in ["force", "stroke", "drive_speed"] {
+        workload.remove(key);
+    }
+    file.remove("expected");
+    toml::to_string(&file).unwrap()
+}
+
 /// `[Pogrebnyak 2018]`: the rods hang between slider and rockers, and rockers turn on the frame.
 #[test]
 fn rods_and_rockers_are_told_apart() {
     let (claims, text) = claims(&["analyze", "gripper-10"]);
-    assert_eq!(claims[0]["holds"], false);
-    assert_eq!(claims[0]["right"], "rods 2 and 6, rockers 3 and 7");
+    let swapped = claim(&claims, "rods 3 and 7 to rockers");
+    assert_eq!(swapped["holds"], false);
+    assert_eq!(swapped["right"], "rods 2 and 6, rockers 3 and 7");
     assert!(
         text.contains("right: rods 2 and 6, rockers 3 and 7"),
         "{text}"
@@ -35,9 +243,12 @@ fn rods_and_rockers_are_told_apart() {
 #[test]
 fn the_plane_of_the_constraints_left_is_that_of_their_forces() {
     let (claims, text) = claims(&["analyze", "gripper-10"]);
-    assert_eq!(claims[1]["holds"], false);
-    assert_eq!(claims[1]["right"], "in the plane z0x");
+    let plane = claim(&claims, "in the plane z0y");
+    assert_eq!(plane["holds"], false);
+    assert_eq!(plane["right"], "in the plane z0x");
+    assert!(plane["scan"].as_str().unwrap().contains("one letter"));
     assert!(text.contains("right: in the plane z0x"), "{text}");
+    assert!(text.contains("this rests on one letter"), "{text}");
     let found = json(&[
         "analyze",
         "gripper-10-unloaded",
@@ -59,15 +270,86 @@ fn the_plane_of_the_constraints_left_is_that_of_their_forces() {
     assert_eq!(left.into_iter().collect::<Vec<_>>(), ["x", "z"]);
 }
 
-/// `[Klyuchkovskyi 1999]` (7) and (13) as they are printed.
+/// `[Klyuchkovskyi 1999]`: the formulas that hold, and (7) and (13) as they are printed.
 #[test]
 fn misprints_of_the_drive_are_told() {
     let (claims, text) = claims(&["drive", "torsion-module"]);
-    assert_eq!(claims.len(), 2);
-    assert!(claims.iter().all(|c| c["holds"] == false));
-    assert_eq!(claims[0]["right"], "τ = 2π √(I/k), k for T");
-    assert_eq!(claims[1]["right"], "½ ((1 + ψ0)² - ψ0²) c S²");
-    assert!(text.contains("2 claims, 0 confirmed, 2 refuted"), "{text}");
+    let tally = "9 claims, 6 confirmed, 0 refuted, 3 refuted if the scan of the text is right";
+    assert!(text.contains(tally), "{text}");
+    assert_eq!(claim(&claims, "τ = 2π")["right"], "τ = 2π √(I/k), k for T");
+    assert_eq!(
+        claim(&claims, "the spring gives")["right"],
+        "½ ((1 + ψ0)² - ψ0²) c S²"
+    );
+    let found = json(&["drive", "torsion-module", "--format", "json"]);
+    let number = |key: &str| found["design"][key].as_f64().unwrap();
+    let has = |says: &str, number: String| {
+        let row = claim(&claims, says);
+        assert!(
+            row["evidence"].as_str().unwrap().contains(&number),
+            "{number}: {row}"
+        );
+    };
+    let short = number("missing_angle");
+    has("δ ≈", format!("{:.3}°", short.to_degrees()));
+    near(
+        number("decrement"),
+        (FRAC_PI_4 / (FRAC_PI_4 - short)).ln(),
+        1e-9,
+    );
+    has("δ ≈", format!("δ = {:.5}", number("decrement")));
+    has("δ ≈", format!("ΔA/A = {:.5}", short / FRAC_PI_4));
+    let (d, l, k) = (number("diameter"), number("length"), number("stiffness"));
+    has(
+        "friction takes",
+        format!(
+            "{:.2} % more",
+            100.0 * (number("needed_feed") / number("friction_energy") - 1.0)
+        ),
+    );
+    near(
+        number("friction_energy"),
+        k / 2.0 * (2.0 * FRAC_PI_4 * short - short * short),
+        1e-9,
+    );
+    // (11): at that twist the stress at the surface, G d φ/(2 l), is the one allowed.
+    let twist = 2.0 * l * 6e8 / (d * 8e10);
+    has("bears a twist", format!("{:.2}°", twist.to_degrees()));
+    near(8e10 * d * twist / (2.0 * l), 6e8, 1.0);
+    // (10) gives back the diameter that (9) takes.
+    let inertia = found["inertias"][0].as_f64().unwrap();
+    let period = 8.0 * (2.0 * PI * inertia * l / (d.powi(4) * 8e10)).sqrt();
+    near(period, TAU * (inertia / k).sqrt(), 1e-9);
+    near(
+        (128.0 * PI * inertia * l / (period * period * 8e10)).powf(0.25),
+        d,
+        1e-12,
+    );
+    // A disc moves in the state in which the other's latch holds.
+    let m = built_in("torsion-module");
+    for (held, latch, disc) in [
+        ("first-held", "latch-1", "1"),
+        ("second-held", "latch-2", "2"),
+    ] {
+        let state = m.state(held).unwrap();
+        let latched = m
+            .joints_in(state)
+            .find(|&j| m.joints[j].id == latch)
+            .unwrap();
+        let links = m.joints[latched].links.map(|l| m.links[l].id.as_str());
+        assert!(links.contains(&disc));
+        assert_eq!(
+            json(&[
+                "analyze",
+                "torsion-module",
+                "--state",
+                held,
+                "--format",
+                "json"
+            ])["states"][0]["mobility"],
+            1
+        );
+    }
     // (9), which has no k, is (7) with the k of (8).
     let bar = Bar {
         length: 0.346,

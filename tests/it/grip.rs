@@ -168,7 +168,7 @@ fn built_in_gripper_holds() {
         text.starts_with("lever-gripper: can hold D = 30 to 50 mm; hardest at 50 mm"),
         "{text}"
     );
-    assert!(text.contains("6 confirmed, 3 refuted"));
+    assert!(text.contains("10 confirmed, 4 refuted"));
     let value = json(&["grip", "lever-gripper", "--format", "json"]);
     assert_eq!(value["holds"], true);
     assert_eq!(value["diameters"].as_array().unwrap().len(), 5);

@@ -70,7 +70,7 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
         match &found.found {
             ClampingReactions::Planar(s) => {
                 let gripped = Gripped {
-                    reactions: StaticsData::new(&m.name, s, &GroupMethod::ALL),
+                    reactions: StaticsData::new(m, s, &GroupMethod::ALL),
                     state: Some(m.states[g.state].as_str()),
                     grip,
                 };

@@ -139,7 +139,7 @@ fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyh
             m.name
         );
     }
-    let shown = view::statics::StaticsData::new(&m.name, found, methods);
+    let shown = view::statics::StaticsData::new(m, found, methods);
     if let Some(folder) = &a.svg {
         let plans = plans(&shown)
             .into_iter()

@@ -352,7 +352,7 @@ pub struct ExpectedEntry {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimEntry {
-    /// What it is about: "structure", "grip" or "drive".
+    /// What it is about: "structure", "grip", "drive" or "statics".
     pub topic: String,
     /// The publication and the place in it.
     pub source: String,
@@ -361,6 +361,9 @@ pub struct ClaimEntry {
     /// What is right instead; left out where the claim holds.
     #[serde(default)]
     pub right: Option<String>,
+    /// The part of a scanned text that a refutation rests on, where a misread letter would explain it.
+    #[serde(default)]
+    pub scan: Option<String>,
     /// What that rests on.
     pub evidence: String,
 }

@@ -431,6 +431,7 @@ fn claim(c: &Claim) -> ClaimEntry {
         source: c.source.clone(),
         says: c.says.clone(),
         right: c.right.clone(),
+        scan: c.scan.clone(),
         evidence: c.evidence.clone(),
     }
 }

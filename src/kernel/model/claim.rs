@@ -11,11 +11,13 @@ pub enum Topic {
     Grip,
     /// A torsional drive: `ozols drive`.
     Drive,
+    /// Reactions of joints: `ozols statics`.
+    Statics,
 }
 
 impl Topic {
     /// All of them.
-    pub const ALL: [Topic; 3] = [Topic::Structure, Topic::Grip, Topic::Drive];
+    pub const ALL: [Topic; 4] = [Topic::Structure, Topic::Grip, Topic::Drive, Topic::Statics];
 
     /// The word in files.
     #[must_use]
@@ -24,6 +26,7 @@ impl Topic {
             Topic::Structure => "structure",
             Topic::Grip => "grip",
             Topic::Drive => "drive",
+            Topic::Statics => "statics",
         }
     }
 }
@@ -40,6 +43,8 @@ pub struct Claim {
     pub says: String,
     /// What is right instead; `None` where the claim holds.
     pub right: Option<String>,
+    /// The part of a scanned text that a refutation rests on, where a misread letter would explain it; `None` elsewhere.
+    pub scan: Option<String>,
     /// What that rests on.
     pub evidence: String,
 }
@@ -54,11 +59,12 @@ impl Claim {
 
 impl Serialize for Claim {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut out = serializer.serialize_struct("Claim", 5)?;
+        let mut out = serializer.serialize_struct("Claim", 6)?;
         out.serialize_field("source", &self.source)?;
         out.serialize_field("claim", &self.says)?;
         out.serialize_field("holds", &self.holds())?;
         out.serialize_field("right", &self.right)?;
+        out.serialize_field("scan", &self.scan)?;
         out.serialize_field("evidence", &self.evidence)?;
         out.end()
     }

@@ -10,25 +10,45 @@ pub(crate) fn about(claims: &[Claim], topic: Topic) -> Vec<&Claim> {
     claims.iter().filter(|c| c.topic == topic).collect()
 }
 
+const CONFIRMED: &str = "yes";
+const REFUTED: &str = "NO";
+const AS_SCANNED: &str = "NO, as scanned";
+
+/// Returns the word for what is known of a claim.
+fn verdict(claim: &Claim) -> &'static str {
+    match (claim.holds(), &claim.scan) {
+        (true, _) => CONFIRMED,
+        (false, None) => REFUTED,
+        (false, Some(_)) => AS_SCANNED,
+    }
+}
+
 /// A table of them under a line that counts them; empty where there are none.
 #[must_use]
 pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
     if claims.is_empty() {
         return String::new();
     }
-    let wrong = claims.iter().filter(|c| !c.holds()).count();
+    let count = |so: &str| claims.iter().filter(|c| verdict(c) == so).count();
+    let scanned = match count(AS_SCANNED) {
+        0 => String::new(),
+        n => format!(", {n} refuted if the scan of the text is right"),
+    };
     let rows = claims.iter().map(|c| {
-        let why = match &c.right {
+        let mut why = match &c.right {
             Some(right) => format!("right: {right}; {}", c.evidence),
             None => c.evidence.clone(),
         };
-        let so = if c.holds() { "yes" } else { "NO" };
-        vec![c.source.clone(), c.says.clone(), so.to_owned(), why]
+        if let Some(scan) = &c.scan {
+            why += &format!("; the text is a scan, and this rests on {scan}");
+        }
+        vec![c.source.clone(), c.says.clone(), verdict(c).to_owned(), why]
     });
     format!(
-        "\n  What is published of this mechanism: {}, {} confirmed, {wrong} refuted\n\n{}\n",
+        "\n  What is published of this mechanism: {}, {} confirmed, {} refuted{scanned}\n\n{}\n",
         plural(claims.len(), "claim"),
-        claims.len() - wrong,
+        count(CONFIRMED),
+        count(REFUTED),
         table(&["where", "claim", "so", "evidence"], rows.collect(), width)
     )
 }

@@ -6,6 +6,8 @@ pub mod csv;
 pub mod force_plans;
 pub mod text;
 
+use crate::model::claim::{Claim, Topic};
+use crate::model::mechanism::Mechanism;
 use crate::statics::assur::{self, Decomposition};
 use crate::statics::contour_group::delta_point::DeltaSteps;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
@@ -14,6 +16,7 @@ use crate::statics::cycle::{self, Moment};
 use crate::statics::inertia::{LinkInertia, link_inertias};
 use crate::statics::kinetostatics::{self, Equilibrium};
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
+use crate::view::claims::about;
 use itertools::Itertools;
 use serde::Serialize;
 
@@ -34,6 +37,8 @@ pub struct StaticsData<'a> {
     pub positions: Vec<Position<'a>>,
     /// Where the motion ended early, if it did.
     pub stopped: Option<Stopped<'a>>,
+    /// What publications say of its reactions.
+    pub claims: Vec<&'a Claim>,
     /// What was found.
     #[serde(skip)]
     pub found: &'a cycle::Statics,
@@ -273,7 +278,11 @@ impl<'a> Structures<'a> {
 impl<'a> StaticsData<'a> {
     /// What was found of a mechanism, the four-link groups by `methods`.
     #[must_use]
-    pub fn new(name: &'a str, s: &'a cycle::Statics, methods: &'a [GroupMethod]) -> Self {
+    pub fn new(
+        mechanism: &'a Mechanism,
+        s: &'a cycle::Statics,
+        methods: &'a [GroupMethod],
+    ) -> Self {
         let (m, d) = (&s.linkage.mechanism, &s.decomposition);
         let stopped = s.dead.as_ref().map(|dead| Stopped {
             drive: dead.drive,
@@ -290,7 +299,7 @@ impl<'a> StaticsData<'a> {
                 .collect(),
         });
         StaticsData {
-            mechanism: name,
+            mechanism: &mechanism.name,
             drives: joints(m, &d.drives),
             driven: links(m, &d.driven),
             class: d.class(),
@@ -301,6 +310,7 @@ impl<'a> StaticsData<'a> {
                 .map(|x| Position::new(s, x, methods))
                 .collect(),
             stopped,
+            claims: about(&mechanism.claims, Topic::Statics),
             found: s,
             methods,
         }

@@ -24,6 +24,7 @@ pub(crate) fn claims(file: &MechanismFile, out: &mut Findings) -> Vec<Claim> {
             source: c.source.clone(),
             says: c.says.clone(),
             right: c.right.clone(),
+            scan: c.scan.clone(),
             evidence: c.evidence.clone(),
         });
     }

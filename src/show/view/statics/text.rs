@@ -10,6 +10,7 @@ use crate::statics::cycle::Moment;
 use crate::statics::inertia::LinkInertia;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
+use crate::view::claims;
 use crate::view::statics::{Decomposed, GroupData, StaticsData, Structures, magnitudes};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
@@ -137,7 +138,7 @@ fn write_statics(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> s
             figure(dead.condition)
         )?;
     }
-    Ok(())
+    write!(out, "{}", claims::text(&s.claims, width))
 }
 
 /// The greatest reaction of the cycle, for the first line; nothing without loads.
