@@ -16,5 +16,6 @@ pub mod planar;
 pub mod planar_motion;
 pub mod pose;
 pub mod reactions;
+mod rounding;
 pub mod solve;
 pub mod transmission;

@@ -7,6 +7,7 @@ mod cycle;
 mod family;
 mod named_drives;
 mod point_masses;
+mod rounding;
 mod twists;
 mod two_drives;
 mod unilateral;

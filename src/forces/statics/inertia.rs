@@ -3,6 +3,7 @@
 use crate::statics::planar::BodyId;
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, length};
+use crate::statics::rounding::{rounding, without};
 use serde::Serialize;
 
 /// Mass data of a body in the plane: mass `[kg]`, centre at the pose of the file `[m]`, inertia `[kg·m²]`.
@@ -55,18 +56,26 @@ pub fn link_inertias(
     linkage: &Linkage,
     now: &Instant,
 ) -> Vec<LinkInertia> {
+    // Accelerations are sums of terms as great as the squares of the speeds, lengths in the mechanism's size.
+    let size = linkage.size;
+    let fastest = |v: &[f64; 3]| v[2].abs().max(v[0].abs().max(v[1].abs()) / size);
+    let fastest = now.velocity.iter().map(fastest).fold(0.0, f64::max);
+    let rounding = rounding(0.0, fastest * fastest, 3 * masses.len());
     let bodies = masses.iter().enumerate();
     let one = |(body, mass): (usize, &Option<BodyMass>)| {
         let mass = mass.filter(|_| body != linkage.mechanism.frame)?;
         let (pose, v, a) = (&now.pose, &now.velocity, &now.acceleration);
         let acceleration = linkage.acceleration(pose, v, a, body, mass.centre);
+        let acceleration = acceleration.map(|a| without(rounding * size, a));
+        let angular_acceleration = without(rounding, a[body][2]);
         Some(LinkInertia {
             body,
             centre: linkage.point(pose, body, mass.centre),
             acceleration,
-            angular_acceleration: a[body][2],
-            force: acceleration.map(|a| -a * mass.mass),
-            moment: -mass.inertia * a[body][2],
+            angular_acceleration,
+            // From 0, so that 0 has no sign.
+            force: acceleration.map(|a| 0.0 - a * mass.mass),
+            moment: 0.0 - mass.inertia * angular_acceleration,
         })
     };
     bodies.filter_map(one).collect()

@@ -12,6 +12,7 @@ use crate::statics::inertia::{BodyMass, link_inertias};
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
+use crate::statics::rounding::{greatest, rounding, without};
 use serde::Serialize;
 
 /// Where a load comes from.
@@ -74,6 +75,8 @@ pub struct PlanarLoads {
     pub forces: Vec<PlanarForce>,
     /// Moments from outside, about the plane's normal `[N·m]`.
     pub moments: Vec<(BodyId, f64)>,
+    /// How many misalignments the file states.
+    pub misalignments: usize,
 }
 
 impl PlanarLoads {
@@ -129,6 +132,7 @@ impl PlanarLoads {
             masses: masses.collect(),
             forces: forces.collect(),
             moments: moments.collect(),
+            misalignments: mechanism.loads.misalignments.len(),
         }
     }
 
@@ -196,6 +200,19 @@ pub struct Reaction {
 }
 
 impl Reaction {
+    /// Returns the reaction with 0 for what is at most `rounding` `[N]`, moments divided by the mechanism's size.
+    fn without(self, rounding: f64, linkage: &Linkage) -> Reaction {
+        let turning = linkage.mechanism.pairs[self.pair].kind == PairKind::Turning;
+        let of_moments = rounding * linkage.size;
+        let of_effort = if turning { of_moments } else { rounding };
+        Reaction {
+            force: self.force.map(|x| without(rounding, x)),
+            moment: without(of_moments, self.moment),
+            effort: self.effort.map(|x| without(of_effort, x)),
+            ..self
+        }
+    }
+
     /// Force and moment about a point on one of the two bodies; zero on any other.
     #[must_use]
     pub fn on(&self, linkage: &Linkage, body: BodyId, about: [f64; 2]) -> [f64; 3] {
@@ -296,19 +313,17 @@ pub(crate) fn equilibrium(
     let right = right_sides(linkage, &now.pose, bodies, loads);
     let system = System::new(&rows);
     let x = system.solve(&right)?;
-    let greatest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let load = greatest(&right);
+    let left_over = system.residual(&x, &right);
+    let rounding = rounding(left_over, load.max(greatest(&x)), n);
     let reactions = pairs.iter().map(|&pair| {
         let of_pair = unknowns.iter().zip(&x).filter(|(u, _)| u.pair == pair);
-        summed(linkage, &now.pose, pair, of_pair)
+        summed(linkage, &now.pose, pair, of_pair).without(rounding, linkage)
     });
     Some(Equilibrium {
         reactions: reactions.collect(),
         condition: system.condition(),
-        residual: if greatest > 0.0 {
-            system.residual(&x, &right) / greatest
-        } else {
-            0.0
-        },
+        residual: if load > 0.0 { left_over / load } else { 0.0 },
     })
 }
 

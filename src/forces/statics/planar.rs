@@ -320,7 +320,8 @@ fn normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
 }
 
 /// Whether all loads of a mechanism act in its plane: no force across it, no moment that tilts, and none at a point above or
-/// below it where all joints have one height. What a file in planar mode states does, whatever it is.
+/// below it where all joints have one height; and no joint is misaligned, which strains the constraints out of the plane. All loads
+/// of a file in planar mode act in its plane.
 pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
     let (Mode::Spatial, Ok(n)) = (&m.mode, normal(m, state)) else {
         return true;
@@ -344,12 +345,14 @@ pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
     let flat = heights.all(|h| small(h - level, size));
     let beside = |p: &[Expr; 3]| !flat || small(dot(real(p), n) - level, size);
     let loads = m.loads.in_state(state);
+    let straight = loads.misalignments.is_empty();
     let mut masses = m.links.iter().filter_map(|l| l.mass.as_ref());
     let weights = loads.gravity.as_ref().is_none_or(|g| {
         masses.all(|mass| mass.mass == 0.0 || across(real(g)) && beside(&mass.centre))
     });
     let forces = &mut loads.forces.iter();
-    weights
+    straight
+        && weights
         && forces.all(|f| across(real(&f.force)) && beside(&f.point))
         && loads.moments.iter().all(|x| along(real(&x.moment)))
 }

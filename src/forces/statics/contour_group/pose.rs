@@ -3,7 +3,8 @@
 use crate::statics::contour_group::letters::ContourGroup;
 use crate::statics::kinetostatics::{Load, LoadSource};
 use crate::statics::planar::{BodyId, PairId};
-use crate::statics::pose::{Linkage, Pose, cross, dot, minus, quarter};
+use crate::statics::pose::{Linkage, Pose, cross, dot, length, minus, quarter};
+use crate::statics::rounding::{greatest, rounding, without};
 use serde::Serialize;
 
 /// A group in one pose: what the methods start from.
@@ -115,6 +116,26 @@ impl GroupReactions {
     pub fn forces(&self, pose: &GroupPose) -> [[f64; 2]; 6] {
         let guide = pose.normal().map(|c| c * self.guide);
         [self.d, self.f, self.k, self.m, self.l, guide]
+    }
+
+    /// Returns the reactions with 0 for what is rounding compared with the greatest of them. A guide that bears nothing has no arm.
+    #[must_use]
+    pub(crate) fn without_rounding(&self, pose: &GroupPose) -> GroupReactions {
+        // Twelve unknowns in twelve equations.
+        let rounding = rounding(0.0, greatest(self.forces(pose).iter().flatten()), 12);
+        let size = [pose.f, pose.k, pose.m, pose.l].map(|p| length(minus(p, pose.d)));
+        let bare = |v: [f64; 2]| v.map(|x| without(rounding, x));
+        let guide = without(rounding, self.guide);
+        GroupReactions {
+            d: bare(self.d),
+            f: bare(self.f),
+            k: bare(self.k),
+            m: bare(self.m),
+            l: bare(self.l),
+            guide,
+            guide_moment: without(rounding * greatest(&size), self.guide_moment),
+            arm: if guide == 0.0 { f64::NAN } else { self.arm },
+        }
     }
 
     /// Greatest difference of any force from another solution's, over the greatest force of that.

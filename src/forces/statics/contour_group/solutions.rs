@@ -68,14 +68,15 @@ impl GroupSolutions {
         }
     }
 
-    /// The reactions by a method; none where its equations are singular.
+    /// Returns the reactions by a method, with 0 for what is rounding; `None` if its equations are singular.
     #[must_use]
     pub fn by(&self, method: GroupMethod) -> Option<GroupReactions> {
-        match method {
-            GroupMethod::Delta => Some(self.delta),
-            GroupMethod::Projective => Some(self.projective),
-            GroupMethod::Equilibrium => self.equilibrium.map(|(r, _)| r),
-        }
+        let found = match method {
+            GroupMethod::Delta => self.delta,
+            GroupMethod::Projective => self.projective,
+            GroupMethod::Equilibrium => self.equilibrium?.0,
+        };
+        Some(found.without_rounding(&self.pose))
     }
 
     /// Greatest difference of any two methods' forces, over the greatest force; `None` with fewer than two.

@@ -8,6 +8,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::statics::reactions::geometry::{Geometry, Six, about};
 use crate::statics::reactions::unsolved::Unsolved;
+use crate::statics::rounding::without;
 use serde::Serialize;
 
 /// How contacts are solved.
@@ -143,6 +144,18 @@ pub fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unso
         })
     };
     faces.map(one).collect()
+}
+
+impl ContactForce {
+    /// Returns the force with 0 for what is at most `rounding` `[N]`, moments by the `size`.
+    pub(crate) fn without(self, rounding: f64, size: f64) -> ContactForce {
+        ContactForce {
+            normal: without(rounding, self.normal),
+            along: without(rounding, self.along),
+            tilting: without(rounding * size, self.tilting),
+            ..self
+        }
+    }
 }
 
 impl Contact {

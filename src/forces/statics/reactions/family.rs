@@ -41,15 +41,16 @@ pub(crate) fn least_norm(geometry: &Geometry, of: &mut Transmitted, stresses: &[
 }
 
 /// The wrenches of elastic joints, made askew as stated: of all that are in equilibrium, those of least energy
-/// Σ ½ wᵀC w - wᵀd, C the joint's compliance and d what it is out by; couplings are rigid. `None` where no stiffness is stated
-/// or nothing is left open.
+/// Σ ½ wᵀC w - wᵀd, C the joint's compliance and d what it is out by; couplings are rigid. With them the greatest force, or
+/// moment by size, that a joint which cannot give way would bear for what it is out by. `None` where no stiffness is stated or
+/// nothing is left open.
 pub(crate) fn elastic(
     m: &Mechanism,
     geometry: &Geometry,
     loads: &Loads,
     mut of: Transmitted,
     stresses: &[Transmitted],
-) -> Option<Transmitted> {
+) -> Option<(Transmitted, f64)> {
     if stresses.is_empty() || loads.stiffness.is_empty() {
         return None;
     }
@@ -77,7 +78,8 @@ pub(crate) fn elastic(
     weights.resize(weights.len() + geometry.couplings.len(), rigid);
     aims.resize(weights.len(), 0.0);
     fit(geometry, &mut of, stresses, &weights, &aims);
-    Some(of)
+    let strained = weights.iter().zip(&aims).map(|(w, a)| (a / w).abs());
+    Some((of, strained.fold(0.0, f64::max)))
 }
 
 /// The stiffness of a joint type: its own, or the default.

@@ -13,6 +13,7 @@ use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, power, wrench};
 use crate::statics::reactions::unsolved::Unsolved;
+use crate::statics::rounding::{greatest, rounding, without};
 use ozols_dense::{Matrix, svd};
 
 /// Contours may stay open by this fraction of the speeds (or rates) in them.
@@ -190,6 +191,15 @@ fn times(pose: &Pose, link: LinkId, inertia: &Inertia, v: [f64; 3]) -> [f64; 3] 
     [0, 1, 2].map(|i| (0..3).map(|k| turned[k] * axes[k][i]).sum())
 }
 
+/// Returns the size of the greatest entry of an inertia `[kg·m²]`.
+fn greatest_entry(inertia: &Inertia) -> f64 {
+    match inertia {
+        Inertia::Plane(i) => i.abs(),
+        Inertia::Principal(entries) => greatest(entries),
+        Inertia::Tensor(entries) => greatest(entries),
+    }
+}
+
 /// The inertia forces of the links by link, about the geometry's middle, moments in newtons times the size.
 ///
 /// # Errors
@@ -217,6 +227,9 @@ pub(crate) fn inertia_loads(
         about.is_some_and(|w| size(cross(w, v)) > PARALLEL * size(w) * size(w).max(size(v)))
     };
     let flat = !moves.velocity.iter().any(|v| aside(turn(v)));
+    // Accelerations are sums of terms as great as the squares of the speeds, lengths in the geometry's size.
+    let speed = greatest(moves.velocity.iter().flatten());
+    let rounding = rounding(0.0, speed * speed, geometry.unknowns());
     for l in geometry.tree.iter().map(|s| s.link) {
         let Some(mass) = &m.links[l].mass else {
             continue;
@@ -231,7 +244,10 @@ pub(crate) fn inertia_loads(
         };
         let (velocity, there) = (at(v), at(a));
         let round = cross(w, velocity);
-        let force = [0, 1, 2].map(|i| -mass.mass * geometry.size * (there[i] + round[i]));
+        let force = [0, 1, 2].map(|i| {
+            let acceleration = without(rounding, there[i] + round[i]);
+            0.0 - mass.mass * geometry.size * acceleration
+        });
         let mut moment = [0.0; 3];
         if let Some(inertia) = &mass.inertia {
             if matches!(inertia, Inertia::Plane(_)) && !flat {
@@ -241,7 +257,9 @@ pub(crate) fn inertia_loads(
             }
             let gained = times(pose, l, inertia, alpha);
             let carried = cross(w, times(pose, l, inertia, w));
-            moment = [0, 1, 2].map(|i| -(gained[i] + carried[i]) / geometry.size);
+            let rounding = rounding * greatest_entry(inertia);
+            moment =
+                [0, 1, 2].map(|i| 0.0 - without(rounding, gained[i] + carried[i]) / geometry.size);
         }
         out[l] = geometry.within(&wrench(p, force, moment));
     }

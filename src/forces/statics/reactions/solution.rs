@@ -7,6 +7,7 @@ use crate::statics::reactions::contact::ContactForce;
 use crate::statics::reactions::couplings::CouplingEquation;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
+use crate::statics::rounding::{greatest, without};
 use serde::{Serialize, Serializer};
 
 /// What a joint passes from its first link to its second, without what couplings pass there.
@@ -27,6 +28,9 @@ pub struct JointReaction {
     /// Force `[N]` or torque `[N·m]` of its drive, along the freedom it holds; part of force and moment.
     #[serde(skip)]
     pub effort: Option<(Freedom, f64)>,
+    /// Forces of this size are rounding `[N]`, and moments of this size times that of the mechanism `[m]`.
+    #[serde(skip)]
+    pub rounding: [f64; 2],
 }
 
 fn named<S: Serializer>(axes: &[[f64; 3]; 3], serializer: S) -> Result<S::Ok, S::Error> {
@@ -75,20 +79,20 @@ impl JointReaction {
         dot(self.moment, self.moment).sqrt()
     }
 
-    fn global(&self, own: [f64; 3]) -> [f64; 3] {
-        [0, 1, 2].map(|i| (0..3).map(|k| own[k] * self.axes[k][i]).sum())
+    fn global(&self, own: [f64; 3], rounding: f64) -> [f64; 3] {
+        [0, 1, 2].map(|i| without(rounding, (0..3).map(|k| own[k] * self.axes[k][i]).sum()))
     }
 
     /// The force in global axes `[N]`.
     #[must_use]
     pub fn global_force(&self) -> [f64; 3] {
-        self.global(self.force)
+        self.global(self.force, self.rounding[0])
     }
 
     /// The moment about the joint's point in global axes `[N·m]`.
     #[must_use]
     pub fn global_moment(&self) -> [f64; 3] {
-        self.global(self.moment)
+        self.global(self.moment, self.rounding[1])
     }
 }
 
@@ -150,7 +154,7 @@ impl Solution {
 }
 
 /// Below this part of a self-stress's greatest force a component has none of it.
-const NO_STRESS: f64 = 1e-9;
+pub(crate) const NO_STRESS: f64 = 1e-9;
 
 /// The components of joints that some self-stress has, moments divided by the size.
 pub(crate) fn open(joints: usize, size: f64, stresses: &[Vec<JointReaction>]) -> Vec<[bool; 6]> {
@@ -180,8 +184,13 @@ pub(crate) fn open_couplings<'x>(
     out
 }
 
-/// What is left over on the links, over the greatest load.
-pub(crate) fn residual(m: &Mechanism, geometry: &Geometry, wrenches: &[Six], loads: &[Six]) -> f64 {
+/// Returns the greatest force, or moment by size, that is left over on a link `[N]`.
+pub(crate) fn left_over(
+    m: &Mechanism,
+    geometry: &Geometry,
+    wrenches: &[Six],
+    loads: &[Six],
+) -> f64 {
     let mut sums = loads.to_vec();
     for &j in &geometry.joints {
         let [a, b] = m.joints[j].links;
@@ -191,24 +200,18 @@ pub(crate) fn residual(m: &Mechanism, geometry: &Geometry, wrenches: &[Six], loa
         }
     }
     sums[m.frame()] = [0.0; 6];
-    let greatest = |of: &[Six]| {
-        of.iter()
-            .flatten()
-            .fold(0.0, |a: f64, x: &f64| a.max(x.abs()))
-    };
-    match greatest(loads) {
-        0.0 => greatest(&sums),
-        load => greatest(&sums) / load,
-    }
+    greatest(sums.iter().flatten())
 }
 
-/// Wrenches by joint as reactions in the joints' own frames, in SI.
+/// Wrenches by joint as reactions in the joints' own frames, in SI; what is at most `rounding` `[N]`, moments by the size, is 0.
 pub(crate) fn present(
     m: &Mechanism,
     geometry: &Geometry,
     wrenches: &[Six],
     drives: &[Driven],
+    rounding: f64,
 ) -> Vec<JointReaction> {
+    let of_moments = rounding * geometry.size;
     let each = geometry.joints.iter().map(|&j| {
         let w = about(&wrenches[j], geometry.points[j]);
         let axes = geometry.axes[j];
@@ -221,37 +224,45 @@ pub(crate) fn present(
                 .find(|c| c.joint == j && c.freedom == freedom)?;
             let turns = column.twist[..3] != [0.0; 3];
             let unit = if turns { geometry.size } else { 1.0 };
-            Some((freedom, power(&column.twist, &wrenches[j]) * unit))
+            let effort = without(rounding, power(&column.twist, &wrenches[j]));
+            Some((freedom, effort * unit))
         });
         JointReaction {
             joint: j,
             point: [0, 1, 2].map(|i| geometry.middle[i] + geometry.size * geometry.points[j][i]),
             axes,
-            force: own([w[3], w[4], w[5]]),
-            moment: own([w[0], w[1], w[2]]).map(|x| x * geometry.size),
+            force: own([w[3], w[4], w[5]]).map(|x| without(rounding, x)),
+            moment: own([w[0], w[1], w[2]]).map(|x| without(of_moments, x * geometry.size)),
             effort,
+            rounding: [rounding, of_moments],
         }
     });
     each.collect()
 }
 
-/// What couplings pass for their unknowns, in SI.
-pub(crate) fn passed_by_couplings(geometry: &Geometry, unknowns: &[f64]) -> Vec<CouplingReaction> {
+/// Returns what couplings pass for their unknowns, in SI; an unknown that is at most `rounding` is 0.
+pub(crate) fn passed_by_couplings(
+    geometry: &Geometry,
+    unknowns: &[f64],
+    rounding: f64,
+) -> Vec<CouplingReaction> {
     let one = |(c, x): (&CouplingEquation, &f64)| {
+        let x = without(rounding, *x);
         let effort = |n: usize| {
             let unit = if c.ends[n].freedom.slides() {
                 1.0
             } else {
                 geometry.size
             };
-            -c.entries[n] * x * unit
+            // From 0, so that 0 has no sign.
+            0.0 - c.entries[n] * x * unit
         };
         CouplingReaction {
             ends: c.ends,
             efforts: [effort(0), effort(1)],
             teeth: c.teeth.filter(|_| c.meshes).map(|t| ToothForce {
                 point: [0, 1, 2].map(|i| geometry.middle[i] + geometry.size * t.point[i]),
-                force: t.force.map(|f| f * x),
+                force: t.force.map(|f| without(rounding, f * x)),
             }),
         }
     };

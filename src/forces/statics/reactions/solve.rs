@@ -11,11 +11,12 @@ use crate::statics::reactions::family;
 use crate::statics::reactions::geometry::{Geometry, Six, power};
 use crate::statics::reactions::inertia::inertia_loads;
 use crate::statics::reactions::solution::{
-    Solution, Uniqueness, open, open_couplings, passed_by_couplings, present, residual,
+    NO_STRESS, Solution, Uniqueness, left_over, open, open_couplings, passed_by_couplings, present,
 };
 use crate::statics::reactions::transmitted::Transmitted;
-use crate::statics::reactions::unilateral::pushing;
+use crate::statics::reactions::unilateral::{TOLERANCE, pushing};
 use crate::statics::reactions::unsolved::Unsolved;
+use crate::statics::rounding::{greatest, rounding};
 
 /// Work on undriven motions below this fraction of the loads is none.
 const NO_WORK: f64 = 1e-8;
@@ -91,11 +92,8 @@ impl Reactions {
         let particular = geometry.along_tree(m.joints.len(), loads_of_links);
         let mut of = Transmitted::of_joints(geometry, particular.clone());
         let left = system.solve(&mut of);
-        let scale = particular
-            .iter()
-            .flatten()
-            .fold(0.0, |a: f64, x| a.max(x.abs()));
-        let work = left.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let scale = greatest(particular.iter().flatten());
+        let work = greatest(&left);
         if work > NO_WORK * scale {
             return Err(Unsolved::Moves {
                 link: carried_most(m, geometry, &system, &left, loads_of_links),
@@ -118,28 +116,51 @@ impl Reactions {
             Contacts::AsJoints => family::elastic(m, geometry, loads, rigid, &stresses),
             Contacts::Pushing => None,
         };
-        let residual = residual(m, geometry, &of.joints, loads_of_links);
-        let present = |t: &Transmitted| present(m, geometry, &t.own(geometry), drives);
-        let passed = |t: &Transmitted| passed_by_couplings(geometry, &t.couplings);
-        let self_stresses: Vec<_> = stresses.iter().map(present).collect();
+        // Wrenches begin as those of the loads along the tree, and so are rounded beside these.
+        let rounding = |t: &Transmitted, beside: f64| {
+            let left_over = left_over(m, geometry, &t.joints, loads_of_links);
+            let all = greatest(t.joints.iter().flatten().chain(&t.couplings));
+            rounding(left_over, all.max(beside), 6 * geometry.joints.len())
+        };
+        let mut least = rounding(&of, scale);
+        if of_contacts == Contacts::Pushing {
+            least = least.max(TOLERANCE * greatest(of.joints.iter().flatten()));
+        }
+        let elastic = elastic.map(|(t, strained)| {
+            let least = rounding(&t, scale.max(strained));
+            (t, least)
+        });
+        let load = greatest(loads_of_links.iter().flatten());
+        let left_over = left_over(m, geometry, &of.joints, loads_of_links);
+        let present = |t: &Transmitted, rounding: f64| {
+            present(m, geometry, &t.own(geometry), drives, rounding)
+        };
+        let passed =
+            |t: &Transmitted, rounding: f64| passed_by_couplings(geometry, &t.couplings, rounding);
+        let self_stresses: Vec<_> = stresses.iter().map(|t| present(t, NO_STRESS)).collect();
         let of_couplings = stresses.iter().map(|t| &t.couplings[..]);
         Ok(Solution {
             choice: choice(of_contacts, stresses.is_empty()),
             contacts: {
                 let own = of.own(geometry);
-                faces.iter().map(|c| c.force(geometry, &own)).collect()
+                let forces = faces.iter().map(|c| c.force(geometry, &own));
+                forces.map(|f| f.without(least, geometry.size)).collect()
             },
-            reactions: present(&of),
-            couplings: passed(&of),
+            reactions: present(&of, least),
+            couplings: passed(&of, least),
             couplings_open: open_couplings(geometry.couplings.len(), of_couplings),
-            coupling_stresses: stresses.iter().map(passed).collect(),
+            coupling_stresses: stresses.iter().map(|t| passed(t, NO_STRESS)).collect(),
             open: open(geometry.joints.len(), geometry.size, &self_stresses),
             self_stresses,
-            elastic_couplings: elastic.as_ref().map(passed),
-            elastic: elastic.as_ref().map(present),
+            elastic_couplings: elastic.as_ref().map(|(t, least)| passed(t, *least)),
+            elastic: elastic.as_ref().map(|(t, least)| present(t, *least)),
             undriven: system.undriven(),
             condition: system.condition(),
-            residual,
+            residual: if load > 0.0 {
+                left_over / load
+            } else {
+                left_over
+            },
             size: geometry.size,
         })
     }

@@ -12,6 +12,9 @@ use crate::statics::reactions::unsolved::Unsolved;
 use clarabel::solver::SolverStatus;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
 
+/// Cones and norm are solved to this fraction of the greatest reaction.
+pub(crate) const TOLERANCE: f64 = 1e-7;
+
 /// The cones of the contacts. Each value is that of the particular solution, the first of `all`, plus Σ xᵢ times that of
 /// self-stress i.
 fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgramme {
@@ -59,7 +62,7 @@ fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgr
 /// Changes wrenches in equilibrium by self-stresses to those of minimum norm in which contacts do what faces can.
 ///
 /// # Guarantee
-/// Equilibrium is that of the wrenches given, to rounding; cones and norm are to 1e-7 of the greatest reaction.
+/// Equilibrium is that of the wrenches given, to rounding; cones and norm are to [`TOLERANCE`] of the greatest reaction.
 ///
 /// # Errors
 /// [`Unsolved::Loose`] where there are none: the object slips, lifts off or tilts.

@@ -6,7 +6,7 @@ use crate::format::phrase::plural;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};
-use crate::view::reactions::text::NOTHING;
+use crate::view::reactions::text::ADD_LOADS;
 use crate::view::reactions::{HEADS, JointForces, Reactions, couplings};
 use crate::view::terminal::layout::table as text_table;
 use crate::view::terminal::si_prefix::prefix;
@@ -201,19 +201,9 @@ impl<'a> ReactionsOverStroke<'a> {
             .collect();
         let greatest = peaks.iter().map(|p| p.1.0.max(p.2.0)).fold(0.0, f64::max);
         let (scale, prefix) = prefix(greatest);
-        // What is left of rounding is nothing.
-        let size = |x: f64| {
-            if x > NOTHING * greatest {
-                figure(x / scale)
-            } else {
-                "0".to_owned()
-            }
-        };
+        let size = |x: f64| figure(x / scale);
         if greatest == 0.0 {
-            writeln!(
-                out,
-                "The loads are nothing here: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
-            )?;
+            writeln!(out, "The loads are nothing here: {ADD_LOADS}.\n")?;
         }
         let rows = peaks.iter().map(|(joint, force, moment)| {
             let mut row = [joint.joint, joint.kind].map(str::to_owned).to_vec();

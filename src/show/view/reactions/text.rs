@@ -8,32 +8,40 @@ use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
 use std::fmt::Write;
 
+/// The remedy for a file that states no loads.
+pub(super) const ADD_LOADS: &str =
+    "give links a mass and centre and the [workload] gravity, or forces under [[workload.force]]";
+
+/// What misalignments do where no redundant constraint is left.
+pub(crate) const NO_STRAIN: &str = "Misalignments cause no reactions here: the mechanism is determinate and assembles without strain.";
+
+/// Returns the sentence on a file that states no loads, but perhaps misalignments.
+pub(crate) fn no_loads(misalignments: usize) -> String {
+    let only = match misalignments {
+        0 => String::new(),
+        n => format!(" but {}", plural(n, "misalignment")),
+    };
+    format!("The file states no loads{only}: {ADD_LOADS}.")
+}
+
 /// Self-stresses told at most.
 const STRESSES: usize = 12;
 
-/// What a component is next to: below this fraction of the greatest it is rounding.
-pub(super) const NOTHING: f64 = 1e-12;
-
-fn joints(list: &[JointForces<'_>], size: f64, rounding: f64, width: Option<u16>) -> String {
+fn joints(list: &[JointForces<'_>], size: f64, width: Option<u16>) -> String {
     let greatest = list
         .iter()
         .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
         .fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
-    let show = |x: f64, least: f64| {
-        if x.abs() <= least {
-            "0".to_owned()
-        } else {
-            figure(x / unit)
-        }
-    };
     let rows = list.iter().map(|r| {
-        let (force, moment) = (rounding * greatest, rounding * greatest * size);
         let mut row = [r.joint, r.kind].map(str::to_owned).to_vec();
-        row.extend(r.reaction.force.map(|x| show(x, force)));
-        row.push(show(r.force_magnitude, force));
-        row.extend(r.reaction.moment.map(|x| show(x, moment)));
-        row.push(show(r.moment_magnitude, moment));
+        for (vector, magnitude) in [
+            (r.reaction.force, r.force_magnitude),
+            (r.reaction.moment, r.moment_magnitude),
+        ] {
+            row.extend(vector.map(|x| figure(x / unit)));
+            row.push(figure(magnitude / unit));
+        }
         row
     });
     let (n, nm) = (format!("|F|, {prefix}N"), format!("|M|, {prefix}N·m"));
@@ -46,13 +54,7 @@ fn contacts(list: &[ObjectContact<'_>], width: Option<u16>) -> String {
     let greatest = list.iter().map(|c| c.force.normal.abs().max(c.force.along));
     let greatest = greatest.fold(0.0, f64::max);
     let (unit, prefix) = prefix(greatest);
-    let show = |x: f64| {
-        if x.abs() <= 1e-7 * greatest {
-            "0".to_owned()
-        } else {
-            figure(x / unit)
-        }
-    };
+    let show = |x: f64| figure(x / unit);
     let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), significant);
     let rows = list.iter().map(|c| {
         let force = c.force;
@@ -155,14 +157,12 @@ fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) ->
         writeln!(out, "{}\n", left_open(s))?;
     }
     of_loads(out, s)?;
-    // A cone programme is solved to its tolerance, equations to rounding.
-    let rounding = if s.choice == "pushing" { 1e-7 } else { NOTHING };
-    writeln!(out, "{}\n", joints(&s.reactions, s.size, rounding, width))?;
+    writeln!(out, "{}\n", joints(&s.reactions, s.size, width))?;
     if !s.contacts.is_empty() {
         writeln!(out, "{}\n", contacts(&s.contacts, width))?;
     }
     couplings::text(out, &s.couplings, width)?;
-    drives(out, s, rounding)?;
+    drives(out, s)?;
     equilibrium(out, s)?;
     if !s.self_stresses.is_empty() {
         family(out, s)?;
@@ -221,21 +221,19 @@ fn of_loads(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
     if loads.drive_speeds.iter().any(|s| *s != 0.0) {
         writeln!(out, "Inertia forces of the stated drive speed included\n")?;
     }
-    let no_mass = m.links.iter().all(|l| l.mass.is_none()) || loads.gravity.is_none();
+    let accelerated = loads.gravity.is_some() || loads.drive_speeds.iter().any(|s| *s != 0.0);
+    let no_mass = m.links.iter().all(|l| l.mass.is_none()) || !accelerated;
     let outside = m
         .state(s.state)
         .is_some_and(|state| loads.acts_from_outside(state));
     if no_mass && !outside {
-        writeln!(
-            out,
-            "The file states no loads: give links a mass and centre and the [workload] gravity, or forces under [[workload.force]].\n"
-        )?;
+        writeln!(out, "{}\n", no_loads(loads.misalignments.len()))?;
     }
     Ok(())
 }
 
 /// What the drives must do.
-fn drives(out: &mut String, s: &Reactions<'_>, rounding: f64) -> std::fmt::Result {
+fn drives(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
     for r in &s.reactions {
         let Some(d) = &r.drive else { continue };
         let (what, unit) = if d.slides {
@@ -243,17 +241,12 @@ fn drives(out: &mut String, s: &Reactions<'_>, rounding: f64) -> std::fmt::Resul
         } else {
             ("torque", "N·m")
         };
-        let effort = if d.effort.abs() <= rounding * r.force_magnitude {
-            0.0
-        } else {
-            d.effort
-        };
         writeln!(
             out,
             "Drive {} holds {}: {what} {} {unit}",
             r.joint,
             d.freedom,
-            figure(effort)
+            figure(d.effort)
         )?;
     }
     Ok(())
@@ -323,7 +316,7 @@ fn elastic(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> std::fmt:
             writeln!(
                 out,
                 "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
-                joints(list, s.size, NOTHING, width)
+                joints(list, s.size, width)
             )?;
             couplings::elastic(out, s.elastic_couplings.as_deref().unwrap_or_default())
         }
@@ -331,10 +324,7 @@ fn elastic(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> std::fmt:
             out,
             "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises."
         ),
-        None if open == 0 && !loads.misalignments.is_empty() => writeln!(
-            out,
-            "Misalignments cause no reactions here: the mechanism is determinate and assembles without strain."
-        ),
+        None if open == 0 && !loads.misalignments.is_empty() => writeln!(out, "{NO_STRAIN}"),
         None => Ok(()),
     }
 }

@@ -11,6 +11,7 @@ use crate::statics::inertia::LinkInertia;
 use crate::statics::kinetostatics::Equilibrium;
 use crate::statics::planar::PairId;
 use crate::view::claims;
+use crate::view::reactions::text::{NO_STRAIN, no_loads};
 use crate::view::statics::{Decomposed, GroupData, StaticsData, Structures, magnitudes};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::terminal::si_prefix::prefix;
@@ -115,11 +116,12 @@ fn write_statics(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> s
         }
     }
     let loads = &s.found.loads;
-    if loads.forces.is_empty() && loads.masses.iter().all(Option::is_none) {
-        writeln!(
-            out,
-            "The file states no loads: give links a mass and centre, or forces under [[workload.force]]."
-        )?;
+    let none = loads.forces.is_empty() && loads.moments.is_empty();
+    if none && loads.masses.iter().all(Option::is_none) {
+        writeln!(out, "{}", no_loads(loads.misalignments))?;
+        if loads.misalignments > 0 {
+            writeln!(out, "{NO_STRAIN}")?;
+        }
     } else {
         joints(out, s, width)?;
         inertia(out, s, width)?;
@@ -300,7 +302,11 @@ fn joints(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> std::fmt
             pair.kind.to_string(),
             pair.bodies.map(|b| m.bodies[b].name.as_str()).join(", "),
             figure(force / unit),
-            figure(s.shown(at)),
+            if force > 0.0 {
+                figure(s.shown(at))
+            } else {
+                String::new()
+            },
             if moment > 0.0 {
                 figure(moment / unit)
             } else {
@@ -350,14 +356,9 @@ fn inertia(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> std::fm
     if peaks.is_empty() {
         return Ok(());
     }
-    // What is this small beside the greatest is rounding.
-    let column = |i: usize| peaks.iter().map(|p| p.2[i]).fold(0.0, f64::max);
-    let least = [0, 1, 2, 3].map(|i| 1e-12 * column(i));
-    let figure = |x: f64, i: usize| figure(if x <= least[i] { 0.0 } else { x });
     let rows = peaks.iter().map(|(link, at, figures)| {
-        let at = crate::format::number::figure(s.shown(*at));
-        let mut row = vec![(*link).to_owned(), figure(figures[0], 0), at];
-        row.extend((1..4).map(|i| figure(figures[i], i)));
+        let mut row = vec![(*link).to_owned(), figure(figures[0]), figure(s.shown(*at))];
+        row.extend(figures[1..].iter().map(|x| figure(*x)));
         row
     });
     let at = format!("at, {}", s.unit());

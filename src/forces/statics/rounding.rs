@@ -1,0 +1,22 @@
+//! Figures of a solution that are rounding and nothing else.
+
+/// Returns the size up to which figures of a solution are rounding: what its equations leave over, and no less than the
+/// rounding of a sum of `terms` numbers as great as the greatest of them.
+pub(crate) fn rounding(left_over: f64, greatest: f64, terms: usize) -> f64 {
+    left_over.max(f64::EPSILON * terms as f64 * greatest)
+}
+
+/// Returns a figure, or 0 if it is rounding. If the rounding is not finite, no figure is.
+pub(crate) fn without(rounding: f64, figure: f64) -> f64 {
+    if figure.abs() <= rounding && rounding.is_finite() {
+        0.0
+    } else {
+        figure
+    }
+}
+
+/// Returns the greatest size among figures.
+pub(crate) fn greatest<'x>(figures: impl IntoIterator<Item = &'x f64>) -> f64 {
+    let sizes = figures.into_iter().map(|x| x.abs());
+    sizes.fold(0.0, f64::max)
+}
