@@ -20,7 +20,7 @@ use ozols::rank::numeric::Elimination;
 use std::sync::LazyLock;
 use std::time::Duration;
 
-static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
+pub(crate) static SURVEY: LazyLock<Survey> = LazyLock::new(|| {
     // Verdicts do not depend on the clock, so one that stands still will do.
     let watch = Stopwatch {
         clock: || Duration::ZERO,

@@ -3,6 +3,9 @@
 //! Every line `$ ozols ...` in a block marked `console` is run in a fresh folder per document, in order; what it prints
 //! on standard output, or on standard error where it prints nothing else, must be what follows it there, `...` standing for
 //! lines left out and `[..]` for part of a line. A block marked with a name, as `xml NAME`, is a file in that folder.
+//! Figures that stand elsewhere are held against the program by [`figures`].
+
+pub(crate) mod figures;
 
 use crate::robots::assemblies::make;
 use assert_cmd::Command;

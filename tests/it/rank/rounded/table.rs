@@ -1,6 +1,7 @@
 //! Every mechanism of known mobility, turned three times at random and rounded to 4 to 16 decimals.
 
 use super::cases::{Case, cases};
+use crate::documents::figures::{between, says};
 use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
 use ozols::model::mechanism::Mechanism;
 use ozols::rank::method::auto::decide;
@@ -31,10 +32,16 @@ impl Worth {
     }
 }
 
+const GUIDE: &str = "src/guide/mobility.md";
+
+/// The turns that the tables of the guide are of.
+const OF_THE_GUIDE: u64 = 100;
+
 /// What is said of the cases turned and rounded, one of every `part` of them unless all are asked for: how often it is worth
 /// what, by decimals, and what is wrong.
 #[allow(clippy::print_stdout, reason = "the table is what it is run for")]
 fn judged(
+    what: &str,
     part: usize,
     say: impl Fn(&Mechanism, &Case) -> (Worth, String) + Sync,
 ) -> BTreeMap<usize, BTreeMap<Worth, usize>> {
@@ -70,10 +77,23 @@ fn judged(
         }
     }
     println!("| decimals | right | undecided | wrong and sure |");
-    for (decimals, of) in &table {
+    let row = |(decimals, of): (&usize, &BTreeMap<Worth, usize>)| {
         let n = |w| of.get(&w).copied().unwrap_or(0);
         let (right, open, wrong) = (n(Worth::Right), n(Worth::Undecided), n(Worth::Wrong));
-        println!("| {decimals} | {right} | {open} | {wrong} |");
+        format!("| {decimals} | {right} | {open} | {wrong} |")
+    };
+    let rows: Vec<String> = table.iter().map(row).collect();
+    rows.iter().for_each(|row| println!("{row}"));
+    says(GUIDE, &format!("Of {} cases each", 3 * cases.len()));
+    let stated = between(GUIDE, &format!("rounded: {what}"));
+    let stated = stated
+        .lines()
+        .filter(|l| l.starts_with("| ") && !l.contains("decimals"));
+    for row in stated.filter(|_| first == OF_THE_GUIDE) {
+        assert!(
+            rows.iter().any(|r| r == row),
+            "{GUIDE} has {row}: {rows:#?}"
+        );
     }
     let wrong: Vec<&String> = found
         .iter()
@@ -86,7 +106,7 @@ fn judged(
 
 #[test]
 fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
-    let table = judged(41, |m, case| {
+    let table = judged("W", 41, |m, case| {
         let v = verdict(m, case.state, None).unwrap();
         let [w, most] = [v.rank(), v.at_least()].map(|rank| v.figures(rank).0);
         // Undecided is no answer, even where its range leaves the truth out.
@@ -113,7 +133,7 @@ fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
 
 #[test]
 fn no_finite_mobility_of_rounded_coordinates_is_wrong_and_sure() {
-    judged(61, |m, case| {
+    judged("finite mobility", 61, |m, case| {
         let found = decide(m, case.state, None).unwrap();
         let finite = found.finite;
         let what = format!(

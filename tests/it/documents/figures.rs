@@ -1,0 +1,274 @@
+//! Figures in the README and the guide that stand in no example, against what the program finds.
+
+use crate::accuracy::SURVEY;
+use crate::common::{count, json, out, run};
+use ozols::chains::pairs::classics::classics;
+use ozols::rank::method::registry;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Asserts that a document has these words, wherever its lines are broken.
+pub(crate) fn says(document: &str, words: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
+    let in_one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = in_one_line(&fs::read_to_string(path).unwrap());
+    assert!(
+        text.contains(&in_one_line(words)),
+        "{document} does not say: {words}"
+    );
+}
+
+/// Returns what stands in a document between a comment and the next `end`.
+pub(crate) fn between(document: &str, comment: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
+    let text = fs::read_to_string(path).unwrap();
+    let (_, after) = text.split_once(&format!("<!-- {comment} -->")).unwrap();
+    after.split_once("<!-- end -->").unwrap().0.to_owned()
+}
+
+/// Returns a whole number with groups of three digits.
+fn grouped(digits: &str) -> String {
+    let groups = digits.as_bytes().rchunks(3).rev();
+    let groups = groups.map(|g| std::str::from_utf8(g).unwrap());
+    groups.collect::<Vec<_>>().join(",")
+}
+
+const MOBILITY: &str = "src/guide/mobility.md";
+const CATALOG: &str = "src/guide/catalog.md";
+
+/// How often each method is right, in the table of the guide and in the README.
+#[test]
+fn records_of_the_methods_are_those_of_the_survey() {
+    let all = SURVEY.cases.len();
+    let cell = |n: usize| (n > 0).then(|| n.to_string()).unwrap_or_default();
+    let row = |of: &str, right: usize, pose: usize, wrong: usize, silent: usize| {
+        let cells = [right, pose, wrong, silent].map(cell).join(" | ");
+        says(MOBILITY, &format!("| {of} | {cells} |"));
+    };
+    says(MOBILITY, &format!("any of {} methods", registry::ALL.len()));
+    says(MOBILITY, &format!("Of {all} cases:"));
+    for (m, method) in registry::ALL.iter().enumerate() {
+        let (about, record) = (method.about(), SURVEY.standing(m));
+        let of = format!("`{}`: {}", about.name, about.title);
+        let silent = all - record.applies;
+        row(&of, record.right, record.pose, record.wrong(), silent);
+    }
+    for tuned in SURVEY.tuned.iter().filter(|t| t.right > t.right_by_default) {
+        let name = registry::ALL[tuned.method].name();
+        let of = format!("`{name}` at its best tolerance, {:.1e}", tuned.tolerance);
+        let wrong = SURVEY.standing(tuned.method).applies - tuned.right - tuned.pose;
+        row(&of, tuned.right, tuned.pose, wrong, 0);
+    }
+    let right = |name: &str| {
+        let m = registry::ALL.iter().position(|m| m.name() == name).unwrap();
+        SURVEY.standing(m).right
+    };
+    assert_eq!(right("auto"), all);
+    says(
+        "README.md",
+        &format!(
+            "{all} cases of published mobility, of which counting formulas get {} right, double precision {}, and the default method all",
+            right("count"),
+            right("lu")
+        ),
+    );
+}
+
+/// Sizes of the searches of the gripper.
+#[test]
+fn sizes_of_searches_are_those_of_the_searches() {
+    let search = |more: &[&str]| {
+        let args = [
+            &["search", "gripper-10", "--count", "--format", "json"],
+            more,
+        ];
+        json(&args.concat())
+    };
+    let size = |found: &Value| {
+        let space = format!("{:.1e}", count(&found["space"]) as f64);
+        (space.replace('e', "·10^"), found["nodes"].to_string())
+    };
+    let (space, nodes) = size(&search(&[]));
+    says(
+        "README.md",
+        &format!("{space} of them fold into diagrams of {nodes} nodes"),
+    );
+    let four = "revolute,cylindrical,universal,spherical";
+    let (few, fewer) = size(&search(&["--options", four]));
+    let with_four = format!("`search gripper-10 --count --options {four}`");
+    for (document, what, space, nodes) in [
+        ("README.md", "`search gripper-10 --count`", &space, &nodes),
+        (
+            "README.md",
+            "the same with four options, `--count`",
+            &few,
+            &fewer,
+        ),
+        (
+            "src/guide/speed.md",
+            "`search gripper-10 --count`",
+            &space,
+            &nodes,
+        ),
+        ("src/guide/speed.md", &*with_four, &few, &fewer),
+    ] {
+        says(document, &format!("| {what} | {space} | {nodes} |"));
+    }
+    let names = ["four-bar", "watt-six-bar", "scissor-lift-3", "gripper-10"];
+    let of = |name: &&str| {
+        let options = "revolute,cylindrical,spherical";
+        json(&[
+            "search",
+            name,
+            "--count",
+            "--options",
+            options,
+            "--format",
+            "json",
+        ])
+    };
+    let found = names.each_ref().map(of);
+    for (row, key) in [
+        ("variants", "space"),
+        ("without redundant constraints", "determinate"),
+    ] {
+        let counts = found.each_ref().map(|f| grouped(f[key].as_str().unwrap()));
+        says(
+            "src/guide/beside.md",
+            &format!("| {row} | {} |", counts.join(" | ")),
+        );
+    }
+}
+
+/// The gripper as built, redesigned by the paper, and redesigned here.
+#[test]
+fn redesigns_of_the_gripper_are_those_that_are_found() {
+    let analysed = |name: &str| json(&["analyze", name, "--format", "json"])["states"][0].clone();
+    let (built, paper) = (analysed("gripper-10"), analysed("gripper-10-redesign"));
+    let figures = |state: &Value| format!("{} | {}", state["redundant"], state["mobility"]);
+    says(
+        "README.md",
+        &format!("| as built | none | 0 | {} | none |", figures(&built)),
+    );
+    let idle = paper["idle"].as_array().unwrap().iter();
+    let idle: Vec<&str> = idle.map(|x| x["links"][0].as_str().unwrap()).collect();
+    says(
+        "README.md",
+        &format!(
+            "-> spherical | 12 | {} | {} |",
+            figures(&paper),
+            idle.join(", ")
+        ),
+    );
+    let options = "revolute,cylindrical,universal,spherical";
+    let condition = ["--options", options, "--max-mobility", "1", "--top", "1"];
+    let search = [
+        &["search", "gripper-10"],
+        &condition[..],
+        &["--format", "json"],
+    ]
+    .concat();
+    let best = json(&search)["variants"][0].clone();
+    let to = |kind: &str| {
+        let changes = best["changes"].as_array().unwrap().iter();
+        let those = changes.filter(|c| c["to"] == kind);
+        let joints: Vec<&str> = those.map(|c| c["joint"].as_str().unwrap()).collect();
+        format!("{} -> {kind}", joints.join(", "))
+    };
+    let changes = ["spherical", "cylindrical"].map(to).join("; ");
+    let [cost, sigma, w] = ["cost", "redundant", "mobility"].map(|key| &best[key]);
+    says(
+        "README.md",
+        &format!("| ozols | {changes} | {cost} | **{sigma}** | **{w}** | none |"),
+    );
+}
+
+/// How many schemes are known.
+#[test]
+fn as_many_schemes_are_known_as_the_documents_say() {
+    let known = classics().len();
+    says("README.md", &format!("{known} well-known schemes"));
+    says(CATALOG, &format!("among {known} well-known schemes"));
+    says(
+        CATALOG,
+        &format!("builds the {known} well-known schemes alone"),
+    );
+}
+
+/// What friction takes of a swing, and that it does not do to feed just that.
+#[test]
+fn the_guide_has_the_energies_of_the_built_in_drive() {
+    let found = json(&["drive", "torsion-module", "--format", "json"]);
+    let energy = found["design"]["friction_energy"].as_f64().unwrap();
+    says(
+        "src/guide/drive.md",
+        &format!("With the {energy:.4} J of (12)"),
+    );
+    let [feed, needed] = ["feed", "needed_feed"].map(|key| found["design"][key].as_f64().unwrap());
+    let more = 100.0 * (feed / needed - 1.0);
+    says(
+        "src/guide/drive.md",
+        &format!("gives {more:.1} % more than is needed"),
+    );
+    let sampled = out(&["drive", "torsion-module", "--tolerance", "0.005"]);
+    let (_, last) = sampled.split_once(" repeat it without end (").unwrap();
+    let share = last.split_once(')').unwrap().0;
+    says(
+        "src/guide/drive.md",
+        &format!("out by half a percent {share} of its samples last"),
+    );
+}
+
+/// How the three methods lose digits near each place where they fail, within a factor of three, as processors round otherwise.
+#[test]
+fn digits_near_the_failures_of_the_methods_are_as_the_guide_says() {
+    const GUIDE: &str = "src/guide/kinetostatics.md";
+    let folder = tempfile::tempdir().unwrap();
+    let args = [
+        "statics",
+        "--stability",
+        "-o",
+        folder.path().to_str().unwrap(),
+    ];
+    assert!(run(&args).status.success());
+    let guide = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(GUIDE)).unwrap();
+    for (row, name, method) in [
+        ("rods 6, 7 parallel: δ-point", "parallel-rods", "δ-point"),
+        ("D across the guide from δ", "across-guide", ""),
+        ("D at δ", "at-delta", ""),
+        ("no guide reaction: h", "no-guide-reaction", ""),
+    ] {
+        let table =
+            fs::read_to_string(folder.path().join(format!("stability-{name}.csv"))).unwrap();
+        let worst = |distance: f64| {
+            let each = table.lines().skip(1).filter_map(|line| {
+                let mut cells = line.rsplitn(3, ',');
+                let [y, x] = [cells.next()?, cells.next()?].map(|c| c.parse::<f64>().ok());
+                let of = cells.next()?.trim_matches('"');
+                let is_method = ["δ-point", "projective", "equilibrium"]
+                    .iter()
+                    .any(|m| of.starts_with(m));
+                let here = (x? / distance - 1.0).abs() < 1e-3;
+                (is_method && here && of.starts_with(method)).then_some(y?)
+            });
+            each.fold(0.0, f64::max)
+        };
+        let stated = guide
+            .lines()
+            .find(|l| l.starts_with(&format!("| {row} |")))
+            .unwrap();
+        let stated = stated
+            .split('|')
+            .skip(2)
+            .take(3)
+            .map(|c| c.trim().parse::<f64>().unwrap());
+        for (distance, stated) in [1.0, 1e-6, 1e-12].into_iter().zip(stated) {
+            let found = worst(distance);
+            assert!(
+                (stated / 3.0..3.0 * stated).contains(&found),
+                "{row} at {distance}: {found:e}"
+            );
+        }
+    }
+}
