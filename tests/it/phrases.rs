@@ -286,3 +286,21 @@ fn the_commands_of_a_page_ask_for_ideas() {
     assert!(page.contains("--idea {}") && page.contains("--variant {}"));
     assert!(!page.contains("--distinct --variant"));
 }
+
+/// Where another freedom moves, the one that is stopped is not "the one".
+#[test]
+fn freedoms_that_a_shaky_pose_stops_are_counted() {
+    let said = out(&["analyze", "lever-gripper", "--state", "clamped"]);
+    let words = "finite mobility 1: proven: 1 of 2 instantaneous freedoms is stopped by order 5";
+    assert!(said.contains(words), "{said}");
+}
+
+/// The planar formula refuses a mechanism that is not planar as it stands, and names the option that makes it so.
+#[test]
+fn the_planar_formula_names_the_option_that_it_needs() {
+    let formula = ["--method", "count-planar"];
+    let refused = run(&[&["analyze", "gripper-10"], &formula[..]].concat());
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("--planar"));
+    out(&[&["analyze", "gripper-10", "--planar"], &formula[..]].concat());
+}

@@ -12,7 +12,7 @@ use crate::statics::inertia::{BodyMass, link_inertias};
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
-use crate::statics::rounding::{greatest, rounding, without};
+use crate::statics::rounding::{greatest, over_load, rounding};
 use serde::Serialize;
 
 /// Where a load comes from.
@@ -200,19 +200,6 @@ pub struct Reaction {
 }
 
 impl Reaction {
-    /// Returns the reaction with 0 for what is at most `rounding` `[N]`, moments divided by the mechanism's size.
-    fn without(self, rounding: f64, linkage: &Linkage) -> Reaction {
-        let turning = linkage.mechanism.pairs[self.pair].kind == PairKind::Turning;
-        let of_moments = rounding * linkage.size;
-        let of_effort = if turning { of_moments } else { rounding };
-        Reaction {
-            force: self.force.map(|x| without(rounding, x)),
-            moment: without(of_moments, self.moment),
-            effort: self.effort.map(|x| without(of_effort, x)),
-            ..self
-        }
-    }
-
     /// Force and moment about a point on one of the two bodies; zero on any other.
     #[must_use]
     pub fn on(&self, linkage: &Linkage, body: BodyId, about: [f64; 2]) -> [f64; 3] {
@@ -323,7 +310,7 @@ pub(crate) fn equilibrium(
     Some(Equilibrium {
         reactions: reactions.collect(),
         condition: system.condition(),
-        residual: if load > 0.0 { left_over / load } else { 0.0 },
+        residual: over_load(left_over, load),
     })
 }
 

@@ -16,7 +16,7 @@ use crate::statics::reactions::solution::{
 use crate::statics::reactions::transmitted::Transmitted;
 use crate::statics::reactions::unilateral::{TOLERANCE, pushing};
 use crate::statics::reactions::unsolved::Unsolved;
-use crate::statics::rounding::{greatest, rounding};
+use crate::statics::rounding::{greatest, over_load, rounding};
 
 /// Work on undriven motions below this fraction of the loads is none.
 const NO_WORK: f64 = 1e-8;
@@ -156,11 +156,7 @@ impl Reactions {
             elastic: elastic.as_ref().map(|(t, least)| present(t, *least)),
             undriven: system.undriven(),
             condition: system.condition(),
-            residual: if load > 0.0 {
-                left_over / load
-            } else {
-                left_over
-            },
+            residual: over_load(left_over, load),
             size: geometry.size,
         })
     }

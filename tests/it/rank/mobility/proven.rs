@@ -1,7 +1,6 @@
 //! Motions that are proven: which, by what, and that following them never says otherwise.
 
 use super::built_in;
-use crate::common::{run, text};
 use crate::rank::finite_traps::{all::all as traps, judged, judged_in};
 use crate::rank::rounded::cases::cases;
 use chacha20::ChaCha8Rng;
@@ -238,28 +237,6 @@ fn a_clamped_part_that_slides_is_proven_to_do_no_more() {
     let (instantaneous, found) = judged_in(&m, state);
     assert_eq!((instantaneous, found.mobility), (2, 1), "{found:?}");
     assert!(found.is_proven(), "{found:?}");
-    // Another freedom moves: it is not "the one".
-    let said = found.describe();
-    assert!(
-        said.contains("1 of 2 instantaneous freedoms is stopped"),
-        "{said}"
-    );
-}
-
-/// The planar formula refuses a mechanism that is not planar as it stands, and names the option that makes it so.
-#[test]
-fn the_planar_formula_names_the_option_that_it_needs() {
-    let refused = run(&["analyze", "gripper-10", "--method", "count-planar"]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("--planar"));
-    let planar = [
-        "analyze",
-        "gripper-10",
-        "--planar",
-        "--method",
-        "count-planar",
-    ];
-    assert!(run(&planar).status.success());
 }
 
 /// Of all built-ins four are followed alone: a parallelogram of screws, which no polynomial describes; two bananas, of which one
