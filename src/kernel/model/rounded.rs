@@ -258,12 +258,6 @@ fn measured(expr: &Expr) -> Option<usize> {
     }
 }
 
-/// Whether a coordinate may have been rounded: a decimal, or a whole number that may be one whose last digits are 0.
-#[must_use]
-pub(crate) fn may_be_rounded(expr: &Expr) -> bool {
-    expr.rational_ref().is_some_and(|r| r.is_integer()) || decimal(expr).is_some()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

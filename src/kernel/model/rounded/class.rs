@@ -7,6 +7,10 @@ use std::collections::BTreeMap;
 
 /// So many long decimals without a trailing zero are no chance.
 const MANY: usize = 10;
+/// A zero that is left out at the end of one decimal in ten makes its unit so much coarser.
+const LOST: f64 = 10.5;
+/// One in so many of the long decimals have a number of places that they are rounded to; fewer have lost zeros.
+const SHARE: usize = 5;
 /// A direction of decimals with fewer significant digits may have been chosen.
 const FEW: usize = 3;
 
@@ -17,6 +21,16 @@ pub(super) enum NumberKind {
     Length,
     /// A component of a direction.
     Direction,
+}
+
+impl NumberKind {
+    /// How many significant digits a long one has.
+    fn least(self) -> usize {
+        match self {
+            NumberKind::Length => LONG_LENGTH,
+            NumberKind::Direction => LONG_DIRECTION,
+        }
+    }
 }
 
 /// The numbers of a kind as they are written, equal ones once.
@@ -42,11 +56,7 @@ impl NumberClass {
 
     /// Takes in a number.
     pub(super) fn see(&mut self, e: &Expr, kind: NumberKind) {
-        let least = match kind {
-            NumberKind::Length => LONG_LENGTH,
-            NumberKind::Direction => LONG_DIRECTION,
-        };
-        self.see_from(e, least);
+        self.see_from(e, kind.least());
     }
 
     /// Takes in a number that is long from so many significant digits on.
@@ -112,20 +122,49 @@ impl NumberClass {
         !self.zeros && self.long.len() >= MANY
     }
 
-    /// Half the unit of a decimal.
-    pub(super) fn decimal(&self, digits: Digits) -> f64 {
+    /// Half the unit of a decimal of a vector, that of its own last digit; but a short one was chosen, and one that a finer vector
+    /// has beside it may have lost zeros: these have the unit of most.
+    fn decimal(&self, digits: Digits, of: &[Expr], kind: NumberKind) -> f64 {
         let (plain, factor) = (half_of(digits.places), digits.factor());
-        match self.commonest() {
-            Some(most) if digits.end == End::Float => most * factor,
-            // What is shorter than most was chosen, or has lost zeros.
-            Some(most) if !self.zeros => plain.min(most) * factor,
-            _ if digits.end == End::Float => 0.0,
-            _ => digits.half,
+        let Some(most) = self.commonest() else {
+            return if digits.end == End::Float { 0.0 } else { digits.half };
+        };
+        if digits.end == End::Float {
+            return most * factor;
+        }
+        if self.zeros || plain <= most {
+            return digits.half;
+        }
+        let long = |d: &Digits| d.significant >= kind.least();
+        let all = of.iter().filter_map(digits_of).filter(long);
+        let finest = all.clone().map(|d| half_of(d.places));
+        let finest = finest.fold(f64::INFINITY, f64::min);
+        let own = long(&digits) && {
+            let lost = plain <= LOST * most && self.drops_zeros();
+            // Long decimals that are all as short as this were rounded together, and so were those that many are as short as.
+            let together = all.count() > 1 && finest > most;
+            together || self.is_common(digits.places) || (kind == NumberKind::Direction && !lost)
+        };
+        match kind {
+            _ if own => digits.half,
+            // One direction is written with one number of places.
+            NumberKind::Direction if finest.is_finite() => finest * factor,
+            _ => plain.min(most) * factor,
         }
     }
 
-    /// Half the unit of a length; `turned` where directions are decimals.
-    pub(super) fn length(&self, e: &Expr, turned: bool) -> f64 {
+    /// Whether a fifth of the long decimals have so many places.
+    fn is_common(&self, places: i32) -> bool {
+        let as_short = self.long.values().filter(|p| **p == places).count();
+        as_short * SHARE >= self.long.len()
+    }
+
+    /// Half the units of the coordinates of a point, or of one length; `turned` where directions are decimals.
+    pub(super) fn lengths(&self, v: &[Expr], turned: bool) -> Vec<f64> {
+        v.iter().map(|e| self.length(e, v, turned)).collect()
+    }
+
+    fn length(&self, e: &Expr, of: &[Expr], turned: bool) -> f64 {
         let whole = |factor: f64| match self.commonest() {
             None if turned && self.whole => 0.5 * factor,
             Some(most) if e.to_f64() != 0.0 => most * factor,
@@ -140,24 +179,28 @@ impl NumberClass {
             {
                 whole(digits.factor())
             }
-            WrittenNumber::Decimal(digits) => self.decimal(digits),
+            WrittenNumber::Decimal(digits) => self.decimal(digits, of, NumberKind::Length),
+        }
+    }
+
+    /// Half the unit of a long decimal; 0 of what is shorter, which was chosen.
+    pub(super) fn of_long(&self, e: &Expr, kind: NumberKind) -> f64 {
+        match e.written() {
+            WrittenNumber::Decimal(d) if d.significant >= kind.least() && d.end != End::Float => {
+                self.decimal(d, std::slice::from_ref(e), kind)
+            }
+            _ => 0.0,
         }
     }
 
     /// Half the units of the components of a direction, or of a quaternion.
     pub(super) fn direction(&self, v: &[Expr]) -> Vec<f64> {
         let chosen = !self.drops_zeros() && is_chosen(v);
-        // One direction is written with one number of places.
-        let finest = v.iter().filter_map(digits_of);
-        let finest = finest.map(|d| d.half).fold(f64::INFINITY, f64::min);
         let half = |e: &Expr| match e.written() {
             WrittenNumber::No | WrittenNumber::Whole => 0.0,
             WrittenNumber::Stated(half) => half,
             WrittenNumber::Decimal(_) if chosen => 0.0,
-            WrittenNumber::Decimal(digits) => {
-                let half = self.decimal(digits);
-                if self.zeros { half } else { half.min(finest) }
-            }
+            WrittenNumber::Decimal(digits) => self.decimal(digits, v, NumberKind::Direction),
         };
         v.iter().map(half).collect()
     }

@@ -1,8 +1,7 @@
 //! How well numbers are known that are calculated from those of another file.
 
 use super::class::{NumberClass, NumberKind};
-use super::long::{LONG_DIRECTION, LONG_LENGTH};
-use crate::geom::expr::{End, Expr, WrittenNumber};
+use crate::geom::expr::Expr;
 
 /// The numbers that places are calculated from, as they are written.
 #[derive(Debug, Default)]
@@ -45,14 +44,7 @@ impl Sources {
             return None;
         }
         let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, f64::max);
-        // Short ones are chosen.
-        let long = |class: &NumberClass, e: &Expr, least: usize| match e.written() {
-            WrittenNumber::Decimal(d) if d.significant >= least && d.end != End::Float => {
-                class.decimal(d)
-            }
-            _ => 0.0,
-        };
-        let turn = |e: &Expr| long(&directions, e, LONG_DIRECTION);
+        let turn = |e: &Expr| directions.of_long(e, NumberKind::Direction);
         let of = |v: &Vec<Expr>| {
             let real: Vec<f64> = v.iter().map(Expr::to_f64).collect();
             let norm = real.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -63,7 +55,7 @@ impl Sources {
         // Quaternions turn frames.
         let quaternions = self.directions.iter().filter(|v| v.len() == 4);
         Some(Largest {
-            length: largest(&mut self.lengths.iter().map(|e| long(&lengths, e, LONG_LENGTH))),
+            length: largest(&mut self.lengths.iter().map(|e| lengths.of_long(e, NumberKind::Length))),
             direction: largest(&mut self.directions.iter().map(of)),
             turn: largest(&mut self.angles.iter().map(turn).chain(quaternions.map(of))),
         })

@@ -3,6 +3,7 @@
 use super::class::{NumberClass, NumberKind};
 use super::ratio::doubt_of;
 use crate::geom::expr::{End, Expr, WrittenNumber};
+use crate::geom::vector::{self, real};
 use crate::model::coupling::Coupling;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Mode};
 use std::collections::BTreeMap;
@@ -59,6 +60,36 @@ pub struct Uncertainties {
     pub half_unit: [f64; 2],
 }
 
+impl Uncertainties {
+    /// The same half units for all numbers of the joints: of lengths, and of directions of length 1.
+    #[must_use]
+    pub fn uniform(mechanism: &Mechanism, length: f64, direction: f64) -> Uncertainties {
+        let joints = mechanism.joints.iter();
+        let of = |v: &[Expr; 3]| [direction * vector::length(real(v)); 3];
+        Uncertainties {
+            point: vec![[length; 3]; mechanism.joints.len()],
+            axis: joints.clone().map(|j| of(&j.frame.axis)).collect(),
+            reference: joints.map(|j| of(&j.frame.reference)).collect(),
+            pitch: vec![0.0; mechanism.joints.len()],
+            ..Uncertainties::default()
+        }
+    }
+
+    /// The largest half units of points, and of directions of length 1.
+    #[must_use]
+    pub fn largest(&self, mechanism: &Mechanism) -> [f64; 2] {
+        let most = |v: &[f64; 3]| v.iter().copied().fold(0.0, f64::max);
+        let frames = mechanism.joints.iter().map(|j| &j.frame);
+        let axes = frames.clone().map(|f| &f.axis).zip(&self.axis);
+        let all = axes.chain(frames.map(|f| &f.reference).zip(&self.reference));
+        let directions = all.map(|(v, h)| most(h) / vector::length(real(v)));
+        [
+            self.point.iter().map(most).fold(0.0, f64::max),
+            directions.fold(0.0, f64::max),
+        ]
+    }
+}
+
 /// What the numbers of a mechanism say together.
 struct Reading {
     lengths: NumberClass,
@@ -78,9 +109,10 @@ struct Reading {
 /// exact. Of the decimals of a file one at least must be long, four significant digits of a length or three of a direction, or
 /// two in a direction that is of length 1 to within them and not exactly, or all are taken at their word.
 ///
-/// Where at least ten decimals of a kind, equal ones counted once, are long and none shows a trailing zero, the writer left them
-/// out: a number one or two places shorter than most, or of fewer than three digits, has the unit of most. So have whole
-/// numbers among the lengths and those that end in `.0`. Whole zeros, and whole numbers in directions, are exact; but where
+/// Where no long decimal of a kind shows a trailing zero, a number shorter than most may be chosen or have lost zeros. It then has
+/// the unit of most, or in a direction of the other components: a number of fewer digits than are long, a length that is as
+/// short as few others, and, of at least ten long decimals, a component one place shorter than the others. Whole numbers among the
+/// lengths and those that end in `.0` have the unit of most, too. Whole zeros, and whole numbers in directions, are exact; but where
 /// most axes are decimals and lengths are whole numbers, these are rounded to whole numbers.
 ///
 /// # Complexity
@@ -202,7 +234,7 @@ impl Reading {
             pitch: if is_whole(&f.pitch) {
                 0.0
             } else {
-                self.length(&f.pitch)
+                self.lengths(std::slice::from_ref(&f.pitch))[0]
             },
         };
         let numbers = FrameNumbers {
@@ -213,22 +245,20 @@ impl Reading {
         (of, numbers)
     }
 
-    fn length(&self, e: &Expr) -> f64 {
+    fn lengths(&self, v: &[Expr]) -> Vec<f64> {
         if !self.rounded {
-            return 0.0;
+            return vec![0.0; v.len()];
         }
-        self.lengths.length(e, self.turned)
+        self.lengths.lengths(v, self.turned)
     }
 
     fn vector(&mut self, v: &[Expr; 3], kind: NumberKind) -> ([f64; 3], [Option<usize>; 3]) {
         let halves = match kind {
-            _ if !self.rounded => [0.0; 3],
-            NumberKind::Length => v.each_ref().map(|e| self.length(e)),
-            NumberKind::Direction => {
-                let of = self.directions.direction(v);
-                [0, 1, 2].map(|i| of.get(i).copied().unwrap_or(0.0))
-            }
+            NumberKind::Length => self.lengths(v),
+            NumberKind::Direction if self.rounded => self.directions.direction(v),
+            NumberKind::Direction => Vec::new(),
         };
+        let halves = [0, 1, 2].map(|i| halves.get(i).copied().unwrap_or(0.0));
         let number = |i: usize| {
             if halves[i] == 0.0 {
                 return None;
