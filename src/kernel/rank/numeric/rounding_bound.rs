@@ -1,33 +1,40 @@
 //! What rounding can do to singular values.
 
 use crate::closure::matrix::Closure;
-use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::Mechanism;
-use crate::model::rounded::Units;
+use crate::geom::expr::Expr;
+use crate::geom::vector::{length as norm, real};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::rounded::Uncertainties;
 use crate::rank::numeric::scaling::Scaling;
 
-/// The most by which rounding to half a unit can have changed any singular value of the scaled J.
+/// The most by which errors of the coordinates of at most these half units can have changed any singular value of the scaled J.
 ///
 /// By Weyl's inequality no singular value changes by more than the norm of the change of the matrix (Golub & Van Loan, "Matrix Computations", 2013,
-/// 8.6.2). A unit vector whose components are rounded is off by √3/2 units at most; a turn feels that in its own direction
-/// and, at an arm of at most the mechanism's size, in its moment, and feels the point's error beside.
+/// 8.6.2). A turn feels the error of its direction as it is and, at an arm of at most the mechanism's size, in its moment, and feels
+/// the point's error beside.
 #[must_use]
-pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, units: Units) -> f64 {
-    let half = 3f64.sqrt() / 2.0;
-    let direction = half * units.direction;
-    let length = half * units.length / Scaling::of(closure).length();
-    let error = |freedom: Freedom, of: &JointType| {
+pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, half: &Uncertainties) -> f64 {
+    let size = Scaling::of(closure).length();
+    let error = |freedom: Freedom, j: JointId| {
+        let (joint, at) = (&m.joints[j], j.index());
+        let of = &joint.joint_type;
+        let angle = |h: [f64; 3], v: &[Expr; 3]| norm(h) / norm(real(v));
+        let axis = angle(half.axis[at], &joint.frame.axis);
+        let length = norm(half.point[at]) / size;
         let turns = of.freedoms().iter().filter(|f| f.turns()).count();
         // Second axes are made from two vectors.
         let own = match freedom {
-            Freedom::Rz | Freedom::Tz | Freedom::Screw => direction,
-            Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty => 2.0 * direction,
+            Freedom::Rz | Freedom::Tz | Freedom::Screw => axis,
+            Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty => {
+                axis + angle(half.reference[at], &joint.frame.reference)
+            }
         };
         match freedom {
             Freedom::Tx | Freedom::Ty | Freedom::Tz => own,
             // All turns about a point are the same whichever way its axes point.
             Freedom::Rx | Freedom::Ry | Freedom::Rz if turns == 3 => length,
-            Freedom::Screw => 2.0 * own + 2.0 * length,
+            Freedom::Screw => 2.0 * own + 2.0 * length + half.pitch[at] / size,
             _ => 2.0 * own + length,
         }
     };
@@ -36,7 +43,7 @@ pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, units: Units
         let passing = passing.filter(|k| k.direction(c.joint).is_some()).count();
         #[allow(clippy::cast_precision_loss, reason = "contours are few")]
         let times = passing as f64;
-        times * error(c.freedom, &m.joints[c.joint].joint_type).powi(2)
+        times * error(c.freedom, c.joint).powi(2)
     });
     squares.sum::<f64>().sqrt()
 }

@@ -50,33 +50,8 @@ impl Values {
         found.kept.max(floor) / found.dropped.max(floor)
     }
 
-    /// The rank with the widest gap. Zeros that rounding disturbs to second order only are as large as its square.
-    pub(in crate::rank) fn widest_gap(&self, from: usize, below: usize, tolerance: f64) -> usize {
-        let floor = (tolerance * tolerance).max(ROUND_OFF);
-        let gap = |rank: usize| self.gap(rank, floor);
-        let wider = |a: &usize, b: &usize| gap(*a).total_cmp(&gap(*b));
-        (from..below).max_by(wider).unwrap_or(from)
-    }
-
     /// The rank at a gap so wide, and values so small below it, that they are likely left over from zero.
     pub(in crate::rank) fn left_over(&self, rank: usize) -> Option<usize> {
         (1..rank).find(|&r| self.gap(r, ROUND_OFF) >= GAP && self.at(r).dropped < LEFT_OVER)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Values;
-
-    /// Rounding by 1e-5 leaves a zero of second order at 1e-10; a value of 1e-6 above it is one that is meant.
-    #[test]
-    fn values_below_the_tolerance_are_told_apart() {
-        let values = Values {
-            largest: 1.0,
-            relative: vec![1.0, 1e-3, 1e-6, 1e-10],
-        };
-        assert_eq!(values.widest_gap(2, 4, 1e-5), 3);
-        // Where rounding may have made it, the gap above it is the wider one.
-        assert_eq!(values.widest_gap(2, 4, 1e-3), 2);
     }
 }

@@ -10,7 +10,7 @@ use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
-use crate::model::rounded::{Units, may_be_rounded};
+use crate::model::rounded::Uncertainties;
 use crate::rank::numeric::scaling::{Scaling, scaled};
 use crate::rank::rounded::snap::size;
 use ozols_dense::{Matrix, svd, thin_svd};
@@ -55,26 +55,31 @@ struct Coordinate {
     written: f64,
 }
 
-/// The coordinates of a state that may have been rounded: lengths and directions by their units.
-fn coordinates(m: &Mechanism, state: StateId, units: Units) -> Vec<Coordinate> {
+/// The coordinates of a state that may have been rounded, each with twice its half unit.
+fn coordinates(m: &Mechanism, state: StateId, half: &Uncertainties) -> Vec<Coordinate> {
     // In a plane, axes must stay square to it.
     let spatial = matches!(m.mode, Mode::Spatial);
     let size = size(m);
     let mut out = Vec::new();
     for joint in m.joints_in(state) {
         let frame = &m.joints[joint].frame;
-        for (vector, of) in [&frame.point, &frame.axis, &frame.reference]
-            .into_iter()
-            .enumerate()
+        let at = joint.index();
+        for (vector, (of, half)) in [
+            (&frame.point, half.point[at]),
+            (&frame.axis, half.axis[at]),
+            (&frame.reference, half.reference[at]),
+        ]
+        .into_iter()
+        .enumerate()
         {
-            let norm = length(real(of));
-            let (unit, scale) = match vector {
-                0 => (units.length, size),
-                _ if spatial => (units.direction * norm, norm),
+            let scale = match vector {
+                0 => size,
+                _ if spatial => length(real(of)),
                 _ => continue,
             };
-            for (component, x) in of.iter().enumerate() {
-                if unit > 0.0 && may_be_rounded(x) {
+            for (component, (x, half)) in of.iter().zip(half).enumerate() {
+                let unit = 2.0 * half;
+                if unit > 0.0 {
                     let written = x.to_f64();
                     out.push(Coordinate {
                         joint,
@@ -116,8 +121,9 @@ fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
 /// # Complexity
 /// At most 12 decompositions of a matrix of (6k - rank)(f - rank) rows and 9p columns.
 #[must_use]
-pub fn nearest(m: &Mechanism, state: StateId, rank: usize, units: Units) -> Option<Nearest> {
-    let of = coordinates(m, state, units);
+pub fn nearest(m: &Mechanism, state: StateId, rank: usize, half: &Uncertainties,
+) -> Option<Nearest> {
+    let of = coordinates(m, state, half);
     let mut closure = Closure::new(&Reals, m, state).ok()?;
     let contours = closure.contours.clone();
     let equations = (closure.rows() - rank) * (closure.columns.len() - rank);

@@ -6,10 +6,9 @@
 
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
-use crate::geom::vector::{length, real};
 use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
-use crate::model::rounded::{Rounded, Units, looks_rounded, uncertainties};
+use crate::model::rounded::{Rounded, Uncertainties, Units, looks_rounded, uncertainties};
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
@@ -261,8 +260,7 @@ pub(in crate::rank) fn verdict_on(
         rounded,
         resolved: scene.is_some(),
     };
-    let size = size(mechanism);
-    let Some((units, reach)) = allowed(file, found.rounded.as_ref(), tolerance, size) else {
+    let Some(half) = allowed(file, found.rounded.as_ref(), tolerance) else {
         return Ok(found);
     };
     let Some(values) = relative_values(&real)? else {
@@ -270,7 +268,7 @@ pub(in crate::rank) fn verdict_on(
     };
     found.tolerance = match tolerance {
         Some(t) => t,
-        None => (bound(mechanism, &real, units) / values.largest).max(LEAST),
+        None => (bound(mechanism, &real, &half) / values.largest).max(LEAST),
     };
     let above = values.above(found.tolerance);
     let scene = match scene.filter(|s| s.scene.moved > 0.0) {
@@ -278,44 +276,39 @@ pub(in crate::rank) fn verdict_on(
         None => None,
     };
     let rank = scene.map_or(as_written, |s| s.1);
-    if above >= rank.min(as_written) {
+    if above >= rank {
         let (at, meant) = counted(&values, above, rank, scene, tolerance);
         (found.numeric, found.meant) = (Some(values.at(at)), meant);
         return Ok(found);
     }
-    let near = match tolerance {
-        Some(_) => above,
-        None => values.widest_gap(above, as_written.max(rank + 1), found.tolerance),
-    };
-    found.numeric = Some(values.at(near));
-    found.meant = match scene {
-        Some((s, rank)) if rank == near => snapped(s, rank),
+    // A value below the tolerance may be zero, whatever the exact rank makes of it.
+    found.numeric = Some(values.at(above));
+    found.meant = match tolerance {
         // One gap is much like another there.
-        _ if tolerance.is_none() && values.gap(near, ROUND_OFF) < CLEAR => Meant::Undecided {
+        None if values.gap(above, ROUND_OFF) < CLEAR => Meant::Undecided {
             near: values.left_over(above).unwrap_or(above),
         },
-        _ => meant(mechanism, state, near, units, reach, tolerance.is_some())?,
+        _ => meant(mechanism, state, above, &half, tolerance)?,
     };
     Ok(found)
 }
 
-/// What coordinates may be off by, and how far joints may be moved: as the tolerance asks, or as the digits say; none where
-/// every digit is exact.
+/// What coordinates may be off by: as the tolerance asks, or as the digits say; none where every digit is exact.
 fn allowed(
     file: &Mechanism,
     rounded: Option<&Rounded>,
     tolerance: Option<f64>,
-    size: f64,
-) -> Option<(Units, Reach)> {
-    if let Some(t) = tolerance {
-        let units = Units {
-            length: t * size,
-            direction: t,
-        };
-        return Some((units, Reach::relative(t, size)));
+) -> Option<Uncertainties> {
+    match tolerance {
+        Some(t) => Some(Uncertainties::uniform(file, t * size(file) / 2.0, t / 2.0)),
+        None => rounded.map(|r| half_units(file, r)),
     }
-    let units = units(file, rounded?);
-    Some((units, Reach::of_units(units, size)))
+}
+
+/// Half the units of the numbers of a mechanism that looks rounded.
+pub(in crate::rank) fn half_units(file: &Mechanism, r: &Rounded) -> Uncertainties {
+    let [length, direction] = [r.units.length, r.units.direction].map(|u| u / 2.0);
+    uncertainties(file).unwrap_or_else(|| Uncertainties::uniform(file, length, direction))
 }
 
 /// The verdict where no rounding can have made the singular values that the rank counts, and the rank to show them at.
@@ -348,25 +341,10 @@ fn snapped(scene: &Scene, rank: usize) -> Meant {
 /// How far the digits of a mechanism allow its joints to be moved; none where they are exact.
 #[must_use]
 pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
-    let size = size(mechanism);
-    looks_rounded(mechanism).map(|r| Reach::of_units(units(mechanism, &r), size))
-}
-
-/// The coarsest units of points, and of the components of directions of unit length.
-fn units(mechanism: &Mechanism, r: &Rounded) -> Units {
-    let Some(half) = uncertainties(mechanism) else {
-        return r.units;
-    };
-    let largest = |v: [f64; 3]| v.into_iter().fold(0.0, f64::max);
-    let points = half.point.iter().map(|v| largest(*v));
-    let frames = mechanism.joints.iter().map(|j| &j.frame);
-    let axes = frames.clone().map(|f| &f.axis).zip(&half.axis);
-    let all = axes.chain(frames.map(|f| &f.reference).zip(&half.reference));
-    let directions = all.map(|(v, h)| largest(*h) / length(real(v)));
-    Units {
-        length: 2.0 * points.fold(0.0, f64::max),
-        direction: 2.0 * directions.fold(0.0, f64::max),
-    }
+    let half = half_units(mechanism, &looks_rounded(mechanism)?);
+    let [length, direction] = half.largest(mechanism).map(|h| 2.0 * h);
+    let units = Units { length, direction };
+    Some(Reach::of_units(units, size(mechanism)))
 }
 
 /// The mechanism that is meant if J is to have a rank.
@@ -374,12 +352,12 @@ fn meant(
     mechanism: &Mechanism,
     state: StateId,
     rank: usize,
-    units: Units,
-    reach: Reach,
-    asked: bool,
+    half: &Uncertainties,
+    tolerance: Option<f64>,
 ) -> Result<Meant, NoAnswer> {
-    if asked {
-        let snapped = snap(mechanism, reach);
+    let (asked, size) = (tolerance.is_some(), size(mechanism));
+    if let Some(t) = tolerance {
+        let snapped = snap(mechanism, Reach::relative(t, size));
         if rank_of(&snapped.mechanism, state)? == rank {
             return Ok(Meant::Snapped {
                 mechanism: Box::new(snapped.mechanism),
@@ -390,9 +368,10 @@ fn meant(
         }
     }
     // With so few digits a geometry of that rank is near by chance.
-    let coarse = units.direction.max(units.length / size(mechanism)) > COARSE;
+    let [length, direction] = half.largest(mechanism);
+    let coarse = 2.0 * direction.max(length / size) > COARSE;
     let found = (asked || !coarse)
-        .then(|| nearest(mechanism, state, rank, units))
+        .then(|| nearest(mechanism, state, rank, half))
         .flatten();
     Ok(match found {
         Some(Nearest {
@@ -424,12 +403,8 @@ mod tests {
             let apart = [0.345_678 * unit, 0.0, 0.0];
             let door = hinges(&[([0, 1], [0.0; 3]), ([0, 1], apart), ([0, 2], X)]);
             let m = drawn(&door, &[]);
-            let units = Units {
-                length: unit,
-                direction: unit,
-            };
-            let reach = Reach::of_units(units, size(&m));
-            let found = meant(&m, StateId::FREE, 2, units, reach, false).unwrap();
+            let half = Uncertainties::uniform(&m, unit / 2.0, unit / 2.0);
+            let found = meant(&m, StateId::FREE, 2, &half, None).unwrap();
             assert_eq!(
                 matches!(found, Meant::Near { .. }),
                 near,
