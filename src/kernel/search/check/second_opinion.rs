@@ -89,10 +89,18 @@ impl SecondOpinion {
         self.contradiction.is_none() && self.below_present.is_none()
     }
 
-    /// Whether the counts may be called exact: nothing speaks against them, and it is decided what the digits mean.
+    /// How many of the variants asked about are not decided.
+    #[must_use]
+    pub fn undecided(&self) -> usize {
+        self.listed.undecided + self.admissible.undecided + self.all.undecided
+    }
+
+    /// Whether the counts may be called exact: nothing speaks against them, and it is decided what the digits mean, of the
+    /// mechanism and of every variant asked about.
     #[must_use]
     pub fn confirms(&self) -> bool {
-        self.agrees() && !self.digits.undecided && self.scenes.is_none()
+        let decided = !self.digits.undecided && self.undecided() == 0;
+        self.agrees() && decided && self.scenes.is_none()
     }
 }
 

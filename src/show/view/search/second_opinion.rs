@@ -95,7 +95,13 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
         ));
     }
     if out.is_empty() && !said.confirms() {
-        out.push("Not exact: it is not decided what the digits of the file mean".to_owned());
+        out.push(match said.undecided() {
+            0 => "Not exact: it is not decided what the digits of the file mean".to_owned(),
+            n => format!(
+                "Not exact: the digits of the file do not decide {} of the variants asked about",
+                grouped(n)
+            ),
+        });
     }
     out
 }
@@ -112,11 +118,7 @@ pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
 
 fn agreed(said: &SecondOpinion) -> String {
     let n = |n: usize| grouped(n);
-    let undecided = [said.listed, said.admissible, said.all]
-        .iter()
-        .map(|a| a.undecided)
-        .sum::<usize>();
-    let open = match undecided {
+    let open = match said.undecided() {
         0 => String::new(),
         many => format!("; the digits do not decide {} of them", n(many)),
     };
@@ -175,7 +177,7 @@ impl SecondOpinionData {
             }
         });
         Some(SecondOpinionData {
-            agree: said.agrees(),
+            agree: said.agrees() && said.undecided() == 0,
             undecided: said.digits.undecided,
             tolerance: said.digits.tolerance,
             listed: said.listed,
