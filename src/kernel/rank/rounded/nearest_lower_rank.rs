@@ -40,6 +40,8 @@ pub struct Nearest {
     pub mechanism: Mechanism,
     /// The largest change of a coordinate, in units of its last digit.
     pub moved: f64,
+    /// How many independent conditions the coordinates fulfil to have that rank.
+    pub conditions: usize,
 }
 
 /// A coordinate that may be moved.
@@ -121,7 +123,11 @@ fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
 /// # Complexity
 /// At most 12 decompositions of a matrix of (6k - rank)(f - rank) rows and 9p columns.
 #[must_use]
-pub fn nearest(m: &Mechanism, state: StateId, rank: usize, half: &Uncertainties,
+pub fn nearest(
+    m: &Mechanism,
+    state: StateId,
+    rank: usize,
+    half: &Uncertainties,
 ) -> Option<Nearest> {
     let of = coordinates(m, state, half);
     let mut closure = Closure::new(&Reals, m, state).ok()?;
@@ -142,6 +148,7 @@ pub fn nearest(m: &Mechanism, state: StateId, rank: usize, half: &Uncertainties,
             return likely.then_some(Nearest {
                 mechanism: found,
                 moved: most,
+                conditions,
             });
         }
         let (left, right) = (singular.left_null_space(rank), singular.null_space(rank));

@@ -27,8 +27,10 @@ const CLEAR: f64 = 30.0;
 const LEAST: f64 = 1e-13;
 /// A scene whose numbers would have to move by more halves of their last digit is not the one that is meant.
 const FURTHEST: f64 = 1.2;
-/// Units of coordinates, relative to the size, above which a geometry that is near says nothing.
-const COARSE: f64 = 5e-5;
+/// A geometry that is near by chance more often than this says nothing.
+const CHANCE: f64 = 1e-3;
+/// How many units, relative to the size, the geometries are wide that one condition lets be near.
+const WIDE: f64 = 20.0;
 
 /// Which mechanism a verdict is about.
 #[derive(Debug, Clone)]
@@ -294,7 +296,7 @@ pub(in crate::rank) fn verdict_on(
 }
 
 /// What coordinates may be off by: as the tolerance asks, or as the digits say; none where every digit is exact.
-fn allowed(
+pub(in crate::rank) fn allowed(
     file: &Mechanism,
     rounded: Option<&Rounded>,
     tolerance: Option<f64>,
@@ -306,7 +308,7 @@ fn allowed(
 }
 
 /// Half the units of the numbers of a mechanism that looks rounded.
-pub(in crate::rank) fn half_units(file: &Mechanism, r: &Rounded) -> Uncertainties {
+fn half_units(file: &Mechanism, r: &Rounded) -> Uncertainties {
     let [length, direction] = [r.units.length, r.units.direction].map(|u| u / 2.0);
     uncertainties(file).unwrap_or_else(|| Uncertainties::uniform(file, length, direction))
 }
@@ -367,16 +369,19 @@ fn meant(
             });
         }
     }
-    // With so few digits a geometry of that rank is near by chance.
+    // With few digits a geometry of that rank is near by chance, unless it asks for several conditions at once.
     let [length, direction] = half.largest(mechanism);
-    let coarse = 2.0 * direction.max(length / size) > COARSE;
-    let found = (asked || !coarse)
-        .then(|| nearest(mechanism, state, rank, half))
-        .flatten();
+    let share = (WIDE * 2.0 * direction.max(length / size)).min(1.0);
+    let chance = |n: &Nearest| {
+        let conditions = i32::try_from(n.conditions).unwrap_or(i32::MAX);
+        share.powi(conditions.max(1))
+    };
+    let found = nearest(mechanism, state, rank, half).filter(|n| asked || chance(n) <= CHANCE);
     Ok(match found {
         Some(Nearest {
             mechanism: m,
             moved,
+            ..
         }) => Meant::Near {
             mechanism: Box::new(m),
             rank,
