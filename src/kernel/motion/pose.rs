@@ -138,6 +138,17 @@ impl Pose {
         self
     }
 
+    /// The file's pose with the frame of one joint in another place.
+    #[must_use]
+    pub(crate) fn reframed(&self, joint: JointId, frame: &FrameValues<f64>) -> Pose {
+        let unit = in_lengths(frame, self.middle, self.length);
+        let mut out = self.clone();
+        for c in out.columns.iter_mut().filter(|c| c.joint == joint) {
+            c.twist = unit.twist(&Reals, c.freedom);
+        }
+        out
+    }
+
     /// Relative error of the coordinates, 0 where they are exact.
     #[must_use]
     pub fn accuracy(&self) -> f64 {
@@ -205,6 +216,27 @@ impl Pose {
         matrix
     }
 
+    /// How J changes along speeds `v`, times these: the accelerations that are left when all joints keep their speeds. Exact, by
+    /// the Lie brackets of the twists that are passed one after another [Müller 2016]; couplings are linear and have none.
+    #[must_use]
+    pub(crate) fn bend(&self, v: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; self.rows()];
+        for (contour, rows) in self.contours.iter().zip(out.chunks_mut(6)) {
+            let (mut turn, mut shift) = ([0.0; 3], [0.0; 3]);
+            for &(c, sign) in contour {
+                let (w, u) = halves(&self.columns[c].twist.map(|x| sign * v[c] * x));
+                let (a, b, d) = (cross(turn, w), cross(turn, u), cross(shift, w));
+                for i in 0..3 {
+                    rows[i] += a[i];
+                    rows[3 + i] += b[i] + d[i];
+                    turn[i] += w[i];
+                    shift[i] += u[i];
+                }
+            }
+        }
+        out
+    }
+
     /// J at this pose, with six rows more for each path of joints: the twist at its end.
     #[must_use]
     pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>]) -> Matrix {
@@ -270,12 +302,7 @@ impl JointColumns {
     ) -> Result<(), ExactError> {
         let joint = &mechanism.joints[j];
         let freedoms = joint.joint_type.freedoms();
-        let (frame, size) = (frame.within(space, freedoms), all.length);
-        let unit = FrameValues {
-            axes: frame.axes.map(vector::unit),
-            point: sub(frame.point, all.middle).map(|x| x / size),
-            pitch: frame.pitch / size,
-        };
+        let unit = in_lengths(&frame.within(space, freedoms), all.middle, all.length);
         let kept = joint_twists(&Reals, space, &joint.frame, &joint.joint_type)?;
         let mut kept: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
         // A pin in a slot: the pin first, as in `workload::planar`.
@@ -303,6 +330,15 @@ impl JointColumns {
         } else {
             own.rev().map(|&c| (c, -1.0)).collect()
         }
+    }
+}
+
+/// A frame with axes of unit length, about a middle and in lengths of a size.
+fn in_lengths(frame: &FrameValues<f64>, middle: [f64; 3], size: f64) -> FrameValues<f64> {
+    FrameValues {
+        axes: frame.axes.map(vector::unit),
+        point: sub(frame.point, middle).map(|x| x / size),
+        pitch: frame.pitch / size,
     }
 }
 

@@ -3,7 +3,6 @@
 pub mod at_rest;
 pub mod bonds;
 mod contours;
-pub(crate) mod coordinates;
 pub mod displacement_group;
 pub mod higher_order;
 mod idle_ways;
@@ -14,6 +13,7 @@ mod multiplicity;
 mod never_stopped;
 pub(in crate::rank) mod power_series;
 mod regular;
+pub(in crate::rank) mod second_order;
 mod singular;
 pub(in crate::rank) mod tangent_cone;
 
@@ -25,10 +25,10 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
-use crate::rank::finite::coordinates::{Coordinates, is_less};
 use crate::rank::finite::local_dimension::Traced;
 use crate::rank::finite::never_stopped::Expanded;
 use crate::rank::finite::regular::{by_ranks, regular};
+use crate::rank::finite::second_order::{Roundings, SecondOrder};
 use crate::rank::numeric::scaling::{rank_of_values, scaled};
 use ozols_dense::singular_values;
 
@@ -38,10 +38,12 @@ pub use mobility::{Finite, How, Proof};
 const LARGEST: usize = 30_000_000;
 /// Work of all closings together.
 const WORK: usize = 5_000_000_000;
-/// Relative errors of coordinates above which shaky poses close like motions: Wren's platform did with eight decimals.
+/// Units of coordinates, relative to the size, above which shaky poses close like motions: Wren's platform did with eight decimals.
 const COARSE: f64 = 2e-9;
-/// The same where one motion alone is in question.
-const COARSE_ALONE: f64 = 1e-5;
+/// The same where one motion alone is in question, of which nothing of second order is left.
+const COARSE_ALONE: f64 = 1e-3;
+/// Contours of rounded coordinates need not close better than this many times the coarsest unit.
+const OPEN: f64 = 4.0;
 /// Singular values of parts below this share of the largest are zero: their geometry was moved until they were.
 const SEPARATE: f64 = 1e-9;
 /// Orders up to which coordinates may begin to move for following to be believed.
@@ -63,10 +65,10 @@ pub fn finite(
     closure: &Closure<Residue>,
     rank: usize,
 ) -> Result<Finite, ExactError> {
-    finite_known(exact, mechanism, closure, rank, Coordinates::Exact)
+    finite_known(exact, mechanism, closure, rank, None)
 }
 
-/// [`finite`] for coordinates that may not be exact.
+/// [`finite`] for coordinates that may not be exact: as they are given, they are those that are meant.
 ///
 /// # Errors
 /// As [`finite`].
@@ -75,7 +77,7 @@ pub(crate) fn finite_known(
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
     rank: usize,
-    coordinates: Coordinates,
+    known: Option<&Roundings>,
 ) -> Result<Finite, ExactError> {
     if let Some(known) = by_ranks(exact, mechanism, closure, rank)? {
         return Ok(known);
@@ -102,7 +104,7 @@ pub(crate) fn finite_known(
         }
         let found = match regular(exact, &part, &own, rank)? {
             Some(known) => known,
-            None => moved(exact, &part, &own, rank, coordinates)?,
+            None => moved(exact, &part, &own, rank, known)?,
         };
         total = total.and(found);
     }
@@ -115,26 +117,14 @@ fn moved(
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
     rank: usize,
-    coordinates: Coordinates,
+    known: Option<&Roundings>,
 ) -> Result<Finite, ExactError> {
-    let instantaneous = closure.columns.len() - rank;
-    let state = closure.state;
-    if let Coordinates::Within(accuracy) = coordinates {
-        return within(mechanism, state, instantaneous, accuracy);
-    }
-    let pose = Pose::of_file(mechanism, state)?;
+    let pose = Pose::of_file(mechanism, closure.state)?;
     let found = exactly(exact, mechanism, closure, rank, &pose)?;
-    let Coordinates::Meant(accuracy) = coordinates else {
-        return Ok(found);
-    };
-    let left = instantaneous - found.mobility;
-    let decided = matches!(found.how, How::Bound { .. })
-        || left == 0
-        || (!found.is_undecided() && is_less(&pose, instantaneous, left, accuracy));
-    Ok(if decided {
-        found
-    } else {
-        Finite::new(found.mobility, How::Rounded { to: instantaneous })
+    let instantaneous = closure.columns.len() - rank;
+    Ok(match known {
+        Some(known) => within_digits(mechanism, &pose, instantaneous, Some(found), known),
+        None => found,
     })
 }
 
@@ -259,7 +249,57 @@ pub fn followed(
     Ok(found.map_or(too_large(instantaneous), of_pursuit))
 }
 
-/// By following the motion, unless coordinates with this relative error would hide what stops it.
+/// What the digits of a part leave of its motion. `exact` is what holds of the coordinates as they are given, where these are exact:
+/// its motions are there, but equal lengths and angles may be lost, so what it stops is stopped only where the digits cannot
+/// have made what stops it.
+fn within_digits(
+    mechanism: &Mechanism,
+    pose: &Pose,
+    instantaneous: usize,
+    exact: Option<Finite>,
+    known: &Roundings,
+) -> Finite {
+    let least = exact.map_or(0, |f| f.mobility);
+    if let Some(found) = exact
+        && (least == instantaneous || matches!(found.how, How::Bound { .. }))
+    {
+        return found;
+    }
+    let second = SecondOrder::new(mechanism, pose, instantaneous, known);
+    let most = second.as_ref().map_or(instantaneous, SecondOrder::at_most);
+    match exact {
+        Some(found) if !found.is_undecided() && least >= most => return found,
+        _ if least >= most => {
+            let (order, motions) = (2, instantaneous - most);
+            return Finite::new(most, How::Stopped { order, motions }).by_numeric_rank();
+        }
+        _ => {}
+    }
+    let range = |from| Finite::new(from, How::Rounded { to: most });
+    let coarse = if instantaneous == 1 {
+        COARSE_ALONE
+    } else {
+        COARSE
+    };
+    // What is neither zero nor clearly not says nothing, nor does what is stopped by relations that the digits mean.
+    let stopped = most < instantaneous;
+    let may_move = stopped || second.is_some_and(|s| s.may_vanish());
+    if exact.is_some() || known.unit > coarse || !may_move {
+        return range(least);
+    }
+    let pose = pose.clone().with_accuracy(OPEN * known.unit);
+    match pursued(&pose, instantaneous, stopped) {
+        Some(found) if found.mobility >= most => of_pursuit(Traced {
+            mobility: most,
+            at_most: most,
+            ..found
+        }),
+        Some(found) => range(found.mobility),
+        None => range(least),
+    }
+}
+
+/// What the digits leave of the motion of a mechanism in doubles.
 ///
 /// # Errors
 /// Where a coordinate has no value.
@@ -267,16 +307,16 @@ pub(super) fn within(
     mechanism: &Mechanism,
     state: StateId,
     instantaneous: usize,
-    accuracy: f64,
+    known: &Roundings,
 ) -> Result<Finite, ExactError> {
     let Some(parts) = numeric_parts(mechanism, state).filter(|(free, parts)| {
         parts.len() > 1 && free + parts.iter().map(|p| p.1).sum::<usize>() == instantaneous
     }) else {
-        return whole_within(mechanism, state, instantaneous, accuracy);
+        return whole_within(mechanism, state, instantaneous, known);
     };
     let mut total = Finite::new(parts.0, How::Rigid);
     for (part, instantaneous) in &parts.1 {
-        total = total.and(whole_within(part, state, *instantaneous, accuracy)?);
+        total = total.and(whole_within(part, state, *instantaneous, known)?);
     }
     Ok(total)
 }
@@ -309,7 +349,7 @@ fn whole_within(
     mechanism: &Mechanism,
     state: StateId,
     instantaneous: usize,
-    accuracy: f64,
+    known: &Roundings,
 ) -> Result<Finite, ExactError> {
     // A rod between two balls spins wherever they are, whatever the digits. What is locked of it exactly may be left by rounding
     // alone, where the rod lies all but along a plane of the ball's axes.
@@ -320,50 +360,21 @@ fn whole_within(
         .filter(|&idle| {
             idle > 0 && numeric_mobility(&locked, state) == instantaneous.checked_sub(idle)
         });
-    match idle {
-        Some(idle) => {
-            let spins = Finite::new(idle, How::Rigid);
-            Ok(spins.and(without_spins(
-                &locked,
-                state,
-                instantaneous - idle,
-                accuracy,
-            )?))
-        }
-        None => without_spins(mechanism, state, instantaneous, accuracy),
+    let (part, idle) = idle.map_or((mechanism, 0), |idle| (&locked, idle));
+    let left = instantaneous - idle;
+    let spins = Finite::new(idle, How::Rigid).by_numeric_rank();
+    if left == 0 {
+        return Ok(spins);
     }
-}
-
-/// [`whole_within`] of a part whose idle spins are locked.
-fn without_spins(
-    mechanism: &Mechanism,
-    state: StateId,
-    instantaneous: usize,
-    accuracy: f64,
-) -> Result<Finite, ExactError> {
-    // One motion alone is gone along for a fifth of a radian, where what is shaky gapes.
-    let coarse = if instantaneous == 1 {
-        COARSE_ALONE
-    } else {
-        COARSE
-    };
-    if instantaneous == 0 {
-        return Ok(Finite::new(0, How::Rigid).by_numeric_rank());
-    }
-    if accuracy > coarse {
-        return Ok(Finite::rounded(instantaneous));
-    }
-    if instantaneous == 1 && is_less(&Pose::of_file(mechanism, state)?, 1, 1, accuracy) {
-        let (order, motions) = (2, 1);
-        return Ok(Finite::new(0, How::Stopped { order, motions }).by_numeric_rank());
-    }
-    followed(mechanism, state, instantaneous, accuracy)
+    let pose = Pose::of_file(part, state)?;
+    Ok(spins.and(within_digits(part, &pose, left, None, known)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::model::drawn::{drawn, hinges};
+    use crate::model::rounded::Uncertainties;
 
     /// Two motions of a ring of five hinges are there; but digits that would hide what stops a shaky pose do not tell that one.
     #[test]
@@ -377,10 +388,13 @@ mod tests {
         ];
         let at = |i: usize| ([i, (i + 1) % 5], ring[i]);
         let m = drawn(&hinges(&(0..5).map(at).collect::<Vec<_>>()), &[]);
-        let found = |accuracy| within(&m, StateId::FREE, 2, accuracy).unwrap();
+        let found = |unit: f64| {
+            let half = Uncertainties::uniform(&m, unit / 2.0, unit / 2.0);
+            within(&m, StateId::FREE, 2, &Roundings::new(&m, half, 1.0)).unwrap()
+        };
         let fine = found(1e-12);
         assert_eq!((fine.mobility, fine.at_most()), (2, 2));
-        let coarse = found(1e-6);
+        let coarse = found(1e-2);
         assert_eq!((coarse.how, coarse.at_most()), (How::Rounded { to: 2 }, 2));
     }
 }

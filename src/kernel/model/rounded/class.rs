@@ -127,7 +127,11 @@ impl NumberClass {
     fn decimal(&self, digits: Digits, of: &[Expr], kind: NumberKind) -> f64 {
         let (plain, factor) = (half_of(digits.places), digits.factor());
         let Some(most) = self.commonest() else {
-            return if digits.end == End::Float { 0.0 } else { digits.half };
+            return if digits.end == End::Float {
+                0.0
+            } else {
+                digits.half
+            };
         };
         if digits.end == End::Float {
             return most * factor;

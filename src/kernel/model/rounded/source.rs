@@ -55,7 +55,12 @@ impl Sources {
         // Quaternions turn frames.
         let quaternions = self.directions.iter().filter(|v| v.len() == 4);
         Some(Largest {
-            length: largest(&mut self.lengths.iter().map(|e| lengths.of_long(e, NumberKind::Length))),
+            length: largest(
+                &mut self
+                    .lengths
+                    .iter()
+                    .map(|e| lengths.of_long(e, NumberKind::Length)),
+            ),
             direction: largest(&mut self.directions.iter().map(of)),
             turn: largest(&mut self.angles.iter().map(turn).chain(quaternions.map(of))),
         })

@@ -7,8 +7,6 @@
 use crate::motion::pose::{FLAT, Pose};
 use ozols_dense::{Matrix, singular_values, solve, svd, symmetric_eigen};
 
-/// Step of the differences that the forms are taken from.
-const DIFFERENCE: f64 = 1e-4;
 /// Values of a form, relative to the largest coefficient, that count as zero.
 const ZERO: f64 = 1e-6;
 
@@ -65,69 +63,38 @@ pub(in crate::rank) fn norm(x: &[f64]) -> f64 {
 pub(in crate::rank) struct Quadrics {
     /// Symmetric matrices, n × n.
     forms: Vec<Matrix>,
+    /// The self-stress that each is the work of.
+    stresses: Vec<Vec<f64>>,
     motions: usize,
 }
 
 impl Quadrics {
     /// The forms of the self-stresses at a pose, the dependent ones left out.
     pub(in crate::rank) fn new(pose: &Pose, flat: &Flat) -> Quadrics {
-        let n = flat.kernel.ncols();
-        let (f, s) = (flat.kernel.nrows(), flat.stresses.ncols());
-        let works = |x: &[f64]| -> Vec<f64> {
-            let v: Vec<f64> = (0..f)
-                .map(|r| (0..n).map(|c| flat.kernel[(r, c)] * x[c]).sum())
-                .collect();
-            let at = |h: f64| {
-                let q: Vec<f64> = v.iter().map(|v| h * v).collect();
-                pose.jacobian(&q).times(&Matrix::column(&v))
-            };
-            let mut difference = at(DIFFERENCE);
-            difference.add_multiple(-1.0, &at(-DIFFERENCE));
-            let work = flat.stresses.transpose_times(&difference);
-            let work = work.col(0).iter();
-            work.map(|w| w / (4.0 * DIFFERENCE)).collect()
-        };
-        let unit = |pairs: &[usize]| {
-            let mut x = vec![0.0; n];
-            pairs.iter().for_each(|&i| x[i] += 1.0);
-            works(&x)
-        };
-        let single: Vec<Vec<f64>> = (0..n).map(|i| unit(&[i])).collect();
-        let pairs: Vec<(usize, usize)> =
-            (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-        let mixed: Vec<Vec<f64>> = pairs
-            .iter()
-            .map(|&(i, j)| {
-                if i == j {
-                    single[i].clone()
-                } else {
-                    unit(&[i, j])
-                }
-            })
-            .collect();
-        // One row a form, one column a pair; singular values tell which combinations matter.
-        let table = Matrix::from_fn(s, pairs.len(), |k, p| {
-            let (i, j) = pairs[p];
-            if i == j {
-                single[i][k]
-            } else {
-                (mixed[p][k] - single[i][k] - single[j][k]) / 2.0
-            }
-        });
-        let mut forms = Vec::new();
-        if let Some(svd) = svd(&table) {
-            let floor = ZERO.max(10.0 * pose.accuracy());
+        let floor = ZERO.max(10.0 * pose.accuracy());
+        Quadrics::of_table(&works(pose, flat), flat.kernel.ncols(), floor)
+    }
+
+    /// The forms of a table of [`works`], those below a floor left out.
+    pub(in crate::rank) fn of_table(table: &Matrix, motions: usize, floor: f64) -> Quadrics {
+        let (mut forms, mut stresses) = (Vec::new(), Vec::new());
+        if let Some(svd) = svd(table) {
             for k in (0..svd.values.len()).filter(|&k| svd.values[k] > floor) {
-                let row = svd.v.col(k);
-                let mut form = Matrix::zeros(n, n);
-                for (p, &(i, j)) in pairs.iter().enumerate() {
-                    form[(i, j)] = row[p];
-                    form[(j, i)] = row[p];
-                }
-                forms.push(form);
+                forms.push(form(svd.v.col(k), motions));
+                let of = svd.u.col(k).iter().map(|x| x / svd.values[k]);
+                stresses.push(of.collect());
             }
         }
-        Quadrics { forms, motions: n }
+        Quadrics {
+            forms,
+            stresses,
+            motions,
+        }
+    }
+
+    /// The self-stresses whose works the forms are, as weights of the rows of the table.
+    pub(in crate::rank) fn stresses(&self) -> &[Vec<f64>] {
+        &self.stresses
     }
 
     /// Whether there is nothing of second order.
@@ -212,32 +179,90 @@ impl Quadrics {
 
     /// Whether some combination of the forms is definite, so that they have no common zero.
     pub(in crate::rank) fn is_definite(&self) -> bool {
+        self.definite().is_some()
+    }
+
+    /// The weights of a combination of the forms that is positive definite, with its least eigenvalue.
+    pub(in crate::rank) fn definite(&self) -> Option<(Vec<f64>, f64)> {
         let n = self.motions;
         let mut sum: Matrix = Matrix::zeros(n, n);
+        let mut all = Vec::new();
         for q in &self.forms {
             let trace: f64 = (0..n).map(|i| q[(i, i)]).sum();
             sum.add_multiple(trace, q);
+            all.push(trace);
         }
         // Towards larger least eigenvalues: add the forms by their values at the least eigenvector.
         for _ in 0..200 {
-            let Some((values, vectors)) = symmetric_eigen(&sum) else {
-                return false;
-            };
+            let (values, vectors) = symmetric_eigen(&sum)?;
             let largest = values[0].abs().max(values[n - 1].abs());
             if values[0] > 1e-3 * largest {
-                return true;
+                return Some((all, values[0]));
             }
             let weights = self.values(vectors.col(0));
             let size = norm(&weights);
             if size < 1e-9 {
-                return false;
+                return None;
             }
-            for (q, w) in self.forms.iter().zip(weights) {
-                sum.add_multiple(w / size * largest.max(1e-3) * 0.2, q);
+            for ((q, w), sum_of) in self.forms.iter().zip(weights).zip(&mut all) {
+                let more = w / size * largest.max(1e-3) * 0.2;
+                sum.add_multiple(more, q);
+                *sum_of += more;
             }
         }
-        false
+        None
     }
+}
+
+/// The pairs of motions that the columns of a table of [`works`] stand for.
+fn pairs(motions: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..motions).flat_map(|i| (0..=i).map(move |j| (i, j)))
+}
+
+/// The symmetric matrix of a row of a table of [`works`].
+pub(in crate::rank) fn form(row: &[f64], motions: usize) -> Matrix {
+    let mut form = Matrix::zeros(motions, motions);
+    for (x, (i, j)) in row.iter().zip(pairs(motions)) {
+        form[(i, j)] = *x;
+        form[(j, i)] = *x;
+    }
+    form
+}
+
+/// The work of the self-stresses on the gaps of second order: one row a self-stress, one column a pair of motions.
+///
+/// # Complexity
+/// O(n² (f + rows · stresses)) for n motions.
+pub(in crate::rank) fn works(pose: &Pose, flat: &Flat) -> Matrix {
+    let n = flat.kernel.ncols();
+    let (f, s) = (flat.kernel.nrows(), flat.stresses.ncols());
+    let works = |x: &[f64]| -> Vec<f64> {
+        let v: Vec<f64> = (0..f)
+            .map(|r| (0..n).map(|c| flat.kernel[(r, c)] * x[c]).sum())
+            .collect();
+        let work = flat
+            .stresses
+            .transpose_times(&Matrix::column(&pose.bend(&v)));
+        work.col(0).iter().map(|w| w / 2.0).collect()
+    };
+    let unit = |pairs: &[usize]| {
+        let mut x = vec![0.0; n];
+        pairs.iter().for_each(|&i| x[i] += 1.0);
+        works(&x)
+    };
+    let single: Vec<Vec<f64>> = (0..n).map(|i| unit(&[i])).collect();
+    let columns: Vec<Vec<f64>> = pairs(n)
+        .map(|(i, j)| {
+            if i == j {
+                return single[i].clone();
+            }
+            let mixed = unit(&[i, j]);
+            (0..s)
+                .map(|k| (mixed[k] - single[i][k] - single[j][k]) / 2.0)
+                .collect()
+        })
+        .collect();
+    Matrix::from_fn(s, columns.len(), |k, p| columns[p][k])
 }
 
 /// Zeros of all forms, from the given starts.

@@ -3,14 +3,12 @@
 
 use crate::closure::matrix::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::model::rounded::Rounded;
 use crate::rank::exact::field::field_of;
-use crate::rank::finite::coordinates::Coordinates;
-use crate::rank::finite::{Finite, finite_known, within};
+use crate::rank::finite::second_order::Roundings;
+use crate::rank::finite::{Finite, finite_known, followed, within};
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use crate::rank::numeric::Elimination;
-use crate::rank::rounded::snap::size;
-use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict, allowed, verdict};
 
 /// A decision for one state.
 #[derive(Debug, Clone)]
@@ -37,50 +35,42 @@ pub fn decide(
 ) -> Result<Decision, NoAnswer> {
     let verdict = verdict(mechanism, state, tolerance)?;
     Ok(Decision {
-        finite: finite_of(mechanism, state, &verdict)?,
+        finite: finite_of(mechanism, state, &verdict, tolerance)?,
         line: line(&verdict),
         verdict,
     })
 }
 
 /// The finite mobility of what is meant.
-fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finite, NoAnswer> {
-    // What rounding and noise leave of a zero says how well poses can close, and so does the last digit.
-    let size = size(m);
-    let unit = |r: &Rounded| r.units.direction.max(r.units.length / size);
-    let unit = found.rounded.as_ref().map_or(0.0, unit);
-    let most = found.tolerance.max(1e-16);
-    let accuracy = found
-        .numeric
-        .map(|n| (10.0 * n.dropped).max(unit).clamp(1e-16, most));
+fn finite_of(
+    m: &Mechanism,
+    state: StateId,
+    found: &RankVerdict,
+    tolerance: Option<f64>,
+) -> Result<Finite, NoAnswer> {
+    let half = allowed(m, found.rounded.as_ref(), tolerance);
+    // What was moved, by half a unit at most, and what is true are on either side of what is written.
+    let times = if found.is_as_written() { 1.0 } else { 2.0 };
+    let known = half.map(|half| Roundings::new(m, half, times));
     let exactly = |m: &Mechanism, rank: usize| {
         let exact = field_of(m, state, 0)?;
         let closure = Closure::new(&exact, m, state)?;
-        let known = match accuracy {
-            None => Coordinates::Exact,
-            Some(a) if found.resolved => Coordinates::Meant(a),
-            Some(a) => Coordinates::Within(a),
-        };
-        finite_known(&exact, m, &closure, rank, known)
+        finite_known(&exact, m, &closure, rank, known.as_ref())
     };
     Ok(match &found.meant {
         Meant::AsWritten => exactly(m, found.as_written)?,
         Meant::Snapped {
             mechanism, rank, ..
-        } => {
-            let exact = field_of(mechanism, state, 0)?;
-            let closure = Closure::new(&exact, mechanism, state)?;
-            let known = Coordinates::Meant(accuracy.unwrap_or(0.0));
-            finite_known(&exact, mechanism, &closure, *rank, known)?
-        }
+        } => exactly(mechanism, *rank)?,
         Meant::Near {
             mechanism, rank, ..
-        } => within(
-            mechanism,
-            state,
-            found.figures(*rank).0,
-            accuracy.unwrap_or(0.0),
-        )?,
+        } => {
+            let motions = found.figures(*rank).0;
+            match &known {
+                Some(known) => within(mechanism, state, motions, known)?,
+                None => followed(mechanism, state, motions, 0.0)?,
+            }
+        }
         Meant::Undecided { near } => Finite::rounded(found.figures(*near).0),
     })
 }
