@@ -7,6 +7,7 @@ mod finite_traps;
 mod groups;
 mod least_rows;
 mod mobility;
+mod planes;
 mod poses;
 mod releases;
 pub(crate) mod rounded;

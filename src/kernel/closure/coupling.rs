@@ -4,7 +4,8 @@
 //! length in radians or length units. A coupling is about rates, and its row takes the lengths out again:
 //! s_b - ratio·(|a|/|b|)·s_a = 0 for speeds s on axes a and b.
 
-use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Reals;
 use crate::model::coupling::Coupling;
@@ -75,11 +76,14 @@ pub fn coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
         .collect()
 }
 
-/// Whether the mechanism's mode keeps a freedom: a plane leaves out what leads out of it.
+/// Returns whether a freedom by itself stays in the space of the mechanism's mode.
 #[must_use]
 pub fn in_plane(mechanism: &Mechanism, joint: JointId, freedom: Freedom) -> bool {
-    let joint = &mechanism.joints[joint];
-    let twists = MotionSpace::new(&Reals, &mechanism.mode)
-        .and_then(|space| joint_twists(&Reals, &space, &joint.frame, &joint.joint_type));
-    twists.is_ok_and(|all| all.iter().any(|(f, _)| *f == freedom))
+    let stays = || {
+        let space = MotionSpace::new(&Reals, &mechanism.mode)?;
+        let frame = FrameValues::new(&Reals, &mechanism.joints[joint].frame)?;
+        let twist = frame.twist(&Reals, freedom);
+        Ok::<_, ExactError>(space.components(&Reals, &twist).is_some())
+    };
+    stays().unwrap_or(false)
 }

@@ -191,13 +191,9 @@ impl Map {
         };
         let space = MotionSpace::new(exact, mode)?;
         let freedoms = from.joint_type.freedoms();
-        let values = FrameValues::new(exact, from.frame)?.within(&space, freedoms);
+        let values = FrameValues::new(exact, from.frame)?;
         let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
-        for &freedom in freedoms {
-            let twist = values.twist(exact, freedom);
-            if space.components(exact, &twist).is_none() {
-                continue;
-            }
+        for (_, twist) in values.motions(exact, &space, freedoms) {
             match space.components(exact, &image(twist)) {
                 Some(t) => images.insert(&t),
                 None => return Ok(false),

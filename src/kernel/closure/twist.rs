@@ -58,25 +58,42 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
         }
     }
 
-    /// The components of a twist in this space, or `None` for a motion that leaves the plane.
+    /// Returns the components of a twist in this space, or `None` for a motion that leaves the plane.
     pub fn components<S: Scalars<Number = N>>(&self, s: &S, t: &Twist<N>) -> Option<Vec<N>> {
+        if let MotionSpace::Planar { axes: [n, ..] } = self {
+            let [w, v] = halves(t);
+            let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
+            // Products of decimals round: a turn about the normal must not fall out of the plane by that.
+            let (nn, ww) = (dot(n, n), dot(&w, &w));
+            let turn = s.mul(ww.clone(), nn.clone());
+            let shift = s.mul(s.add(dot(&v, &v), ww), nn);
+            let tilt = s.cross(w.clone(), n.clone());
+            let inside = tilt.into_iter().all(|c| s.vanishes(c, turn.clone()))
+                && s.vanishes(dot(&v, n), shift);
+            if !inside {
+                return None;
+            }
+        }
+        Some(self.along_axes(s, t))
+    }
+
+    /// Returns the components of a twist that stays in this space.
+    fn along_axes<S: Scalars<Number = N>>(&self, s: &S, t: &Twist<N>) -> Vec<N> {
         match self {
-            MotionSpace::Spatial => Some(t.to_vec()),
+            MotionSpace::Spatial => t.to_vec(),
             MotionSpace::Planar { axes: [n, e1, e2] } => {
-                let [w0, w1, w2, v0, v1, v2] = t.clone();
-                let (w, v) = ([w0, w1, w2], [v0, v1, v2]);
+                let [w, v] = halves(t);
                 let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
-                // Products of decimals round: a turn about the normal must not fall out of the plane by that.
-                let (nn, ww) = (dot(n, n), dot(&w, &w));
-                let turn = s.mul(ww.clone(), nn.clone());
-                let shift = s.mul(s.add(dot(&v, &v), ww), nn);
-                let tilt = s.cross(w.clone(), n.clone());
-                let inside = tilt.into_iter().all(|c| s.vanishes(c, turn.clone()))
-                    && s.vanishes(dot(&v, n), shift);
-                inside.then(|| vec![dot(&w, n), dot(&v, e1), dot(&v, e2)])
+                vec![dot(&w, n), dot(&v, e1), dot(&v, e2)]
             }
         }
     }
+}
+
+/// Returns the turn and the velocity of a twist.
+fn halves<N: Clone>(t: &Twist<N>) -> [[N; 3]; 2] {
+    let [a, b, c, d, e, f] = t.clone();
+    [[a, b, c], [d, e, f]]
 }
 
 /// Axes x, y, z and origin of a joint's frame, in a number system. The axes are perpendicular, not of unit length.
@@ -90,7 +107,7 @@ pub struct FrameValues<N> {
     pub pitch: N,
 }
 
-impl<N: Clone> FrameValues<N> {
+impl<N: Clone + PartialEq + Default> FrameValues<N> {
     /// Evaluates a frame: z = axis, x = reference·(z·z) - z·(z·reference), y = z × x.
     ///
     /// # Errors
@@ -118,18 +135,59 @@ impl<N: Clone> FrameValues<N> {
         }
     }
 
-    /// The frame in a motion space: in a plane, a joint with all three turns and no slide turns about the normal whatever
-    /// its own axis.
-    #[must_use]
-    pub fn within(mut self, space: &MotionSpace<N>, freedoms: &[Freedom]) -> Self {
-        let turns = freedoms.iter().filter(|f| f.turns()).count();
-        if let MotionSpace::Planar { axes: [n, e1, e2] } = space
-            && turns == 3
-            && !freedoms.iter().any(|f| f.slides())
-        {
-            self.axes = [e1.clone(), e2.clone(), n.clone()];
+    /// Returns the motions of a joint with these freedoms that stay in a motion space, as a basis of twists.
+    ///
+    /// In a plane, freedoms that leave it are combined so that together they stay in it: a ball turns about the plane's normal
+    /// wherever its own axes point. A combination has the name of its last freedom; what cannot be combined is left out.
+    pub fn motions<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        space: &MotionSpace<N>,
+        freedoms: &[Freedom],
+    ) -> Vec<(Freedom, Twist<N>)> {
+        let MotionSpace::Planar { axes } = space else {
+            return freedoms.iter().map(|&f| (f, self.twist(s, f))).collect();
+        };
+        // At the joint's own point turns and slides do not mix.
+        let point = [(); 3].map(|()| N::default());
+        let here = FrameValues {
+            point,
+            ..self.clone()
+        };
+        let mut rest: Vec<_> = freedoms
+            .iter()
+            .map(|&f| (f, OutOfPlane::new(s, axes, here.twist(s, f))))
+            .collect();
+        for way in 0..3 {
+            let Some(first) = rest.iter().position(|(_, m)| m.leaves(s, way)) else {
+                continue;
+            };
+            let (_, first) = rest.remove(first);
+            for (_, motion) in rest.iter_mut().filter(|(_, m)| m.leaves(s, way)) {
+                *motion = motion.combined(s, &first, way);
+            }
         }
-        self
+        let at_origin = |t: Twist<N>| {
+            let [w, v] = halves(&t);
+            let arm = s.cross(self.point.clone(), w.clone());
+            let [d, e, f] = [0, 1, 2].map(|i| s.add(v[i].clone(), arm[i].clone()));
+            let [a, b, c] = w;
+            [a, b, c, d, e, f]
+        };
+        rest.into_iter()
+            .map(|(f, m)| (f, at_origin(m.twist)))
+            .collect()
+    }
+
+    /// Returns [`FrameValues::motions`] in the components of the motion space.
+    pub fn twists<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        space: &MotionSpace<N>,
+        freedoms: &[Freedom],
+    ) -> FreedomTwists<N> {
+        let motions = self.motions(s, space, freedoms).into_iter();
+        motions.map(|(f, t)| (f, space.along_axes(s, &t))).collect()
     }
 
     /// The twist of one freedom.
@@ -158,11 +216,55 @@ impl<N: Clone> FrameValues<N> {
     }
 }
 
+/// A motion of a joint about its point, with what leads out of the plane.
+struct OutOfPlane<N> {
+    twist: Twist<N>,
+    /// The turns about the two axes across the plane's normal, and the slide along it.
+    ways: [N; 3],
+    /// Squares of what the ways are measured against.
+    sizes: [N; 3],
+}
+
+impl<N: Clone + PartialEq + Default> OutOfPlane<N> {
+    fn new<S: Scalars<Number = N>>(s: &S, [n, e1, e2]: &[[N; 3]; 3], twist: Twist<N>) -> Self {
+        let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
+        let [w, v] = halves(&twist);
+        let of = |a: &[N; 3], b: &[N; 3]| (dot(a, b), s.mul(dot(a, a), dot(b, b)));
+        let all = [of(&w, e1), of(&w, e2), of(&v, n)];
+        OutOfPlane {
+            twist,
+            ways: all.clone().map(|(way, _)| way),
+            sizes: all.map(|(_, size)| size),
+        }
+    }
+
+    /// Returns whether the motion leaves the plane that way.
+    fn leaves<S: Scalars<Number = N>>(&self, s: &S, way: usize) -> bool {
+        !s.vanishes(self.ways[way].clone(), self.sizes[way].clone())
+    }
+
+    /// Returns the combination of this motion and another that does not leave the plane that way.
+    fn combined<S: Scalars<Number = N>>(&self, s: &S, other: &Self, way: usize) -> Self {
+        let (a, b) = (other.ways[way].clone(), self.ways[way].clone());
+        let minus = s.sub(N::default(), b.clone());
+        let sum = |[f, g]: [&N; 2], x: &N, y: &N| {
+            s.add(s.mul(f.clone(), x.clone()), s.mul(g.clone(), y.clone()))
+        };
+        let squares = [s.mul(a.clone(), a.clone()), s.mul(b.clone(), b)];
+        OutOfPlane {
+            twist: std::array::from_fn(|i| sum([&a, &minus], &self.twist[i], &other.twist[i])),
+            ways: std::array::from_fn(|i| sum([&a, &minus], &self.ways[i], &other.ways[i])),
+            sizes: std::array::from_fn(|i| {
+                sum(squares.each_ref(), &self.sizes[i], &other.sizes[i])
+            }),
+        }
+    }
+}
+
 /// Freedoms, each with its twist.
 pub type FreedomTwists<N> = Vec<(Freedom, Vec<N>)>;
 
-/// The freedoms of a joint as twists in a motion space, each with the freedom it comes from; see
-/// [`FrameValues::within`].
+/// Returns the motions of a joint in a motion space, see [`FrameValues::motions`].
 ///
 /// # Errors
 /// Where a coordinate has no value in the number system.
@@ -172,10 +274,5 @@ pub fn joint_twists<S: Scalars>(
     frame: &Frame,
     joint_type: &JointType,
 ) -> Result<FreedomTwists<S::Number>, ExactError> {
-    let freedoms = joint_type.freedoms();
-    let values = FrameValues::new(s, frame)?.within(space, freedoms);
-    Ok(freedoms
-        .iter()
-        .filter_map(|&f| space.components(s, &values.twist(s, f)).map(|c| (f, c)))
-        .collect())
+    Ok(FrameValues::new(s, frame)?.twists(s, space, joint_type.freedoms()))
 }

@@ -9,7 +9,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::spanning_tree;
-use crate::closure::twist::{FrameValues, MotionSpace, Twist, joint_twists};
+use crate::closure::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::Extent;
 use crate::geom::rigid::{RigidMotion, halves};
@@ -105,7 +105,7 @@ impl Pose {
             of_joint: vec![Vec::new(); mechanism.joints.len()],
         };
         for (&j, frame) in joints.iter().zip(&frames) {
-            all.add(mechanism, &space, j, frame, extent)?;
+            all.add(mechanism, &space, j, frame, extent);
         }
         let couplings = mechanism
             .couplings_in(state)
@@ -270,7 +270,7 @@ impl Pose {
             for (p, x) in q.iter().enumerate().take(c).skip(c - before) {
                 at = at.then(&RigidMotion::exp(&self.columns[p].twist, *x));
             }
-            next.columns[c].twist = unit(at.twist(&self.columns[c].twist));
+            next.columns[c].twist = unit_twist(at.twist(&self.columns[c].twist));
             next.columns[c].moved += q[c];
         }
         square_balls(&mut next.columns);
@@ -299,27 +299,24 @@ impl JointColumns {
         j: JointId,
         frame: &FrameValues<f64>,
         all: Extent,
-    ) -> Result<(), ExactError> {
+    ) {
         let joint = &mechanism.joints[j];
         let freedoms = joint.joint_type.freedoms();
-        let unit = in_lengths(&frame.within(space, freedoms), all.middle, all.length);
-        let kept = joint_twists(&Reals, space, &joint.frame, &joint.joint_type)?;
-        let mut kept: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
+        let mut kept = in_lengths(frame, all.middle, all.length).motions(&Reals, space, freedoms);
         // A pin in a slot: the pin first, as in `workload::planar`.
         let has = |f| freedoms.contains(&f);
         let slot = has(Freedom::Tx) && !has(Freedom::Ty);
-        kept.sort_by_key(|f| f.slides() == slot);
-        for (n, freedom) in kept.into_iter().enumerate() {
+        kept.sort_by_key(|(f, _)| f.slides() == slot);
+        for (n, (freedom, twist)) in kept.into_iter().enumerate() {
             self.of_joint[j].push(self.columns.len());
             self.base.push((joint.links[0], n));
             self.columns.push(PoseColumn {
                 joint: j,
                 freedom,
-                twist: unit.twist(&Reals, freedom),
+                twist: unit_twist(twist),
                 moved: 0.0,
             });
         }
-        Ok(())
     }
 
     /// The freedoms of a joint as they are passed in a direction.
@@ -356,8 +353,9 @@ fn coupled(coupling: &Coupling, columns: &[PoseColumn], length: f64) -> Option<[
     Some([(at(a)?, factors[0] / size), (at(b)?, factors[1] / size)])
 }
 
-/// Rounding must not let axes grow or shrink over many steps.
-fn unit(mut t: Twist<f64>) -> Twist<f64> {
+/// Returns a twist about or along an axis of unit length: rounding must not let axes grow or shrink over many steps.
+#[must_use]
+pub fn unit_twist(mut t: Twist<f64>) -> Twist<f64> {
     let (w, v) = halves(&t);
     let size = match length(w) {
         0.0 => length(v),

@@ -1,11 +1,11 @@
 //! Everything about a search that does not depend on the variant, in numbers, pose by pose.
 
-use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::scalars::Reals;
-use crate::geom::vector::{across, cross};
+use crate::geom::vector::{across, cross, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, JointId, JointOption, LinkId, Mechanism, StateId};
-use crate::motion::pose::Pose;
+use crate::motion::pose::{Pose, unit_twist};
 use crate::score::evaluation::coupled::{CoupledChoice, PlacedCoupling, couplings_at};
 use crate::score::evaluation::load_cases::LoadCase;
 use crate::score::evaluation::terms::axis_of;
@@ -354,51 +354,30 @@ fn option_twists(
 ) -> Result<Vec<(Freedom, Six)>, Unsolved> {
     let space = MotionSpace::new(&Reals, &m.mode)?;
     let joint = &m.joints[place.joint];
-    let kept = joint_twists(&Reals, &space, &option.frame, &option.joint_type)?;
     let frame = FrameValues::new(&Reals, &option.frame)?;
-    let unit = |a: [f64; 3]| {
-        let size = a.iter().map(|x| x * x).sum::<f64>().sqrt();
-        a.map(|x| x / size)
+    // Turns and slides at the joint's own point.
+    let here = FrameValues {
+        axes: frame.axes.map(unit),
+        point: [0.0; 3],
+        pitch: frame.pitch * geometry.metres / geometry.size,
     };
     let present = joint.joint_type.freedoms();
     let mut second = false;
     let mut out = Vec::new();
     // As the joint built has them: the slide of a slot comes after its pin.
     let order = option.joint_type.passed();
-    let mut freedoms: Vec<Freedom> = kept.into_iter().map(|(f, _)| f).collect();
-    freedoms.sort_by_key(|f| order.iter().position(|g| g == f));
-    for freedom in freedoms {
+    let mut motions = here.motions(&Reals, &space, option.joint_type.freedoms());
+    motions.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
+    for (freedom, motion) in motions {
         let link = joint.links[usize::from(second)];
         second |= present.contains(&freedom);
         let carried = &pose.links[link];
         let point = geometry.place(pose, link, frame.point);
-        let axis = |i: usize| carried.direction(unit(frame.axes[i]));
-        let turn = |a: [f64; 3], along: f64| {
-            let v = cross(point, a);
-            [
-                a[0],
-                a[1],
-                a[2],
-                v[0] + along * a[0],
-                v[1] + along * a[1],
-                v[2] + along * a[2],
-            ]
-        };
-        let twist = match axis_of(freedom) {
-            Some((i, true)) => {
-                let a = axis(i);
-                [0.0, 0.0, 0.0, a[0], a[1], a[2]]
-            }
-            Some((i, false)) => {
-                let planar = geometry.basis.len() == 3;
-                let n = geometry.basis[0];
-                // In a plane every turn that is kept is about its normal.
-                let a = if planar { [n[0], n[1], n[2]] } else { axis(i) };
-                turn(a, 0.0)
-            }
-            None => turn(axis(2), frame.pitch * geometry.metres / geometry.size),
-        };
-        out.push((freedom, twist));
+        let [a, b, c, d, e, f] = unit_twist(motion);
+        let (turn, slide) = (carried.direction([a, b, c]), carried.direction([d, e, f]));
+        let arm = cross(point, turn);
+        let at = |i: usize| arm[i] + slide[i];
+        out.push((freedom, [turn[0], turn[1], turn[2], at(0), at(1), at(2)]));
     }
     Ok(out)
 }

@@ -190,7 +190,7 @@ fn changes(
         let shifted = |d: f64| {
             let mut vectors = [&frame.point, &frame.axis, &frame.reference].map(real);
             vectors[c.vector][c.component] = c.written + (by[p] + d) * c.unit;
-            FrameValues::of(&Reals, vectors, frame.pitch.to_f64()).within(&space, freedoms)
+            FrameValues::of(&Reals, vectors, frame.pitch.to_f64())
         };
         let (before, after) = (shifted(-c.step), shifted(c.step));
         for (n, column) in closure.columns.iter().enumerate() {
@@ -198,7 +198,8 @@ fn changes(
                 continue;
             }
             let twist = |f: &FrameValues<f64>| {
-                let t = space.components(&Reals, &f.twist(&Reals, column.freedom))?;
+                let mut all = f.twists(&Reals, &space, freedoms).into_iter();
+                let (_, t) = all.find(|(f, _)| *f == column.freedom)?;
                 Some(scaling.apply(n, &t))
             };
             let (a, b) = (twist(&before)?, twist(&after)?);

@@ -73,23 +73,22 @@ pub(super) fn twists(frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
     kind.freedoms().iter().map(one).collect()
 }
 
-/// Those of a joint's twists that stay in the plane of a planar mechanism; all in space. A ball turns about the normal.
+/// What a joint's twists span of the motions in the plane of a planar mechanism; all of them in space.
 pub(super) fn allowed_twists(mode: &Mode, frame: &Frame, kind: &JointType) -> Vec<Vec<Q>> {
     let all = twists(frame, kind);
     let Mode::Planar { normal } = mode else {
         return all;
     };
     let n: Vec<Q> = normal.iter().map(|e| e.as_rational().unwrap()).collect();
-    if *kind == JointType::Spherical {
-        let p: Vec<Q> = frame
-            .point
-            .iter()
-            .map(|e| e.as_rational().unwrap())
-            .collect();
-        return vec![[n.clone(), cross(&p, &n)].concat()];
-    }
-    all.into_iter()
-        .filter(|t| cross(&t[..3], &n).iter().all(Zero::is_zero) && dot(&t[3..], &n).is_zero())
+    // What leads out of the plane stands first, so that rows with zeros there stay in it.
+    let row = |t: Vec<Q>| {
+        let out = [cross(&t[..3], &n), vec![dot(&t[3..], &n)]].concat();
+        [out, t].concat()
+    };
+    reduce(all.into_iter().map(row).collect())
+        .into_iter()
+        .filter(|row| row[..4].iter().all(Zero::is_zero))
+        .map(|row| row[4..].to_vec())
         .collect()
 }
 

@@ -1,0 +1,247 @@
+//! Planar mode and space agree: a joint in a plane keeps what its freedoms span there, however its frame lies.
+
+use ozols::closure::contour::contour_basis;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use ozols::search::Search;
+use ozols::search::question::conditions::Conditions;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+
+type Three = [i64; 3];
+
+fn dot(a: Three, b: Three) -> i64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn cross(a: Three, b: Three) -> Three {
+    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// Joint types with what turns and slides they have about and along x, y and z.
+const TYPES: [(&str, [bool; 3], [bool; 3]); 11] = [
+    ("revolute", [false, false, true], [false; 3]),
+    ("prismatic", [false; 3], [false, false, true]),
+    ("cylindrical", [false, false, true], [false, false, true]),
+    ("universal", [true, false, true], [false; 3]),
+    ("slotted", [false, false, true], [true, false, false]),
+    ("spherical", [true; 3], [false; 3]),
+    ("planar", [false, false, true], [true, true, false]),
+    (
+        "cylindrical-universal",
+        [true, false, true],
+        [false, false, true],
+    ),
+    ("sphere-in-cylinder", [true; 3], [false, false, true]),
+    (
+        "cylinder-on-plane",
+        [true, false, true],
+        [true, true, false],
+    ),
+    ("sphere-on-plane", [true; 3], [true, true, false]),
+];
+
+/// A joint of a ring with its options, by index in [`TYPES`].
+#[derive(Debug, Clone)]
+struct Placed {
+    types: Vec<usize>,
+    point: Three,
+    axis: Three,
+    reference: Three,
+}
+
+/// A ring of links, closed once more by the last joint where there are enough.
+#[derive(Debug, Clone)]
+struct Ring {
+    normal: Three,
+    joints: Vec<Placed>,
+    twice: bool,
+}
+
+impl Ring {
+    fn links(&self, i: usize) -> [usize; 2] {
+        let ring = self.joints.len() - usize::from(self.twice);
+        if i < ring {
+            [i, (i + 1) % ring]
+        } else {
+            [0, 2]
+        }
+    }
+
+    fn text(&self, mode: &str, joint: impl Fn(&Placed) -> String) -> String {
+        let ring = self.joints.len() - usize::from(self.twice);
+        let mut out = format!("name = \"ring\"\n{mode}\n");
+        for i in 0..ring {
+            let role = match i {
+                0 => "role = \"frame\"",
+                1 => "role = \"output\"",
+                _ => "",
+            };
+            out += &format!("[[link]]\nid = \"l{i}\"\n{role}\n");
+        }
+        for (i, j) in self.joints.iter().enumerate() {
+            let [a, b] = self.links(i);
+            out += &format!(
+                "[[joint]]\nid = \"j{i}\"\nlinks = [\"l{a}\", \"l{b}\"]\n{}\n",
+                joint(j)
+            );
+        }
+        out
+    }
+
+    /// In planar mode, the frames as they are.
+    fn planar(&self) -> String {
+        let joint = |j: &Placed| {
+            let names: Vec<&str> = j.types.iter().map(|&t| TYPES[t].0).collect();
+            format!(
+                "type = {:?}\npoint = {:?}\naxis = {:?}\nreference = {:?}\noptions = {:?}",
+                names[0],
+                j.point,
+                j.axis,
+                j.reference,
+                &names[1..]
+            )
+        };
+        self.text(
+            &format!("mode = \"planar\"\nplane_normal = {:?}", self.normal),
+            joint,
+        )
+    }
+
+    /// In space, each joint replaced by the pair that it is in the plane.
+    fn spatial(&self) -> String {
+        let joint = |j: &Placed| {
+            let pairs: Vec<String> = j.types.iter().map(|&t| self.in_plane(j, t)).collect();
+            let options: Vec<String> = pairs[1..].iter().map(|p| format!("{{ {p} }}")).collect();
+            format!(
+                "{}\npoint = {:?}\noptions = [{}]",
+                pairs[0].replace(", ", "\n").replace("#", ", "),
+                j.point,
+                options.join(", ").replace("#", ", ")
+            )
+        };
+        self.text("", joint)
+    }
+
+    /// What a type keeps in the plane, as type, freedoms, axis and reference: by cases, from which vectors are square.
+    fn in_plane(&self, j: &Placed, t: usize) -> String {
+        let (n, z, r) = (self.normal, j.axis, j.reference);
+        let x = [0, 1, 2].map(|i| r[i] * dot(z, z) - z[i] * dot(z, r));
+        let axes = [x, cross(z, x), z];
+        let (_, turns, slides) = TYPES[t];
+        let has = |set: [bool; 3]| (0..3).filter(|&i| set[i]).collect::<Vec<_>>();
+        let lacks = |set: [bool; 3]| axes[(0..3).find(|&i| !set[i]).unwrap()];
+        let turn = match has(turns)[..] {
+            [] => false,
+            [i] => cross(axes[i], n) == [0; 3],
+            [_, _] => dot(lacks(turns), n) == 0,
+            _ => true,
+        };
+        let along: Vec<Three> = match has(slides)[..] {
+            [] => Vec::new(),
+            [i] => Some(axes[i])
+                .filter(|&a| dot(a, n) == 0)
+                .into_iter()
+                .collect(),
+            _ => match cross(lacks(slides), n) {
+                [0, 0, 0] => has(slides).into_iter().map(|i| axes[i]).collect(),
+                a => vec![a],
+            },
+        };
+        let mut freedoms = vec!["rz"; usize::from(turn)];
+        freedoms.extend(["tx", "ty"].iter().take(along.len()));
+        let any = if n[0] == 0 && n[1] == 0 {
+            [1, 0, 0]
+        } else {
+            [0, 0, 1]
+        };
+        let reference = along.first().copied().unwrap_or(any);
+        let list = |v: String| v.replace(", ", "#");
+        let kind = if freedoms.is_empty() {
+            "type = \"fixed\"".to_owned()
+        } else {
+            format!(
+                "type = \"custom\", freedoms = {}",
+                list(format!("{freedoms:?}"))
+            )
+        };
+        let (n, reference) = (list(format!("{n:?}")), list(format!("{reference:?}")));
+        format!("{kind}, axis = {n}, reference = {reference}")
+    }
+}
+
+fn vector() -> impl Strategy<Value = Three> {
+    prop::array::uniform3(-3i64..4).prop_filter("a direction", |v| *v != [0; 3])
+}
+
+fn placed(normal: Three) -> impl Strategy<Value = Placed> {
+    let axis = (vector(), 0..3).prop_map(move |(v, how)| match (how, cross(normal, v)) {
+        (0, _) | (1, [0, 0, 0]) => normal,
+        (1, across) => across,
+        _ => v,
+    });
+    let types = prop::collection::vec(0..TYPES.len(), 1..4);
+    let point = prop::array::uniform3(-9i64..10);
+    (types, point, axis, vector())
+        .prop_filter("a reference", |(.., z, r)| cross(*z, *r) != [0; 3])
+        .prop_map(|(mut types, point, axis, reference)| {
+            let first = types[0];
+            types[1..].sort_unstable();
+            types.dedup();
+            types.retain({
+                let mut seen = std::collections::BTreeSet::new();
+                move |t| seen.insert(*t)
+            });
+            assert_eq!(types[0], first);
+            Placed {
+                types,
+                point,
+                axis,
+                reference,
+            }
+        })
+}
+
+fn ring() -> impl Strategy<Value = Ring> {
+    (vector(), 3usize..6, any::<bool>()).prop_flat_map(|(normal, links, twice)| {
+        let twice = twice && links > 3;
+        let joints = prop::collection::vec(placed(normal), links + usize::from(twice));
+        joints.prop_map(move |joints| Ring {
+            normal,
+            joints,
+            twice,
+        })
+    })
+}
+
+/// How many variants there are by mobility, of all with few enough redundant constraints and of the admissible ones.
+fn counts(m: &Mechanism, max_redundant: u32) -> [BTreeMap<i64, num_bigint::BigUint>; 2] {
+    let conditions = Conditions {
+        max_redundant,
+        ..Conditions::default()
+    };
+    let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
+    let found = search.build(&|| false, &mut |_| {});
+    [(&found.determinate, false), (&found.admissible, true)]
+        .map(|(diagram, filter)| search.counts(diagram, filter).by_mobility)
+}
+
+proptest! {
+    #![proptest_config(crate::fuzz::runs(48))]
+    #[test]
+    fn a_plane_keeps_what_the_freedoms_of_joints_span_in_it(ring in ring(), allowed in 0u32..3) {
+        let [plane, space] = [ring.planar(), ring.spatial()]
+            .map(|text| mechanism_from_str("ring.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}")));
+        let contours = contour_basis(&plane, StateId::FREE).len();
+        let [a, b] = [&plane, &space].map(|m| analyse(m, &[StateId::FREE], Method::Modular).unwrap().remove(0));
+        prop_assert_eq!(a.mobility, b.mobility);
+        prop_assert_eq!(a.redundant + 3 * contours, b.redundant);
+        prop_assert_eq!(a.working_mobility, b.working_mobility);
+        // What is followed need not be decided both times.
+        prop_assert!(a.finite.mobility <= b.finite.at_most() && b.finite.mobility <= a.finite.at_most());
+        let out_of_plane = 3 * u32::try_from(contours).unwrap();
+        prop_assert_eq!(counts(&plane, allowed), counts(&space, allowed + out_of_plane));
+    }
+}
