@@ -89,11 +89,12 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
             } else {
                 "axis of the roller"
             };
-            (
-                what,
-                "the first of the axes x, y, z that is across",
-                "reference",
-            )
+            let line = if table.axis.is_some() {
+                "the reference of the joint"
+            } else {
+                "the first of the axes x, y, z that is across"
+            };
+            (what, line, "reference")
         }
         _ => return None,
     };

@@ -235,7 +235,8 @@ pub struct OptionTable {
     /// Direction of z, the joint's own by default.
     #[serde(default)]
     pub axis: Option<[Coordinate; 3]>,
-    /// Direction of x, the joint's own by default.
+    /// Direction that x is made from; by default the joint's own, and where that is parallel to the option's axis, the first of
+    /// the global x, y, z not parallel to it.
     #[serde(default)]
     pub reference: Option<[Coordinate; 3]>,
     /// Translation per turn of a helical joint: what catalogues of screws call its lead.

@@ -270,10 +270,13 @@ fn option_frame(
         || present.axis.clone(),
         |v| direction(v, &key(path, "axis"), out),
     );
-    let reference = table.reference.as_ref();
-    let reference = reference.map(|v| direction(v, &key(path, "reference"), out));
-    let stated = [table.pitch.as_ref(), table.lead.as_ref()];
-    let pitch = pitch(stated, path, out).unwrap_or_else(|| present.pitch.clone());
+    let stated = table.reference.as_ref();
+    let reference = stated.map_or_else(
+        || Some(present.reference.clone()).filter(|r| !parallel(r, &axis)),
+        |v| Some(direction(v, &key(path, "reference"), out)),
+    );
+    let screw = [table.pitch.as_ref(), table.lead.as_ref()];
+    let pitch = pitch(screw, path, out).unwrap_or_else(|| present.pitch.clone());
     let point = table.point.as_ref().map_or_else(
         || present.point.clone(),
         |p| vector(p, &key(path, "point"), out),
