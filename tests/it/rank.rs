@@ -9,6 +9,7 @@ mod least_rows;
 mod mobility;
 mod planes;
 mod poses;
+mod primes;
 mod releases;
 pub(crate) mod rounded;
 mod screws;

@@ -54,6 +54,12 @@ pub(in crate::cli) fn write(
             certify(m, state).map_err(|reason| reason.to_string())
         };
         match certificate {
+            Ok(c) if c.rank != s.rank => bail!(
+                "the rank of state {} is {}, but a checked certificate proves {}; report this with the file",
+                c.state,
+                s.rank,
+                c.rank
+            ),
             Ok(certificate) => file.certificates.push(certificate),
             Err(reason) => {
                 let state = m.states[state].clone();

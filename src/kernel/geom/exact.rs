@@ -24,7 +24,8 @@ use super::expr::Expr;
 use crate::linalg::modp::{Field, Residue};
 
 impl ExactField {
-    /// The homomorphism into the `nth` suitable prime field above 2^61; the same expressions give the same field.
+    /// The homomorphism into the `nth` suitable prime field above 2^61; the same expressions give the same field, others most
+    /// likely another.
     ///
     /// Costs O(`nth`) prime searches, each of 2^k candidates for k independent roots, and O(q) for every prime q both
     /// under a root and in an angle.
@@ -52,7 +53,7 @@ impl ExactField {
             }
             if let Some(error) = zero {
                 failures += 1;
-                if failures > MAX_FAILURES {
+                if failures == MAX_FAILURES {
                     return Err(error);
                 }
                 continue;

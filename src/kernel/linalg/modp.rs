@@ -2,7 +2,8 @@
 //!
 //! Residues are plain `u64` in Montgomery form (`x·2^64 mod p`), which is a canonical representation: two residues
 //! are equal exactly when their words are. Sixty-odd bits rather than thirty make a false zero in a whole search
-//! (some 10^7 zero tests) less likely than 10^-11 even for adversarially large coordinates.
+//! (some 10^7 zero tests) less likely than 10^-11, as long as the numbers do not depend on the prime. A coordinate that is a
+//! multiple of the prime is a false zero for certain, so primes are chosen by a hash of the coordinates (`geom::exact`).
 
 use num_bigint::BigInt;
 use num_integer::Integer;

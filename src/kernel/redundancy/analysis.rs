@@ -131,7 +131,7 @@ impl StateAnalysis {
 /// Analyses the given states.
 ///
 /// # Errors
-/// Where the geometry has no exact image, the singular values fail, or two primes disagree.
+/// Where the geometry has no exact image, the singular values fail, two primes disagree, or a certificate proves another rank.
 pub fn analyse(
     mechanism: &Mechanism,
     states: &[StateId],
@@ -310,16 +310,20 @@ const CERTIFICATE: Budget = Budget {
     operations: 50_000_000,
 };
 
-/// Whether the rank has a certificate in characteristic 0, made and checked here.
-fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> bool {
-    let Ok(field) = certificate::number_field(mechanism, state) else {
-        return false;
-    };
-    let Ok(matrix) = certificate::matrix(&field, mechanism, state) else {
-        return false;
-    };
-    certificate::certify_matrix(&field, &matrix, &mechanism.states[state], CERTIFICATE)
-        .is_ok_and(|c| c.rank == rank)
+/// Returns whether the rank has a certificate in characteristic 0, made and checked here.
+///
+/// # Errors
+/// [`AnalysisError::Refuted`] where the certificate proves another rank.
+fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> Result<bool, AnalysisError> {
+    match certificate::certify_within(mechanism, state, CERTIFICATE) {
+        Err(_) => Ok(false),
+        Ok(c) if c.rank == rank => Ok(true),
+        Ok(c) => Err(AnalysisError::Refuted {
+            state: c.state,
+            rank,
+            proven: c.rank,
+        }),
+    }
 }
 
 /// How sure a rank by the first of two fields is, which that by the other must be too.
@@ -346,7 +350,7 @@ fn certainty(
         });
     }
     // A certificate would be of the digits that stand for π.
-    Ok(if !mechanism.has_pi() && proven(mechanism, state, rank) {
+    Ok(if !mechanism.has_pi() && proven(mechanism, state, rank)? {
         Certainty::Proven { primes }
     } else {
         Certainty::Modular { primes }

@@ -1,10 +1,11 @@
 //! Which roots and angles a number field needs: those of the cyclotomic field, the free ones, the nested ones.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
+use sha2::{Digest as _, Sha256};
 
 use super::error::ExactError;
 use super::field::ExactField;
@@ -21,8 +22,8 @@ const MAX_NESTED: usize = 6;
 const WITNESSES: usize = 24;
 /// Candidates tried before the search for primes is given up.
 const MAX_CANDIDATES: u64 = 1 << 23;
-/// Primes lost to a vanishing divisor before the divisor is taken to be zero.
-pub(crate) const MAX_FAILURES: usize = 32;
+/// Primes at which a divisor vanishes before it is taken to be zero: it is a multiple of all of them otherwise.
+pub(crate) const MAX_FAILURES: usize = 2;
 
 /// What a prime has to provide.
 #[derive(Debug, Default)]
@@ -36,6 +37,8 @@ pub(crate) struct PrimePlan {
     pub(crate) inner_roots: Vec<u64>,
     pub(crate) free_roots: Vec<u64>,
     pub(crate) nested: Vec<Expr>,
+    /// A hash of the expressions, which says where primes are looked for.
+    seed: u64,
 }
 
 impl PrimePlan {
@@ -43,6 +46,7 @@ impl PrimePlan {
     pub(crate) fn new(exprs: &[&Expr]) -> Result<PrimePlan, ExactError> {
         let mut plan = PrimePlan {
             order: 4,
+            seed: seed(exprs),
             ..PrimePlan::default()
         };
         let mut candidates = Vec::new();
@@ -137,7 +141,7 @@ impl PrimePlan {
         for field in self.fields() {
             let value = match field.eval(inner) {
                 Ok(value) => value,
-                Err(ExactError::DivisionByZero { .. }) if failures < MAX_FAILURES => {
+                Err(ExactError::DivisionByZero { .. }) if failures + 1 < MAX_FAILURES => {
                     failures += 1;
                     continue;
                 }
@@ -170,12 +174,15 @@ impl PrimePlan {
         Err(ExactError::NoPrime { nth: 0 })
     }
 
-    /// The suitable primes in increasing order.
+    /// Returns the suitable primes between 2^61 and 2^62, the first at a place that the expressions' hash gives. A number
+    /// that is written down does not know its own hash, so that no coordinate holds these primes as factors but by a chance of
+    /// about 2^-55.
     pub(crate) fn fields(&self) -> impl Iterator<Item = ExactField> + '_ {
         let modulus = self.modulus.max(4);
-        let start = (1u64 << 61) / modulus + 1;
-        let end = ((1u64 << 62) - 1) / modulus;
-        (start..end.min(start.saturating_add(MAX_CANDIDATES)))
+        let least = (1u64 << 61) / modulus + 1;
+        let all = ((1u64 << 62) - 1) / modulus - least;
+        (0..all.min(MAX_CANDIDATES))
+            .map(move |i| least + (self.seed % all + i) % all)
             .filter_map(move |k| self.at(k * modulus + 1))
     }
 
@@ -239,4 +246,34 @@ impl PrimePlan {
         }
         Some(field)
     }
+}
+
+/// Returns a hash of some expressions, the same on every machine: that of their trees, each shared node once.
+fn seed(exprs: &[&Expr]) -> u64 {
+    let mut hash = Sha256::new();
+    for e in exprs {
+        let mut places = HashMap::new();
+        for (place, node) in e.post_order().into_iter().enumerate() {
+            places.insert(node.id(), place);
+            let of = |c: &Expr| places.get(&c.id()).copied().unwrap_or(0);
+            let text = match node.kind() {
+                NodeKind::Rational(r) => format!("{r}"),
+                NodeKind::Pi => "pi".to_owned(),
+                NodeKind::Add(a, b) => format!("{}+{}", of(a), of(b)),
+                NodeKind::Sub(a, b) => format!("{}-{}", of(a), of(b)),
+                NodeKind::Mul(a, b) => format!("{}*{}", of(a), of(b)),
+                NodeKind::Div(a, b) => format!("{}:{}", of(a), of(b)),
+                NodeKind::Neg(a) => format!("-{}.", of(a)),
+                NodeKind::Pow(a, n) => format!("{}^{n}", of(a)),
+                NodeKind::Sqrt(a) => format!("sqrt {}", of(a)),
+                NodeKind::Trig(function, k, n) => format!("{function:?} {k}/{n}"),
+            };
+            hash.update(text);
+            hash.update(";");
+        }
+        hash.update("\n");
+    }
+    let mut first = [0; 8];
+    first.copy_from_slice(&hash.finalize()[..8]);
+    u64::from_be_bytes(first)
 }

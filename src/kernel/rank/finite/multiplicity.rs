@@ -2,7 +2,7 @@
 //!
 //! A closed pose with no others near is a solution of polynomial equations, and has a multiplicity of at most what Bézout's theorem
 //! allows. That multiplicity is the order that stops a motion in a general direction, or more. So what is not stopped up to that
-//! order is never stopped, and every instantaneous motion is one. Coefficients are known modulo a prime near 2^61: one that is 0
+//! order is never stopped, and every instantaneous motion is one. Coefficients are known modulo a prime above 2^61: one that is 0
 //! there is 0 but for a chance of some 10^-18. All bundles here are globally generated, so that what else solves the equations
 //! does not count [Fulton 1984, "Intersection Theory", theorem 12.3].
 //!

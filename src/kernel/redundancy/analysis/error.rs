@@ -18,6 +18,18 @@ pub enum AnalysisError {
     /// The automatic choice failed.
     #[error(transparent)]
     Auto(#[from] NoAnswer),
+    /// A certificate proves another rank than primes gave.
+    #[error(
+        "the rank of state {state} is {rank} modulo two primes, but a checked certificate proves {proven}; report this with the file"
+    )]
+    Refuted {
+        /// The state.
+        state: String,
+        /// The rank modulo primes.
+        rank: usize,
+        /// The rank that is proven.
+        proven: usize,
+    },
     /// Two primes gave different ranks.
     #[error(
         "ranks modulo {first} and {second} differ in state {state}: {ranks:?}; report this with the file"

@@ -1,7 +1,8 @@
 //! The search over a second prime: what one prime says of the diagram, the other must say too.
 //!
-//! A rank modulo a prime falls short where the prime divides a nonzero minor. Near 2^61 that is next to impossible by
-//! chance, but a coordinate may hold the prime as a factor, and a proof is better than odds: both diagrams number their
+//! A rank modulo a prime falls short where the prime divides a nonzero minor. Above 2^61 that is next to impossible by
+//! chance, and primes that follow from a hash of the coordinates divide none by design. Two odds are better than one: both
+//! diagrams number their
 //! nodes in the order in which they are met, so agreement is equality edge by edge, and then every count, every list
 //! and every sample drawn from them is equal too.
 

@@ -1,0 +1,92 @@
+//! Coordinates that hold large primes as factors are no zeros: a four-bar with one hinge tilted by such a number.
+
+use ozols::file::text::mechanism_from_str;
+use ozols::geom::exact::ExactField;
+use ozols::model::mechanism::{Mechanism, StateId};
+use ozols::rank::exact::certificate::certify;
+use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use ozols::search::Search;
+use ozols::search::question::conditions::Conditions;
+use proptest::prelude::*;
+
+/// The two smallest primes above 2^61 that are 1 modulo 4, which every search took once.
+const FIRST: [u64; 2] = [2_305_843_009_213_693_973, 2_305_843_009_213_694_009];
+
+fn tilted(by: &str) -> Mechanism {
+    let hinge = |id: &str, at: &str, axis: &str, more: &str| {
+        let links: Vec<&str> = id.split('-').collect();
+        format!(
+            "[[joint]]\nid = {id:?}\nlinks = {links:?}\ntype = \"revolute\"\npoint = {at}\naxis = {axis}\n{more}\n"
+        )
+    };
+    let links = [("0", "frame"), ("1", ""), ("2", ""), ("3", "output")].map(|(id, role)| {
+        let role = if role.is_empty() {
+            String::new()
+        } else {
+            format!("role = {role:?}")
+        };
+        format!("[[link]]\nid = {id:?}\n{role}\n")
+    });
+    let up = "[0, 0, 1]";
+    let joints = [
+        hinge("0-1", "[0, 0, 0]", up, "drive = true"),
+        hinge("1-2", "[0, 30, 0]", up, ""),
+        hinge("2-3", "[80, 90, 0]", &format!("[0, \"{by}\", 1]"), ""),
+        hinge("3-0", "[120, 0, 0]", up, ""),
+    ];
+    let options =
+        "[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n";
+    let text = format!(
+        "name = \"tilted\"\n{}{}{options}",
+        links.concat(),
+        joints.concat()
+    );
+    mechanism_from_str("tilted.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// By hand: three parallel hinges and one that is not lock each other, whatever the tilt is. The counts are those of a tilt of 1.
+fn is_locked(m: &Mechanism) {
+    let found = analyse(m, &[StateId::FREE], Method::Auto { tolerance: None })
+        .unwrap()
+        .remove(0);
+    assert_eq!((found.mobility, found.redundant, found.rank), (0, 2, 4));
+    assert_eq!(certify(m, StateId::FREE).unwrap().rank, 4);
+    let search = Search::new(exact_field(m, 0).unwrap(), m, Conditions::default()).unwrap();
+    let built = search.build(&|| false, &mut |_| {});
+    let counts = [(&built.determinate, false), (&built.admissible, true)]
+        .map(|(diagram, filter)| search.counts(diagram, filter).total);
+    assert_eq!(counts, [52u8.into(), 11u8.into()]);
+}
+
+#[test]
+fn a_multiple_of_the_smallest_primes_is_not_zero() {
+    let [p, q] = FIRST;
+    for by in [
+        "1".to_owned(),
+        format!("{p}*{q}/({p}*{q}+1)"),
+        format!("7*{p}*{q}/(5*{p}*{q}+2)"),
+    ] {
+        is_locked(&tilted(&by));
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::fuzz::runs(4))]
+    /// Also where the number holds the primes of another tilt: its own are others.
+    #[test]
+    fn a_multiple_of_the_primes_of_another_file_is_not_zero(a in 1u32..1000, b in 1u32..1000) {
+        let other = tilted(&format!("{a}/{b}"));
+        let [p, q] = [0, 1].map(|nth| exact_field(&other, nth).unwrap().field().modulus());
+        is_locked(&tilted(&format!("{p}*{q}/({p}*{q}+{b})")));
+    }
+
+    #[test]
+    fn the_same_numbers_have_the_same_primes(a in 1u32..1000, b in 1u32..1000, nth in 0usize..2) {
+        let primes = |text: String| -> u64 {
+            ExactField::for_expressions([&text.parse().unwrap()], nth).unwrap().field().modulus()
+        };
+        let one = primes(format!("sqrt({a})/{b}"));
+        prop_assert_eq!(one, primes(format!("sqrt({a})/{b}")));
+        prop_assert_ne!(one, primes(format!("sqrt({a})/{}", b + 1)));
+    }
+}
