@@ -79,7 +79,8 @@ pub enum Check {
     None,
     /// The whole search over two primes, which must agree.
     Prime,
-    /// That, and each variant given, up to [`CHECKED`](crate::search::check::singular_values::CHECKED) and fewer of large mechanisms, analysed again by singular values.
+    /// That, and the mechanism as built and each variant given, up to [`CHECKED`](crate::search::check::singular_values::CHECKED) and
+    /// fewer of large mechanisms, analysed again by singular values.
     Full,
 }
 

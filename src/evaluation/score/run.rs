@@ -20,6 +20,7 @@ use crate::search::check::brute;
 use crate::search::check::other_poses;
 use crate::search::check::second_opinion;
 use crate::search::check::second_prime::{self, PrimeCheck};
+use crate::search::check::singular_values;
 use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, Symmetry};
@@ -111,6 +112,11 @@ pub fn answer(
         return by_brute_force(over(0)?, request, measured);
     }
     let (search, twin) = with_twin(request.check, over)?;
+    if request.check == Check::Full && conditions.written.is_none() {
+        singular_values::warning_of_present(&search)?
+            .into_iter()
+            .for_each(|warning| tell(Event::Note(warning)));
+    }
     for note in search.already_loose()? {
         tell(Event::Note(note));
     }

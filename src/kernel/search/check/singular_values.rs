@@ -5,14 +5,18 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::exact::modular;
 use crate::rank::numeric::{self, NumericRank};
 use crate::search::answer::k_best::Assignment;
+use crate::search::check::brute;
 use crate::search::check::other_poses::over;
 use crate::search::check::other_poses::{OverStroke, Stroke};
 use crate::search::check::variant_mechanism::locked;
 use crate::search::check::variant_mechanism::realize;
+use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -223,6 +227,51 @@ fn shape(question: &Question, realized: &Mechanism) -> Shape {
         locked: question.conditions.keep_output.then(lock),
         state: state.map(|s| (s, contour_basis(realized, s))),
     }
+}
+
+/// Returns a warning where singular values contradict exact arithmetic on the mechanism as built; `None` where they agree, do not
+/// converge, or would take too long.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+///
+/// # Complexity
+/// One exact rank of each state and as many decompositions as for a variant.
+pub fn warning_of_present(question: &Question) -> Result<Option<String>, ExactError> {
+    if affordable(question) <= AT_LEAST {
+        return Ok(None);
+    }
+    let redundant = |state: StateId| {
+        let closure = Closure::new(&question.exact, &question.mechanism, state)?;
+        let rank = modular::rank(&question.exact, &closure);
+        Ok::<_, ExactError>(int(closure.rows()) - int(rank))
+    };
+    let internal = redundant(StateId::FREE)?;
+    let external = match question.conditions.state {
+        Some(s) => redundant(s.state)? - internal,
+        None => 0,
+    };
+    let redundancy = Redundancy {
+        internal: u32::try_from(internal).unwrap_or(u32::MAX),
+        external: i32::try_from(external).unwrap_or(i32::MAX),
+        harmful: 0,
+    };
+    let choices = vec![0; question.space.variables.len()];
+    let key = brute::key(question, &choices, redundancy);
+    let present = Assignment { choices, key };
+    let m = realize(question, &present.choices);
+    let said = opinion(question, &present, &m, &shape(question, &m)).filter(|o| !o.agree);
+    Ok(said.map(|o| {
+        format!(
+            "warning: of the mechanism as built singular values say W = {}, σ = {}, and exact arithmetic W = {}, σ = {internal} \
+             (smallest kept {:.1e}, largest dropped {:.1e}): it is nearly singular",
+            o.mobility,
+            o.redundant,
+            question.mobility(key),
+            o.conditioning,
+            o.dropped
+        )
+    }))
 }
 
 fn opinion(
