@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod analysis;
+pub(crate) mod assumed;
 pub mod catalog;
 pub(crate) mod claims;
 pub mod contract;

@@ -19,6 +19,7 @@ use crate::robots::{self, Origin};
 use crate::view::robots::lint::{self, Lint as Found, PassedOver, sarif};
 use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, NextCommand};
+use anyhow::ensure;
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -71,7 +72,11 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                         }
                         Ok(lint) => {
                             let verdict = if lint.is_clean() {
-                                ("nothing is redundant".to_owned(), Tone::Good)
+                                let tone = match lint.left_out {
+                                    0 => Tone::Good,
+                                    _ => Tone::Doubtful,
+                                };
+                                ("nothing is redundant".to_owned(), tone)
                             } else {
                                 (lint.sigma(), Tone::Bad)
                             };
@@ -94,7 +99,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
             LintFormat::Json => output::json(out, &lint::json(&found, &others))?,
             LintFormat::Sarif => output::json_of_others(out, &sarif::sarif(&found, &others))?,
         }
-        Ok(match found.iter().all(|l| l.is_clean()) {
+        Ok(match found.iter().all(|l| l.is_in_order()) {
             _ if failed => Done::Partly,
             true => Done::Found,
             false => Done::Nothing,
@@ -108,7 +113,11 @@ fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
         let imported = description(file.path(), options)?;
         (imported.mechanism.clone(), Some(imported))
     } else {
-        let (name, bytes) = load::named(file)?;
+        ensure!(
+            options.loops.is_none(),
+            "--loops is for robot descriptions, which {file} is none of"
+        );
+        let (name, bytes) = load::plain(file)?;
         (mechanism_from_bytes(&name, &bytes)?, None)
     };
     let found = look(&mechanism, imported.as_ref().map(|i| &i.origin))?;

@@ -7,7 +7,7 @@ use crate::file::schema::MechanismFile;
 use serde_json::Value;
 
 /// Texts of more than one line.
-const PROSE: [&str; 2] = ["description", "sources"];
+const PROSE: [&str; 3] = ["description", "sources", "assumed"];
 
 /// Every control character of a file's strings and keys.
 ///

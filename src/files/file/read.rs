@@ -99,6 +99,7 @@ pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanis
         points: Vec::new(),
         expected: Vec::new(),
         claims: Vec::new(),
+        assumed: file.assumed.clone(),
     };
     connected(&mechanism, &mut out);
     if !size(&mechanism, &mut out) {

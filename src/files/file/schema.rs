@@ -39,6 +39,9 @@ pub struct MechanismFile {
     /// Publications the mechanism and its figures come from.
     #[serde(default)]
     pub sources: Vec<String>,
+    /// What the reader of another format took for granted or left out, a sentence each: figures are those of the file as read.
+    #[serde(default)]
+    pub assumed: Vec<String>,
     /// Unit of all lengths: m (the default), mm, cm, um or in.
     #[serde(default)]
     pub length_unit: Option<String>,

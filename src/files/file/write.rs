@@ -43,6 +43,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         name: m.name.clone(),
         description: m.description.clone(),
         sources: m.sources.clone(),
+        assumed: m.assumed.clone(),
         length_unit: Some(m.length_unit.symbol.to_owned()),
         mode,
         plane_normal,

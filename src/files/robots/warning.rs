@@ -52,6 +52,9 @@ pub struct Report {
     pub mapped: BTreeMap<String, usize>,
     /// Elements mapped approximately.
     pub approximated: Vec<Note>,
+    /// Those of these that are guesses or left out: what they mean may hold or couple something, so that figures are those of the file
+    /// as read.
+    pub assumed: Vec<String>,
     /// Elements that bear no kinematics, by kind: how many, and some names.
     pub dropped: BTreeMap<String, (usize, Vec<String>)>,
     /// Couplings of joint values (mimic joints, equalities) that are kept.
@@ -88,6 +91,31 @@ impl Report {
             element: element.to_owned(),
             what: what.into(),
         });
+    }
+
+    /// Notes what is taken for granted, though the file does not say it.
+    pub(crate) fn assume(&mut self, element: &str, what: impl Into<String>) {
+        let what = what.into();
+        self.assumed.push(format!("{element}: {what}"));
+        self.approximate(element, what);
+    }
+
+    /// Notes a coupling of joints that is left out, one row.
+    pub(crate) fn leave_out_coupling(&mut self, element: &str, what: impl Into<String>) {
+        self.coupling_rows += 1;
+        self.assume(element, what);
+    }
+
+    /// Notes what holds links together and is left out, with as many rows as it may have.
+    pub(crate) fn leave_out_joint(&mut self, element: &str, rows: usize, what: impl Into<String>) {
+        self.constraint_rows += rows;
+        self.assume(element, what);
+    }
+
+    /// Returns the rows that are left out of the figures.
+    #[must_use]
+    pub fn left_out(&self) -> usize {
+        self.coupling_rows + self.constraint_rows
     }
 
     pub(crate) fn drop(&mut self, kind: &str, name: Option<&str>) {

@@ -55,6 +55,7 @@ pub(crate) fn drawn(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
         points: Vec::new(),
         expected: Vec::new(),
         claims: Vec::new(),
+        assumed: Vec::new(),
     }
 }
 

@@ -264,6 +264,8 @@ pub struct Mechanism {
     pub expected: Vec<Expected>,
     /// What publications say of it, so or not.
     pub claims: Vec<Claim>,
+    /// What a reader of another format took for granted or left out, a sentence each: figures are those of the file as read.
+    pub assumed: Vec<String>,
 }
 
 impl From<&Mechanism> for Arc<Mechanism> {

@@ -17,6 +17,7 @@ use crate::redundancy::local_mobility;
 use crate::redundancy::stress::{JointWrench, StressVerdict};
 use crate::view::analysis::least_rows::{ContourRows, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};
+use crate::view::assumed::{as_read, kind};
 use crate::view::claims::about;
 use crate::view::stroke::StrokeData;
 use serde::Serialize;
@@ -28,6 +29,8 @@ pub struct Analysis<'a> {
     pub mechanism: &'a str,
     /// Symbol of the file's unit of length.
     pub length_unit: &'static str,
+    /// What the reader of the file took for granted or left out; the certainty of each state counts them.
+    pub assumptions: &'a [String],
     /// Its states.
     pub states: Vec<State<'a>>,
     /// The figures over a stroke, where one was asked for.
@@ -213,6 +216,7 @@ impl<'a> Analysis<'a> {
         Analysis {
             mechanism: &mechanism.name,
             length_unit: mechanism.length_unit.symbol,
+            assumptions: &mechanism.assumed,
             states: states.collect(),
             stroke: None,
             claims: about(&mechanism.claims, Topic::Structure),
@@ -237,8 +241,8 @@ impl<'a> State<'a> {
             finite_mobility_at_least: s.finite.mobility,
             finite_mobility_at_most: s.finite.at_most(),
             finite_mobility_known_by: s.finite.word(),
-            finite_mobility_proven: s.finite.is_proven(),
-            finite: [s.finite.figure(), s.finite.describe()],
+            finite_mobility_proven: s.finite.is_proven() && mechanism.assumed.is_empty(),
+            finite: [s.finite.figure(), as_read(mechanism, s.finite.describe())],
             working_mobility: s.working_mobility,
             local_mobility: s.local_mobility,
             redundant: s.redundant,
@@ -266,7 +270,7 @@ impl<'a> State<'a> {
                 .collect(),
             method: s.method,
             certainty: certainty(mechanism, s),
-            certainty_kind: s.certainty.word(),
+            certainty_kind: kind(mechanism, s.certainty.word()),
             primes: s.certainty.primes().map(|p| p.map(|p| p.to_string())),
             choice: s.choice.as_deref(),
             snapped: &s.snapped,
@@ -374,12 +378,13 @@ impl<'a> Wrench<'a> {
 /// How sure the figures are; π is not exact, whatever the rest.
 fn certainty(m: &Mechanism, s: &StateAnalysis) -> String {
     let words = s.certainty.describe();
-    match (s.as_written.is_some(), m.has_pi()) {
+    let sure = match (s.as_written.is_some(), m.has_pi()) {
         (true, _) => format!("as meant: {words}"),
         (false, true) => {
             let digits = format!("pi to {PI_DIGITS} decimals, all else exact");
             words.replacen("exact geometry", &digits, 1)
         }
         (false, false) => words,
-    }
+    };
+    as_read(m, sure)
 }

@@ -238,12 +238,9 @@ fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
 }
 
 fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
-    let rows = c.holds.rows();
-    robot.report.constraint_rows += rows;
     let what = format!("{} is left out: {why}", c.holds.word());
-    robot
-        .report
-        .approximate(&format!("joint \"{}\"", c.id), what);
+    let element = format!("joint \"{}\"", c.id);
+    robot.report.leave_out_joint(&element, c.holds.rows(), what);
 }
 
 /// A misfit in words: "0.02 mm and 1.2 degrees".

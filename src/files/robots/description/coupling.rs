@@ -74,8 +74,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
             [_, None] => format!("there is no joint {follower}"),
         };
         let what = format!("the coupling of {follower} to {leader} (1 row) is left out: {why}");
-        robot.report.coupling_rows += 1;
-        robot.report.approximate(&coupling.element, what);
+        robot.report.leave_out_coupling(&coupling.element, what);
     }
     out
 }

@@ -222,9 +222,9 @@ impl<'a> Assembling<'a, '_> {
                 format!("{label} ({})", joint.name)
             };
             let Some(found) = held(word, joint, ends, &slides, self.shapes)? else {
-                robot.report.constraint_rows += UNKNOWN_ROWS;
                 let what = format!("left out: it is of the type {word}, which is not known");
-                robot.report.approximate(&format!("joint \"{id}\""), what);
+                let element = format!("joint \"{id}\"");
+                robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
                 continue;
             };
             let Held {
@@ -235,7 +235,7 @@ impl<'a> Assembling<'a, '_> {
             } = found;
             let doubts = ends.iter().filter_map(|e| e.doubt.clone());
             for doubt in doubts.chain(doubt.map(str::to_owned)) {
-                robot.report.approximate(&format!("joint \"{id}\""), doubt);
+                robot.report.assume(&format!("joint \"{id}\""), doubt);
             }
             if LIMITS.iter().any(|l| joint.is_true(l) == Some(true)) {
                 let element = format!("joint \"{id}\"");
@@ -307,11 +307,9 @@ impl<'a> Assembling<'a, '_> {
             match (end("Reference1")?, end("Reference2")?) {
                 (Ok(a), Ok(b)) => out.push((*joint, word, [a, b])),
                 (Err(why), _) | (_, Err(why)) => {
-                    robot.report.constraint_rows += UNKNOWN_ROWS;
                     let what = format!("left out, as FreeCAD does: {why}");
-                    robot
-                        .report
-                        .approximate(&format!("joint \"{}\"", joint.label()), what);
+                    let element = format!("joint \"{}\"", joint.label());
+                    robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
                 }
             }
         }

@@ -35,8 +35,7 @@ pub(crate) fn gearbox(
     }
     let [(leader, first), (follower, second)] = found[..] else {
         let what = "it has not a hinge of its parent and one of its child on the body it refers to, about its axes; its coupling (1 row) is left out";
-        robot.report.coupling_rows += 1;
-        robot.report.approximate(&e.label(), what);
+        robot.report.leave_out_coupling(&e.label(), what);
         return Ok(());
     };
     let id = |j: usize| robot.joints[j].id.clone();

@@ -67,6 +67,7 @@ pub fn realize(question: &Question, choices: &[usize]) -> Mechanism {
         points: old.points.clone(),
         expected: Vec::new(),
         claims: Vec::new(),
+        assumed: old.assumed.clone(),
     }
 }
 

@@ -16,7 +16,8 @@ use crate::format::phrase::plural;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
-use crate::robots::{CadCount, Imported, Origin};
+use crate::robots::{CadCount, Imported, Origin, Report};
+use crate::view::assumed::{as_read, kind, with_assumptions};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -53,6 +54,11 @@ pub struct Lint {
     pub left_out: usize,
     /// What was read approximately, or left out though it may hold or move something.
     pub approximated: Vec<String>,
+    /// Those of these that are guesses or left out; the certainty counts them.
+    pub assumptions: Vec<String>,
+    /// How many they are, in words.
+    #[serde(skip)]
+    read_with: Option<String>,
     /// What is not as drawn: joints moved to close loops, bases that float.
     pub moved: Vec<String>,
     /// Each redundant constraint.
@@ -86,6 +92,7 @@ impl Lint {
         } else {
             (certainty.word(), certainty.describe())
         };
+        let sure = (kind(m, sure.0), as_read(m, sure.1));
         Lint {
             file: file.to_owned(),
             mobility: found.analysis.mobility,
@@ -94,15 +101,17 @@ impl Lint {
             redundant_over_motion: found.lasting,
             certainty_kind: sure.0,
             certainty: sure.1,
-            over_motion_kind: found.over.map(|o| o.word()),
-            over_motion: found.over.map(|o| o.describe()),
-            left_out: report.map_or(0, |r| r.coupling_rows + r.constraint_rows),
+            over_motion_kind: found.over.map(|o| kind(m, o.word())),
+            over_motion: found.over.map(|o| as_read(m, o.describe())),
+            left_out: report.map_or(0, Report::left_out),
             approximated: report.map_or(Vec::new(), |r| {
                 let notes = r.approximated.iter();
                 notes
                     .map(|n| format!("{}: {}", n.element, n.what))
                     .collect()
             }),
+            assumptions: m.assumed.clone(),
+            read_with: with_assumptions(m),
             moved: report.map_or(Vec::new(), |r| r.moved.clone()),
             findings: found.list.iter().enumerate().map(finding).collect(),
             cheapest: if whole {
@@ -135,6 +144,12 @@ impl Lint {
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.redundant_over_motion == 0
+    }
+
+    /// Whether the file is in order: nothing is redundant, and nothing that could be was left out.
+    #[must_use]
+    pub fn is_in_order(&self) -> bool {
+        self.is_clean() && self.left_out == 0
     }
 
     /// How many are redundant at this pose only.
@@ -232,13 +247,15 @@ impl Lint {
 
     /// What keeps the figures from being those of the description.
     fn left_out(&self) -> String {
-        match self.left_out {
+        let rows = match self.left_out {
             0 => String::new(),
             n => format!(
                 "; {} between joints left out, which may be redundant and lower W",
                 plural(n, "row")
             ),
-        }
+        };
+        let read = self.read_with.as_ref().map(|r| format!("; {r}"));
+        rows + &read.unwrap_or_default()
     }
 
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".

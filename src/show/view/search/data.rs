@@ -86,6 +86,8 @@ pub struct SearchData<'a> {
     poses: Option<Poses>,
     ranking: Option<RankingData<'a>>,
     exact: bool,
+    /// What the reader of the file took for granted or left out.
+    assumptions: &'a [String],
     /// How sure counts are that are not exact, and not cut short.
     certainty: Option<&'static str>,
     numeric: Option<NumericData>,
@@ -217,7 +219,8 @@ impl<'a> SearchData<'a> {
                 .ranking
                 .as_ref()
                 .map(|p| RankingData::new(mechanism, p)),
-            exact: outcome.is_exact(),
+            exact: outcome.is_exact() && mechanism.assumed.is_empty(),
+            assumptions: &mechanism.assumed,
             certainty: certainty(outcome),
             numeric: outcome.numeric.as_ref().map(NumericData::new),
             second_opinion: SecondOpinionData::new(outcome),
@@ -368,7 +371,7 @@ impl EndData {
             given: variants.summary().given,
             proven: variants.summary().proven.unwrap_or(0),
             admissible: outcome.admissible.to_string(),
-            admissible_exact: outcome.is_exact(),
+            admissible_exact: outcome.is_exact() && outcome.search.mechanism.assumed.is_empty(),
             certainty: certainty(outcome),
             numeric: outcome.numeric.as_ref().map(NumericData::new),
         }

@@ -6,10 +6,14 @@ use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Asked, Contradiction, SecondOpinion};
+use crate::view::assumed::{AS_READ, with_assumptions};
 use serde::Serialize;
 
 /// How sure counts are that are not exact though no budget cut them short.
 pub(in crate::view) fn certainty(outcome: &Outcome) -> Option<&'static str> {
+    if !outcome.search.mechanism.assumed.is_empty() {
+        return Some(AS_READ);
+    }
     match (&outcome.numeric, &outcome.second) {
         (Some(_), _) => Some("numeric"),
         (None, Some(s)) if !s.agrees() => Some("contradicted"),
@@ -61,10 +65,14 @@ fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
 /// Why counts are not exact though everything was looked at, a sentence a line; nothing where they are.
 #[must_use]
 pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
+    let read = with_assumptions(&outcome.search.mechanism);
+    let mut out: Vec<String> = read
+        .map(|r| format!("Not exact: {r}"))
+        .into_iter()
+        .collect();
     let Some(said) = &outcome.second else {
-        return Vec::new();
+        return out;
     };
-    let mut out = Vec::new();
     if let Some(c) = &said.contradiction {
         let n = said.listed.contradicted + said.admissible.contradicted + said.all.contradicted;
         let of = said.listed.asked + said.admissible.asked + said.all.asked;
