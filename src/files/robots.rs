@@ -1,5 +1,6 @@
 //! Robot descriptions (URDF, MJCF, SDF) and CAD assemblies (FreeCAD, OndselSolver) read as mechanisms, and mechanisms written for other programs.
 
+mod additions;
 mod asmt;
 mod cad;
 pub mod convert;
@@ -7,6 +8,7 @@ mod description;
 mod edit;
 mod fcstd;
 mod fix;
+mod foreign;
 pub mod formats;
 mod graph;
 mod import;
@@ -22,6 +24,7 @@ mod xml;
 
 pub use description::origin::{ElementPlace, Origin};
 pub use fix::fix;
+pub use foreign::refuse as refuse_foreign;
 pub use formats::is_description;
 pub use import::{Imported, import};
 pub use options::{Options, Reader};

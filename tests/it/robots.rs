@@ -14,6 +14,7 @@ mod placed;
 mod readers;
 mod sdf;
 mod taken;
+mod unread;
 
 use crate::common::ozols;
 use ozols::file::text::mechanism_from_str;

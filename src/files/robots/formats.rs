@@ -79,7 +79,7 @@ static FORMATS: [Format; 9] = [
         word: "urdf",
         name: "URDF",
         about: "A spanning tree, loops as <loop_joint>",
-        endings: &["urdf", "xml"],
+        endings: &["urdf", "xacro", "xml"],
         read: Some(("robot", urdf::read::read)),
         write: Some(FormatWriter::Mechanism(urdf::write::urdf)),
     },

@@ -22,6 +22,7 @@ use crate::robots::description::loops;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::parts::Robot;
 use crate::robots::fcstd::DOCUMENT;
+use crate::robots::foreign;
 use crate::robots::formats::{Format, of_root, roots};
 use crate::robots::mechanism::build::{Entries, apply_pose, close_loops, entries, held, root_link};
 use crate::robots::mechanism::loop_closing::size;
@@ -107,6 +108,7 @@ pub fn import(
     read: Reader<'_>,
     options: &Options,
 ) -> Result<Imported, ImportError> {
+    foreign::refuse(name, bytes)?;
     let mut document = Document::default();
     let archive = Archive::of(name, bytes);
     let root = root(&mut document, name, bytes, archive.as_ref())?;
@@ -118,8 +120,10 @@ pub fn import(
     let read: Reader<'_> = &inner;
     let (format, mut robot) = described(&mut document, root, read, options)?;
     let fail = |p: RobotProblem| p.at(name, "", None);
-    if let Some((side, bytes)) = &options.loops {
-        loops::add(side, bytes, &mut robot)?;
+    match &options.loops {
+        Some((side, bytes)) => loops::add(side, bytes, &mut robot)?,
+        None if format.word == "urdf" => loops::beside(name, read, &mut robot),
+        None => {}
     }
     apply_pose(&mut robot, options).map_err(fail)?;
     let frame = root_link(&mut robot, options).map_err(fail)?;
@@ -133,6 +137,7 @@ pub fn import(
         joints,
         couplings,
     } = entries(&mut robot, &tree, name, format.name, options).map_err(fail)?;
+    file.assumed.clone_from(&robot.report.assumed);
     file.tolerance = tolerance(document.element(root), &robot, &places, &joints);
     let closes: Vec<bool> = joints.iter().map(|&j| robot.joints[j].closes).collect();
     let mechanism = with_offers(&mut file, &comments, &closes)?;
@@ -186,6 +191,7 @@ fn described(
         let element = document.element(root);
         return Err(element.fail(None, RobotProblem::Format { found, known }));
     };
+    expanded(document)?;
     let robot = describe(document, root, read, options)?;
     if robot.links.is_empty() {
         let root = document.element(root);
@@ -193,6 +199,26 @@ fn described(
         return Err(root.fail(None, RobotProblem::Missing { element, what }));
     }
     Ok((format, robot))
+}
+
+/// Refuses a template whose macros are not expanded: what they stand for is in no element.
+fn expanded(document: &Document) -> Result<(), ImportError> {
+    let all = (0..document.nodes.len()).map(|id| document.element(id));
+    let is_macro = |e: &Element<'_>| {
+        let values = e.attributes().map(|(_, v)| v).chain([e.text()]);
+        let marks = ["${", "$(arg", "$(find", "$(eval", "$(env", "$(optenv"];
+        e.name().starts_with("xacro:")
+            || values
+                .into_iter()
+                .any(|v| marks.iter().any(|m| v.contains(m)))
+    };
+    match all.into_iter().find(is_macro) {
+        None => Ok(()),
+        Some(e) => Err(e.unsupported(
+            "the file is xacro, a template whose macros are not expanded",
+            "run `xacro FILE > robot.urdf` and give what it writes",
+        )),
+    }
 }
 
 /// The mechanism of a file, to which searches are offered what joints that close loops may become where that can be said.

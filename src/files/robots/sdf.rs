@@ -3,8 +3,8 @@
 pub(super) mod fix;
 mod gearbox;
 mod include;
-mod joints;
+pub(super) mod joints;
 pub(super) mod payload;
 pub(super) mod read;
-mod scene;
+pub(super) mod scene;
 pub(super) mod write;

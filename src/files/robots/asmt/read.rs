@@ -205,6 +205,11 @@ fn figure(e: Element<'_>, label: &str) -> Result<f64, ImportError> {
     Ok(x)
 }
 
+/// The distance that a plane is off; 0 where the file says none.
+fn offset(e: Element<'_>) -> Result<f64, ImportError> {
+    e.child("offset").map_or(Ok(0.0), |_| figure(e, "offset"))
+}
+
 fn holds(e: Element<'_>) -> Result<Holds, ImportError> {
     let word = e.name().strip_suffix("Joint").unwrap_or(e.name());
     Ok(match word {
@@ -215,9 +220,9 @@ fn holds(e: Element<'_>) -> Result<Holds, ImportError> {
         "Spherical" => Holds::Spherical,
         "Universal" => Holds::Universal,
         "ConstantVelocity" => Holds::ConstantVelocity,
-        "Planar" => Holds::Planar(figure(e, "offset")?),
-        "PointInPlane" | "InPlane" => Holds::PointInPlane(figure(e, "offset")?),
-        "LineInPlane" => Holds::LineInPlane(figure(e, "offset")?),
+        "Planar" => Holds::Planar(offset(e)?),
+        "PointInPlane" | "InPlane" => Holds::PointInPlane(offset(e)?),
+        "LineInPlane" => Holds::LineInPlane(offset(e)?),
         "PointInLine" | "InLine" => Holds::PointInLine,
         "ParallelAxes" => Holds::ParallelAxes,
         "NoRotation" => Holds::NoRotation,

@@ -11,6 +11,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Robot};
+use crate::robots::options::Reader;
 use crate::robots::problem::{RobotProblem, known};
 use serde_json::{Map, Value};
 
@@ -33,6 +34,64 @@ pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Result<(), Imp
     }
     let value = parse(name, text).map_err(|message| fail(RobotProblem::Whole { message }))?;
     shapes(&value, robot).map_err(fail)
+}
+
+/// Where a file beside a URDF names loops that nobody asked to read, says so and counts their rows. Such a file is called as the
+/// description is, or `robot`, as example-parallel-robots has it.
+pub(crate) fn beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
+    let stem = std::path::Path::new(name).file_stem();
+    let stem = stem.map_or(String::new(), |s| s.to_string_lossy().into_owned());
+    let endings = ["yaml", "yml", "json", "toml"];
+    let own = endings.map(|e| format!("{stem}.{e}"));
+    let others = ["robot.yaml", "robot.yml"].map(str::to_owned);
+    for (is_own, file) in own
+        .map(|f| (true, f))
+        .into_iter()
+        .chain(others.map(|f| (false, f)))
+    {
+        let Some(bytes) = read(&file).ok().filter(|b| has_loops(&file, b)) else {
+            continue;
+        };
+        let mut closed = robot.clone();
+        let rows = match add(&file, &bytes, &mut closed) {
+            Ok(()) => {
+                let held = |p: &Part| 6 - p.joint_type.freedoms().len();
+                let rows = |r: &Robot| r.joints.iter().map(held).sum::<usize>();
+                rows(&closed).saturating_sub(rows(robot))
+            }
+            // It may be that of another robot.
+            Err(_) if !is_own => continue,
+            Err(_) => 6,
+        };
+        let what = format!(
+            "it names closed loops of this robot, which are left out; read them with --loops {file}"
+        );
+        robot
+            .report
+            .leave_out_joint(&format!("{file} beside it"), rows, what);
+        return;
+    }
+}
+
+/// Whether a file has one of the shapes that name loops.
+fn has_loops(name: &str, bytes: &[u8]) -> bool {
+    let text = std::str::from_utf8(bytes)
+        .ok()
+        .filter(|t| t.len() <= MAX_BYTES);
+    match text.and_then(|t| parse(name, t).ok()) {
+        Some(Value::Object(o)) => {
+            let full = |k: &str| {
+                o.get(k)
+                    .and_then(Value::as_array)
+                    .is_some_and(|l| !l.is_empty())
+            };
+            full("closed_loop") || full("loop") || full("joint_name")
+        }
+        Some(Value::Array(all)) => all
+            .iter()
+            .any(|v| v.get("ball_constraint_body_A").is_some()),
+        _ => false,
+    }
 }
 
 fn parse(name: &str, text: &str) -> Result<Value, String> {

@@ -119,8 +119,13 @@ impl Origin {
 
     /// Whether a joint can be given more joints in series where it stands.
     pub(in crate::robots) fn takes_joints(&self, joint: JointId) -> bool {
-        let element = self.part(joint).element.map(|e| self.element(e).name());
-        element.is_some_and(|e| ["joint", "connect", "weld", "loop_joint"].contains(&e))
+        let Some(id) = self.part(joint).element else {
+            return false;
+        };
+        let (name, root) = (self.element(id).name(), self.element(self.root));
+        // A joint of SDF within <gazebo> of a URDF is Gazebo's own.
+        let of_gazebo = root.name() == "robot" && !root.node().children.contains(&id);
+        ["joint", "connect", "weld", "loop_joint"].contains(&name) && !of_gazebo
     }
 
     fn place(&self, id: usize) -> ElementPlace {

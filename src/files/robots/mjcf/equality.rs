@@ -9,9 +9,11 @@ use crate::robots::mjcf::context::Context;
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::urdf::read::same_link;
 use crate::robots::xml::Element;
+use std::collections::BTreeMap;
 
 pub(crate) fn read(
     section: Element<'_>,
+    root: Element<'_>,
     context: &Context<'_>,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
@@ -48,13 +50,7 @@ pub(crate) fn read(
                 }
             }
             "joint" => coupling(e, robot)?,
-            "tendon" => {
-                robot.report.coupling_rows += 1;
-                robot.report.approximate(
-                    &e.label(),
-                    "an equality of tendon lengths (1 row) is left out",
-                );
-            }
+            "tendon" => tendons(e, root, robot)?,
             "flex" | "flexvert" | "flexstrain" => {
                 let what = "it holds a deformable body, which is left out";
                 robot.report.approximate(&e.label(), what);
@@ -62,7 +58,10 @@ pub(crate) fn read(
             "distance" => {
                 return Err(e.unsupported("it is not a joint", "remove it"));
             }
-            other => robot.report.drop(other, e.attribute("name")),
+            _ => {
+                let what = "an equality of a kind that is not known; left out";
+                robot.report.leave_out_joint(&e.label(), 6, what);
+            }
         }
     }
     Ok(())
@@ -164,27 +163,9 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         }
     }
     let element = e.label();
-    let left_out = |robot: &mut Robot, what: String| {
-        robot.report.coupling_rows += 1;
-        robot.report.approximate(&element, what);
-    };
     let [a, b] = names[..] else {
-        // The joint stands at a constant: it is rigid.
         let [value, ..] = polynomial(e)?;
-        let one = |j: &&mut Part| j.id == names[0] && j.values.len() == 1;
-        match robot.joints.iter_mut().find(one) {
-            Some(j) => {
-                j.values = vec![value];
-                j.sides[0] = j.sides[0].then(&displacement(j));
-                (j.joint_type, j.values, j.limits) = (JointType::Fixed, Vec::new(), None);
-                j.comment = Some("held at a constant by an equality".to_owned());
-                robot.report.map("joint held at a constant");
-            }
-            None => {
-                let what = format!("{} can move; its equality is left out", names[0]);
-                left_out(robot, what);
-            }
-        }
+        hold(e, names[0], value, robot);
         return Ok(());
     };
     // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
@@ -203,6 +184,87 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         higher,
     });
     Ok(())
+}
+
+/// A joint that stands at a constant, which an equality says: it is rigid.
+fn hold(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
+    let one = |j: &&mut Part| j.id == joint && j.values.len() == 1;
+    let Some(j) = robot.joints.iter_mut().find(one) else {
+        let what = format!("{joint} can move; its equality is left out");
+        return robot.report.leave_out_coupling(&e.label(), what);
+    };
+    j.values = vec![value];
+    j.sides[0] = j.sides[0].then(&displacement(j));
+    (j.joint_type, j.values, j.limits) = (JointType::Fixed, Vec::new(), None);
+    j.comment = Some("held at a constant by an equality".to_owned());
+    robot.report.map("joint held at a constant");
+}
+
+/// An equality of the lengths of tendons. That of a `<fixed>` tendon is a sum of joint values, each times a coefficient: the equality
+/// is a linear row between these joints.
+fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let first = length(e, "tendon1", root)?;
+    let second = match e.attribute("tendon2") {
+        Some(_) => length(e, "tendon2", root)?,
+        None => Some(BTreeMap::new()),
+    };
+    let (Some(mut row), Some(second)) = (first, second) else {
+        let what = "an equality of a tendon that is not a sum of joint values (1 row) is left out";
+        robot.report.leave_out_coupling(&e.label(), what);
+        return Ok(());
+    };
+    // Length of tendon 1 less its reference, as a polynomial of that of tendon 2 less its own.
+    let [value, ratio, higher @ ..] = polynomial(e)?;
+    for (joint, coefficient) in second {
+        *row.entry(joint).or_insert(0.0) -= ratio * coefficient;
+    }
+    row.retain(|_, c| *c != 0.0);
+    let all: Vec<(&str, f64)> = row.into_iter().collect();
+    match all[..] {
+        [(joint, c)] => hold(e, joint, value / c, robot),
+        [(a, c), (b, d)] if higher == [0.0; 3] => {
+            comment(b, &format!("coupled to {a} by a tendon"), robot);
+            robot.couplings.push(Ratio {
+                joints: [a.to_owned(), b.to_owned()],
+                ratio: -c / d,
+                element: e.label(),
+                said_by: e.id,
+                gear: false,
+                higher: [0.0; 3],
+            });
+        }
+        _ => {
+            let what = "an equality of tendons that ties more than two joints, or is a polynomial (1 row), is left out";
+            robot.report.leave_out_coupling(&e.label(), what);
+        }
+    }
+    Ok(())
+}
+
+/// The coefficients of the joints that the length of a tendon is a sum of; none where it is no `<fixed>` tendon.
+fn length<'a>(
+    e: Element<'a>,
+    key: &'static str,
+    root: Element<'a>,
+) -> Result<Option<BTreeMap<&'a str, f64>>, ImportError> {
+    let name = e.required(key)?;
+    let all = root
+        .named("tendon")
+        .flat_map(|s| s.children().collect::<Vec<_>>());
+    let all: Vec<Element<'a>> = all.collect();
+    let Some(tendon) = all.iter().find(|t| t.attribute("name") == Some(name)) else {
+        let known = known("tendons", all.iter().filter_map(|t| t.attribute("name")));
+        return Err(unknown(e, key, "tendon", name, known));
+    };
+    if tendon.name() != "fixed" {
+        return Ok(None);
+    }
+    let mut out = BTreeMap::new();
+    for j in tendon.named("joint") {
+        let [c] = j.numbers::<1>("coef")?.unwrap_or([1.0]);
+        *out.entry(j.required("joint")?).or_insert(0.0) += c;
+    }
+    Ok(Some(out))
 }
 
 fn comment(joint: &str, what: &str, robot: &mut Robot) {

@@ -4,6 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
+use crate::robots::additions::leave_out;
 use crate::robots::description::parts::{Part, Robot, free};
 use crate::robots::mjcf::actuators::driven;
 use crate::robots::mjcf::context::{Context, compiler};
@@ -13,6 +14,21 @@ use crate::robots::options::{Options, Reader};
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
+
+/// Sections that hold nothing together: what equalities take of them is looked up there.
+const SECTIONS: [&str; 11] = [
+    "asset",
+    "contact",
+    "custom",
+    "extension",
+    "keyframe",
+    "option",
+    "sensor",
+    "size",
+    "statistic",
+    "tendon",
+    "visual",
+];
 
 /// What a joint says of how it resists motion, which is no kinematics.
 const RESISTANCE: [&str; 5] = [
@@ -63,7 +79,7 @@ pub(crate) fn read(
     for section in root.children() {
         match section.name() {
             "worldbody" | "compiler" | "default" => {}
-            "equality" => crate::robots::mjcf::equality::read(section, &context, &mut robot)?,
+            "equality" => crate::robots::mjcf::equality::read(section, root, &context, &mut robot)?,
             "actuator" => {
                 for a in section.children() {
                     actuator(a, root, &mut robot);
@@ -73,7 +89,8 @@ pub(crate) fn read(
                 let what = "deformable bodies are no links; left out";
                 robot.report.approximate(&section.label(), what);
             }
-            other => robot.report.drop(other, None),
+            other if SECTIONS.contains(&other) => robot.report.drop(other, None),
+            _ => leave_out(section, None, &mut robot),
         }
     }
     Ok(robot)
@@ -148,7 +165,10 @@ fn bodies<'a>(
                 }
                 "flexcomp" | "attach" => {
                     let what = "what it makes when the model is compiled is left out; save the compiled model from MuJoCo as XML to have that, too";
-                    robot.report.approximate(&e.label(), what);
+                    match e.name() {
+                        "attach" => robot.report.leave_out_joint(&e.label(), 6, what),
+                        _ => robot.report.approximate(&e.label(), what),
+                    }
                 }
                 "composite" => {
                     let remedy = "save the compiled model from MuJoCo as XML and import that";

@@ -145,12 +145,14 @@ fn may_be_included(
     Ok(())
 }
 
-/// Gives a model the pose, the name and the hold that its include says in place of its own.
+/// Gives a model the pose, the name and the hold that its include says in place of its own, and its plugins besides.
 fn said_by_include(document: &mut Document, include: usize, model: usize) {
     let e = document.element(include);
     let own = |tag: &str| e.child(tag).map(|c| c.id);
     let placed = [("pose", own("pose")), ("static", own("static"))];
     let name = e.child("name").map(|n| n.text().to_owned());
+    let plugins: Vec<usize> = e.named("plugin").map(|p| p.id).collect();
+    document.nodes[model].children.extend(plugins);
     for (tag, new) in placed {
         let Some(new) = new else { continue };
         let mut children = document.nodes[model].children.clone();

@@ -155,7 +155,13 @@ fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
         "screw_thread_pitch",
         "thread_pitch",
     ];
-    let within = ["xyz", "limit", "mimic", "use_parent_model_frame"];
+    let within = [
+        "xyz",
+        "limit",
+        "mimic",
+        "drake:mimic",
+        "use_parent_model_frame",
+    ];
     let own = e.children().filter(|c| !known.contains(&c.name()));
     let axes = e.children();
     let axes = axes.filter(|c| ["axis", "axis2"].contains(&c.name()));
@@ -183,13 +189,16 @@ fn mimic(
     scope: &str,
     robot: &mut Robot,
 ) -> Result<Option<String>, ImportError> {
-    let Some(m) = e.children().find_map(|a| a.child("mimic")) else {
+    // Drake's own has its numbers as attributes.
+    let mimics = ["mimic", "drake:mimic"];
+    let inside = e.children().flat_map(Element::children);
+    let Some(m) = inside.into_iter().find(|m| mimics.contains(&m.name())) else {
         return Ok(None);
     };
     let leader = absolute(scope, m.required("joint")?);
     let ratio = match m.child("multiplier") {
         Some(x) => x.text_numbers::<1>()?[0],
-        None => 1.0,
+        None => m.numbers::<1>("multiplier")?.map_or(1.0, |[x]| x),
     };
     robot.couplings.push(Ratio {
         joints: [leader.clone(), name.to_owned()],

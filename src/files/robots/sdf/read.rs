@@ -4,6 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
+use crate::robots::additions::{leave_out, plugin};
 use crate::robots::description::parts::{Part, Robot};
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::RobotProblem;
@@ -36,7 +37,7 @@ pub(crate) fn read(
         assemble: options.assemble,
         ..SdfScene::default()
     };
-    let among = of_worlds(root, &mut robot);
+    let among = of_worlds(root, &mut scene);
     models(root, among.is_empty(), &mut scene, &mut robot)?;
     // Those of the world name what is in its models by the models' names.
     for e in among {
@@ -44,18 +45,29 @@ pub(crate) fn read(
     }
     resolve(&mut scene)?;
     place_links(&scene, &mut robot);
+    // What else is in worlds is judged by the names that are known by now.
+    let others = root
+        .named("world")
+        .flat_map(|w| w.children().collect::<Vec<_>>());
+    let others: Vec<Element<'_>> = others.filter(|e| !IN_WORLDS.contains(&e.name())).collect();
     joints(scene, &mut robot)?;
+    for e in others {
+        leave_out(e, None, &mut robot);
+    }
     Ok(robot)
 }
 
-/// Joints and frames that stand in worlds, beside their models; all else there is told and left out.
-fn of_worlds<'a>(root: Element<'a>, robot: &mut Robot) -> Vec<Element<'a>> {
+/// What is read of worlds.
+const IN_WORLDS: [&str; 4] = ["model", "joint", "frame", "plugin"];
+
+/// Joints and frames that stand in worlds, beside their models; plugins there wait in the scene.
+fn of_worlds<'a>(root: Element<'a>, scene: &mut SdfScene<'a>) -> Vec<Element<'a>> {
     let mut among = Vec::new();
     for e in root.named("world").flat_map(|w| w.children()) {
         match e.name() {
-            "model" => {}
             "joint" | "frame" => among.push(e),
-            other => robot.report.drop(other, e.attribute("name")),
+            "plugin" => scene.plugins.push((e, String::new())),
+            _ => {}
         }
     }
     among
@@ -136,6 +148,12 @@ fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Result<(), ImportError>
             _ => ball_constraint(e, robot)?,
         }
     }
+    for (e, scope) in std::mem::take(&mut scene.plugins) {
+        plugin(e, &scope, &scene, robot)?;
+    }
+    for e in std::mem::take(&mut scene.unknown) {
+        leave_out(e, None, robot);
+    }
     Ok(())
 }
 
@@ -195,17 +213,16 @@ fn model<'a>(
             }
             "drake:joint" => {
                 let what = "a joint of Drake's own, which is not read: what it holds is loose here";
-                robot.report.approximate(&e.label(), what);
+                robot.report.leave_out_joint(&e.label(), 6, what);
             }
             "drake:weld_constraint" | "drake:ball_constraint" => {
                 e.room("constraints", scene.constraints.len())?;
                 scene.constraints.push((e, scope.to_owned()));
             }
-            "gripper" | "plugin" | "self_collide" | "allow_auto_disable" | "enable_wind" => {
-                robot.report.drop(e.name(), e.attribute("name"));
-            }
+            "plugin" => scene.plugins.push((e, scope.to_owned())),
             "model" | "pose" | "static" => {}
-            other => robot.report.drop(other, e.attribute("name")),
+            "gripper" => robot.report.drop("gripper", e.attribute("name")),
+            _ => scene.unknown.push(e),
         }
     }
     Ok(())
@@ -281,7 +298,7 @@ fn link<'a>(
 
 /// Takes in a frame or joint, whose place is relative to `own` where nothing is said; a joint that shares its name has its
 /// frame beside it.
-fn named_place<'a>(
+pub(crate) fn named_place<'a>(
     e: Element<'a>,
     scope: &str,
     own: &str,

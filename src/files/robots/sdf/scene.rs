@@ -17,12 +17,12 @@ pub(crate) struct Placed<'a> {
     pub(super) attached_to: String,
     /// Its place in the world, once known.
     pub(super) world: Option<RigidMotion>,
-    pub(super) link: Option<usize>,
+    pub(crate) link: Option<usize>,
 }
 
 impl<'a> Placed<'a> {
     /// What is no link, its place in the world not known yet.
-    pub(super) fn new(
+    pub(crate) fn new(
         element: Element<'a>,
         relative_to: String,
         raw: RigidMotion,
@@ -50,6 +50,12 @@ pub(crate) struct SdfScene<'a> {
     pub(super) old_axes: Vec<bool>,
     /// Whether joints put their parent frame onto the child.
     pub(super) assemble: bool,
+    /// Plugins of models and worlds, each with its scope.
+    pub(super) plugins: Vec<(Element<'a>, String)>,
+    /// Elements of models that are not known.
+    pub(super) unknown: Vec<Element<'a>>,
+    /// The link that is the world.
+    pub(crate) world: usize,
 }
 
 /// Ends the name of the frame of a joint that is called as a link beside it is.
@@ -149,7 +155,7 @@ pub(crate) fn moves_with(
     name: &str,
 ) -> Result<(usize, RigidMotion), Option<String>> {
     if name == "world" {
-        return Ok((0, RigidMotion::IDENTITY));
+        return Ok((scene.world, RigidMotion::IDENTITY));
     }
     let first = scene
         .placed
@@ -162,7 +168,7 @@ pub(crate) fn moves_with(
             return Ok((l, world));
         }
         if at.attached_to == "world" {
-            return Ok((0, world));
+            return Ok((scene.world, world));
         }
         at = scene
             .placed
@@ -186,10 +192,14 @@ pub(crate) fn located(
     })
 }
 
-/// Parent or child of a joint: the element and the name.
+/// Parent or child of a joint: the element and the name, which old files have as an attribute.
 pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Result<(Element<'a>, &'a str), ImportError> {
-    let c = e.child(tag).filter(|c| !c.text().is_empty());
-    c.map(|c| (c, c.text())).ok_or_else(|| {
+    let name = |c: Element<'a>| match c.text() {
+        "" => c.attribute("link").unwrap_or(""),
+        text => text,
+    };
+    let found = e.child(tag).map(|c| (c, name(c)));
+    found.filter(|(_, name)| !name.is_empty()).ok_or_else(|| {
         let what = format!("<{tag}> with the name of a link");
         e.fail(
             None,

@@ -4,11 +4,15 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
+use crate::robots::additions::{couple, leave_out, named};
 use crate::robots::description::parts::{Part, Ratio, Robot, free};
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::{RobotProblem, known};
+use crate::robots::urdf::gazebo;
 use crate::robots::xml::{Document, Element};
 
+/// What is read of a joint.
+const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mimic"];
 const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
 
 /// Reads a `<robot>`.
@@ -32,6 +36,7 @@ pub(crate) fn read(
         robot.link("world", RigidMotion::IDENTITY);
         robot.report.map("world");
     }
+    let mut unknown = Vec::new();
     for e in root.children() {
         e.room("joints", robot.joints.len())?;
         match e.name() {
@@ -39,16 +44,25 @@ pub(crate) fn read(
             "joint" | "drake:joint" => joint(e, &mut robot)?,
             "loop_joint" => loop_joint(e, &mut robot)?,
             "drake:ball_constraint" => ball_constraint(e, &mut robot)?,
-            "transmission" => {}
-            other if other.starts_with("xacro:") => {
-                let what = "a macro that is not expanded, and whatever it stands for is missing; run `xacro FILE` first";
-                robot.report.approximate(&e.label(), what);
-            }
-            other => robot.report.drop(other, e.attribute("name")),
+            "constraint" if has_ends(e) => constraint(e, &mut robot)?,
+            "transmission" | "gazebo" | "ros2_control" => {}
+            _ => unknown.push(e),
         }
+    }
+    gazebo::read(root, &mut robot)?;
+    for e in root.named("ros2_control") {
+        controlled(e, &mut robot)?;
     }
     for e in root.named("transmission") {
         transmission(e, &mut robot);
+    }
+    // Whether they could hold anything depends on the names of all links and joints.
+    for e in unknown {
+        leave_out(e, None, &mut robot);
+    }
+    for e in root.children().filter(|e| e.name() == "joint") {
+        let inside = e.children().filter(|c| !OF_JOINTS.contains(&c.name()));
+        inside.for_each(|c| leave_out(c, e.attribute("name"), &mut robot));
     }
     // By convention a root of this name is the ground.
     let world = robot.links.iter().position(|l| l == "world");
@@ -85,12 +99,101 @@ fn transmission(e: Element<'_>, robot: &mut Robot) {
             None => robot.report.drop("transmission", Some(j)),
         }
     }
+    // More joints than actuators are coupled, unless they are said to follow one another.
+    let follows = |j: &String| robot.couplings.iter().any(|c| c.joints[1] == *j);
+    let named = named(e, None, robot).into_iter().filter(|j| !follows(j));
+    let joints = named
+        .filter(|n| robot.joints.iter().any(|p| p.id == *n))
+        .count();
+    let actuators = e.named("actuator").count().max(1);
+    for _ in actuators..joints {
+        let what = format!(
+            "it moves {joints} joints by {actuators}; the coupling (1 row) is left out: write it as a <mimic>"
+        );
+        robot.report.leave_out_coupling(&e.label(), what);
+    }
+}
+
+/// Reads the joints that a controller makes follow others: `<param name="mimic">`.
+fn controlled(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    for j in e.named("joint") {
+        let param = |name: &str| {
+            let mut all = j.named("param");
+            all.find(|p| p.attribute("name") == Some(name))
+        };
+        if let (Some(leader), Some(follower)) = (param("mimic"), j.attribute("name")) {
+            let ratio = param("multiplier").map(|m| m.text_numbers::<1>());
+            let ratio = ratio.transpose()?.map_or(1.0, |[x]| x);
+            couple(j, [leader.text(), follower], ratio, robot);
+        }
+    }
+    robot.report.drop(e.name(), e.attribute("name"));
+    Ok(())
+}
+
+/// Whether an element names a parent and a child, as a joint does.
+fn has_ends(e: Element<'_>) -> bool {
+    let link = |tag: &str| e.child(tag).and_then(|c| c.attribute("link"));
+    link("parent").is_some() && link("child").is_some()
+}
+
+/// Reads `<constraint name type>` with a link, a place and an axis on either side: `parent`, `parent_origin`, `parent_axis`, and
+/// those of the child.
+fn constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let links = [end(e, "parent", robot)?, end(e, "child", robot)?];
+    if links[0] == links[1] {
+        return Err(same_link(e));
+    }
+    let word = e.attribute("type").unwrap_or("");
+    let Some(joint_type) = closing_type(word) else {
+        leave_out(e, None, robot);
+        return Ok(());
+    };
+    let mut sides = [RigidMotion::IDENTITY; 2];
+    for (side, tag) in sides.iter_mut().zip(["parent", "child"]) {
+        let axis = match e.child(&format!("{tag}_axis")) {
+            Some(a) => direction(e, a)?,
+            None => axis(e)?,
+        };
+        let at = e.child(&format!("{tag}_origin"));
+        let at = at.map_or(Ok(RigidMotion::IDENTITY), place)?;
+        *side = at.then(&RigidMotion::z_to(axis));
+    }
+    let id = match e.attribute("name") {
+        Some(name) => name.to_owned(),
+        None => format!(
+            "constraint-{}-{}",
+            robot.links[links[0]], robot.links[links[1]]
+        ),
+    };
+    let mut part = Part::new(&id, links, sides, joint_type).said_by(e);
+    part.closes = true;
+    robot.report.map("constraint");
+    robot.joints.push(part);
+    Ok(())
+}
+
+/// The joint that closes a loop, by its word.
+fn closing_type(word: &str) -> Option<JointType> {
+    Some(match word {
+        "revolute" | "continuous" | "hinge" => JointType::Revolute,
+        "prismatic" | "slider" => JointType::Prismatic,
+        "cylindrical" => JointType::Cylindrical,
+        "spherical" | "ball" | "point" => JointType::Spherical,
+        "fixed" | "weld" => JointType::Fixed,
+        _ => return None,
+    })
 }
 
 pub(crate) fn origin(e: Element<'_>) -> Result<RigidMotion, ImportError> {
     let Some(o) = e.child("origin") else {
         return Ok(RigidMotion::IDENTITY);
     };
+    place(o)
+}
+
+/// The place that an element with `xyz` and `rpy` gives.
+fn place(o: Element<'_>) -> Result<RigidMotion, ImportError> {
     if let Some(q) = o.numbers::<4>("quat_xyzw")? {
         return Ok(RigidMotion::quaternion(
             o.vector("xyz", [0.0; 3])?,
@@ -110,6 +213,11 @@ fn end(e: Element<'_>, tag: &str, robot: &Robot) -> Result<usize, ImportError> {
         what: format!("<{tag} link=\"...\"/>"),
     };
     let c = e.child(tag).ok_or_else(|| e.fail(None, missing()))?;
+    named_link(e, c, robot)
+}
+
+/// The link that `c`, a child of `e`, names.
+fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Result<usize, ImportError> {
     let name = c.required("link")?;
     robot
         .links
@@ -128,9 +236,11 @@ fn unknown_link(e: Element<'_>, name: &str, robot: &Robot) -> RobotProblem {
 }
 
 fn axis(e: Element<'_>) -> Result<Vector, ImportError> {
-    let Some(a) = e.child("axis") else {
-        return Ok(X);
-    };
+    e.child("axis").map_or(Ok(X), |a| direction(e, a))
+}
+
+/// The direction that an element of `e` gives, x where it says none.
+fn direction(e: Element<'_>, a: Element<'_>) -> Result<Vector, ImportError> {
     let v = a.vector("xyz", X)?;
     if length(v) < 1e-9 {
         return Err(a.fail(
@@ -193,11 +303,6 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             higher: [0.0; 3],
         });
     }
-    for c in e.children() {
-        if !["origin", "parent", "child", "axis", "limit", "mimic"].contains(&c.name()) {
-            robot.report.drop(c.name(), None);
-        }
-    }
     robot.joints.push(part);
     Ok(())
 }
@@ -240,31 +345,29 @@ pub(crate) fn unknown_type(e: Element<'_>, word: &str, types: &str) -> ImportErr
 /// `<loop_joint name type><link1 link xyz rpy/><link2 link xyz rpy/><axis/></loop_joint>`.
 fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     let name = e.required("name")?;
-    let links = [end(e, "link1", robot)?, end(e, "link2", robot)?];
+    // A vendor prints its sample with two <link1>: the second is meant to be <link2>.
+    let ends = e
+        .children()
+        .filter(|c| ["link1", "link2"].contains(&c.name()));
+    let mut ends: Vec<Element<'_>> = ends.collect();
+    ends.sort_by_key(|c| c.name());
+    let [first, second] = ends[..] else {
+        let problem = RobotProblem::Missing {
+            element: e.label(),
+            what: "<link1 link=\"...\"/> and <link2 link=\"...\"/>, one of each".to_owned(),
+        };
+        return Err(e.fail(None, problem));
+    };
+    let links = [named_link(e, first, robot)?, named_link(e, second, robot)?];
     if links[0] == links[1] {
         return Err(same_link(e));
     }
-    let mut sides = [RigidMotion::IDENTITY; 2];
-    for (side, tag) in sides.iter_mut().zip(["link1", "link2"]) {
-        if let Some(c) = e.child(tag) {
-            *side =
-                RigidMotion::roll_pitch_yaw(c.vector("xyz", [0.0; 3])?, c.vector("rpy", [0.0; 3])?);
-        }
-    }
+    let sides = [place(first)?, place(second)?];
     let word = e.required("type")?;
-    let joint_type = match word {
-        "revolute" | "continuous" => JointType::Revolute,
-        "prismatic" => JointType::Prismatic,
-        "spherical" => JointType::Spherical,
-        "fixed" => JointType::Fixed,
-        _ => {
-            return Err(unknown_type(
-                e,
-                word,
-                "revolute, continuous, prismatic, spherical, fixed",
-            ));
-        }
-    };
+    let joint_type = closing_type(word).ok_or_else(|| {
+        let known = "revolute, continuous, prismatic, cylindrical, spherical, fixed";
+        unknown_type(e, word, known)
+    })?;
     let mut part = Part::new(name, links, sides, joint_type)
         .about(axis(e)?)
         .said_by(e);

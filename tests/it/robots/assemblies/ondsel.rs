@@ -44,6 +44,8 @@ fn each_joint_leaves_six_less_its_constraints() {
         ("Universal", "", 4),
         ("ConstantVelocity", "", 4),
         ("Planar", "offset 5", 3),
+        ("Planar", "", 3),
+        ("LineInPlane", "", 2),
         ("PointInPlane", "offset 5", 1),
         ("InPlane", "offset 5", 1),
         ("LineInPlane", "offset 5", 2),
@@ -118,7 +120,7 @@ fn a_type_that_is_not_known_is_named_with_those_that_are() {
         said.contains("\"Wobbly\"") && said.contains("Cylindrical"),
         "{said}"
     );
-    let text = asmt("OndselSolver", "Planar", "");
+    let text = asmt("OndselSolver", "CylSph", "");
     let said = super::refused("x.asmt", text.as_bytes());
-    assert!(said.contains("has no offset"), "{said}");
+    assert!(said.contains("has no distanceIJ"), "{said}");
 }

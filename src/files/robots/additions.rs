@@ -1,0 +1,227 @@
+//! What elements beside links and joints add: plugins that weld links or couple joints, and elements that no reader knows. Those that
+//! could close a loop or couple joints are reported and counted; the others (friction, colours, publishers) bear no kinematics.
+
+use crate::file::problem::ImportError;
+use crate::model::joint_type::JointType;
+use crate::robots::description::parts::{Part, Ratio, Robot};
+use crate::robots::sdf::scene::{SdfScene, absolute, moves_with};
+use crate::robots::xml::Element;
+use std::collections::BTreeSet;
+
+/// Rows that an element of unknown meaning may hold: all that two links can be held by.
+const MOST_ROWS: usize = 6;
+
+/// Parts of words for what holds links together or couples joints.
+const HOLDS: [&str; 21] = [
+    "mimic",
+    "constraint",
+    "attach",
+    "detach",
+    "weld",
+    "loop",
+    "closed",
+    "closing",
+    "closure",
+    "linkage",
+    "fourbar",
+    "four_bar",
+    "coupl",
+    "gearbox",
+    "grasp",
+    "tendon",
+    "equality",
+    "bushing",
+    "underactuated",
+    "parallel",
+    "pulley",
+];
+
+/// Parts of words for what may name many links and joints and holds none of them.
+const HARMLESS: [&str; 38] = [
+    "publish",
+    "camera",
+    "sensor",
+    "imu",
+    "lidar",
+    "laser",
+    "gps",
+    "control",
+    "drive",
+    "odom",
+    "contact",
+    "collision",
+    "visual",
+    "material",
+    "light",
+    "friction",
+    "gravity",
+    "wind",
+    "thrust",
+    "buoyan",
+    "hydro",
+    "battery",
+    "logger",
+    "broadcast",
+    "torque",
+    "bumper",
+    "sonar",
+    "depth",
+    "wheel",
+    "scene",
+    "physics",
+    "steer",
+    "vehicle",
+    "track",
+    "trajector",
+    "group",
+    "effector",
+    "state",
+];
+
+/// Returns the text of a child, or nothing where it has none.
+fn said<'a>(e: Element<'a>, tag: &str) -> Option<&'a str> {
+    let found = e.child(tag).map(Element::text);
+    found.filter(|t| !t.is_empty())
+}
+
+/// Couples two joints, the leader first, as an element says, unless another element has said the same.
+pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut Robot) {
+    let element = e.label();
+    let same = |c: &Ratio| {
+        let [a, b] = c.joints.each_ref().map(String::as_str);
+        (joints == [a, b] && c.ratio == ratio) || (joints == [b, a] && c.ratio * ratio == 1.0)
+    };
+    if robot.couplings.iter().any(same) {
+        robot
+            .report
+            .drop("coupling that is stated twice", Some(joints[1]));
+        return;
+    }
+    robot.report.map("coupling of a plugin or controller");
+    robot.couplings.push(Ratio {
+        joints: joints.map(str::to_owned),
+        ratio,
+        element,
+        said_by: e.id,
+        gear: false,
+        higher: [0.0; 3],
+    });
+}
+
+/// Reads a plugin: one that makes a joint follow another couples them, one that joins links until it is told to let go welds them.
+///
+/// # Errors
+/// Where a multiplier is no number.
+pub(crate) fn plugin(
+    e: Element<'_>,
+    scope: &str,
+    scene: &SdfScene<'_>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    if let (Some(leader), Some(follower)) = (said(e, "joint"), said(e, "mimicJoint")) {
+        let ratio = e.child("multiplier").map(|m| m.text_numbers::<1>());
+        let ratio = ratio.transpose()?.map_or(1.0, |[x]| x);
+        let joints = [leader, follower].map(|j| absolute(scope, j));
+        couple(e, joints.each_ref().map(String::as_str), ratio, robot);
+        return Ok(());
+    }
+    match (said(e, "parent_link"), said(e, "child_link")) {
+        (Some(parent), Some(child)) => {
+            let model = said(e, "child_model").unwrap_or("");
+            let own = scope.trim_end_matches("::");
+            let own = own.rsplit("::").next().unwrap_or("");
+            let is_own = ["", "__self__", "__model__", own, &robot.name].contains(&model);
+            let child = if is_own {
+                absolute(scope, child)
+            } else {
+                format!("{model}::{child}")
+            };
+            weld(e, &[absolute(scope, parent), child], scene, robot);
+        }
+        _ => leave_out(e, None, robot),
+    }
+    Ok(())
+}
+
+/// Welds two links where they are drawn; what names a link that is not there is left out, and counted.
+fn weld(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
+    let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
+        let [a, b] = names;
+        let what = format!("it welds {a} to {b}, which are not both in the file; left out");
+        return robot.report.leave_out_joint(&label(e), MOST_ROWS, what);
+    };
+    if a == b {
+        return robot
+            .report
+            .drop("weld of one link to itself", Some(&names[0]));
+    }
+    let sides = [
+        robot.places[a].inverse().then(&at),
+        robot.places[b].inverse().then(&at),
+    ];
+    let id = format!("weld-{}-{}", names[0], names[1]);
+    let mut part = Part::new(&id, [a, b], sides, JointType::Fixed).said_by(e);
+    part.closes = true;
+    part.comment = Some(format!("closes a loop: {}", label(e)));
+    robot.report.map("weld of a plugin");
+    robot.joints.push(part);
+}
+
+/// Leaves an element of unknown meaning out. It is counted where it could close a loop or couple joints: where its name says so, or
+/// where it names several links or joints of the robot. `own` is the joint that it is a child of, which it may name.
+pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
+    let kind = kind(e);
+    let has = |words: &[&str]| words.iter().any(|w| kind.contains(w));
+    let named = named(e, own, robot);
+    let holds = match own {
+        Some(_) => !named.is_empty(),
+        None => has(&HOLDS) || (!has(&HARMLESS) && named.len() > 1),
+    };
+    if !holds {
+        return robot.report.drop(e.name(), e.attribute("name"));
+    }
+    let of = match named.iter().take(4).cloned().collect::<Vec<_>>().join(", ") {
+        names if names.is_empty() => String::new(),
+        names => format!(" of {names}"),
+    };
+    let what = format!(
+        "it is not read, though it may close a loop or couple joints{of}; left out: write what it does as a joint, a <mimic> or a file of --loops"
+    );
+    robot.report.leave_out_joint(&label(e), MOST_ROWS, what);
+}
+
+/// How an element is called in messages: with the kind of plugin that it is.
+fn label(e: Element<'_>) -> String {
+    match e.attribute("filename") {
+        Some(file) => format!("{} ({file})", e.label()),
+        None => e.label(),
+    }
+}
+
+/// What says what an element is, in small letters: its name, and the file and class of a plugin.
+fn kind(e: Element<'_>) -> String {
+    let class = e.attribute("name").filter(|n| n.contains("::"));
+    let file = e.attribute("filename");
+    let own = e
+        .attribute("name")
+        .filter(|_| file.is_none() && e.name() == "plugin");
+    let all = [Some(e.name()), e.attribute("type"), file, class, own];
+    let all: Vec<&str> = all.into_iter().flatten().collect();
+    all.join(" ").to_lowercase()
+}
+
+/// The links and joints that an element and those below it name, but for `own`.
+pub(crate) fn named(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSet<String> {
+    let known = |word: &str| {
+        robot.links.iter().any(|l| l == word) || robot.joints.iter().any(|j| j.id == word)
+    };
+    let mut out = BTreeSet::new();
+    let mut stack = vec![e];
+    while let Some(e) = stack.pop() {
+        let words = e.attributes().map(|(_, value)| value).chain([e.text()]);
+        let words = words.filter(|w| known(w) && Some(*w) != own);
+        out.extend(words.map(str::to_owned));
+        stack.extend(e.children());
+    }
+    out
+}
