@@ -69,7 +69,9 @@ pub fn open(path: impl AsRef<Path>) -> Result<Mechanism, Error> {
     if robots::is_description(&name) {
         return Ok(import(path, &Options::default())?.mechanism);
     }
-    Ok(mechanism_from_bytes(&name, &bytes(path, MAX_BYTES)?)?)
+    let bytes = bytes(path, MAX_BYTES)?;
+    robots::refuse_foreign(&name, &bytes)?;
+    Ok(mechanism_from_bytes(&name, &bytes)?)
 }
 
 /// Reads the text of a mechanism file in TOML.

@@ -94,7 +94,7 @@ impl Desk {
 
     fn read(&mut self) {
         let file = self.file();
-        self.reading = Arc::new(DeskReading::new(&file.path, file.kind, self.bytes()));
+        self.reading = Arc::new(DeskReading::new(file, self.bytes()));
         self.revision += 1;
     }
 
@@ -167,7 +167,7 @@ impl Desk {
             let words = format!("the text is longer than the {MAX_BYTES} bytes allowed");
             return Err(Refused::Words(words));
         }
-        let mut reading = DeskReading::new(&file.path, file.kind, text.as_bytes());
+        let mut reading = DeskReading::new(file, text.as_bytes());
         // Options that a new type does not allow any more are taken out, as the drawing cannot offer them.
         let drawn = edits
             .iter()
@@ -175,7 +175,7 @@ impl Desk {
         if drawn && !reading.outgrown.is_empty() {
             let fewer = without_outgrown(&reading);
             text = edited(&text, &fewer)?;
-            reading = DeskReading::new(&file.path, file.kind, text.as_bytes());
+            reading = DeskReading::new(file, text.as_bytes());
         }
         Ok((text, reading))
     }

@@ -15,8 +15,8 @@ pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
 /// What to begin with.
 #[derive(Debug, Clone)]
 pub enum Opening {
-    /// A file, which need not be there yet.
-    File(PathBuf),
+    /// A file, which need not be there yet, and how a robot description is read.
+    File(PathBuf, robots::Options),
     /// A copy of a built-in mechanism, to be saved in a folder under a name that is free.
     Builtin(String, PathBuf),
     /// A text of this name, to be saved in a folder.
@@ -39,6 +39,8 @@ pub(super) enum Kind {
 pub(super) struct OpenFile {
     pub(super) path: PathBuf,
     pub(super) kind: Kind,
+    /// How it is read where it is a robot description.
+    pub(super) options: robots::Options,
     /// What the file is known to hold; nothing where it was not there.
     pub(super) held: Option<Arc<[u8]>>,
     kept: AutosavedText,
@@ -62,6 +64,7 @@ impl OpenFile {
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
         let mut out = OpenFile {
             kind: kind(&path),
+            options: robots::Options::default(),
             held: None,
             kept: AutosavedText::default(),
             path,
@@ -233,7 +236,11 @@ pub(super) fn plain_name(name: &str) -> Option<&str> {
 pub(super) fn begin(opening: &Opening) -> io::Result<(OpenFile, Option<String>)> {
     let fresh = |folder: &Path, stem: &str| OpenFile::open(&free_name(folder, stem));
     Ok(match opening {
-        Opening::File(path) => (OpenFile::open(path)?, None),
+        Opening::File(path, options) => {
+            let mut file = OpenFile::open(path)?;
+            file.options = options.clone();
+            (file, None)
+        }
         Opening::Builtin(name, folder) => (fresh(folder, name)?, Some(of_builtin(name)?)),
         Opening::Text(name, text, folder) => {
             let stem: String = name

@@ -1,6 +1,6 @@
 //! What is made of a text: the mechanism, its entries and places, and every problem beside the thing that it concerns.
 
-use super::disk::Kind;
+use super::disk::{Kind, OpenFile};
 use crate::api;
 use crate::file::edit::Thing;
 use crate::file::lint::check;
@@ -42,10 +42,15 @@ pub(super) struct DeskReading {
 
 impl DeskReading {
     /// Reads a text of a file.
-    pub(super) fn new(path: &Path, kind: Kind, bytes: &[u8]) -> DeskReading {
-        if kind == Kind::Description {
-            return DeskReading::description(path, bytes);
+    pub(super) fn new(file: &OpenFile, bytes: &[u8]) -> DeskReading {
+        match file.kind {
+            Kind::Description => DeskReading::description(&file.path, bytes, &file.options),
+            kind => DeskReading::own(&file.path, kind, bytes),
         }
+    }
+
+    /// Reads a text of a mechanism file.
+    fn own(path: &Path, kind: Kind, bytes: &[u8]) -> DeskReading {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let mut out = DeskReading::default();
         let text = match text_of(&name, bytes) {
@@ -90,9 +95,9 @@ impl DeskReading {
         out
     }
 
-    fn description(path: &Path, bytes: &[u8]) -> DeskReading {
+    fn description(path: &Path, bytes: &[u8], options: &Options) -> DeskReading {
         let mut out = DeskReading::default();
-        match api::description_of(path, bytes, &Options::default()) {
+        match api::description_of(path, bytes, options) {
             Ok(imported) => {
                 let m = &imported.mechanism;
                 let joints = m.joints.iter();
@@ -223,7 +228,7 @@ mod tests {
     fn a_problem_stands_beside_its_item() {
         let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[joint]]\nid = \"a\"\n\
                     links = [\"0\", \"1\"]\ntype = \"revolut\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n";
-        let read = DeskReading::new(Path::new("x.toml"), Kind::Toml, text.as_bytes());
+        let read = DeskReading::own(Path::new("x.toml"), Kind::Toml, text.as_bytes());
         assert!(read.mechanism.is_none());
         let told = &read.json()["told"][0];
         assert_eq!(told["about"], json!(["joint", 0]), "{told}");
@@ -235,7 +240,7 @@ mod tests {
     fn what_hangs_on_the_frame_is_told_of() {
         let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[link]]\nid = \"2\"\n[[joint]]\nid = \"a\"\n\
                     links = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n[[point]]\nid = \"p\"\nlink = \"2\"\npoint = [1, \"sqrt(2)\", 0]\n";
-        let read = DeskReading::new(Path::new("x.toml"), Kind::Toml, text.as_bytes());
+        let read = DeskReading::own(Path::new("x.toml"), Kind::Toml, text.as_bytes());
         assert!(read.partly && read.mechanism.is_some());
         let y = &read.json()["places"]["point"][0][1];
         assert!(

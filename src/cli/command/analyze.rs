@@ -75,7 +75,7 @@ pub(in crate::cli) struct Analyze {
 }
 
 pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
-    let mut mechanism = load::mechanism(&a.file.file)?;
+    let mut mechanism = load::mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut mechanism);
     }
@@ -166,7 +166,8 @@ fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::
                 if let Some(s) = &analysis.stroke {
                     write!(out, "\n{}", fit(&s.text(width), width))?;
                 }
-                write!(out, "{}", next_commands::text(next, width))?;
+                let next = a.file.with_loops(next_commands::text(next, width));
+                write!(out, "{next}")?;
             }
         }
         // A stroke that could not be finished is no success.

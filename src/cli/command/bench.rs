@@ -7,7 +7,7 @@ use crate::accuracy::timing::Stopwatch;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
-use crate::cli::option::named::Named;
+use crate::cli::option::named::{Loops, Named};
 use crate::cli::option::request::Which;
 use crate::cli::terminal::machine;
 use crate::cli::terminal::output;
@@ -33,6 +33,8 @@ pub(in crate::cli) struct Bench {
     /// Paths or names of built-in mechanisms; six built-in ones by default.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     files: Vec<Named>,
+    #[command(flatten)]
+    loops: Loops,
     /// How many of the best are compared.
     #[arg(long, value_name = "K", default_value_t = 10)]
     top: usize,
@@ -114,7 +116,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     } else {
         &a.files[..]
     };
-    let (mechanisms, mut well) = load::each(files);
+    let (mechanisms, mut well) = load::each(files, &a.loops);
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();
     for (_, m) in &mechanisms {

@@ -32,7 +32,7 @@ pub(in crate::cli) struct Show {
 }
 
 pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
-    let (name, bytes) = load::named(&a.file)?;
+    let (name, bytes) = load::named(a)?;
     if let Some((name, tables)) = tables_alone(&name, &bytes)? {
         return output::to(None, |out| {
             writeln!(out, "{name}: workload {}: valid", tables.join(", "))?;

@@ -30,7 +30,7 @@ fn state(m: &Mechanism, asked: Option<&str>) -> anyhow::Result<StateId> {
 }
 
 pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
-    let m = load::mechanism(&a.file.file)?;
+    let m = load::mechanism(&a.file)?;
     let part = ClampedPart::new(&m, state(&m, a.state.as_deref())?)?;
     let force = closure(&part, &part.faces)?;
     let form = closure(&part, &part.smooth())?;

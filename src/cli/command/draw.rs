@@ -132,7 +132,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
             || (a.view.is_none() && a.up.is_none()),
         "--view and --up are for the kinematic scheme, which has coordinates: add --kind kinematic"
     );
-    let mut mechanism = load::mechanism(&a.file.file)?;
+    let mut mechanism = load::mechanism(&a.file)?;
     let Some(state) = mechanism.state(&a.state) else {
         bail!(
             "{} has no state {}; it has: {}",

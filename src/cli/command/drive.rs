@@ -44,7 +44,7 @@ pub(in crate::cli) struct Drive {
 }
 
 pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
-    let (name, bytes) = load::named(&a.file.file)?;
+    let (name, bytes) = load::named(&a.file)?;
     let file = drive_from_bytes(&name, &bytes)?;
     let found = drive(&file.spec)?;
     let mut shown = view::drive::Drive::new(&file, &found);

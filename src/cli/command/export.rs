@@ -13,8 +13,8 @@ use crate::cli::terminal::output;
 use crate::cli::terminal::progress::note;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::release::Release;
+use crate::robots;
 use crate::robots::formats::{self, Format, FormattedFile};
-use crate::robots::{self, Options};
 use crate::view::robots::lint::words;
 use crate::view::terminal::layout::fit;
 use anyhow::ensure;
@@ -53,7 +53,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     if formats::is_own(&a.to) {
         return own(a);
     }
-    let (mut m, left_behind) = load::with_what_is_left_behind(&a.file.file)?;
+    let (mut m, left_behind) = load::with_what_is_left_behind(&a.file)?;
     let request = a.chosen.of(a.which.request(a.state.as_deref())?);
     if let Some(k) = a.chosen.place() {
         m = variant::kth(m, request, k, |v| v.mechanism())?;
@@ -70,7 +70,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
 
 /// An assembly of a CAD program, in its own document: with the joint types of what is chosen.
 fn own(a: &Export) -> anyhow::Result<Done> {
-    let imported = description(a.file.file.path(), &Options::default())?;
+    let imported = description(a.file.file.path(), &a.file.loops.options()?)?;
     ensure!(
         imported.format.word == a.to,
         "--to {} writes a document of {} with other joint types; {} is none",

@@ -118,6 +118,12 @@ fn reservations(imported: &Imported, after: &StateAnalysis, lasting: usize) -> S
             after.redundant - lasting
         );
     }
+    if let n @ 1.. = imported.report.left_out() {
+        lines += &format!(
+            "  {} of FILE left out, which may be redundant and lower W; `ozols lint` says what they are of\n",
+            plural(n, "row")
+        );
+    }
     if imported.origin.is_of_this_pose() {
         lines += "  figures are of the pose of the file alone, where joints are open or taken as they are there; `ozols lint OUT --assemble` closes them\n";
     }

@@ -27,7 +27,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     if a.closure {
         return closure::run(args, a);
     }
-    let (name, bytes) = load::named(&a.file.file)?;
+    let (name, bytes) = load::named(&a.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
     add_accelerations(&mut file, a)?;
     let steps = match &a.motion {

@@ -1,8 +1,8 @@
 //! `ozols import`.
 
-use crate::api::{self, MAX_DESCRIPTION_BYTES};
+use crate::api;
 use crate::cli::done::Done;
-use crate::cli::option::named::Named;
+use crate::cli::option::named::{Loops, Named};
 use crate::cli::terminal::output;
 use crate::robots::{self, Options};
 use crate::view::terminal::layout::fit;
@@ -22,10 +22,8 @@ enum ImportFormat {
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "How a description is read")]
 pub(in crate::cli) struct Reading {
-    /// A file of loop closures (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
-    /// example-parallel-robots; Drake's list of ball constraints.
-    #[arg(long, value_name = "SIDE")]
-    loops: Option<PathBuf>,
+    #[command(flatten)]
+    loops: Loops,
     /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several
     /// freedoms. Loops that are open there are closed from there.
     #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
@@ -81,15 +79,10 @@ impl Reading {
             assembly: self.assembly.clone(),
             frame: self.frame.clone(),
             outputs: self.working_link.clone(),
-            ..Options::default()
+            ..self.loops.options()?
         };
         for p in &self.pose {
             options.pose.push(pose(p)?);
-        }
-        if let Some(path) = &self.loops {
-            output::kept::keep(path);
-            let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
-            options.loops = Some((path.display().to_string(), bytes));
         }
         Ok(options)
     }
@@ -98,7 +91,7 @@ impl Reading {
     pub(in crate::cli) fn flags(&self) -> String {
         let path = |p: &PathBuf| p.display().to_string();
         let valued = [
-            ("--loops", self.loops.iter().map(path).collect()),
+            ("--loops", self.loops.path.iter().map(path).collect()),
             ("--pose", self.pose.clone()),
             ("--models", self.models.iter().map(path).collect()),
             ("--assembly", self.assembly.iter().cloned().collect()),

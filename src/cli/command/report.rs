@@ -16,7 +16,7 @@ use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::request::{List, Request};
 use crate::view::analysis::{Analysis, State};
-use crate::view::terminal::next_commands::{file_name, flags, stem, word};
+use crate::view::terminal::next_commands::{file_name, flags, stem};
 use anyhow::ensure;
 use clap::Args as ClapArgs;
 use itertools::Itertools;
@@ -53,7 +53,7 @@ pub(in crate::cli) fn write(
     live: bool,
 ) -> anyhow::Result<String> {
     let request = asked(args, a)?;
-    let written = load::mechanism(&a.file.file)?;
+    let written = load::mechanism(&a.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
     let prepared = request.prepare(written.clone(), &mut note)?;
     let states: Vec<StateId> = written.state_ids().collect();
@@ -136,7 +136,7 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
 
 /// The commands that give what the page shows.
 fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
-    let file = word(&a.file.file);
+    let file = a.file.typed();
     let more = list_options(mechanism, a, request);
     let row = |what: &str, command: String| (what.to_owned(), command);
     let named = |ending: &str| file_name(&mechanism.name, ending);

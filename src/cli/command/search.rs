@@ -117,7 +117,7 @@ impl Search {
 pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let begun = machine::clock();
     let seconds = || (machine::clock() - begun).as_secs_f64();
-    let mechanism = load::mechanism(&a.file.file)?;
+    let mechanism = load::mechanism(&a.file)?;
     let request = a.request(args.seed)?;
     let mut outcome = SearchWatch::new(args.quiet).run(mechanism, &request)?;
     outcome.request.distinct |= a.tells_ideas(&outcome);
@@ -136,7 +136,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
                 } else {
                     let mut text = Vec::new();
                     text::write(&mut text, &outcome, variants, none, file, width)?;
-                    let text = String::from_utf8(text)?;
+                    let text = a.file.with_loops(String::from_utf8(text)?);
                     write!(
                         out,
                         "{}",

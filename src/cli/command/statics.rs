@@ -6,6 +6,7 @@ use crate::cli::command::clamped;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
+use crate::cli::option::named::File;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
 use crate::file::read::workload::motion::stroke;
@@ -31,7 +32,9 @@ use args::{Statics, StaticsFormat, StaticsMethod};
 use std::path::Path;
 
 pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
-    let mut m = load::mechanism(&a.file.clone().unwrap_or_else(|| "parallel-shears".into()))?;
+    let file = a.file.clone().unwrap_or_else(|| "parallel-shears".into());
+    let loops = a.loops.clone();
+    let mut m = load::mechanism(&File { file, loops })?;
     if a.planar {
         load::put_in_plane(&mut m);
     }

@@ -1,12 +1,14 @@
 //! `ozols studio`.
 
+use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::builtin;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
-use crate::cli::option::named::Named;
+use crate::cli::option::named::{Loops, Named};
 use crate::cli::terminal::output;
 use crate::cli::terminal::spinner;
+use crate::robots;
 use crate::score::request::Request;
 use crate::studio::{Opening, Studio};
 use anyhow::{Context, bail, ensure};
@@ -20,24 +22,31 @@ pub(in crate::cli) struct StudioArgs {
     /// empty sheet where left out.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: Option<Named>,
+    #[command(flatten)]
+    loops: Loops,
     /// Print the address, and leave it to you to open it.
     #[arg(long)]
     no_open: bool,
 }
 
 /// What an argument means. A file wins over a built-in mechanism of the same name.
-fn opening(file: Option<&Named>) -> anyhow::Result<Opening> {
+fn opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
     let here = PathBuf::from(".");
     let Some(file) = file else {
         return Ok(Opening::Nothing(here));
     };
     let path = file.path();
     ensure!(
+        loops.path.is_none() || robots::is_description(file),
+        "--loops is for robot descriptions, which {file} is none of"
+    );
+    ensure!(
         &**file != "-",
         "standard input is no file that could be saved; name one"
     );
     if path.is_file() {
-        return Ok(Opening::File(path.to_path_buf()));
+        robots::refuse_foreign(file, &api::bytes(path, MAX_DESCRIPTION_BYTES)?)?;
+        return Ok(Opening::File(path.to_path_buf(), loops.options()?));
     }
     if builtin::text(file).is_some() {
         return Ok(Opening::Builtin(file.to_string(), here));
@@ -45,13 +54,16 @@ fn opening(file: Option<&Named>) -> anyhow::Result<Opening> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let fresh = path.extension().is_some_and(|e| e == "toml") && !path.exists();
     if fresh && folder.is_none_or(|f| f.is_dir()) {
-        return Ok(Opening::File(path.to_path_buf()));
+        return Ok(Opening::File(
+            path.to_path_buf(),
+            robots::Options::default(),
+        ));
     }
     bail!(load::unknown(file))
 }
 
 pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
-    let opening = opening(a.file.as_ref())?;
+    let opening = opening(a.file.as_ref(), &a.loops)?;
     let request = Request {
         seed: global.seed,
         ..Request::default()

@@ -4,7 +4,7 @@ use crate::cli::done::Done;
 use crate::cli::option::format::TextOrJson;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
-use crate::cli::option::named::Named;
+use crate::cli::option::named::{File, Loops, Named};
 use crate::cli::option::request::Which;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
@@ -105,7 +105,10 @@ impl SweepWatch for Watching {
 }
 
 fn sweep(args: &Global, a: &SweepArgs, file: &Named) -> anyhow::Result<Sweep> {
-    let (name, bytes) = load::named(file)?;
+    let (name, bytes) = load::named(&File {
+        file: file.clone(),
+        loops: Loops::default(),
+    })?;
     let sampling = match a.sobol {
         None => Sampling::Grid { points: a.grid },
         Some(count) => Sampling::Sobol {

@@ -57,7 +57,7 @@ fn look(args: &Global, a: &Report, page: &Path) {
     // Each look is a command of its own, which writes the page once.
     output::kept::begin();
     if !args.quiet
-        && let Ok((name, bytes)) = load::named(file)
+        && let Ok((name, bytes)) = load::named(&a.file)
         && let Ok(checked) = check(&name, &bytes)
         && !checked.warnings.warnings.is_empty()
     {

@@ -2,7 +2,7 @@
 
 use crate::api;
 use crate::builtin;
-use crate::cli::option::named::Named;
+use crate::cli::option::named::{File, Loops, Named};
 use crate::cli::terminal::did_you_mean;
 use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
@@ -16,27 +16,34 @@ use itertools::Itertools;
 use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
-pub(in crate::cli) fn mechanism(file: &Named) -> anyhow::Result<Mechanism> {
+pub(in crate::cli) fn mechanism(file: &File) -> anyhow::Result<Mechanism> {
     Ok(with_what_is_left_behind(file)?.0)
 }
 
 /// The same, with what a description says besides, in a sentence; none where it says no more.
 pub(in crate::cli) fn with_what_is_left_behind(
-    file: &Named,
+    file: &File,
 ) -> anyhow::Result<(Mechanism, Option<String>)> {
     if let Some(imported) = imported(file)? {
         return Ok((imported.mechanism, imported.report.left_behind()));
     }
-    let (name, bytes) = named(file)?;
+    let (name, bytes) = plain(&file.file)?;
     Ok((mechanism_from_bytes(&name, &bytes)?, None))
 }
 
 /// Reads each of several; what is wrong with one is said, and takes nothing from the others. Whether nothing was.
-pub(in crate::cli) fn each(files: &[Named]) -> (Vec<(&Named, Mechanism)>, bool) {
+pub(in crate::cli) fn each<'a>(
+    files: &'a [Named],
+    loops: &Loops,
+) -> (Vec<(&'a Named, Mechanism)>, bool) {
     let mut all = Vec::new();
-    for file in files {
-        match mechanism(file) {
-            Ok(found) => all.push((file, found)),
+    for name in files {
+        let file = File {
+            file: name.clone(),
+            loops: loops.clone(),
+        };
+        match mechanism(&file) {
+            Ok(found) => all.push((name, found)),
             Err(e) => crate::cli::terminal::output::complain(&e),
         }
     }
@@ -44,8 +51,19 @@ pub(in crate::cli) fn each(files: &[Named]) -> (Vec<(&Named, Mechanism)>, bool) 
     (all, well)
 }
 
-/// The name for messages and the bytes of the file that an argument names.
-pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
+/// The name for messages and the bytes of the mechanism file that an argument names, or that is made of the description it names.
+pub(in crate::cli) fn named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
+    match imported(file)? {
+        Some(imported) => {
+            let text = imported.toml()?;
+            Ok(("the imported mechanism".to_owned(), text.into_bytes()))
+        }
+        None => plain(&file.file),
+    }
+}
+
+/// The same of a file that is no description.
+pub(in crate::cli) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if &**file == "-" {
         kept::keep_standard_input()?;
         let mut bytes = Vec::new();
@@ -60,13 +78,11 @@ pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
         );
         return Ok(("standard input".to_owned(), bytes));
     }
-    if let Some(imported) = imported(file)? {
-        let text = imported.toml()?;
-        return Ok(("the imported mechanism".to_owned(), text.into_bytes()));
-    }
     let path = file.path();
     if path.is_file() {
-        return Ok((file.to_string(), api::bytes(path, MAX_BYTES)?));
+        let bytes = api::bytes(path, MAX_BYTES)?;
+        robots::refuse_foreign(file, &bytes)?;
+        return Ok((file.to_string(), bytes));
     }
     let Some(text) = builtin::text(file) else {
         bail!(unknown(file))
@@ -75,12 +91,17 @@ pub(in crate::cli) fn named(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
 }
 
 /// The mechanism of a robot description, with what is doubtful said; none where the argument is no such file.
-fn imported(file: &Named) -> anyhow::Result<Option<robots::Imported>> {
+fn imported(file: &File) -> anyhow::Result<Option<robots::Imported>> {
+    let (file, loops) = (&file.file, &file.loops);
     let path = file.path();
     if !path.is_file() || !robots::is_description(file) {
+        ensure!(
+            loops.path.is_none(),
+            "--loops is for robot descriptions, which {file} is none of; give a URDF, MJCF or SDF file, or leave --loops out"
+        );
         return Ok(None);
     }
-    let imported = crate::cli::command::import::description(path, &robots::Options::default())?;
+    let imported = crate::cli::command::import::description(path, &loops.options()?)?;
     let doubts = imported.report.doubts();
     if !doubts.is_empty() {
         crate::cli::terminal::output::note(&format!("{file}: {}\n{doubts}", imported.format.name));

@@ -1,10 +1,14 @@
 //! FILE arguments as they were typed: paths of any bytes, which are told as text.
 
+use crate::api::{self, MAX_DESCRIPTION_BYTES};
+use crate::cli::terminal::output;
+use crate::robots::Options;
+use crate::view::terminal::next_commands::word;
 use clap::{Args as ClapArgs, ValueHint};
 use std::ffi::OsString;
 use std::fmt;
 use std::ops::Deref;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A path, `-`, or the name of a built-in mechanism. As a text, what is none in it is replaced.
 #[derive(Debug, Clone)]
@@ -52,4 +56,50 @@ pub(in crate::cli) struct File {
     /// A path, `-`, or the name of a built-in mechanism.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) file: Named,
+    #[command(flatten)]
+    pub(in crate::cli) loops: Loops,
+}
+
+impl File {
+    /// Returns the file and its loops as they are typed.
+    pub(in crate::cli) fn typed(&self) -> String {
+        let side = self.loops.path.iter();
+        let side = side.map(|p| format!(" --loops {}", word(&p.display().to_string())));
+        word(&self.file) + &side.collect::<String>()
+    }
+
+    /// Returns a text whose commands about the file read its loops, too.
+    pub(in crate::cli) fn with_loops(&self, text: String) -> String {
+        let (file, typed) = (word(&self.file), self.typed());
+        let line = |l: &str| match l.trim_start().starts_with("ozols ") {
+            true => l.replacen(&file, &typed, 1),
+            false => l.to_owned(),
+        };
+        text.split_inclusive('\n').map(line).collect()
+    }
+}
+
+/// The file of loop closures beside a robot description: the same option for every command that takes a FILE.
+#[derive(Debug, Clone, Default, ClapArgs)]
+pub(in crate::cli) struct Loops {
+    /// A file of loop closures for a robot description (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
+    /// example-parallel-robots; Drake's list of ball constraints.
+    #[arg(long = "loops", value_name = "SIDE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) path: Option<PathBuf>,
+}
+
+impl Loops {
+    /// Returns the options of an import that reads the file.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub(in crate::cli) fn options(&self) -> anyhow::Result<Options> {
+        let mut options = Options::default();
+        if let Some(path) = &self.path {
+            output::kept::keep(path);
+            let bytes = api::bytes(path, MAX_DESCRIPTION_BYTES)?;
+            options.loops = Some((path.display().to_string(), bytes));
+        }
+        Ok(options)
+    }
 }

@@ -8,7 +8,7 @@ use crate::catalog::store::Store;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
-use crate::cli::option::named::Named;
+use crate::cli::option::named::{Loops, Named};
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
@@ -22,6 +22,8 @@ pub(in crate::cli) struct SearchDrawn {
     /// Mechanism files, robot files, or names of built-in mechanisms. Each is searched with its own options and workload.
     #[arg(value_hint = ValueHint::FilePath)]
     files: Vec<Named>,
+    #[command(flatten)]
+    loops: Loops,
     /// All built-in grippers, too.
     #[arg(long)]
     grippers: bool,
@@ -43,7 +45,7 @@ pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
         "nothing to search: name a FILE, or all built-in grippers by --grippers"
     );
     // Wrong files are told before any is searched, and the others are searched.
-    let (mechanisms, mut well) = load::each(&files);
+    let (mechanisms, mut well) = load::each(&files, &a.loops);
     if mechanisms.is_empty() {
         return Ok(Done::Partly);
     }

@@ -29,7 +29,7 @@ pub(in crate::cli) struct Find {
 }
 
 pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
-    let m = load::mechanism(&a.file.file)?;
+    let m = load::mechanism(&a.file)?;
     let found = recognize(&m).with_context(|| {
         format!(
             "{}: not a structure of two jaws, or of three, that links, hinges, slides, gears and slots make",

@@ -1,6 +1,6 @@
 //! The arguments of `ozols statics`.
 
-use crate::cli::option::named::Named;
+use crate::cli::option::named::{Loops, Named};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -29,6 +29,8 @@ pub(in crate::cli) struct Statics {
     /// A path, `-`, or the name of a built-in mechanism; parallel-shears with --stability unless named.
     #[arg(value_name = "FILE", required_unless_present = "stability", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) file: Option<Named>,
+    #[command(flatten)]
+    pub(in crate::cli) loops: Loops,
     /// How the reactions of four-link groups with a closed contour are found.
     #[arg(long, value_enum, default_value = "all")]
     pub(in crate::cli) method: StaticsMethod,
