@@ -1,8 +1,10 @@
 //! Links that stand between joints in series: engines refuse what moves without mass, so that these weigh something, and next
 //! to nothing beside what is there.
 
+use crate::geom::vector::Vector;
 use crate::model::loads::Inertia;
 use crate::model::mechanism::Mechanism;
+use crate::robots::mechanism::series_of_single_joints::numbers;
 use crate::robots::xml::Document;
 
 /// Mass, and moment of inertia about every axis, where nothing there weighs less than a thousand times as much.
@@ -88,10 +90,11 @@ impl Light {
         self.inertia
     }
 
-    /// As MJCF has it.
-    pub(crate) fn mjcf(self) -> String {
+    /// As MJCF has it, with its centre at a place in its body.
+    pub(crate) fn mjcf(self, at: Vector) -> String {
         let Light { mass, inertia: i } = self;
-        format!("<inertial pos=\"0 0 0\" mass=\"{mass:e}\" diaginertia=\"{i:e} {i:e} {i:e}\"/>")
+        let at = numbers(at);
+        format!("<inertial pos=\"{at}\" mass=\"{mass:e}\" diaginertia=\"{i:e} {i:e} {i:e}\"/>")
     }
 
     /// As URDF has it.

@@ -3,7 +3,8 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::Vector;
+use crate::geom::vector::{Vector, dot, sub};
+use crate::robots::convert::payload::Weight;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::parts::Part;
@@ -11,7 +12,12 @@ use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
+use crate::robots::mjcf::payload;
 use crate::robots::xml::Element;
+use std::collections::BTreeMap;
+
+/// Armature where nothing is known of what links weigh, in kg and kg·m²: too much does no harm, too little does.
+const HEAVY: f64 = 10.0;
 
 /// Gives joints freedoms.
 pub(crate) fn free(
@@ -24,6 +30,8 @@ pub(crate) fn free(
         origin,
         defaults: Defaults::read(root)?,
         parents: parents(origin),
+        // What links weigh is told by shapes and elements that are not wrong where kinematics are read.
+        weights: payload::read(root, &origin.robot).map_or_else(|_| BTreeMap::new(), |p| p.weights),
         inserted: Vec::new(),
     };
     for &(part, e, freed) in all {
@@ -71,6 +79,8 @@ struct MjcfFile<'a> {
     origin: &'a Origin,
     defaults: Defaults<'a>,
     parents: Vec<Option<usize>>,
+    /// What the links weigh, in their frames.
+    weights: BTreeMap<usize, Weight>,
     /// Joints put in.
     inserted: Vec<(KeyframeMark, usize)>,
 }
@@ -122,10 +132,38 @@ impl<'a> MjcfFile<'a> {
         Ok(out)
     }
 
+    /// Returns the armature of a new joint beside a part, in kg where it slides and in kg·m² where it turns: about as much as the links
+    /// that the part joins have there. MuJoCo softens a constraint by the mean of what its bodies weigh in all directions. A light
+    /// body in between, or a thin one that may turn, would let the loop open. The new joint does not move where the loop stays
+    /// closed, so that its armature changes no motion.
+    fn armature(&self, part: &Part, slides: bool, point: Vector) -> String {
+        let felt = |(link, w): (usize, &Weight)| {
+            let at = self.origin.places[link].then(&w.place).translation;
+            let far = sub(at, point);
+            let about = w.tensor[..3].iter().sum::<f64>() / 2.0 + w.mass * dot(far, far);
+            if slides { w.mass } else { about }
+        };
+        let joined = part
+            .links
+            .iter()
+            .filter_map(|&l| Some(felt((l, self.weights.get(&l)?))));
+        let joined: f64 = joined.sum();
+        let all = || {
+            self.weights
+                .iter()
+                .map(|(&l, w)| felt((l, w)))
+                .fold(0.0, f64::max)
+        };
+        // Two digits are enough; more than is there does no harm.
+        let most = [joined, all(), HEAVY].into_iter().find(|x| *x > 0.0);
+        let rounded = format!("{:.1e}", most.unwrap_or(HEAVY)).parse::<f64>();
+        rounded.unwrap_or(HEAVY).to_string()
+    }
+
     /// The new joints of a joint, in a frame at a place in the world.
     fn joints(
         &self,
-        id: &str,
+        part: &Part,
         point: Vector,
         frame: &RigidMotion,
         around: Element<'a>,
@@ -140,10 +178,11 @@ impl<'a> MjcfFile<'a> {
             } else {
                 ("hinge", "turn")
             };
-            let name = edits.name(&format!("{id}_{word}"));
+            let name = edits.name(&format!("{}_{word}", part.id));
+            let armature = self.armature(part, *slides, point);
             out.push(format!("<!-- {why} -->"));
             out.push(format!(
-                "<joint name=\"{}\" type=\"{kind}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
+                "<joint name=\"{}\" type=\"{kind}\" armature=\"{armature}\" pos=\"{}\" axis=\"{}\"{neutral}/>",
                 escape(&name),
                 numbers(inside.point(point)),
                 numbers(inside.direction(*direction)),
@@ -177,7 +216,7 @@ impl<'a> MjcfFile<'a> {
         let point = self.origin.places[part.links[1]]
             .then(&part.sides[1])
             .translation;
-        let lines = self.joints(&part.id, point, &frame, body, freed, edits)?;
+        let lines = self.joints(part, point, &frame, body, freed, edits)?;
         edits.after(last, &lines);
         self.inserted
             .push((KeyframeMark::Joint(last.id), freed.len()));
@@ -214,8 +253,9 @@ impl<'a> MjcfFile<'a> {
         let frame = self.origin.places[one];
         let point = frame.then(&part.sides[0]).translation;
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.joints(&part.id, point, &frame, body, freed, edits)?;
-        edits.within(body, &self.whole(&between, inner, None));
+        let inner = self.joints(part, point, &frame, body, freed, edits)?;
+        let at = frame.inverse().point(point);
+        edits.within(body, &self.whole(&between, at, inner, None));
         edits.set(e, "body1", &between)?;
         self.inserted
             .push((KeyframeMark::Within(body.id), freed.len()));
@@ -242,7 +282,7 @@ impl<'a> MjcfFile<'a> {
         let at = self.origin.places[part.links[0]].then(&part.sides[0]);
         let frame = at.then(&own.inverse());
         let between = edits.name(&format!("{}_between", part.id));
-        let inner = self.joints(&part.id, at.translation, &frame, around, freed, edits)?;
+        let inner = self.joints(part, at.translation, &frame, around, freed, edits)?;
         let copy = edits.name(&format!("{site}_between"));
         let raw = edits.raw(found);
         let Some(span) = found.value_span("name") else {
@@ -251,17 +291,24 @@ impl<'a> MjcfFile<'a> {
         let start = found.node().span.start;
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
         let copied = format!("{before}{}{after}", escape(&copy));
-        edits.after(found, &self.whole(&between, inner, Some(copied)));
+        let inside = frame.inverse().point(at.translation);
+        edits.after(found, &self.whole(&between, inside, inner, Some(copied)));
         edits.set(e, "site1", &copy)?;
         self.inserted
             .push((KeyframeMark::Site(found.id), freed.len()));
         Ok(())
     }
 
-    /// The lines of a body in between.
-    fn whole(&self, name: &str, inner: Vec<String>, site: Option<String>) -> Vec<String> {
+    /// The lines of a body in between, its mass where its joints are.
+    fn whole(
+        &self,
+        name: &str,
+        at: Vector,
+        inner: Vec<String>,
+        site: Option<String>,
+    ) -> Vec<String> {
         let mut out = vec![format!("<body name=\"{}\">", escape(name))];
-        let light = Light::in_description(&self.origin.document).mjcf();
+        let light = Light::in_description(&self.origin.document).mjcf(at);
         let inner = std::iter::once(light).chain(inner).chain(site);
         out.extend(inner.map(|l| format!("  {l}")));
         out.push("</body>".to_owned());

@@ -6,7 +6,6 @@ use crate::geom::vector::{Vector, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
-use crate::robots::description::massless::Light;
 use crate::robots::description::physical::{GRAM, head, left_out, moving};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
@@ -29,6 +28,7 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         bodies: vec![None; m.links.len()],
         between: BTreeMap::new(),
         children: BTreeMap::new(),
+        parts: BTreeMap::new(),
         joints: BTreeMap::new(),
         equalities: Vec::new(),
         body_names: Names::default(),
@@ -55,7 +55,13 @@ pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         let lines = w.joints(joint, sign, [0.0; 3]);
         own.insert(link, lines);
     }
-    for j in m.joints_in(StateId::FREE).filter(|&j| !used[j]) {
+    let closing: Vec<JointId> = m.joints_in(StateId::FREE).filter(|&j| !used[j]).collect();
+    for &j in &closing {
+        if w.closing_body(j) {
+            *w.parts.entry(m.joints[j].links[1]).or_insert(1.0) += 1.0;
+        }
+    }
+    for j in closing {
         w.closing(j);
     }
     w.couplings();
@@ -93,6 +99,8 @@ struct MjcfWriter<'a> {
     between: BTreeMap<LinkId, Vec<String>>,
     /// What hangs on a link, by which joint, and the sense it is passed in.
     children: BTreeMap<LinkId, Vec<(LinkId, JointId, f64)>>,
+    /// In how many bodies a link is written, where it is more than one: its own, and one on each joint that closes a loop there.
+    parts: BTreeMap<LinkId, f64>,
     /// Names of the joints that are one freedom.
     joints: BTreeMap<(JointId, Freedom), String>,
     equalities: Vec<String>,
@@ -149,6 +157,32 @@ impl MjcfWriter<'_> {
         out
     }
 
+    /// Whether a joint that closes a loop is written as a body on it that is welded to the second link.
+    fn closing_body(&self, j: JointId) -> bool {
+        let kind = &self.m.joints[j].joint_type;
+        let coupled = self.m.couplings.iter().any(|c| c.end_at(j).is_some());
+        !kind.freedoms().is_empty() && (*kind != JointType::Spherical || coupled)
+    }
+
+    /// Returns what a body weighs that is welded to `link`, as an attribute list: an equal part of the link, so that the whole moves as
+    /// it would. MuJoCo softens a weld by what its bodies weigh, and would let the loop open at one that weighs next to nothing. What
+    /// is welded to the frame stands still: it weighs as much as the link `other`.
+    fn weight(&self, link: LinkId, other: LinkId, at: Vector) -> String {
+        let of = if link == self.m.frame() { other } else { link };
+        let parts = if of == link {
+            self.parts.get(&of).copied().unwrap_or(1.0)
+        } else {
+            1.0
+        };
+        let i = moving(self.m, of, at);
+        format!(
+            "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",
+            numbers(i.centre),
+            number(i.mass / parts),
+            i.tensor.map(|x| number(x / parts).to_string()).join(" ")
+        )
+    }
+
     fn body(&self, link: LinkId) -> (&str, Vector) {
         match &self.bodies[link] {
             Some((name, at)) => (name, *at),
@@ -168,9 +202,8 @@ impl MjcfWriter<'_> {
         };
         let (first, origin) = self.body(a);
         let (first, from) = (escape(first), sub(at, origin));
-        let coupled = self.m.couplings.iter().any(|c| c.end_at(j).is_some());
         let line = match &joint.joint_type {
-            JointType::Spherical if !coupled => format!(
+            JointType::Spherical if !self.closing_body(j) => format!(
                 "    <connect name=\"{id}\" body1=\"{first}\" body2=\"{}\" anchor=\"{}\"/>\n",
                 second(self),
                 numbers(from)
@@ -182,13 +215,14 @@ impl MjcfWriter<'_> {
             _ => {
                 let name = self.body_names.fit(&format!("{}~body", joint.id));
                 let inner = self.joints(j, 1.0, [0.0; 3]);
+                let weight = self.weight(b, a, at);
                 let lines = self.between.entry(a).or_default();
                 lines.push(format!(
                     "<body name=\"{}\" pos=\"{}\">",
                     escape(&name),
                     numbers(from)
                 ));
-                lines.push(format!("  {}", Light::in_mechanism(self.m).mjcf()));
+                lines.push(format!("  <inertial {weight}/>"));
                 lines.extend(inner.into_iter().map(|l| format!("  {l}")));
                 lines.push("</body>".to_owned());
                 format!(
@@ -259,13 +293,7 @@ impl MjcfWriter<'_> {
             };
             let (name, pos) = (escape(name), numbers(sub(at, from)));
             let _ = writeln!(out, "{indent}<body name=\"{name}\" pos=\"{pos}\">{role}");
-            let i = moving(self.m, child, at);
-            let weight = format!(
-                "pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"",
-                numbers(i.centre),
-                i.mass,
-                i.tensor.map(|x| number(x).to_string()).join(" ")
-            );
+            let weight = self.weight(child, child, at);
             let _ = writeln!(out, "{indent}  <inertial {weight}/>");
             for line in own.get(&child).into_iter().flatten() {
                 let _ = writeln!(out, "{indent}  {line}");

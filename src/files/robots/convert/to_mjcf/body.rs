@@ -137,7 +137,7 @@ impl ToMjcf<'_> {
                     out.line(&line);
                 }
                 None if moving => {
-                    out.line(&self.scene.light.mjcf());
+                    out.line(&self.scene.light.mjcf([0.0; 3]));
                     self.told(
                         "what moves without mass weighs next to nothing: MuJoCo refuses it else",
                     );

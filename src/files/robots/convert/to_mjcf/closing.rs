@@ -47,7 +47,7 @@ impl ToMjcf<'_> {
         // Their place in the keyframe is where the body stands in the file.
         let own: Vec<f64> = self.qpos.drain(before..).collect();
         self.small_qpos.entry(link).or_default().extend(own);
-        let light = self.scene.light.mjcf();
+        let light = self.scene.light.mjcf([0.0; 3]);
         let all = self.beside.entry(link).or_default();
         all.push(format!(
             "<body name=\"{}\"{}>",
