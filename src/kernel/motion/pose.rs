@@ -138,13 +138,27 @@ impl Pose {
         self
     }
 
-    /// The file's pose with the frame of one joint in another place.
+    /// Returns the file's pose with the frame of one joint in another place. Where the joint then has another number of motions in the
+    /// mechanism's plane, each keeps the freedom that it is named by.
     #[must_use]
-    pub(crate) fn reframed(&self, joint: JointId, frame: &FrameValues<f64>) -> Pose {
-        let unit = in_lengths(frame, self.middle, self.length);
+    pub(crate) fn reframed(
+        &self,
+        mechanism: &Mechanism,
+        space: &MotionSpace<f64>,
+        joint: JointId,
+        frame: &FrameValues<f64>,
+    ) -> Pose {
+        let frame = in_lengths(frame, self.middle, self.length);
+        let motions = motions(&frame, space, mechanism.joints[joint].joint_type.freedoms());
         let mut out = self.clone();
-        for c in out.columns.iter_mut().filter(|c| c.joint == joint) {
-            c.twist = unit.twist(&Reals, c.freedom);
+        let own = out.columns.iter_mut().filter(|c| c.joint == joint);
+        let all = motions.len() == self.columns.iter().filter(|c| c.joint == joint).count();
+        for (n, c) in own.enumerate() {
+            c.twist = if all {
+                motions[n].1
+            } else {
+                frame.twist(&Reals, c.freedom)
+            };
         }
         out
     }
@@ -301,19 +315,15 @@ impl JointColumns {
         all: Extent,
     ) {
         let joint = &mechanism.joints[j];
-        let freedoms = joint.joint_type.freedoms();
-        let mut kept = in_lengths(frame, all.middle, all.length).motions(&Reals, space, freedoms);
-        // A pin in a slot: the pin first, as in `workload::planar`.
-        let has = |f| freedoms.contains(&f);
-        let slot = has(Freedom::Tx) && !has(Freedom::Ty);
-        kept.sort_by_key(|(f, _)| f.slides() == slot);
+        let frame = in_lengths(frame, all.middle, all.length);
+        let kept = motions(&frame, space, joint.joint_type.freedoms());
         for (n, (freedom, twist)) in kept.into_iter().enumerate() {
             self.of_joint[j].push(self.columns.len());
             self.base.push((joint.links[0], n));
             self.columns.push(PoseColumn {
                 joint: j,
                 freedom,
-                twist: unit_twist(twist),
+                twist,
                 moved: 0.0,
             });
         }
@@ -328,6 +338,22 @@ impl JointColumns {
             own.rev().map(|&c| (c, -1.0)).collect()
         }
     }
+}
+
+/// Returns the motions of a joint as the columns of a pose have them: unit twists, of a pin in a slot the pin first, as in
+/// `workload::planar`.
+fn motions(
+    frame: &FrameValues<f64>,
+    space: &MotionSpace<f64>,
+    freedoms: &[Freedom],
+) -> Vec<(Freedom, Twist<f64>)> {
+    let mut all = frame.motions(&Reals, space, freedoms);
+    let has = |f| freedoms.contains(&f);
+    let slot = has(Freedom::Tx) && !has(Freedom::Ty);
+    all.sort_by_key(|(f, _)| f.slides() == slot);
+    all.into_iter()
+        .map(|(f, twist)| (f, unit_twist(twist)))
+        .collect()
 }
 
 /// A frame with axes of unit length, about a middle and in lengths of a size.

@@ -150,8 +150,7 @@ impl SecondOrder {
                         let mut vectors = vectors;
                         vectors[v][c] += by;
                         let frame = FrameValues::of(&Reals, vectors, pitch);
-                        let frame = frame.within(&space, joint.joint_type.freedoms());
-                        table_at(&pose.reframed(j, &frame))
+                        table_at(&pose.reframed(mechanism, &space, j, &frame))
                     };
                     let step = STEP * scale;
                     let ((mut up, mut up_by), (down, down_by)) = (at(step), at(-step));
