@@ -16,5 +16,6 @@ pub mod other_poses;
 pub mod release;
 pub mod stress;
 pub mod stress_loads;
+pub mod stressed;
 pub mod with_drives_held;
 pub mod working_mobility;

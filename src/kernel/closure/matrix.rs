@@ -29,6 +29,19 @@ pub struct CouplingRow<N> {
     pub entries: [(usize, N); 2],
 }
 
+/// J of some of the joints of a state.
+#[derive(Debug, Clone)]
+pub struct Part<N> {
+    /// The joints.
+    pub joints: Vec<JointId>,
+    /// Their J.
+    pub closure: Closure<N>,
+    /// Which contours of the state are theirs.
+    pub contours: Vec<usize>,
+    /// Which couplings of the state are theirs.
+    pub couplings: Vec<usize>,
+}
+
 /// J of a state, kept as its columns, contours and couplings: entry blocks are ± the twist where the contour passes the
 /// joint.
 #[derive(Debug, Clone)]
@@ -101,6 +114,46 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
             couplings,
             left_out,
         })
+    }
+
+    /// Returns J of some joints, ascending, that share contours and couplings with no others.
+    ///
+    /// # Complexity
+    /// One pass over J.
+    #[must_use]
+    pub fn part(&self, joints: &[JointId]) -> Part<N> {
+        let has = |j: JointId| joints.binary_search(&j).is_ok();
+        let columns: Vec<usize> = (0..self.columns.len())
+            .filter(|&c| has(self.columns[c].joint))
+            .collect();
+        let contours: Vec<usize> = (0..self.contours.len())
+            .filter(|&k| self.contours[k].joints.iter().any(|&(j, _)| has(j)))
+            .collect();
+        let couplings: Vec<usize> = (0..self.couplings.len())
+            .filter(|&q| {
+                columns
+                    .binary_search(&self.couplings[q].entries[0].0)
+                    .is_ok()
+            })
+            .collect();
+        let place = |c: usize| columns.partition_point(|&own| own < c);
+        let coupling = |&q: &usize| CouplingRow {
+            entries: (self.couplings[q].entries.clone()).map(|(c, x)| (place(c), x)),
+        };
+        Part {
+            joints: joints.to_vec(),
+            closure: Closure {
+                state: self.state,
+                dim: self.dim,
+                contours: contours.iter().map(|&k| self.contours[k].clone()).collect(),
+                columns: columns.iter().map(|&c| self.columns[c].clone()).collect(),
+                couplings: couplings.iter().map(coupling).collect(),
+                extent: self.extent,
+                left_out: Vec::new(),
+            },
+            contours,
+            couplings,
+        }
     }
 
     /// Number of rows, 6k + c for c couplings (3k + c in a plane).

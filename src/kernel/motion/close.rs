@@ -26,22 +26,22 @@ pub enum PoseError {
 const BACK: f64 = 0.1;
 
 impl Pose {
-    /// The closed coordinates of a pose beside this one, along a motion: a step whose largest coordinate is `far`, or the first
-    /// that closes elsewhere of those that come of halving it up to `halvings` times.
+    /// Returns closed coordinates next to those of `from`, along a motion. The largest coordinate of the step is `far`, which is
+    /// halved up to `halvings` times until the pose closes elsewhere.
     ///
     /// # Complexity
     /// As [`Pose::close`] for each step tried.
     #[must_use]
-    pub fn beside(&self, along: &[f64], far: f64, halvings: u32) -> Option<Vec<f64>> {
+    pub fn beside(&self, from: &[f64], along: &[f64], far: f64, halvings: u32) -> Option<Vec<f64>> {
         let largest = |q: &[f64]| q.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let whole = far / largest(along).max(f64::MIN_POSITIVE);
         let steps =
             (0..=halvings).map(|h| (far / f64::from(1u32 << h), whole / f64::from(1u32 << h)));
         steps.into_iter().find_map(|(far, step)| {
-            let q = self
-                .close(along.iter().map(|x| x * step).collect(), &[])
-                .ok()?;
-            (largest(&q) > BACK * far.abs()).then_some(q)
+            let guess = from.iter().zip(along).map(|(q, x)| q + x * step);
+            let q = self.close(guess.collect(), &[]).ok()?;
+            let moved: Vec<f64> = q.iter().zip(from).map(|(a, b)| a - b).collect();
+            (largest(&moved) > BACK * far.abs()).then_some(q)
         })
     }
 

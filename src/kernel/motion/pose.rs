@@ -18,6 +18,7 @@ use crate::geom::vector::{self, across, cross, dot, length, sub};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use itertools::Itertools;
 use ozols_dense::Matrix;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
@@ -185,6 +186,14 @@ impl Pose {
     #[must_use]
     pub fn constraints(&self, dim: usize) -> usize {
         dim * self.contours.len() + self.couplings.len()
+    }
+
+    /// Returns how many freedoms are those of joints in a contour or a coupling.
+    #[must_use]
+    pub(crate) fn looped_columns(&self) -> usize {
+        let of_contours = self.contours.iter().flatten().map(|&(c, _)| c);
+        let of_couplings = self.couplings.iter().flatten().map(|&(c, _)| c);
+        of_contours.chain(of_couplings).unique().count()
     }
 
     /// Gaps of the contours at coordinates `q` from this pose, six numbers each, then those of the couplings since the

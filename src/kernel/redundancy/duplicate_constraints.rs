@@ -6,11 +6,12 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::method::Certainty;
-use crate::rank::rounded::verdict::{RankVerdict, verdict};
+use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
 use crate::redundancy::analysis::{AnalysisError, Method, StateAnalysis, analyse};
 use crate::redundancy::moved::{moved, turned_back};
 use crate::redundancy::other_poses::{Where, redundant_where};
-use crate::redundancy::release::{Duplicate, Release, Stressed};
+use crate::redundancy::release::{Duplicate, Release};
+use crate::redundancy::stressed::Stressed;
 
 /// Relative singular values that count as zero where no rounding is known of.
 const FLAT: f64 = 1e-9;
@@ -44,30 +45,63 @@ impl HeldTwice {
         )
     }
 
-    /// Tells where σ holds. Where fewer are redundant at a further pose, and it is known how many are at this one, those are the
-    /// ones that last, and the pose is given.
+    /// Tells where σ holds. Where fewer are redundant at a further pose, those are the ones that last, and the pose is given.
     fn look_elsewhere(
         &mut self,
         geometry: &Mechanism,
-        tolerance: f64,
+        errors: [f64; 2],
         inside: &dyn Fn(&Pose) -> bool,
     ) -> Result<Option<Pose>, AnalysisError> {
-        let (least, most) = self.range();
+        let (_, most) = self.range();
         let finite = match self.analysis.certainty {
             Certainty::Undecided { .. } => self.analysis.finite.by_numeric_rank(),
             _ => self.analysis.finite,
         };
-        let state = StateId::FREE;
-        let (over, pose) = redundant_where(geometry, state, &finite, most, tolerance, inside)?;
+        let (over, pose) = redundant_where(geometry, StateId::FREE, &finite, most, errors, inside)?;
         self.over = Some(over);
-        let Where::Pose { elsewhere, .. } = over else {
-            return Ok(None);
-        };
-        let pose = pose.filter(|_| least == most);
-        if pose.is_some() {
+        if let Where::Pose { elsewhere, .. } = over {
             self.lasting = elsewhere;
         }
         Ok(pose)
+    }
+
+    /// Adds the redundant constraints of a part: those that last, and those of this pose only. `elsewhere` is another pose with
+    /// fewer of them, and the same part there; `None` for the part if it has no redundant constraints there.
+    fn add(
+        &mut self,
+        m: &Mechanism,
+        part: &Stressed<'_>,
+        elsewhere: Option<(&Pose, Option<&Stressed<'_>>)>,
+        find: &dyn Fn(&Stressed<'_>) -> [Costed; 2],
+    ) -> [Vec<Duplicate>; 2] {
+        let [mut rows, here] = find(part);
+        let (lasting, releases, built) = match elsewhere {
+            None => {
+                let built = as_built(m, part, &here);
+                (part.redundant(), here, built)
+            }
+            Some((_, None)) => (0, Vec::new(), Vec::new()),
+            // What lasts is told where it is all there is, and taken back to this pose.
+            Some((pose, Some(there))) => {
+                let [theirs, releases] = find(there);
+                let built = as_built(m, there, &releases);
+                let back = |r: &Release| taken_back(m, pose, r);
+                let chosen = there.cheapest(&theirs);
+                let first = chosen.iter().map(|&i| (FIRST, back(&theirs[i].1)));
+                rows.splice(0..0, first);
+                let releases = releases.iter().map(|(c, r)| (*c, back(r))).collect();
+                (there.redundant(), releases, built)
+            }
+        };
+        let before = self.releases.len();
+        let mut list = part.duplicates(&rows, &releases);
+        for d in &mut list {
+            d.remedies.iter_mut().for_each(|i| *i += before);
+        }
+        self.cheapest.extend(built.iter().map(|i| i + before));
+        self.releases.extend(releases);
+        let passing = list.split_off(lasting.min(list.len()));
+        [list, passing]
     }
 }
 
@@ -107,40 +141,51 @@ pub fn held_twice(
     }
     let meant = verdict(m, state, None)?;
     let geometry = meant.mechanism().unwrap_or(m);
-    let tolerance = tolerance(&meant);
     let elsewhere = match inside {
-        Some(inside) => out.look_elsewhere(geometry, tolerance, inside)?,
+        Some(inside) => out.look_elsewhere(geometry, errors(&meant), inside)?,
         None => None,
     };
-    let rank = out.analysis.rows - most;
-    let Some(stressed) = Stressed::new(geometry, state, rank)? else {
+    let there = match &elsewhere {
+        Some(pose) => match moved(geometry, pose) {
+            Some(there) => Some((pose, there)),
+            None => return Ok(out),
+        },
+        None => None,
+    };
+    let rows = out.analysis.rows;
+    let parts = |m, redundant| Stressed::parts(m, state, rows - redundant);
+    let lasting = match &there {
+        Some((pose, there)) => parts(there, out.lasting)?.map(|parts| Some((*pose, parts))),
+        None => Some(None),
+    };
+    let (Some(here), Some(lasting)) = (parts(geometry, most)?, lasting) else {
         return Ok(out);
     };
-    let (mut rows, releases) = candidates(m, &stressed, closes, may);
-    out.releases = releases;
-    match elsewhere {
-        None => out.cheapest = as_built(m, &stressed, &out.releases),
-        Some(_) if out.lasting == 0 => out.releases.clear(),
-        // What lasts is told where it is all there is, and taken back to this pose.
-        Some(pose) => {
-            let Some(there) = moved(geometry, &pose) else {
-                return Ok(out);
-            };
-            let rank = out.analysis.rows - out.lasting;
-            let Some(lasting) = Stressed::new(&there, state, rank)? else {
-                return Ok(out);
-            };
-            let (theirs, releases) = candidates(m, &lasting, closes, may);
-            out.cheapest = as_built(m, &lasting, &releases);
-            let back = |r: &Release| taken_back(m, &pose, r);
-            let chosen = lasting.cheapest(&theirs);
-            let first = chosen.iter().map(|&i| (FIRST, back(&theirs[i].1)));
-            rows.splice(0..0, first);
-            out.releases = releases.iter().map(|(c, r)| (*c, back(r))).collect();
-        }
+    let find = |part: &Stressed<'_>| candidates(m, part, closes, may);
+    let mut lists = [Vec::new(), Vec::new()];
+    for part in &here {
+        let elsewhere = lasting.as_ref().map(|(pose, parts)| {
+            let same = parts.iter().find(|p| p.joints == part.joints);
+            (*pose, same)
+        });
+        let found = out.add(m, part, elsewhere, &find);
+        lists.iter_mut().zip(found).for_each(|(l, f)| l.extend(f));
     }
-    out.list = stressed.duplicates(&rows, &out.releases);
+    out.list = lists.concat();
+    if out.list.len() < most {
+        out.list.clear();
+    }
     Ok(out)
+}
+
+/// Returns below what share of the largest a singular value counts as zero, and the relative error of coordinates, 0 where they
+/// are exact.
+fn errors(meant: &RankVerdict) -> [f64; 2] {
+    let accuracy = match meant.meant {
+        Meant::AsWritten | Meant::Snapped { .. } => 0.0,
+        Meant::Near { .. } | Meant::Undecided { .. } => meant.tolerance,
+    };
+    [tolerance(meant), accuracy]
 }
 
 /// Relative singular values that count as zero: between what is kept and what is dropped, where coordinates are rounded.
@@ -184,16 +229,16 @@ fn candidates(
     stressed: &Stressed<'_>,
     closes: &dyn Fn(JointId) -> bool,
     may: &dyn Fn(&Release) -> bool,
-) -> (Costed, Costed) {
+) -> [Costed; 2] {
     let (mut rows, mut releases) = (Vec::new(), Vec::new());
-    for q in 0..stressed.closure.couplings.len() {
+    for &q in &stressed.couplings {
         let r = Release::Coupling(q);
         rows.push((0, r));
         if may(&r) {
             releases.push((COUPLING, r));
         }
     }
-    for j in m.joints_in(StateId::FREE) {
+    for &j in &stressed.joints {
         for r in stressed.at(j) {
             rows.push((if closes(j) { 1 } else { 2 }, r));
             if may(&r) {
@@ -201,7 +246,7 @@ fn candidates(
             }
         }
     }
-    (rows, releases)
+    [rows, releases]
 }
 
 /// More for a slide at a joint that has got one, for each: a ball on three slides holds nothing.

@@ -8,7 +8,7 @@ use crate::motion::pose::Pose;
 use crate::rank::finite::local_dimension::motions;
 use crate::rank::finite::{Finite, How};
 use crate::rank::numeric::scaling::rank_of_values;
-use ozols_dense::singular_values;
+use ozols_dense::{Matrix, svd};
 
 /// Further poses looked at where nothing else tells what holds over the motion, and where looking takes long.
 const POSES: [usize; 2] = [20, 5];
@@ -23,6 +23,12 @@ const STEP: f64 = 0.2;
 const SHORTER: [f64; 3] = [1.0, 0.2, 0.04];
 /// How often a step that does not close is halved.
 const HALVINGS: u32 = 5;
+/// Shares of a step at which poses close, too, where it follows a motion.
+const BETWEEN: [f64; 4] = [0.75, 0.5, 0.25, 0.125];
+/// A gap changes singular values by at most its root times this.
+const SLOPE: f64 = 4.0;
+/// Singular values above this share of the largest are real, however coarse the coordinates are.
+const COARSEST: f64 = 1e-2;
 
 /// Where the redundant constraints of a pose are redundant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +41,8 @@ pub enum Where {
     Seen {
         /// Poses.
         poses: usize,
+        /// Whether they are inside the limits of the joints; where this one is not, they need not be.
+        limited: bool,
     },
     /// No loop moves: there are no other poses near.
     Rigid,
@@ -44,8 +52,10 @@ pub enum Where {
         elsewhere: usize,
         /// Poses looked at.
         poses: usize,
+        /// Whether they are inside the limits of the joints; where this one is not, they need not be.
+        limited: bool,
     },
-    /// At this pose, which is proven to be a shaky one without others near.
+    /// At this pose, which is a shaky one without others near.
     Shaky,
     /// At this pose; no more is known.
     Unknown,
@@ -73,95 +83,234 @@ impl Where {
             Where::Followed => {
                 "over the motion through this pose (followed numerically)".to_owned()
             }
-            Where::Seen { poses } => format!(
-                "at this pose and in {} inside the limits (numeric), not proven over the motion",
-                plural(poses, "further closed pose")
+            Where::Seen { poses, limited } => format!(
+                "at this pose and in {}{} (numeric), not proven over the motion",
+                plural(poses, "further closed pose"),
+                limits(limited)
             ),
             Where::Rigid => "at this pose, and no loop moves".to_owned(),
             Where::Shaky => {
                 "at this pose only: it is a shaky one, where more seems to move than does"
                     .to_owned()
             }
-            Where::Pose { elsewhere, poses } => format!(
-                "at this pose; elsewhere on the motion {elsewhere}, by {} inside the limits (numeric)",
-                plural(poses, "closed pose")
+            Where::Pose {
+                elsewhere,
+                poses,
+                limited,
+            } => format!(
+                "at this pose; elsewhere on the motion {elsewhere}, by {}{} (numeric)",
+                plural(poses, "closed pose"),
+                limits(limited)
             ),
             Where::Unknown => "at this pose; over the motion it is not known".to_owned(),
         }
     }
 }
 
-/// Where the σ of a state holds, by what is known of its finite mobility or else by further closed poses that are `inside` the
-/// limits of the joints, where this one is; and the pose with the fewest redundant constraints, where those are fewer. Singular
-/// values below `tolerance` of the largest count as zero.
+/// Returns the words for poses that are inside the limits of the joints.
+fn limits(limited: bool) -> &'static str {
+    if limited { " inside the limits" } else { "" }
+}
+
+/// Returns where the σ of a state holds, and the pose with the fewest redundant constraints where those are fewer than here.
+///
+/// A pose that has as many instantaneous motions as finite ones is regular, so J keeps its rank near it: the finite mobility
+/// decides. Otherwise further closed poses decide, those `inside` the limits of the joints where this one is. `redundant` is the
+/// most that σ can be here. Singular values below `tolerance` of the largest count as zero, and coordinates have the relative
+/// error `accuracy`, 0 where they are exact.
+///
+/// Where finite motions are fewer, σ over the motion is not what they say: `W + rows - freedoms` with the finite W is the
+/// least that it can be. A beam on two balls has 1 redundant constraint in every pose, and that sum is 0.
 ///
 /// # Errors
 /// Where a coordinate has no value.
 ///
 /// # Complexity
-/// Some closings of O((6k)² f) and two decompositions of J a pose, where finite mobility does not tell.
+/// Some closings of O((6k)² f) and a decomposition of J a pose, where finite mobility does not tell.
 pub(crate) fn redundant_where(
     m: &Mechanism,
     state: StateId,
     finite: &Finite,
     redundant: usize,
-    tolerance: f64,
+    [tolerance, accuracy]: [f64; 2],
     inside: &dyn Fn(&Pose) -> bool,
 ) -> Result<(Where, Option<Pose>), ExactError> {
-    match finite.how {
-        How::Rigid if !finite.numeric => return Ok((Where::Rigid, None)),
-        How::Submersion { .. } if !finite.numeric => return Ok((Where::Proven, None)),
-        How::Traced { regular: true, .. } => return Ok((Where::Followed, None)),
-        How::Stopped { .. } if finite.mobility == 0 => return Ok((Where::Shaky, None)),
-        _ => {}
-    }
     let pose = Pose::of_file(m, state)?;
     let rows = pose.constraints(match m.mode {
         Mode::Spatial => 6,
         Mode::Planar { .. } => 3,
     });
-    let columns = pose.columns.len();
-    let long = rows * columns * rows.min(columns) > LONG;
-    let wanted = POSES[usize::from(long)];
+    let instantaneous = (pose.columns.len() + redundant).saturating_sub(rows);
+    if let Some(known) = by_mobility(&pose, finite, instantaneous) {
+        return Ok((known, None));
+    }
     let limited = inside(&pose);
-    let (mut seen, mut at, mut least) = (0, pose.clone(), (redundant, None));
-    for i in 0..TRIES * wanted {
-        if seen == wanted {
-            break;
+    let walk = Walk {
+        pose: &pose,
+        rows,
+        least_mobility: finite.mobility,
+        tolerance,
+        accuracy,
+        inside: &|p| !limited || inside(p),
+    };
+    Ok(match walk.seen(redundant) {
+        Seen { poses: 0, .. } => (Where::Unknown, None),
+        Seen {
+            poses,
+            least: Some((elsewhere, pose)),
+            ..
+        } => (
+            Where::Pose {
+                elsewhere,
+                poses,
+                limited,
+            },
+            Some(pose),
+        ),
+        Seen { unclear: true, .. } => (Where::Unknown, None),
+        Seen { poses, .. } => (Where::Seen { poses, limited }, None),
+    })
+}
+
+/// Returns what the finite mobility alone decides of a pose with so many instantaneous motions.
+fn by_mobility(pose: &Pose, finite: &Finite, instantaneous: usize) -> Option<Where> {
+    if finite.is_undecided() || (finite.numeric && !matches!(finite.how, How::Traced { .. })) {
+        return None;
+    }
+    // Joints in no loop move as they like, whatever the loops do.
+    let loops_rest = finite.mobility + pose.looped_columns() == pose.columns.len();
+    let regular = finite.mobility == instantaneous;
+    match (regular, loops_rest) {
+        (true, true) => Some(Where::Rigid),
+        (true, false) if finite.is_proven() => Some(Where::Proven),
+        (true, false) => Some(Where::Followed),
+        (false, true) => Some(Where::Shaky),
+        (false, false) => None,
+    }
+}
+
+/// What further poses show.
+#[derive(Default)]
+struct Seen {
+    poses: usize,
+    /// The fewest redundant constraints for sure, where they are fewer than here, and the pose.
+    least: Option<(usize, Pose)>,
+    /// Whether some pose may have fewer, though small singular values leave it open.
+    unclear: bool,
+}
+
+/// A look at closed poses near one.
+struct Walk<'a> {
+    pose: &'a Pose,
+    rows: usize,
+    /// Every pose has at least so many motions.
+    least_mobility: usize,
+    tolerance: f64,
+    accuracy: f64,
+    inside: &'a dyn Fn(&Pose) -> bool,
+}
+
+impl Walk<'_> {
+    /// Returns what poses on the motion show, where so many constraints are redundant in the pose of the file.
+    fn seen(&self, redundant: usize) -> Seen {
+        let f = self.pose.columns.len();
+        let wanted = POSES[usize::from(self.rows * f * self.rows.min(f) > LONG)];
+        let mut out = Seen::default();
+        // All coordinates count from the pose of the file, so that errors of closing do not add up. The way to the last
+        // pose, and the directions that it moves in.
+        let start = (vec![0.0; f], motions(self.pose));
+        let mut way = vec![start];
+        for i in 0..TRIES * wanted {
+            if out.poses == wanted {
+                break;
+            }
+            // On from where the last led, and by turns from here, so that several branches of a motion are met.
+            if i % 4 == 0 {
+                way.truncate(1);
+            }
+            let (from, span) = &way[way.len() - 1];
+            let Some(q) = self.next(from, span, i) else {
+                continue;
+            };
+            let Some(found) = self.judged(&q) else {
+                continue;
+            };
+            out.poses += 1;
+            let fewest = out.least.as_ref().map_or(redundant, |l| l.0);
+            way.push((q, found.motions));
+            if found.redundant[1] < fewest && self.is_joined(&way) {
+                out.least = Some((found.redundant[1], self.pose.moved(&way[way.len() - 1].0)));
+            } else if found.redundant[0] < redundant {
+                out.unclear = true;
+            }
         }
-        // On from where the last led, and by turns from here, so that several branches of a motion are met.
-        let from = if i % 4 == 0 { &pose } else { &at };
-        let span = motions(from);
+        out
+    }
+
+    /// Returns the next closed pose from one, on a motion in a direction of some columns that depends on the number of the try.
+    fn next(&self, from: &[f64], span: &Matrix, i: usize) -> Option<Vec<f64>> {
         if span.ncols() == 0 {
-            break;
+            return None;
         }
         // Every motion takes part, each pose with other weights, there and back.
         let weight = |c: usize| f64::from(u32::try_from((c * 7 + i * 3) % 11).unwrap_or(0)) - 5.3;
         let along: Vec<f64> = (0..span.nrows())
             .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weight(c)).sum())
             .collect();
-        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         // Where limits leave little room, shorter steps.
-        let mut tried = SHORTER.iter().filter_map(|s| {
-            let q = from.beside(&along, sign * s * STEP, HALVINGS)?;
-            Some(from.moved(&q))
-        });
-        let Some(moved) = tried.find(|p| !limited || inside(p)) else {
-            continue;
-        };
-        let values = singular_values(&moved.jacobian(&vec![0.0; columns])).unwrap_or_default();
-        let here = rows.saturating_sub(rank_of_values(values, tolerance).rank);
-        seen += 1;
-        if here < least.0 {
-            least = (here, Some(moved.clone()));
-        }
-        at = moved;
+        let mut tried = SHORTER
+            .iter()
+            .filter_map(|s| (self.pose).beside(from, &along, sign * s * STEP, HALVINGS));
+        tried.find(|q| (self.inside)(&self.pose.moved(q)))
     }
-    Ok(match (seen, least) {
-        (0, _) => (Where::Unknown, None),
-        (poses, (elsewhere, Some(pose))) => (Where::Pose { elsewhere, poses }, Some(pose)),
-        (poses, (_, None)) => (Where::Seen { poses }, None),
-    })
+
+    /// Returns the figures of J at closed coordinates; `None` if J leaves fewer motions than there are, because then the pose is
+    /// not closed well enough.
+    fn judged(&self, q: &[f64]) -> Option<Judged> {
+        let gap = norm(&self.pose.gaps(q)).max(f64::EPSILON);
+        let svd = svd(&self.pose.jacobian(q))?;
+        // Where J is short of rank all along the motion, a closed pose is off by the root of its gap, and J by as much.
+        let zero = self.tolerance.max(SLOPE * gap.sqrt());
+        let coarse = (SLOPE * self.accuracy.sqrt()).min(COARSEST);
+        let [most, least] = [zero, zero.max(coarse)]
+            .map(|tolerance| rank_of_values(svd.values.clone(), tolerance).rank);
+        if q.len() - least < self.least_mobility {
+            return None;
+        }
+        Some(Judged {
+            redundant: [most, least].map(|rank| self.rows.saturating_sub(rank)),
+            motions: svd.null_space(least),
+        })
+    }
+
+    /// Returns whether closed poses lie between all those of a way, so that the last is on the motion through the first.
+    fn is_joined(&self, way: &[(Vec<f64>, Matrix)]) -> bool {
+        way.windows(2).all(|ends| {
+            let [from, to] = [&ends[0].0, &ends[1].0];
+            let step: Vec<f64> = to.iter().zip(from).map(|(a, b)| a - b).collect();
+            BETWEEN.iter().all(|share| {
+                let guess = from.iter().zip(&step).map(|(a, s)| a + share * s);
+                let guess: Vec<f64> = guess.collect();
+                self.pose.close(guess.clone(), &[]).is_ok_and(|q| {
+                    let off: Vec<f64> = q.iter().zip(&guess).map(|(a, b)| a - b).collect();
+                    norm(&off) <= share.min(1.0 - share) * norm(&step)
+                })
+            })
+        })
+    }
+}
+
+/// The figures of J at a pose.
+struct Judged {
+    /// The least and the most that are redundant there.
+    redundant: [usize; 2],
+    /// The instantaneous motions, a column each.
+    motions: Matrix,
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]
@@ -180,7 +329,7 @@ mod tests {
             numeric: true,
         };
         let found = |inside: &dyn Fn(&Pose) -> bool| {
-            redundant_where(&m, StateId::FREE, &finite, 3, 1e-9, inside).unwrap()
+            redundant_where(&m, StateId::FREE, &finite, 3, [1e-9, 0.0], inside).unwrap()
         };
         let held = |p: &Pose| p.columns.iter().all(|c| c.moved.abs() < 1e-9);
         assert!(matches!(found(&held), (Where::Unknown, None)));

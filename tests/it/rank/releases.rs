@@ -7,12 +7,13 @@ use ozols::geom::vector::{cross, real, unit};
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, Mechanism, StateId};
 use ozols::redundancy::figures::figures;
-use ozols::redundancy::release::{Release, Stressed, added};
+use ozols::redundancy::release::{Release, added};
+use ozols::redundancy::stressed::Stressed;
 
-fn stressed(m: &Mechanism) -> Stressed<'_> {
+fn stressed(m: &Mechanism) -> Vec<Stressed<'_>> {
     let found = figures(m, StateId::FREE).unwrap();
     let rank = found.freedoms - found.mobility;
-    Stressed::new(m, StateId::FREE, rank).unwrap().unwrap()
+    Stressed::parts(m, StateId::FREE, rank).unwrap().unwrap()
 }
 
 fn size(v: &[f64]) -> f64 {
@@ -22,7 +23,7 @@ fn size(v: &[f64]) -> f64 {
 /// The mechanisms of the catalogue that hold something twice, as far as they are small.
 fn redundant() -> Vec<Mechanism> {
     let all = builtin::names().into_iter().map(built_in);
-    all.filter(|m| m.joints.len() <= 14 && stressed(m).redundant() > 0)
+    all.filter(|m| m.joints.len() <= 14 && !stressed(m).is_empty())
         .collect()
 }
 
@@ -32,9 +33,12 @@ fn redundant() -> Vec<Mechanism> {
 fn self_stresses_do_no_work_on_what_joints_let_go() {
     let (mut seen, mut several) = (0, 0);
     for m in redundant() {
-        let stressed = stressed(&m);
+        let parts = stressed(&m);
         let contours = ozols::closure::contour::contour_basis(&m, StateId::FREE);
-        for j in m.joints_in(StateId::FREE) {
+        for (stressed, j) in parts
+            .iter()
+            .flat_map(|p| p.joints.iter().map(move |&j| (p, j)))
+        {
             let slides = match m.joints[j].joint_type {
                 JointType::Revolute => false,
                 JointType::Prismatic => true,
@@ -62,8 +66,11 @@ fn self_stresses_do_no_work_on_what_joints_let_go() {
 fn directions_of_releases_point_to_the_positive_side() {
     let mut seen = 0;
     for m in redundant() {
-        let stressed = stressed(&m);
-        for j in m.joints_in(StateId::FREE) {
+        let parts = stressed(&m);
+        for (stressed, j) in parts
+            .iter()
+            .flat_map(|p| p.joints.iter().map(move |&j| (p, j)))
+        {
             for release in stressed.at(j) {
                 let Release::Freedom { direction, .. } = release else {
                     panic!("a freedom of a joint")
@@ -94,9 +101,14 @@ fn directions_of_releases_point_to_the_positive_side() {
 #[test]
 fn what_works_well_is_let_go_first() {
     let mut seen = 0;
-    for m in redundant().iter().filter(|m| stressed(m).redundant() == 1) {
-        let stressed = stressed(m);
-        let all = m.joints_in(StateId::FREE).flat_map(|j| stressed.at(j));
+    for m in &redundant() {
+        let [stressed] = &stressed(m)[..] else {
+            continue;
+        };
+        if stressed.redundant() > 1 {
+            continue;
+        }
+        let all = stressed.joints.iter().flat_map(|&j| stressed.at(j));
         let mut all: Vec<(f64, Release)> = all.map(|r| (size(&stressed.powers(&r)), r)).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (most, strong) = all[all.len() - 1];

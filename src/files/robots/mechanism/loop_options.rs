@@ -5,7 +5,8 @@ use crate::geom::vector::{Vector, cross, dot};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::rounded::verdict::verdict;
-use crate::redundancy::release::{Release, Stressed};
+use crate::redundancy::release::Release;
+use crate::redundancy::stressed::Stressed;
 use crate::robots::description::coupling::LARGEST;
 
 /// Gives the joints that close loops options of their own: more freedom along each direction that their self-stresses have, and
@@ -23,12 +24,15 @@ pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile)
         return false;
     }
     let geometry = found.mechanism().unwrap_or(m);
-    let Ok(Some(stressed)) = Stressed::new(geometry, StateId::FREE, rank) else {
+    let Ok(Some(parts)) = Stressed::parts(geometry, StateId::FREE, rank) else {
         return false;
     };
     let mut any = false;
-    for j in m.joint_ids().filter(|j| closes[j.index()]) {
-        let all = stressed.at(j);
+    let all = parts
+        .iter()
+        .flat_map(|p| p.joints.iter().map(move |&j| (p, j)));
+    for (part, j) in all.filter(|(_, j)| closes[j.index()]) {
+        let all = part.at(j);
         let tables = tables(m, j, &all);
         any |= !tables.is_empty();
         if !tables.is_empty() {

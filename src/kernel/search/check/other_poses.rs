@@ -91,6 +91,7 @@ pub fn stroke(
 ) -> Result<Stroke, ExactError> {
     let pose = Pose::of_file(&question.mechanism, StateId::FREE)?;
     let span = motions(&pose);
+    let here = vec![0.0; pose.columns.len()];
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut poses = Vec::new();
     for i in 0..if span.ncols() == 0 { 0 } else { count } {
@@ -106,7 +107,7 @@ pub fn stroke(
         // There and back, a little farther each time, at odd places.
         #[allow(clippy::cast_precision_loss, reason = "a small number of poses")]
         let far = STEP * (1.0 + 0.37 * (i / 2) as f64) * if i % 2 == 0 { 1.0 } else { -1.0 };
-        if let Some(q) = pose.beside(&along, far, HALVINGS) {
+        if let Some(q) = pose.beside(&here, &along, far, HALVINGS) {
             let columns = pose.columns.iter().zip(&q);
             let coordinates = columns.map(|(c, &x)| (c.joint, c.freedom, x)).collect();
             let figures = figures_at(question, &question.mechanism, &pose.moved(&q));
