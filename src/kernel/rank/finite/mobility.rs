@@ -168,7 +168,8 @@ impl Finite {
     pub fn describe(&self) -> String {
         let line = match self.how {
             How::Rigid if self.mobility > 0 => {
-                "joints in no contour and idle spins move as they like, nothing else does even instantaneously"
+                "joints in no contour move freely; links that all their joints leave free in one way do, too; \
+                 nothing more moves, not even instantaneously"
                     .to_owned()
             }
             How::Rigid => "nothing moves even instantaneously".to_owned(),
