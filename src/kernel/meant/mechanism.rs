@@ -4,6 +4,7 @@ use super::number::{Rational3, is_same};
 use super::resolve::{Resolved, resolve};
 use super::scene::MeantScene;
 use super::written::{Ray, WrittenPoint, WrittenScene, WrittenSymmetry};
+use crate::closure::contour::contour_basis;
 use crate::geom::expr::Expr;
 use crate::geom::vector::real;
 use crate::model::joint_type::JointType;
@@ -11,6 +12,9 @@ use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, Mod
 use crate::model::rounded::{FrameUncertainty, Uncertainties, uncertainties};
 use num_rational::BigRational;
 use num_traits::Zero;
+
+/// Joints in no loop that take part in the scene. They bear on no rank of J, and more of them take long.
+const OUTSIDE_LOOPS: usize = 16;
 
 /// A mechanism that is meant, exact.
 #[derive(Debug, Clone)]
@@ -179,7 +183,13 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
     let mut all = Gathered::default();
     let mut own: Vec<Slots> = Vec::new();
     let mut offered: Vec<Vec<Slots>> = Vec::new();
+    let takes_part = taking_part(mechanism);
     for (j, joint) in mechanism.joints_with_ids() {
+        if !takes_part[j.index()] {
+            own.push(Slots::default());
+            offered.push(joint.offered().map(|_| Slots::default()).collect());
+            continue;
+        }
         let slots = all.joint(joint, &half, j);
         own.push(slots);
         let halves = &half.option_frames[j.index()];
@@ -193,6 +203,9 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
         Mode::Spatial => None,
         Mode::Planar { normal } => Some(all.ray(normal, half.normal, None)),
     };
+    if all.points.is_empty() {
+        return None;
+    }
     all.written.symmetry = stated(mechanism, &own, &offered);
     let Resolved { scene, others } = resolve(&all.written)?;
     let places = Places {
@@ -209,6 +222,24 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
         points: all.points,
         rays: all.rays,
     })
+}
+
+/// Returns which joints take part in the scene: all, or those in a contour or a coupling of some state where many are in none.
+/// In a plane all have to stand square to it.
+fn taking_part(mechanism: &Mechanism) -> Vec<bool> {
+    let mut tied = vec![false; mechanism.joints.len()];
+    for state in mechanism.state_ids() {
+        let contours = contour_basis(mechanism, state);
+        let joints = contours.iter().flat_map(|c| &c.joints);
+        joints.for_each(|(j, _)| tied[j.index()] = true);
+    }
+    let ends = mechanism.couplings.iter().flat_map(|c| &c.ends);
+    ends.for_each(|e| tied[e.joint.index()] = true);
+    let outside = tied.iter().filter(|t| !**t).count();
+    if outside <= OUTSIDE_LOOPS || matches!(mechanism.mode, Mode::Planar { .. }) {
+        tied.fill(true);
+    }
+    tied
 }
 
 /// The images that the file states; none of a third of a turn, which rational numbers have in frames of its own alone.
