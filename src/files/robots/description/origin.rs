@@ -1,5 +1,6 @@
 //! Where in a description the parts of the mechanism stand.
 
+use crate::format::number::brief;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::JointId;
 use crate::motion::pose::Pose;
@@ -75,19 +76,33 @@ impl Origin {
     #[must_use]
     pub fn is_inside(&self, pose: &Pose, metres: f64) -> bool {
         pose.columns.iter().all(|c| {
-            let part = self.part(c.joint);
-            let (Some((low, high)), [value]) = (part.limits, &part.values[..]) else {
-                return true;
-            };
             let unit = if c.freedom.slides() {
                 pose.length * metres / self.robot.unit.metres()
             } else {
                 1.0
             };
-            // Limits are often where the joint stands.
-            let slack = 1e-6 * (high - low).max(1e-3);
-            (low - slack..=high + slack).contains(&(value + c.moved * unit))
+            self.part(c.joint).exceeded(c.moved * unit).is_none()
         })
+    }
+
+    /// Returns the joints that stand outside their limits in the pose of the mechanism, in words: angles in radians, slides in
+    /// the unit of the description.
+    #[must_use]
+    pub fn outside_limits(&self) -> Vec<String> {
+        let words = |p: &Part| {
+            let [value, low, high] = p.exceeded(0.0)?.map(|x| brief(x + p.zero));
+            let slides = p.joint_type.freedoms().iter().any(|f| f.slides());
+            let unit = if slides {
+                self.robot.unit.symbol()
+            } else {
+                "rad"
+            };
+            Some(format!(
+                "{} stands at {value} {unit}, outside its limits {low} to {high}",
+                p.id
+            ))
+        };
+        self.robot.joints.iter().filter_map(words).collect()
     }
 
     /// Whether it is an assembly of a CAD program: joints are changed to one of its types, not by one freedom.

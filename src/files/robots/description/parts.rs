@@ -43,6 +43,17 @@ pub(crate) struct Part {
 }
 
 impl Part {
+    /// Returns the value and the limits of a joint of one freedom that is outside them after it moved so far; `None` if it is
+    /// within them or has no limits.
+    pub(in crate::robots) fn exceeded(&self, moved: f64) -> Option<[f64; 3]> {
+        let (Some((low, high)), [value]) = (self.limits, &self.values[..]) else {
+            return None;
+        };
+        // Limits are often where the joint stands.
+        let (at, slack) = (value + moved, 1e-6 * (high - low).max(1e-3));
+        (!(low - slack..=high + slack).contains(&at)).then_some([at, low, high])
+    }
+
     /// A joint at rest, its axis z.
     pub(crate) fn new(
         id: &str,

@@ -61,6 +61,8 @@ pub struct Lint {
     read_with: Option<String>,
     /// What is not as drawn: joints moved to close loops, bases that float.
     pub moved: Vec<String>,
+    /// Joints that stand outside their limits in the pose that the figures are of.
+    pub outside_limits: Vec<String>,
     /// Each redundant constraint.
     pub findings: Vec<Finding>,
     /// The cheapest releases that remove them all and let nothing move; none where there are not enough.
@@ -113,6 +115,7 @@ impl Lint {
             assumptions: m.assumed.clone(),
             read_with: with_assumptions(m),
             moved: report.map_or(Vec::new(), |r| r.moved.clone()),
+            outside_limits: origin.map_or(Vec::new(), Origin::outside_limits),
             findings: found.list.iter().enumerate().map(finding).collect(),
             cheapest: if whole {
                 found
@@ -225,11 +228,13 @@ impl Lint {
     /// What was not taken as it is drawn, each with a word for programs.
     fn notes(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let moved = self.moved.iter().map(|n| ("not-as-drawn", n.as_str()));
+        let outside = self.outside_limits.iter();
+        let outside = outside.map(|n| ("outside-limits", n.as_str()));
         let left = self
             .approximated
             .iter()
             .map(|n| ("approximated", n.as_str()));
-        moved.chain(left)
+        moved.chain(outside).chain(left)
     }
 
     /// The same in lines.
