@@ -2,6 +2,7 @@
 
 pub(crate) mod assemblies;
 mod convert;
+mod every_pose;
 mod exports;
 pub(crate) mod fix;
 pub(crate) mod ideas;

@@ -88,6 +88,62 @@ fn poses_are_inside_the_limits() {
         assert_eq!(found["redundant_over_motion"], 0, "{range}");
         let over = found["over_motion"].as_str().unwrap();
         assert!(over.contains("20 closed poses"), "{range}: {over}");
+        let outside = range.contains("40");
+        assert_eq!(over.contains("inside the limits"), !outside, "{over}");
+        let told = found["outside_limits"].as_array().unwrap();
+        assert_eq!(told.len(), usize::from(outside), "{range}: {told:?}");
+    }
+}
+
+/// A leg as `in_line` on a ball, in which two connects stand for the last hinge and its foot may slide along it: the distance of
+/// the two is held twice in every pose, and the force along the line in this one.
+fn leg(n: usize, range: &str) -> [String; 2] {
+    let bodies = format!(
+        "<body name='a{n}' pos='0 {n} 0'><joint name='h{n}' {range}/>
+            <body name='b{n}' pos='1 0 0'><joint name='k{n}' type='ball'/></body></body>
+        <body name='c{n}' pos='1.5 {n} 0'><joint name='r{n}'/><joint name='s{n}' type='slide' axis='0 0 1'/></body>"
+    );
+    let connect = |side: &str, z: f64| {
+        format!("<connect name='{side}{n}' body1='b{n}' body2='c{n}' anchor='2 0 {z}'/>")
+    };
+    [bodies, connect("in", -0.1) + &connect("out", 0.1)]
+}
+
+// Two published legs once had 2 in the text and 4 in JSON, and nothing said that they stand outside their limits.
+#[test]
+fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
+    let legs = [1, 2].map(|n| leg(n, "range='40 50' limited='true'"));
+    let [bodies, connects] = [0, 1].map(|i| legs.iter().map(|l| l[i].as_str()).collect::<String>());
+    let text = mjcf(&format!(
+        "<worldbody>{bodies}</worldbody><equality>{connects}</equality>"
+    ));
+    let (code, found) = json(&text);
+    assert_eq!(code, Some(1), "{found}");
+    assert_eq!(
+        (&found["redundant"], &found["redundant_over_motion"]),
+        (&4.into(), &2.into()),
+        "{found}"
+    );
+    let cheapest: Vec<&str> = (found["cheapest"].as_array().unwrap().iter())
+        .map(|c| c.as_str().unwrap())
+        .collect();
+    assert_eq!(cheapest.len(), 2, "{cheapest:?}");
+    for (n, words) in [1, 2].into_iter().zip(&cheapest) {
+        let at = [
+            format!("let in{n} slide along z"),
+            format!("let out{n} slide along z"),
+        ];
+        assert!(at.iter().any(|a| words.starts_with(a)), "{words}");
+    }
+    assert_eq!(found["outside_limits"].as_array().unwrap().len(), 2);
+    let (_, out, _) = run_on("lint", "m.xml", &text, &[]);
+    for part in [
+        "4 redundant constraints",
+        "2 of them at this pose only",
+        "elsewhere on the motion 2, by 20 closed poses (numeric)",
+        "h1 stands at 0 rad, outside its limits 0.698 to 0.873",
+    ] {
+        assert!(out.contains(part), "{part}: {out}");
     }
 }
 

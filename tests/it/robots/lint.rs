@@ -126,6 +126,82 @@ fn lint_does_not_decide_what_digits_leave_open() {
     );
 }
 
+// Text and JSON name one figure, also where digits leave that of the pose open.
+#[test]
+fn text_and_json_say_the_same_of_the_motion() {
+    let texts = [
+        four_bar(["1 0 0", "1.5 0 0", "0 0 1"], "2 0 0"),
+        four_bar(["1 0 0", "1.500001 0.000003 0", "0 0 1"], "2 0 0"),
+        four_bar(
+            ["0 1 0", "2.00003 0 0", "0 0.00002 1"],
+            "1.70002 0.3 0.00001",
+        ),
+    ];
+    for text in &texts {
+        let (_, out, _) = run_on("lint", "m.xml", text, &["--format", "json"]);
+        let v: Value = serde_json::from_str(&out).unwrap();
+        let file = &v["files"][0];
+        let lasting = file["redundant_over_motion"].as_u64().unwrap();
+        let over = file["over_motion"].as_str().unwrap_or_default();
+        if let Some((_, rest)) = over.split_once("elsewhere on the motion ") {
+            assert!(rest.starts_with(&format!("{lasting},")), "{over} {lasting}");
+        }
+        let (_, out, _) = run_on("lint", "m.xml", text, &[]);
+        assert!(over.is_empty() || out.contains(over), "{out}");
+        let most = file["redundant_at_most"].as_u64().unwrap();
+        let passing = format!("{} of them at this pose only", most - lasting);
+        assert_eq!(
+            out.contains(&passing),
+            lasting > 0 && lasting < most,
+            "{out}"
+        );
+    }
+}
+
+// Loops that slide move: the sentence said that none does, and the kind was "rigid".
+#[test]
+fn loops_that_slide_move() {
+    let rods = |lengths: &[[i32; 3]], axis: [i32; 3], scale: i32| {
+        let mut text =
+            "name = \"rods\"\n[[link]]\nid = \"f\"\nrole = \"frame\"\n[[link]]\nid = \"c\"\nrole = \"output\"\n"
+                .to_owned();
+        for (n, at) in lengths.iter().enumerate() {
+            let at = at.map(|x| x * scale);
+            text += &format!(
+                "[[joint]]\nid = \"j{n}\"\nlinks = [\"f\", \"c\"]\ntype = \"cylindrical\"\npoint = {at:?}\naxis = {axis:?}\n"
+            );
+        }
+        text
+    };
+    let pillars = [[0, 0, 0], [3, 0, 0], [0, 4, 1], [5, 7, 2]];
+    for (count, axis, scale) in [(2, [1, 2, 2], 1), (3, [0, 0, 1], 80), (4, [2, -1, 5], 1000)] {
+        let text = rods(&pillars[..count], axis, scale);
+        let (code, out, _) = run_on("lint", "m.toml", &text, &["--format", "json"]);
+        assert_eq!(code, Some(1));
+        let v: Value = serde_json::from_str(&out).unwrap();
+        let file = &v["files"][0];
+        let sigma = 3 + 4 * (count - 2);
+        assert_eq!(
+            (&file["mobility"], &file["redundant_over_motion"]),
+            (&1.into(), &sigma.into())
+        );
+        assert_eq!(file["over_motion_kind"], "proven");
+        let (_, out, _) = run_on("analyze", "m.toml", &text, &[]);
+        assert!(
+            !out.contains("nothing else does even instantaneously"),
+            "{out}"
+        );
+    }
+    // What cannot move but for a hinge beside the loop is still said to have loops at rest.
+    let truss = rods(&pillars[..2], [1, 0, 0], 1)
+        .replacen("axis = [1, 0, 0]", "axis = [0, 1, 0]", 1)
+        .replace("cylindrical", "revolute");
+    let hinge = "[[link]]\nid = \"h\"\n[[joint]]\nid = \"k\"\nlinks = [\"f\", \"h\"]\ntype = \"revolute\"\npoint = [9, 9, 9]\naxis = [0, 0, 1]\n";
+    let (_, out, _) = run_on("lint", "m.toml", &(truss + hinge), &["--format", "json"]);
+    let v: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(v["files"][0]["over_motion_kind"], "rigid", "{out}");
+}
+
 // Four legs with a loop each, nothing redundant: lint says so, and a search of millions of variants has its answer, the
 // mechanism as it is, within a few thousand nodes.
 #[test]
