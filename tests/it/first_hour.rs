@@ -85,8 +85,11 @@ fn run_examples(command: &str) {
     let folder = tempfile::tempdir().unwrap();
     // What users bring along themselves.
     let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots");
-    for ending in ["urdf", "yaml"] {
-        let (from, to) = (format!("five_bar.{ending}"), format!("robot.{ending}"));
+    // Beside `robot.urdf` a file of this name is not taken for its loops.
+    for (from, to) in [
+        ("five_bar.urdf", "robot.urdf"),
+        ("five_bar.yaml", "loops.yaml"),
+    ] {
         fs::copy(robots.join(from), folder.path().join(to)).unwrap();
     }
     for line in examples {

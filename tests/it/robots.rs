@@ -196,7 +196,7 @@ fn errors_name_the_element_and_the_line() {
             &["arm.urdf:6:18:", "3 finite numbers"],
         ),
         ("0.1 0.2 0", "0.1 inf 0", &["3 finite numbers"]),
-        ("0.1 0.2 0", "${x} 0 0", &["expand the macros"]),
+        ("0.1 0.2 0", "${x} 0 0", &["xacro FILE"]),
         ("name=\"q\" ", "", &["<joint> has no attribute name"]),
         ("name=\"q\"", "name=\"p\"", &["joint \"p\" is there twice"]),
         ("</robot>", "", &["arm.urdf:8:", "<robot> is not closed"]),

@@ -82,6 +82,10 @@ pub(in crate::cli) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if path.is_file() {
         let bytes = api::bytes(path, MAX_BYTES)?;
         robots::refuse_foreign(file, &bytes)?;
+        ensure!(
+            !bytes.trim_ascii_start().starts_with(b"<"),
+            "{file} is XML; robot descriptions are known by their endings, so rename it .urdf, .sdf or .xml"
+        );
         return Ok((file.to_string(), bytes));
     }
     let Some(text) = builtin::text(file) else {

@@ -2,8 +2,10 @@
 //! could close a loop or couple joints are reported and counted; the others (friction, colours, publishers) bear no kinematics.
 
 use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::parts::{Part, Ratio, Robot};
+use crate::robots::problem::{RobotProblem, known};
 use crate::robots::sdf::scene::{SdfScene, absolute, moves_with};
 use crate::robots::xml::Element;
 use std::collections::BTreeSet;
@@ -212,16 +214,68 @@ fn kind(e: Element<'_>) -> String {
 
 /// The links and joints that an element and those below it name, but for `own`.
 pub(crate) fn named(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSet<String> {
-    let known = |word: &str| {
+    let is_known = |word: &str| {
         robot.links.iter().any(|l| l == word) || robot.joints.iter().any(|j| j.id == word)
     };
     let mut out = BTreeSet::new();
     let mut stack = vec![e];
     while let Some(e) = stack.pop() {
         let words = e.attributes().map(|(_, value)| value).chain([e.text()]);
-        let words = words.filter(|w| known(w) && Some(*w) != own);
+        let words = words.filter(|w| is_known(w) && Some(*w) != own);
         out.extend(words.map(str::to_owned));
         stack.extend(e.children());
     }
     out
+}
+
+/// The problem of a joint or constraint of a link with itself.
+pub(crate) fn same_link(e: Element<'_>) -> ImportError {
+    e.unsupported("it connects a link to itself", "name two different links")
+}
+
+/// Drake's ball constraint: a point of one body held to a point of another.
+pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let (mut links, mut sides) = ([0; 2], [RigidMotion::IDENTITY; 2]);
+    for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
+        let part = |k: &str| {
+            let tag = format!("drake:ball_constraint_{k}");
+            let missing = RobotProblem::Missing {
+                element: e.label(),
+                what: format!("<{tag}>"),
+            };
+            e.child(&tag).ok_or_else(|| e.fail(None, missing))
+        };
+        let b = part(&format!("body_{body}"))?;
+        let name = b.attribute("name").unwrap_or_else(|| b.text());
+        let (link, frame) = robot.frame(name).ok_or_else(|| {
+            let (what, known) = (
+                "link",
+                known("links", robot.links.iter().map(String::as_str)),
+            );
+            let (element, name) = (e.label(), name.to_owned());
+            let problem = RobotProblem::UnknownName {
+                element,
+                what,
+                name,
+                known,
+            };
+            b.fail(Some("name"), problem)
+        })?;
+        let p = part(point)?;
+        let at = match p.numbers::<3>("value")? {
+            Some(v) => v,
+            None => p.text_numbers()?,
+        };
+        links[i] = link;
+        sides[i] = frame.then(&RigidMotion::shift(at));
+    }
+    if links[0] == links[1] {
+        return Err(same_link(e));
+    }
+    let id = format!("ball-{}-{}", robot.links[links[0]], robot.links[links[1]]);
+    let mut part = Part::new(&id, links, sides, JointType::Spherical).said_by(e);
+    part.closes = true;
+    robot.report.map("ball constraint");
+    robot.joints.push(part);
+    Ok(())
 }

@@ -32,7 +32,19 @@ const fn of(
     }
 }
 
-static FOREIGN: [Foreign; 36] = [
+static FOREIGN: [Foreign; 38] = [
+    of(
+        "YAML",
+        &["yaml", "yml"],
+        b"",
+        "give the robot description, and this file with --loops",
+    ),
+    of(
+        "compressed",
+        &["zip", "gz", "7z"],
+        b"",
+        "unpack it and give the description that is in it",
+    ),
     of(
         "STEP",
         &["step", "stp", "stpz", "p21"],

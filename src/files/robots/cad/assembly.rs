@@ -149,7 +149,7 @@ impl Assembly {
                 let what = format!(
                     "its two frames are {apart} apart; the figures are those of the file's pose, the joint where its first frame is (--assemble closes joints)"
                 );
-                robot.report.approximate(&element, what);
+                robot.report.assume(&element, what);
                 robot.here_only = true;
             }
         }

@@ -3,11 +3,11 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
+use crate::robots::additions::same_link;
 use crate::robots::description::kinematics::displacement;
 use crate::robots::description::parts::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
 use crate::robots::problem::{RobotProblem, known};
-use crate::robots::urdf::read::same_link;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 

@@ -4,10 +4,10 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
+use crate::robots::additions::same_link;
 use crate::robots::description::parts::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
-use crate::robots::urdf::read::{same_link, unknown_type};
 use crate::robots::xml::Element;
 
 pub(crate) const TYPES: &str =
@@ -140,7 +140,7 @@ fn joint_type(e: Element<'_>, word: &str) -> Result<JointType, ImportError> {
         "ball" => JointType::Spherical,
         "fixed" => JointType::Fixed,
         "floating" => free(),
-        _ => return Err(unknown_type(e, word, TYPES)),
+        _ => return Err(e.unknown_word("type", word, TYPES)),
     })
 }
 

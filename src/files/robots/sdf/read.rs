@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
-use crate::robots::additions::{leave_out, plugin};
+use crate::robots::additions::{ball_constraint, leave_out, plugin};
 use crate::robots::description::parts::{Part, Robot};
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::RobotProblem;
@@ -14,7 +14,6 @@ use crate::robots::sdf::joints::{joint, weld};
 use crate::robots::sdf::scene::{
     BESIDE, Placed, SdfScene, absolute, end, insert, moves_with, resolve,
 };
-use crate::robots::urdf::read::ball_constraint;
 use crate::robots::xml::{Document, Element};
 
 /// Reads an `<sdf>`.

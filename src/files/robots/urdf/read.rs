@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
-use crate::robots::additions::{couple, leave_out, named};
+use crate::robots::additions::{ball_constraint, couple, leave_out, named, same_link};
 use crate::robots::description::parts::{Part, Ratio, Robot, free};
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::{RobotProblem, known};
@@ -276,7 +276,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         // Drake's own; its universal joint turns about x of the parent, then about y.
         "ball" if e.name() == "drake:joint" => JointType::Spherical,
         "universal" if e.name() == "drake:joint" => JointType::Universal,
-        _ => return Err(unknown_type(e, word, TYPES)),
+        _ => return Err(e.unknown_word("type", word, TYPES)),
     };
     let mut part = Part::new(name, links, sides, joint_type).said_by(e);
     if matches!(word, "revolute" | "continuous" | "prismatic" | "planar") {
@@ -319,29 +319,6 @@ fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> {
     Ok((low < high && finite).then_some((low, high)))
 }
 
-pub(crate) fn same_link(e: Element<'_>) -> ImportError {
-    e.fail(
-        None,
-        RobotProblem::Unsupported {
-            element: e.label(),
-            why: "it connects a link to itself".to_owned(),
-            remedy: "name two different links".to_owned(),
-        },
-    )
-}
-
-pub(crate) fn unknown_type(e: Element<'_>, word: &str, types: &str) -> ImportError {
-    e.fail(
-        Some("type"),
-        RobotProblem::UnknownWord {
-            element: e.label(),
-            what: "type",
-            word: word.to_owned(),
-            known: types.to_owned(),
-        },
-    )
-}
-
 /// `<loop_joint name type><link1 link xyz rpy/><link2 link xyz rpy/><axis/></loop_joint>`.
 fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     let name = e.required("name")?;
@@ -366,49 +343,13 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     let word = e.required("type")?;
     let joint_type = closing_type(word).ok_or_else(|| {
         let known = "revolute, continuous, prismatic, cylindrical, spherical, fixed";
-        unknown_type(e, word, known)
+        e.unknown_word("type", word, known)
     })?;
     let mut part = Part::new(name, links, sides, joint_type)
         .about(axis(e)?)
         .said_by(e);
     part.closes = true;
     robot.report.map("loop_joint");
-    robot.joints.push(part);
-    Ok(())
-}
-
-/// Drake's ball constraint: a point of one body held to a point of another.
-pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
-    let (mut links, mut sides) = ([0; 2], [RigidMotion::IDENTITY; 2]);
-    for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
-        let part = |k: &str| {
-            let tag = format!("drake:ball_constraint_{k}");
-            let missing = RobotProblem::Missing {
-                element: e.label(),
-                what: format!("<{tag}>"),
-            };
-            e.child(&tag).ok_or_else(|| e.fail(None, missing))
-        };
-        let b = part(&format!("body_{body}"))?;
-        let name = b.attribute("name").unwrap_or_else(|| b.text());
-        let (link, frame) = robot
-            .frame(name)
-            .ok_or_else(|| b.fail(Some("name"), unknown_link(e, name, robot)))?;
-        let p = part(point)?;
-        let at = match p.numbers::<3>("value")? {
-            Some(v) => v,
-            None => p.text_numbers()?,
-        };
-        links[i] = link;
-        sides[i] = frame.then(&RigidMotion::shift(at));
-    }
-    if links[0] == links[1] {
-        return Err(same_link(e));
-    }
-    let id = format!("ball-{}-{}", robot.links[links[0]], robot.links[links[1]]);
-    let mut part = Part::new(&id, links, sides, JointType::Spherical).said_by(e);
-    part.closes = true;
-    robot.report.map("ball constraint");
     robot.joints.push(part);
     Ok(())
 }

@@ -103,7 +103,10 @@ impl Lint {
             redundant_over_motion: found.lasting,
             certainty_kind: sure.0,
             certainty: sure.1,
-            over_motion_kind: found.over.map(|o| kind(m, o.word())),
+            over_motion_kind: found.over.map(|o| match o.word() {
+                "proven" => kind(m, "proven"),
+                word => word,
+            }),
             over_motion: found.over.map(|o| as_read(m, o.describe())),
             left_out: report.map_or(0, Report::left_out),
             approximated: report.map_or(Vec::new(), |r| {
