@@ -341,7 +341,7 @@ fn equalities_of_fixed_tendons_couple() {
     assert!(code == Some(2) && err.contains("nowhere"), "{err}");
 }
 
-// A joint put in has an armature about as heavy as the links beside it, wherever it stands: MuJoCo's loops stay closed then, which
+// A joint put in has an armature of ten times what the links beside it weigh, wherever it stands: MuJoCo's loops stay closed then, which
 // tests/peers asks of MuJoCo.
 #[test]
 fn joints_put_in_have_an_armature() {
@@ -351,6 +351,6 @@ fn joints_put_in_have_an_armature() {
         <equality><connect name='e' body1='b' body2='c' anchor='2 0.5 0'/></equality></mujoco>";
     let (code, out, err) = run_on("fix", "x.xml", text, &["--at", "e"]);
     assert_eq!(code, Some(0), "{err}");
-    assert!(out.contains("type=\"slide\" armature=\"28\""), "{out}");
+    assert!(out.contains("type=\"slide\" armature=\"280\""), "{out}");
     assert!(out.contains("<inertial pos=\"2 0.5 0\""), "{out}");
 }
