@@ -127,7 +127,9 @@ def one(task):
         if ozols("import", file, "-o", whole, "-q").returncode == 0:
             weigh(whole)
             plain = folder / "plain.xml"
-            if ozols("export", whole, "--to", "mjcf", "-o", plain, "-q").returncode == 0:
+            if (found := ozols("export", whole, "--to", "mjcf", "-o", plain, "-q")).returncode != 0:
+                out.append((f"{name} export", found.stderr.strip()[:200], None))
+            else:
                 for k in (1, 2, 3):
                     idea = folder / f"idea-{k}.xml"
                     words = ("export", whole, "--idea", k, "--to", "mjcf", "-o", idea, "-q")
@@ -146,7 +148,7 @@ def weigh(path):
             continue
         at = np.mean([j["point"] for j in file["joint"] if link["id"] in j["links"]], axis=0)
         size = max(np.ptp(np.array([j["point"] for j in file["joint"]], float)) * unit, 1e-3)
-        inertia = 0.02 * size * size
+        inertia = float(0.02 * size * size)
         mass = f"mass = 1.0\ncentre = {[float(x) for x in at]}\ninertia = {[inertia] * 3}\n"
         head = f'id = "{link["id"]}"\n'
         text = text.replace(f"[[link]]\n{head}", f"[[link]]\n{head}{mass}", 1)
