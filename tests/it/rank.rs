@@ -17,3 +17,4 @@ mod series;
 mod stroke;
 mod stroke_ends;
 mod stroke_poses;
+mod unit_of_length;

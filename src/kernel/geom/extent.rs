@@ -1,6 +1,8 @@
 //! Where a set of points is and how large it is, for arithmetic that should not depend on the unit or the origin.
 
+use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, length, sub};
+use num_rational::BigRational;
 
 /// Sets smaller than this, in the file's unit, are single points at the origin and have no size.
 const POINT: f64 = 1e-9;
@@ -50,5 +52,83 @@ impl Extent {
             middle: [0, 1, 2].map(|i| f64::midpoint(low[i], high[i])),
             length: size,
         }
+    }
+}
+
+/// The middle and the size of some points as exact numbers. What is measured from the one and by the other is rounded once, so
+/// that it is the same number in every unit of length.
+#[derive(Debug, Clone)]
+pub struct OwnScale {
+    middle: [Expr; 3],
+    /// Half the longest side of the box, or what takes its place.
+    unit: Expr,
+    /// Half the diagonal over that.
+    diagonal: f64,
+}
+
+impl OwnScale {
+    /// Returns the scale of some points; sizes are those of [`Extent::of`].
+    #[must_use]
+    pub fn of(points: &[&[Expr; 3]]) -> OwnScale {
+        let zero = Expr::from(0);
+        let along = |i: usize| points.iter().map(move |p| &p[i]);
+        let least = |i: usize| along(i).min_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
+        let most = |i: usize| along(i).max_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
+        let ends = [0, 1, 2].map(|i| [least(i).unwrap_or(&zero), most(i).unwrap_or(&zero)]);
+        let half = |x: Expr| &x * &Expr::rational(BigRational::new(1.into(), 2.into()));
+        let halves = ends.map(|[low, high]| half(high - low));
+        let size = |x: &Expr| x.to_f64().abs();
+        let largest = |all: &[&Expr]| -> Expr {
+            let found = all.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
+            let found = found.map_or(&zero, |x| *x);
+            if found.to_f64() < 0.0 {
+                -found
+            } else {
+                found.clone()
+            }
+        };
+        let side = largest(&halves.each_ref());
+        let far = largest(&ends.concat());
+        let by = |unit: &Expr, x: &Expr| x.div(unit).map_or(0.0, |x| x.to_f64());
+        let (unit, diagonal) = if size(&side) > (ROUNDING * size(&far)).max(POINT) {
+            let diagonal = length(halves.each_ref().map(|x| by(&side, x)));
+            (side, diagonal)
+        } else if size(&far) > POINT {
+            (far, 1.0)
+        } else {
+            (Expr::from(1), 1.0)
+        };
+        OwnScale {
+            middle: ends.map(|[low, high]| half(low + high)),
+            unit,
+            diagonal,
+        }
+    }
+
+    /// Returns the extent in the file's unit.
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        Extent {
+            middle: self.middle.each_ref().map(Expr::to_f64),
+            length: self.unit.to_f64() * self.diagonal,
+        }
+    }
+
+    /// Returns a length over that of the extent.
+    #[must_use]
+    pub fn part(&self, x: &Expr) -> f64 {
+        x.div(&self.unit).map_or(0.0, |x| x.to_f64()) / self.diagonal
+    }
+
+    /// Returns the length of the extent times a number per length.
+    #[must_use]
+    pub fn times(&self, x: &Expr) -> f64 {
+        (x * &self.unit).to_f64() * self.diagonal
+    }
+
+    /// Returns a point from the middle, over the length of the extent.
+    #[must_use]
+    pub fn place(&self, point: &[Expr; 3]) -> Vector {
+        [0, 1, 2].map(|i| self.part(&(&point[i] - &self.middle[i])))
     }
 }

@@ -11,7 +11,7 @@ use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::spanning_tree;
 use crate::closure::twist::{FrameValues, MotionSpace, Twist};
 use crate::geom::exact::ExactError;
-use crate::geom::extent::Extent;
+use crate::geom::extent::OwnScale;
 use crate::geom::rigid::{RigidMotion, halves};
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{self, across, cross, dot, length, sub};
@@ -94,23 +94,20 @@ impl Pose {
     pub fn of_file(mechanism: &Mechanism, state: StateId) -> Result<Pose, ExactError> {
         let joints: Vec<JointId> = mechanism.joints_in(state).collect();
         let space = MotionSpace::new(&Reals, &mechanism.mode)?;
-        let frames = joints
-            .iter()
-            .map(|&j| FrameValues::new(&Reals, &mechanism.joints[j].frame))
-            .collect::<Result<Vec<_>, _>>()?;
-        let points: Vec<[f64; 3]> = frames.iter().map(|f| f.point).collect();
-        let extent = Extent::of(&points);
+        let points = joints.iter().map(|&j| &mechanism.joints[j].frame.point);
+        let scale = OwnScale::of(&points.collect::<Vec<_>>());
+        let extent = scale.extent();
         let mut all = JointColumns {
             columns: Vec::new(),
             base: Vec::new(),
             of_joint: vec![Vec::new(); mechanism.joints.len()],
         };
-        for (&j, frame) in joints.iter().zip(&frames) {
-            all.add(mechanism, &space, j, frame, extent);
+        for &j in &joints {
+            all.add(mechanism, &space, j, &scale)?;
         }
         let couplings = mechanism
             .couplings_in(state)
-            .filter_map(|c| coupled(c, &all.columns, extent.length))
+            .filter_map(|c| coupled(c, &all.columns, &scale))
             .collect();
         let walk = |c: &Contour| c.joints.iter().flat_map(|&(j, d)| all.walk(j, d)).collect();
         let contours = contour_basis(mechanism, state).iter().map(walk).collect();
@@ -314,17 +311,22 @@ struct JointColumns {
 }
 
 impl JointColumns {
-    /// Adds the freedoms of a joint with a frame, in lengths and about the middle of all.
+    /// Adds the freedoms of a joint, in lengths and about the middle of all.
     fn add(
         &mut self,
         mechanism: &Mechanism,
         space: &MotionSpace<f64>,
         j: JointId,
-        frame: &FrameValues<f64>,
-        all: Extent,
-    ) {
+        scale: &OwnScale,
+    ) -> Result<(), ExactError> {
         let joint = &mechanism.joints[j];
-        let frame = in_lengths(frame, all.middle, all.length);
+        let frame = FrameValues {
+            axes: FrameValues::new(&Reals, &joint.frame)?
+                .axes
+                .map(vector::unit),
+            point: scale.place(&joint.frame.point),
+            pitch: scale.part(&joint.frame.pitch),
+        };
         let kept = motions(&frame, space, joint.joint_type.freedoms());
         for (n, (freedom, twist)) in kept.into_iter().enumerate() {
             self.of_joint[j].push(self.columns.len());
@@ -336,6 +338,7 @@ impl JointColumns {
                 moved: 0.0,
             });
         }
+        Ok(())
     }
 
     /// The freedoms of a joint as they are passed in a direction.
@@ -374,16 +377,24 @@ fn in_lengths(frame: &FrameValues<f64>, middle: [f64; 3], size: f64) -> FrameVal
     }
 }
 
-/// A coupling in the coordinates of a pose, where slides are counted in `length`.
-fn coupled(coupling: &Coupling, columns: &[PoseColumn], length: f64) -> Option<[(usize, f64); 2]> {
-    let unit = |f: Freedom| if f.slides() { length } else { 1.0 };
+/// Returns a coupling in the coordinates of a pose, where slides are counted in lengths of the scale.
+fn coupled(
+    coupling: &Coupling,
+    columns: &[PoseColumn],
+    scale: &OwnScale,
+) -> Option<[(usize, f64); 2]> {
     let [a, b] = coupling.ends;
     let at = |e: CoupledFreedom| {
         columns
             .iter()
             .position(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
     };
-    let factors = [-coupling.ratio.to_f64() * unit(a.freedom), unit(b.freedom)];
+    let rate = match [a, b].map(|e| e.freedom.slides()) {
+        [false, true] => scale.part(&coupling.ratio),
+        [true, false] => scale.times(&coupling.ratio),
+        _ => coupling.ratio.to_f64(),
+    };
+    let factors = [-rate, 1.0];
     let size = factors[0].hypot(factors[1]);
     Some([(at(a)?, factors[0] / size), (at(b)?, factors[1] / size)])
 }
