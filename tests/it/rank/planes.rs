@@ -1,5 +1,6 @@
 //! Planar mode and space agree: a joint in a plane keeps what its freedoms span there, however its frame lies.
 
+use itertools::Itertools;
 use ozols::closure::contour::contour_basis;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
@@ -70,7 +71,7 @@ impl Ring {
         }
     }
 
-    fn text(&self, mode: &str, joint: impl Fn(&Placed) -> String) -> String {
+    fn text(&self, mode: &str, joints: &[String]) -> String {
         let ring = self.joints.len() - usize::from(self.twice);
         let mut out = format!("name = \"ring\"\n{mode}\n");
         for i in 0..ring {
@@ -81,48 +82,52 @@ impl Ring {
             };
             out += &format!("[[link]]\nid = \"l{i}\"\n{role}\n");
         }
-        for (i, j) in self.joints.iter().enumerate() {
+        for (i, joint) in joints.iter().enumerate() {
             let [a, b] = self.links(i);
-            out += &format!(
-                "[[joint]]\nid = \"j{i}\"\nlinks = [\"l{a}\", \"l{b}\"]\n{}\n",
-                joint(j)
-            );
+            out += &format!("[[joint]]\nid = \"j{i}\"\nlinks = [\"l{a}\", \"l{b}\"]\n{joint}\n");
         }
         out
     }
 
     /// In planar mode, the frames as they are.
     fn planar(&self) -> String {
-        let joint = |j: &Placed| {
-            let names: Vec<&str> = j.types.iter().map(|&t| TYPES[t].0).collect();
-            format!(
-                "type = {:?}\npoint = {:?}\naxis = {:?}\nreference = {:?}\noptions = {:?}",
-                names[0],
-                j.point,
-                j.axis,
-                j.reference,
-                &names[1..]
-            )
-        };
-        self.text(
-            &format!("mode = \"planar\"\nplane_normal = {:?}", self.normal),
-            joint,
-        )
+        let joints: Vec<String> = self
+            .joints
+            .iter()
+            .map(|j| {
+                let names: Vec<&str> = j.types.iter().map(|&t| TYPES[t].0).collect();
+                format!(
+                    "type = {:?}\npoint = {:?}\naxis = {:?}\nreference = {:?}\noptions = {:?}",
+                    names[0],
+                    j.point,
+                    j.axis,
+                    j.reference,
+                    &names[1..]
+                )
+            })
+            .collect();
+        let mode = format!("mode = \"planar\"\nplane_normal = {:?}", self.normal);
+        self.text(&mode, &joints)
     }
 
-    /// In space, each joint replaced by the pair that it is in the plane.
-    fn spatial(&self) -> String {
-        let joint = |j: &Placed| {
-            let pairs: Vec<String> = j.types.iter().map(|&t| self.in_plane(j, t)).collect();
-            let options: Vec<String> = pairs[1..].iter().map(|p| format!("{{ {p} }}")).collect();
-            format!(
-                "{}\npoint = {:?}\noptions = [{}]",
-                pairs[0].replace(", ", "\n").replace("#", ", "),
-                j.point,
-                options.join(", ").replace("#", ", ")
-            )
-        };
-        self.text("", joint)
+    /// In space, each joint replaced by the pair that it is in the plane, with one of its types each.
+    fn spatial(&self, choice: &[usize]) -> String {
+        let pairs: Vec<String> = self
+            .joints
+            .iter()
+            .zip(choice)
+            .map(|(j, &t)| format!("{}\npoint = {:?}", self.in_plane(j, t), j.point))
+            .collect();
+        self.text("", &pairs)
+    }
+
+    /// Every choice of a type at each joint.
+    fn choices(&self) -> Vec<Vec<usize>> {
+        self.joints
+            .iter()
+            .map(|j| j.types.iter().copied())
+            .multi_cartesian_product()
+            .collect()
     }
 
     /// What a type keeps in the plane, as type, freedoms, axis and reference: by cases, from which vectors are square.
@@ -158,17 +163,12 @@ impl Ring {
             [0, 0, 1]
         };
         let reference = along.first().copied().unwrap_or(any);
-        let list = |v: String| v.replace(", ", "#");
         let kind = if freedoms.is_empty() {
             "type = \"fixed\"".to_owned()
         } else {
-            format!(
-                "type = \"custom\", freedoms = {}",
-                list(format!("{freedoms:?}"))
-            )
+            format!("type = \"custom\"\nfreedoms = {freedoms:?}")
         };
-        let (n, reference) = (list(format!("{n:?}")), list(format!("{reference:?}")));
-        format!("{kind}, axis = {n}, reference = {reference}")
+        format!("{kind}\naxis = {n:?}\nreference = {reference:?}")
     }
 }
 
@@ -182,19 +182,22 @@ fn placed(normal: Three) -> impl Strategy<Value = Placed> {
         (1, across) => across,
         _ => v,
     });
-    let types = prop::collection::vec(0..TYPES.len(), 1..4);
+    let types = (
+        0..TYPES.len(),
+        prop::collection::vec(any::<bool>(), TYPES.len()),
+    );
     let point = prop::array::uniform3(-9i64..10);
     (types, point, axis, vector())
         .prop_filter("a reference", |(.., z, r)| cross(*z, *r) != [0; 3])
-        .prop_map(|(mut types, point, axis, reference)| {
-            let first = types[0];
-            types[1..].sort_unstable();
-            types.dedup();
-            types.retain({
-                let mut seen = std::collections::BTreeSet::new();
-                move |t| seen.insert(*t)
-            });
-            assert_eq!(types[0], first);
+        .prop_map(|((present, offered), point, axis, reference)| {
+            let all = |t: usize| [TYPES[t].1, TYPES[t].2].concat();
+            // What is offered allows what there is.
+            let wider = |&t: &usize| {
+                let pairs = all(t).into_iter().zip(all(present));
+                t != present && offered[t] && pairs.into_iter().all(|(a, b)| a || !b)
+            };
+            let mut types = vec![present];
+            types.extend((0..TYPES.len()).filter(wider).take(2));
             Placed {
                 types,
                 point,
@@ -228,20 +231,37 @@ fn counts(m: &Mechanism, max_redundant: u32) -> [BTreeMap<i64, num_bigint::BigUi
         .map(|(diagram, filter)| search.counts(diagram, filter).by_mobility)
 }
 
+fn read(text: &str) -> Mechanism {
+    mechanism_from_str("ring.toml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
 proptest! {
     #![proptest_config(crate::fuzz::runs(48))]
     #[test]
     fn a_plane_keeps_what_the_freedoms_of_joints_span_in_it(ring in ring(), allowed in 0u32..3) {
-        let [plane, space] = [ring.planar(), ring.spatial()]
-            .map(|text| mechanism_from_str("ring.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}")));
+        let choices = ring.choices();
+        prop_assume!(choices.len() <= 16);
+        let plane = read(&ring.planar());
         let contours = contour_basis(&plane, StateId::FREE).len();
-        let [a, b] = [&plane, &space].map(|m| analyse(m, &[StateId::FREE], Method::Modular).unwrap().remove(0));
+        let of = |m: &Mechanism| analyse(m, &[StateId::FREE], Method::Modular).unwrap().remove(0);
+        let in_space = |choice: &Vec<usize>| of(&read(&ring.spatial(choice)));
+        let (a, b) = (of(&plane), in_space(&choices[0]));
         prop_assert_eq!(a.mobility, b.mobility);
         prop_assert_eq!(a.redundant + 3 * contours, b.redundant);
         prop_assert_eq!(a.working_mobility, b.working_mobility);
         // What is followed need not be decided both times.
         prop_assert!(a.finite.mobility <= b.finite.at_most() && b.finite.mobility <= a.finite.at_most());
-        let out_of_plane = 3 * u32::try_from(contours).unwrap();
-        prop_assert_eq!(counts(&plane, allowed), counts(&space, allowed + out_of_plane));
+        let mut wanted = [BTreeMap::new(), BTreeMap::new()];
+        for found in choices.iter().map(in_space) {
+            if found.redundant - 3 * contours > allowed as usize {
+                continue;
+            }
+            let mobility = i64::try_from(found.mobility).unwrap();
+            let admissible = found.working_mobility == b.working_mobility;
+            for counts in &mut wanted[..1 + usize::from(admissible)] {
+                *counts.entry(mobility).or_insert_with(num_bigint::BigUint::default) += 1u8;
+            }
+        }
+        prop_assert_eq!(counts(&plane, allowed), wanted);
     }
 }
