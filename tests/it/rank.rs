@@ -2,6 +2,7 @@
 
 mod by_numbers;
 mod certificates;
+mod definite_forms;
 mod exact_numbers;
 mod finite_traps;
 mod groups;

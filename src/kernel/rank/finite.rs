@@ -13,6 +13,7 @@ mod multiplicity;
 mod never_stopped;
 pub(in crate::rank) mod power_series;
 mod regular;
+mod scales;
 pub(in crate::rank) mod second_order;
 mod singular;
 pub(in crate::rank) mod tangent_cone;
@@ -161,13 +162,17 @@ fn exactly(
             },
         ));
     }
+    // Not everything that moves at first order moves, where series stop it in a random direction.
+    let shaky = stopped.is_some();
+    if !scales::are_alike(mechanism, closure.state)? {
+        let (from, to) = (0, instantaneous - usize::from(shaky));
+        return Ok(Finite::new(from, How::Undecided { from, to }));
+    }
     if let (Some(series), Some(order)) = (series, stopped)
         && let Some(found) = singular::passed(exact, mechanism, closure, rank, pose, series, order)?
     {
         return Ok(found);
     }
-    // Not everything that moves at first order moves, where series stop it in a random direction.
-    let shaky = stopped.is_some();
     let Some(found) = pursued(pose, instantaneous, shaky) else {
         return Ok(too_large(instantaneous - usize::from(shaky)));
     };

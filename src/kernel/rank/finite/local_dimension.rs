@@ -195,8 +195,14 @@ impl DimensionSearch {
     }
 
     /// Whether motions in random directions of some orthonormal columns extend to a distance: `None` where that is not
-    /// clear.
-    fn smooth(&mut self, pose: &Pose, span: &Matrix, scale: f64) -> Option<Option<bool>> {
+    /// clear. With `apart` each of them has to go on, as next to a pose at which something is stopped.
+    fn smooth(
+        &mut self,
+        pose: &Pose,
+        span: &Matrix,
+        scale: f64,
+        apart: bool,
+    ) -> Option<Option<bool>> {
         let n = span.ncols();
         let mut open = None;
         for step in STEPS.map(|s| s * scale) {
@@ -225,7 +231,8 @@ impl DimensionSearch {
                 if open.is_some_and(|gap| gap <= 1e5 * pose.closed()) {
                     return Some(Some(false));
                 }
-                return Some(self.all_go_on(pose, span)?.then_some(true));
+                // Near by, what is stopped by a high order closes, too.
+                return Some(self.all_go_on(pose, span, apart)?.then_some(true));
             }
         }
         Some(
@@ -301,7 +308,7 @@ impl DimensionSearch {
             });
         }
         if !shaky {
-            match self.smooth(pose, &flat.kernel, scale)? {
+            match self.smooth(pose, &flat.kernel, scale, depth > 0)? {
                 Some(true) => return Some(DimensionsFound::exactly(n, true)),
                 Some(false) => {}
                 None => return Some(DimensionsFound::between(0, n)),
@@ -385,7 +392,7 @@ impl DimensionSearch {
         if let Some(svd) = svd(&part) {
             let d = svd.rank(SPAN);
             let reached = svd.u.cols(0..d);
-            if d < n && d > best && self.smooth(pose, &reached, scale) == Some(Some(true)) {
+            if d < n && d > best && self.smooth(pose, &reached, scale, true) == Some(Some(true)) {
                 return d;
             }
         }

@@ -6,8 +6,8 @@
 //! Coordinates are counted from one pose, so that gaps do not add up unseen.
 
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::finite::local_dimension::{DimensionSearch, along, norm};
-use ozols_dense::svd;
+use crate::rank::finite::local_dimension::{DimensionSearch, SPAN, along, norm};
+use ozols_dense::{Matrix, svd};
 
 /// How far a motion must go on, by the coordinate that moves most from step to step: radians, or fractions of the size.
 const REACH: f64 = 2.0;
@@ -25,14 +25,38 @@ fn largest(q: &[f64]) -> f64 {
 }
 
 impl DimensionSearch {
-    /// Whether a motion in a random direction of some orthonormal columns, all being motions, goes on; `None` where the budget
-    /// is spent.
-    pub(super) fn all_go_on(&mut self, pose: &Pose, span: &ozols_dense::Matrix) -> Option<bool> {
+    /// Whether a motion in a random direction of some orthonormal columns, all being motions, goes on; with `apart`, whether
+    /// [all of them do](Self::lead_apart). `None` where the budget is spent.
+    pub(super) fn all_go_on(&mut self, pose: &Pose, span: &Matrix, apart: bool) -> Option<bool> {
         let n = span.ncols();
+        if apart && n > 1 {
+            return self.lead_apart(pose, span);
+        }
         let here = vec![0.0; span.nrows()];
         for _ in 0..TRIES {
             let direction = along(span, &self.direction(n));
             if self.goes_on(pose, &here, &direction, n)? {
+                return Some(true);
+            }
+        }
+        Some(false)
+    }
+
+    /// Returns whether motions in random directions of some orthonormal columns go on and lead to coordinates in as many
+    /// independent directions: what is stopped turns into one of the others on the way. `None` where the budget is spent.
+    fn lead_apart(&mut self, pose: &Pose, span: &Matrix) -> Option<bool> {
+        let n = span.ncols();
+        let here = vec![0.0; span.nrows()];
+        let mut ends: Vec<Vec<f64>> = Vec::new();
+        for _ in 0..TRIES * n {
+            let direction = along(span, &self.direction(n));
+            let Some(end) = self.end_of(pose, &here, &direction, n)? else {
+                continue;
+            };
+            let size = norm(&end).max(1e-300);
+            ends.push(end.into_iter().map(|x| x / size).collect());
+            let all = Matrix::from_fn(span.nrows(), ends.len(), |r, c| ends[c][r]);
+            if svd(&all).is_some_and(|svd| svd.rank(SPAN) == n) {
                 return Some(true);
             }
         }
@@ -51,11 +75,22 @@ impl DimensionSearch {
         direction: &[f64],
         least: usize,
     ) -> Option<bool> {
+        Some(self.end_of(pose, from, direction, least)?.is_some())
+    }
+
+    /// Returns where a motion has gone that goes on as [`Self::goes_on`] asks; the inner `None` where it does not.
+    fn end_of(
+        &mut self,
+        pose: &Pose,
+        from: &[f64],
+        direction: &[f64],
+        least: usize,
+    ) -> Option<Option<Vec<f64>>> {
         let (mut q, mut onward) = (from.to_vec(), direction.to_vec());
         let (mut way, mut step) = (0.0, LONGEST);
         while way < REACH {
             let Some(tangent) = tangent(pose, &q, &onward, least) else {
-                return Some(false);
+                return Some(None);
             };
             let next = loop {
                 let guess: Vec<f64> = q.iter().zip(&tangent).map(|(q, t)| q + step * t).collect();
@@ -78,7 +113,7 @@ impl DimensionSearch {
                 }
                 step /= 2.0;
                 if step < SHORTEST {
-                    return Some(false);
+                    return Some(None);
                 }
             };
             onward = next.iter().zip(&q).map(|(a, b)| a - b).collect();
@@ -86,7 +121,7 @@ impl DimensionSearch {
             step = (1.5 * step).min(LONGEST);
             q = next;
         }
-        Some(tangent(pose, &q, &onward, least).is_some())
+        Some(tangent(pose, &q, &onward, least).map(|_| q))
     }
 }
 
