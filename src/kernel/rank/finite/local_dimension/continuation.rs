@@ -6,7 +6,7 @@
 //! Coordinates are counted from one pose, so that gaps do not add up unseen.
 
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::finite::local_dimension::{DimensionSearch, SPAN, along, norm};
+use crate::rank::finite::local_dimension::{DimensionSearch, along, norm};
 use ozols_dense::{Matrix, svd};
 
 /// How far a motion must go on, by the coordinate that moves most from step to step: radians, or fractions of the size.
@@ -17,6 +17,8 @@ const LONGEST: f64 = 0.12;
 const SHORTEST: f64 = 0.004;
 /// The largest correction, as a share of its step.
 const CORRECTION: f64 = 0.5;
+/// Ends with a smaller share in a direction do not lead there: what is stopped by a high order is off by a tenth at most.
+const APART: f64 = 0.3;
 /// Directions tried from a pose before it counts as one that is not left.
 const TRIES: usize = 3;
 
@@ -56,7 +58,7 @@ impl DimensionSearch {
             let size = norm(&end).max(1e-300);
             ends.push(end.into_iter().map(|x| x / size).collect());
             let all = Matrix::from_fn(span.nrows(), ends.len(), |r, c| ends[c][r]);
-            if svd(&all).is_some_and(|svd| svd.rank(SPAN) == n) {
+            if svd(&all).is_some_and(|svd| svd.rank(APART) == n) {
                 return Some(true);
             }
         }
