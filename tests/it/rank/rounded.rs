@@ -5,6 +5,7 @@
 
 pub(crate) mod cases;
 mod digits;
+mod families;
 mod law;
 mod program;
 mod ranges;

@@ -215,6 +215,34 @@ fn lost_zeros_are_found_again_where_many_decimals_show_none() {
     assert_eq!(u.point[1], [5e-7, 5e-7, 5e-7]);
 }
 
+/// A direction that is written with fewer digits than others has its own unit, however many have more.
+#[test]
+fn a_direction_of_fewer_digits_has_its_own_unit() {
+    let points = ["[1.2340, 0.2000, 0.1000]", "[2.3450, 0.3000, 0.7000]"];
+    for (axes, halves) in [
+        (["[0, -0.5, 0.866025]", "[0, -0.5, 0.866]"], [5e-7, 5e-4]),
+        (
+            ["[0.267261, 0.534522, 0.801784]", "[0.267, 0.535, 0.802]"],
+            [5e-7, 5e-4],
+        ),
+        (
+            [
+                "[0.267261, 0.534522, 0.801784]",
+                "[0.26726, 0.53452, 0.80178]",
+            ],
+            [5e-7, 5e-6],
+        ),
+    ] {
+        let u = known(&door(points, axes, "")).unwrap();
+        for (found, half) in u.axis.iter().zip(halves) {
+            assert!(
+                found.iter().all(|h| *h == 0.0 || *h == half),
+                "{axes:?}: {found:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn whole_lengths_beside_turned_directions_are_rounded_to_half_a_unit() {
     let u = known(&door(

@@ -238,6 +238,39 @@ fn offsets_beyond_the_digits_are_kept() {
     }
 }
 
+/// Offsets of 3, 5 and 10 units with 11 to 14 decimals, as the guide tells: up to eleven all are kept, and beyond doubles end.
+#[test]
+#[allow(clippy::print_stdout, reason = "the table is what it is run for")]
+fn offsets_near_the_end_of_doubles() {
+    let each = if std::env::var("OZOLS_FUZZ").is_ok() {
+        20
+    } else {
+        4
+    };
+    for decimals in 11..=14 {
+        for units in [3.0, 5.0, 10.0] {
+            let cases = SpecialKind::ALL.into_iter().enumerate();
+            let all: Vec<_> = cases
+                .flat_map(|(k, kind)| (0..each * 2).map(move |i| (k, kind, i)))
+                .collect();
+            let lost = all.par_iter().filter(|(k, kind, i)| {
+                let mut noise = Noise::new(3, i * SpecialKind::ALL.len() + k);
+                let text = kind.text(units, decimals, i % 2 == 1, &mut noise);
+                let m = ozols::file::text::mechanism_from_str("off.toml", &text).unwrap();
+                let found = decide(&m, StateId::FREE, None).ok();
+                let [w, finite] = said::Said::of_decision(found.as_ref(), kind.figures(true));
+                w.max(finite) >= said::Said::Hedged
+            });
+            let lost = lost.count();
+            println!(
+                "{decimals} decimals, {units} units: {lost} of {} taken away",
+                all.len()
+            );
+            assert!(decimals > 11 || lost == 0, "{units}");
+        }
+    }
+}
+
 /// Where no axis of the file is turned every offset from a unit and a half on is there in the digits; turned, from three units on.
 #[test]
 fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
