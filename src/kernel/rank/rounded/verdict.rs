@@ -1,8 +1,8 @@
 //! The verdict on the rank of a state: as written, or as meant where coordinates are rounded, or undecided.
 //!
 //! Rounding raises ranks. A singular value above the rounding bound is real; if all that the exact rank counts are, the
-//! exact rank holds. If not, the widest gap among the others says which rank was meant, and it is taken only if there is such
-//! a geometry within the digits: by snapping, exactly, or else by Newton's method.
+//! exact rank holds. If not, those below the bound may be zero, and are taken for it only if a gap says so and there is such a
+//! geometry within the digits: by snapping, exactly, or else by Newton's method.
 
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
@@ -216,7 +216,7 @@ pub(in crate::rank) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<
 ///
 /// # Guarantee
 /// As written where Weyl's bound holds the exact rank against any rounding of the last digits. As meant where a geometry
-/// within the digits has the rank of the widest gap: likely, not proven. Undecided otherwise.
+/// within the digits has the rank of the values above the bound: likely, not proven. Undecided otherwise.
 ///
 /// # Complexity
 /// One modular rank; with decimals one singular value decomposition more, and only where they disagree the snapping, and
