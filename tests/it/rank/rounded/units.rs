@@ -36,7 +36,7 @@ fn units(m: &Mechanism) -> [f64; 2] {
     [points, axes.chain(others).fold(0.0, f64::max)].map(|half| 2.0 * half)
 }
 
-/// By hand, of hinges: half a unit in three components is √3/2 of it at most. A hinge's column is off by that of its axis, by as much
+/// By hand, of hinges: half units of three components are off together by the root of their squares at most. A hinge's column is off by that of its axis, by as much
 /// at an arm of the mechanism's size, and by that of its point over the size; once in every contour that passes it. No singular value
 /// is off by more than all of that together [Weyl].
 #[test]
@@ -50,14 +50,16 @@ fn what_rounding_can_do_is_that_of_all_hinges_together() {
         let m = measured(name, 9);
         assert!(m.joints.iter().all(|j| j.joint_type == JointType::Revolute));
         let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
-        let [length, direction] = units(&m);
-        let off = 3f64.sqrt() / 2.0 * (2.0 * direction + length / Scaling::of(&closure).length());
-        let passes = closure
-            .contours
-            .iter()
-            .map(|c| c.joints.len())
-            .sum::<usize>();
-        let whole = off * (passes as f64).sqrt();
+        let half = uncertainties(&m).unwrap();
+        let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let size = Scaling::of(&closure).length();
+        let off = |j: JointId| {
+            let axis = norm(half.axis[j.index()]) / norm(real(&m.joints[j].frame.axis));
+            2.0 * axis + norm(half.point[j.index()]) / size
+        };
+        let passed = closure.contours.iter().flat_map(|c| &c.joints);
+        let squares: f64 = passed.map(|&(j, _)| off(j).powi(2)).sum();
+        let whole = squares.sqrt();
         let largest = singular_values(&scaled(&closure)).unwrap()[0];
         let found = verdict(&m, StateId::FREE, None).unwrap().tolerance;
         assert!(
