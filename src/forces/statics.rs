@@ -15,6 +15,7 @@ pub mod kinetostatics;
 pub mod planar;
 pub mod planar_motion;
 pub mod pose;
+pub mod reaction;
 pub mod reactions;
 mod rounding;
 pub mod solve;

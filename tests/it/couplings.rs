@@ -131,7 +131,7 @@ fn what_a_file_may_not_say() {
             TURN,
             "[[coupling]]\njoints = [\"a\"]\nratio = 1"
         ))
-        .contains("length")
+        .contains("has 1 value")
     );
 }
 

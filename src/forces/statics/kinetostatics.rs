@@ -12,8 +12,8 @@ use crate::statics::inertia::{BodyMass, link_inertias};
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
+pub use crate::statics::reaction::Reaction;
 use crate::statics::rounding::{greatest, over_load, rounding};
-use serde::Serialize;
 
 /// Where a load comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -180,36 +180,6 @@ impl PlanarLoads {
             }
         }
         out
-    }
-}
-
-/// What a pair passes on.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Reaction {
-    /// The pair.
-    #[serde(skip)]
-    pub pair: PairId,
-    /// Where the pair is now: its point on the second body `[m]`.
-    pub point: [f64; 2],
-    /// Force of the first body on the second `[N]`.
-    pub force: [f64; 2],
-    /// Moment of the first body on the second, about `point` `[N·m]`.
-    pub moment: f64,
-    /// Torque `[N·m]` or force `[N]` of a drive on the second body; part of `force` and `moment`.
-    pub effort: Option<f64>,
-}
-
-impl Reaction {
-    /// Force and moment about a point on one of the two bodies; zero on any other.
-    #[must_use]
-    pub fn on(&self, linkage: &Linkage, body: BodyId, about: [f64; 2]) -> [f64; 3] {
-        let sign = match linkage.mechanism.pairs[self.pair].bodies {
-            [_, b] if b == body => 1.0,
-            [a, _] if a == body => -1.0,
-            _ => 0.0,
-        };
-        let moment = self.moment + cross(minus(self.point, about), self.force);
-        [self.force[0], self.force[1], moment].map(|x| sign * x)
     }
 }
 

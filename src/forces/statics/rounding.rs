@@ -1,9 +1,5 @@
 //! Figures of a solution that are rounding and nothing else.
 
-use crate::statics::kinetostatics::Reaction;
-use crate::statics::planar::PairKind;
-use crate::statics::pose::Linkage;
-
 /// Returns the size up to which figures of a solution are rounding: what its equations leave over, and no less than the
 /// rounding of a sum of `terms` numbers as great as the greatest of them.
 pub(crate) fn rounding(left_over: f64, greatest: f64, terms: usize) -> f64 {
@@ -28,17 +24,4 @@ pub(crate) fn greatest<'x>(figures: impl IntoIterator<Item = &'x f64>) -> f64 {
 /// Returns what equations leave over as a share of the greatest load, or as it is without loads.
 pub(crate) fn over_load(left_over: f64, load: f64) -> f64 {
     left_over / if load > 0.0 { load } else { 1.0 }
-}
-
-impl Reaction {
-    /// Returns the reaction with 0 for what is at most `rounding` `[N]`, moments divided by the mechanism's size.
-    pub(crate) fn without(mut self, rounding: f64, linkage: &Linkage) -> Reaction {
-        let turns = linkage.mechanism.pairs[self.pair].kind == PairKind::Turning;
-        let of_moments = rounding * linkage.size;
-        let of_effort = if turns { of_moments } else { rounding };
-        self.force = self.force.map(|x| without(rounding, x));
-        self.moment = without(of_moments, self.moment);
-        self.effort = self.effort.map(|x| without(of_effort, x));
-        self
-    }
 }

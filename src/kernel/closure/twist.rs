@@ -7,6 +7,7 @@
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::scalars::Scalars;
+use crate::geom::vector::length;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, Mode};
 
@@ -94,6 +95,18 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
 fn halves<N: Clone>(t: &Twist<N>) -> [[N; 3]; 2] {
     let [a, b, c, d, e, f] = t.clone();
     [[a, b, c], [d, e, f]]
+}
+
+/// Returns a twist about or along an axis of unit length: rounding must not let axes grow or shrink over many steps.
+#[must_use]
+pub fn unit_twist(mut t: Twist<f64>) -> Twist<f64> {
+    let [w, v] = halves(&t);
+    let size = match length(w) {
+        0.0 => length(v),
+        turn => turn,
+    };
+    t.iter_mut().for_each(|x| *x /= size);
+    t
 }
 
 /// Axes x, y, z and origin of a joint's frame, in a number system. The axes are perpendicular, not of unit length.

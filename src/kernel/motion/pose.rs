@@ -9,12 +9,12 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::spanning_tree;
-use crate::closure::twist::{FrameValues, MotionSpace, Twist};
+use crate::closure::twist::{FrameValues, MotionSpace, Twist, unit_twist};
 use crate::geom::exact::ExactError;
 use crate::geom::extent::OwnScale;
 use crate::geom::rigid::{RigidMotion, halves};
 use crate::geom::scalars::Reals;
-use crate::geom::vector::{self, across, cross, dot, length, sub};
+use crate::geom::vector::{self, across, cross, dot, sub};
 use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -397,18 +397,6 @@ fn coupled(
     let factors = [-rate, 1.0];
     let size = factors[0].hypot(factors[1]);
     Some([(at(a)?, factors[0] / size), (at(b)?, factors[1] / size)])
-}
-
-/// Returns a twist about or along an axis of unit length: rounding must not let axes grow or shrink over many steps.
-#[must_use]
-pub fn unit_twist(mut t: Twist<f64>) -> Twist<f64> {
-    let (w, v) = halves(&t);
-    let size = match length(w) {
-        0.0 => length(v),
-        turn => turn,
-    };
-    t.iter_mut().for_each(|x| *x /= size);
-    t
 }
 
 /// The three turns of a ball, squared up again, so that no two of its axes ever come to lie along each other; each stays

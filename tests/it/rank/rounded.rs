@@ -5,6 +5,7 @@
 
 pub(crate) mod cases;
 mod digits;
+mod doubted;
 mod families;
 mod law;
 mod program;

@@ -2,6 +2,7 @@
 
 use crate::common::fresh;
 use crate::search::beyond_budget::{ladder, search};
+use itertools::Itertools;
 use ozols::search::question::conditions::Conditions;
 use std::fmt::Write;
 
@@ -20,6 +21,14 @@ fn crowded(text: &str, below: i64) -> String {
     })
 }
 
+/// Whether two hinges have one x or one y: they are then on a line along an axis, about which options tilt.
+fn is_in_line(text: &str) -> bool {
+    let points = text.lines().filter_map(|l| l.strip_prefix("point = ["));
+    let places = points.map(|p| p.split(", ").map(str::to_owned).collect::<Vec<_>>());
+    let places: Vec<Vec<String>> = places.collect();
+    (0..2).any(|c| !places.iter().map(|p| &p[c]).all_unique())
+}
+
 /// All choices for so many joints of four options each.
 fn choices(joints: u32) -> impl Iterator<Item = Vec<usize>> {
     (0..4usize.pow(joints)).map(move |n| (0..joints).map(|j| n >> (2 * j) & 3).collect())
@@ -36,6 +45,7 @@ fn what_is_followed_from_both_ends_is_what_both_diagrams_have() {
             let (general, known) = search(&text, Conditions::default());
             let minimal = general.minimal_variants(&known).unwrap();
             let other = ladder(contours as usize, seed + 1, spatial);
+            let in_line = is_in_line(&text) || is_in_line(&other);
             let places = [&text, &other, &crowded(&other, 3), &crowded(&other, 8)];
             for (place, text) in places.into_iter().enumerate() {
                 let (own, found) = search(text, Conditions::default());
@@ -48,7 +58,7 @@ fn what_is_followed_from_both_ends_is_what_both_diagrams_have() {
                         told[usize::from(has)] += 1;
                     }
                     // Special places may part what is coupled elsewhere.
-                    None => assert!(place > 1, "seed {seed}: {text}"),
+                    None => assert!(place > 1 || in_line, "seed {seed}: {text}"),
                 }
             }
         }

@@ -44,7 +44,7 @@ fn bad_loads_are_refused_at_their_line() {
             "inertia = 900",
             "inertia = [1, 2]",
             "[1, 2]",
-            &["3 about the axes"],
+            &["write 3 to 6 values"],
         ),
         ("mass = 1500\n", "# no mass\n", "# no mass", &[]),
         (

@@ -1,11 +1,12 @@
 //! Everything about a search that does not depend on the variant, in numbers, pose by pose.
 
+use crate::closure::twist::unit_twist;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::scalars::Reals;
 use crate::geom::vector::{across, cross, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, JointId, JointOption, LinkId, Mechanism, StateId};
-use crate::motion::pose::{Pose, unit_twist};
+use crate::motion::pose::Pose;
 use crate::score::evaluation::coupled::{CoupledChoice, PlacedCoupling, couplings_at};
 use crate::score::evaluation::load_cases::LoadCase;
 use crate::score::evaluation::terms::axis_of;

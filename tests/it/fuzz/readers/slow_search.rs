@@ -65,8 +65,8 @@ fn twist(turning: Vector, sliding: Vector) -> Twist {
     std::array::from_fn(|i| if i < 3 { turning[i] } else { sliding[i - 3] })
 }
 
-/// The twists of a joint: z its axis, x the reference made perpendicular to it, y across both; in a plane with this normal those
-/// that stay in it, where a ball turns about the normal.
+/// The twists of a joint: z its axis, x the reference made perpendicular to it, y across both; in a plane with this normal a basis of
+/// those combinations that stay in it.
 fn twists(frame: &Frame, kind: &JointType, normal: Option<Vector>) -> Vec<Twist> {
     let vector = |v: &[Expr; 3]| [value(&v[0]), value(&v[1]), value(&v[2])];
     let (p, z, r) = (
@@ -95,12 +95,18 @@ fn twists(frame: &Frame, kind: &JointType, normal: Option<Vector>) -> Vec<Twist>
     let all = kind.freedoms().iter().map(one);
     match normal {
         None => all.collect(),
-        Some(n) if *kind == JointType::Spherical => vec![turn(n)],
         Some(n) => {
-            let stays = |t: &Twist| {
-                cross([t[0], t[1], t[2]], n) == [0; 3] && dot([t[3], t[4], t[5]], n) == 0
-            };
-            all.filter(stays).collect()
+            // What leads out of the plane stands first: rows that begin behind it stay in the plane.
+            let mut rows = Echelon::default();
+            for t in all {
+                let [a, b, c, d, e, f] = t;
+                let [x, y, z] = cross([a, b, c], n);
+                rows.add([vec![x, y, z, dot([d, e, f], n)], t.to_vec()].concat());
+            }
+            let inside = rows.rows.iter().filter(|(at, _)| *at >= 4);
+            inside
+                .map(|(_, row)| std::array::from_fn(|i| row[4 + i]))
+                .collect()
         }
     }
 }

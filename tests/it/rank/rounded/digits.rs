@@ -22,7 +22,7 @@ pub(crate) fn door(points: [&str; 2], axes: [&str; 2], more: &str) -> String {
     file
 }
 
-fn read(text: &str) -> Mechanism {
+pub(super) fn read(text: &str) -> Mechanism {
     mechanism_from_str("door.toml", text).unwrap()
 }
 
@@ -367,56 +367,6 @@ fn what_is_written_again_says_the_same() {
         assert_eq!(code, Some(0), "{stderr}");
         assert_eq!(known(&again), known(&text), "{again}");
         assert!(known(&again).is_some());
-    }
-}
-
-#[test]
-fn decimal_ratios_that_are_all_but_fractions_are_doubted() {
-    let gears = |ratio: &str| {
-        door(["[0, 0, 0]", "[30, 0, 0]"], [Z, Z], "")
-            .replace("links = [\"0\", \"door\"]", "links = [\"0\", \"LINK\"]")
-            .replacen("LINK", "a", 1)
-            .replacen("LINK", "b", 1)
-            .replace(
-                "id = \"door\"\nrole",
-                "id = \"a\"\n[[link]]\nid = \"b\"\nrole",
-            )
-            + &format!("[[coupling]]\njoints = [\"h0\", \"h1\"]\nratio = {ratio}\n")
-    };
-    let told = |ratio: &str| run_on("check", "gears.toml", &gears(ratio), &[]);
-    for (ratio, fraction) in [("-0.6667", "-2/3"), ("1.4286", "10/7")] {
-        let (code, _, stderr) = told(ratio);
-        assert_eq!(code, Some(0), "{stderr}");
-        assert!(
-            stderr.contains(&format!("ratio = \"{fraction}\"")),
-            "{stderr}"
-        );
-        assert!(stderr.contains("h0 ~ h1"), "{stderr}");
-        assert!(uncertainties(&read(&gears(ratio))).unwrap().ratios[0] > 0.0);
-    }
-    for exact in ["\"-2/3\"", "\"1001/1000\"", "-1.5", "\"6667/10^4\"", "3"] {
-        let (_, _, stderr) = told(exact);
-        assert!(!stderr.contains("ratio"), "{exact}: {stderr}");
-        assert_eq!(uncertainties(&read(&gears(exact))), None, "{exact}");
-    }
-}
-
-#[test]
-fn a_pitch_that_is_all_but_that_of_a_simple_lead_is_doubted() {
-    let screw = |pitch: &str| {
-        door(["[0, 0, 0]", "[0, 0, 9]"], [Z, Z], "")
-            + &format!(
-                "[[joint]]\nid = \"s\"\nlinks = [\"0\", \"door\"]\ntype = \"helical\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{pitch}\n"
-            )
-    };
-    let told = |pitch: &str| run_on("check", "screw.toml", &screw(pitch), &[]).2;
-    assert!(
-        told("pitch = 0.7958").contains("write lead = \"5\""),
-        "{}",
-        told("pitch = 0.7958")
-    );
-    for fine in ["lead = 5", "pitch = 0.8", "pitch = \"5/(2*pi)\""] {
-        assert!(!told(fine).contains("simple lead"), "{}", told(fine));
     }
 }
 
