@@ -3,6 +3,7 @@
 pub(crate) mod connected;
 pub mod contour;
 pub mod coupling;
+pub(crate) mod drive;
 pub mod matrix;
 pub mod mirror;
 pub(crate) mod symmetry_image;

@@ -8,6 +8,7 @@ pub mod coupling;
 #[cfg(test)]
 pub(crate) mod drawn;
 pub mod drive;
+mod driven;
 pub mod grip;
 pub mod id;
 pub mod joint_type;

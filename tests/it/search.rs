@@ -5,6 +5,7 @@ mod blocks;
 mod both_ends;
 mod certify;
 mod costs;
+mod drives;
 #[allow(dead_code, reason = "the benchmark of growth has them all")]
 #[path = "../../benches/growth/families.rs"]
 mod families;

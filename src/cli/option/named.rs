@@ -71,9 +71,12 @@ impl File {
     /// Returns a text whose commands about the file read its loops, too.
     pub(in crate::cli) fn with_loops(&self, text: String) -> String {
         let (file, typed) = (word(&self.file), self.typed());
-        let line = |l: &str| match l.trim_start().starts_with("ozols ") {
-            true => l.replacen(&file, &typed, 1),
-            false => l.to_owned(),
+        let line = |l: &str| {
+            if l.trim_start().starts_with("ozols ") {
+                l.replacen(&file, &typed, 1)
+            } else {
+                l.to_owned()
+            }
         };
         text.split_inclusive('\n').map(line).collect()
     }

@@ -7,6 +7,7 @@ use crate::model::ranking::Term;
 use crate::score::request::words::weighted_term;
 use crate::score::request::{self, CostFile, Inserts, JointOptions, Request};
 use crate::search::question::conditions::Symmetry;
+use crate::search::question::kept as what;
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +19,16 @@ enum Check {
     Prime,
     /// That, and each variant given, up to 1000, analysed again by singular values.
     Full,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Drives {
+    /// Outputs and drives move together as they do now.
+    Kept,
+    /// Only the outputs must keep their motion; a drive may let go.
+    Free,
+    /// There are as many motions as drives, and the drives decide the outputs: no two drives work against each other.
+    Independent,
 }
 
 /// All that the list of variants depends on, but for the state.
@@ -53,6 +64,9 @@ pub(in crate::cli) struct Which {
     /// Also give variants whose outputs move in other ways than now.
     #[arg(long)]
     allow_output_change: bool,
+    /// What is asked of the drives.
+    #[arg(long, value_enum, value_name = "WHAT", default_value_t = Drives::Kept)]
+    drives: Drives,
     /// Another link that must not gain a motion, or an object that must be held (repeatable).
     #[arg(long, value_name = "LINK")]
     hold: Vec<String>,
@@ -153,6 +167,11 @@ impl Which {
             max_mobility: self.max_mobility,
             max_changes: self.max_changes,
             allow_output_change: self.allow_output_change,
+            drives: match self.drives {
+                Drives::Kept => what::Drives::Kept,
+                Drives::Free => what::Drives::Free,
+                Drives::Independent => what::Drives::Independent,
+            },
             hold: self.hold.clone(),
             unloading: self.unloading.iter().map(inserts).collect(),
             options: self.options.clone(),

@@ -18,6 +18,7 @@ use crate::score::request::prepare::{
     LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved,
 };
 use crate::search::question::conditions::{Conditions, InState, Symmetry};
+use crate::search::question::kept::Drives;
 use serde::{Deserialize, Deserializer};
 
 /// How many of the cheapest variants a ranking scores, unless told otherwise, before it goes through the others. At about ten
@@ -131,6 +132,8 @@ pub struct Request {
     pub max_changes: Option<u32>,
     /// Whether outputs may move in other ways than now.
     pub allow_output_change: bool,
+    /// What is asked of the drives, unless outputs may move in other ways.
+    pub drives: Drives,
     /// Links that must not gain a motion, besides the outputs; bodies that the searched state adds must be held there.
     pub hold: Vec<String>,
     /// Unloading joints offered besides those of the file.
@@ -191,6 +194,7 @@ impl Default for Request {
             max_mobility: None,
             max_changes: None,
             allow_output_change: false,
+            drives: Drives::Kept,
             hold: Vec::new(),
             unloading: Vec::new(),
             options: Vec::new(),
@@ -358,6 +362,7 @@ impl Request {
             max_mobility: self.max_mobility,
             max_changes: self.max_changes,
             keep_output: !self.allow_output_change,
+            drives: self.drives,
             symmetry: self.symmetry,
             counted: self.counted,
             cheapest: self.cheapest(&prepared.mechanism)?,

@@ -81,6 +81,7 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
         out.push((root("name"), WarningKind::NoName));
     }
     ids(file, &mut out);
+    drives(m, &mut out);
     lengths(file, m, &mut out);
     contours(m, &mut out);
     structure(file, m, &mut out);
@@ -101,6 +102,24 @@ fn ids(file: &MechanismFile, out: &mut Found) {
     for (list, n, id) in all.filter(|(_, _, id)| id.contains(turns)) {
         let path = key(&index(&root(list), n), "id");
         out.push((path, WarningKind::TurnsLetters { id: id.to_owned() }));
+    }
+}
+
+/// Driven joints with several freedoms, of which the file names none.
+fn drives(m: &Mechanism, out: &mut Found) {
+    for (at, joint) in m.joints.iter().enumerate() {
+        let freedoms = joint.joint_type.freedoms();
+        let Some(taken) = joint.driven_freedom() else {
+            continue;
+        };
+        if freedoms.len() > 1 && joint.drive_freedom.is_none() {
+            let kind = WarningKind::DriveUnnamed {
+                joint: joint.id.clone(),
+                freedoms: freedoms.iter().map(|f| f.name()).join(", "),
+                taken: taken.name(),
+            };
+            out.push((key(&index(&root("joint"), at), "drive"), kind));
+        }
     }
 }
 

@@ -138,6 +138,14 @@ pub enum WarningKind {
         "joint \"{joint}\" forbids \"{option}\", which is not an option of that joint; remove it, or correct the word"
     )]
     ForbidsNothing { joint: String, option: String },
+    #[error(
+        "joint \"{joint}\" has the freedoms {freedoms}, and the file does not say which one is driven; write drive = \"{taken}\" if it is the one that redesigns keep today, or name another"
+    )]
+    DriveUnnamed {
+        joint: String,
+        freedoms: String,
+        taken: &'static str,
+    },
     #[error("no joint is a drive, so {what} has nothing to move; mark one: drive = true")]
     NoDrive { what: &'static str },
     #[error(

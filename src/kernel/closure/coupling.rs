@@ -19,7 +19,7 @@ const UNIT: f64 = 1e-12;
 const LONG: u64 = 64;
 
 /// The square of the length of the axis that a freedom turns about or slides along; see [`super::twist::FrameValues`].
-fn square(frame: &Frame, freedom: Freedom) -> Expr {
+pub(super) fn square(frame: &Frame, freedom: Freedom) -> Expr {
     let dot = |a: &[Expr; 3], b: &[Expr; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
     let z = || dot(&frame.axis, &frame.axis);
     // x = r (z·z) - z (z·r), so x·x = (z·z)((z·z)(r·r) - (z·r)²); y = z × x.

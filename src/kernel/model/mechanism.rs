@@ -2,7 +2,7 @@
 
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
-use crate::model::coupling::Coupling;
+use crate::model::coupling::{CoupledFreedom, Coupling};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
@@ -200,6 +200,10 @@ pub struct SearchSpec {
     pub turn: Vec<Vec<JointId>>,
     /// Costs.
     pub costs: CostSpec,
+    /// The driven freedoms that a search follows beside the motions of outputs; a search enters them, no file does.
+    pub drives: Vec<CoupledFreedom>,
+    /// Whether the search locks these freedoms, so that their rates are further closure equations; else it keeps their motion.
+    pub locks_drives: bool,
 }
 
 impl SearchSpec {

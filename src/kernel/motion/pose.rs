@@ -257,15 +257,20 @@ impl Pose {
         out
     }
 
-    /// J at this pose, with six rows more for each path of joints: the twist at its end.
+    /// Returns J at this pose, with six rows more for each path of joints, the twist at its end, and one more for each of some columns,
+    /// its speed.
     #[must_use]
-    pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>]) -> Matrix {
+    pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>], speeds: &[usize]) -> Matrix {
         let f = self.columns.len();
         let (closure, rows) = (self.jacobian(&vec![0.0; f]), self.rows());
-        Matrix::from_fn(rows + 6 * paths.len(), f, |r, c| {
+        let twists = 6 * paths.len();
+        Matrix::from_fn(rows + twists + speeds.len(), f, |r, c| {
             let Some(r) = r.checked_sub(rows) else {
                 return closure[(r, c)];
             };
+            if let Some(speed) = r.checked_sub(twists) {
+                return f64::from(u8::from(speeds[speed] == c));
+            }
             let column = &self.columns[c];
             let passed = paths[r / 6].iter().find(|(j, _)| *j == column.joint);
             let twist = column.twist[r % 6];

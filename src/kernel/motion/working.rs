@@ -77,7 +77,7 @@ fn direction(
     onward: Option<&[f64]>,
 ) -> Option<Vec<f64>> {
     let f = pose.columns.len();
-    let all = pose.jacobian_with(paths);
+    let all = pose.jacobian_with(paths, &[]);
     let closure = svd(&pose.jacobian(&vec![0.0; f]))?;
     let kernel = closure.null_space(closure.rank(FLAT));
     let rows = pose.rows();

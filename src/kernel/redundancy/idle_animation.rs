@@ -103,7 +103,7 @@ fn speeds(
             .filter(|l| !motion.links.contains(l))
             .map(|l| path_from_frame(mechanism, state, l));
         let resting: Vec<Vec<(JointId, bool)>> = resting.filter(|p| !p.is_empty()).collect();
-        let svd = svd(&pose.jacobian_with(&resting))?;
+        let svd = svd(&pose.jacobian_with(&resting, &[]))?;
         let null = svd.null_space(svd.rank(FLAT));
         let within = |links: &[LinkId]| links.iter().all(|l| motion.links.contains(l));
         let candidates = (0..null.ncols()).map(|c| {

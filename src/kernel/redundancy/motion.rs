@@ -1,9 +1,12 @@
 //! What can move: the kernel of the closure matrix, and the motions of links it gives.
 
-use crate::closure::matrix::Closure;
+use crate::closure::drive::{rate, rate_row};
+use crate::closure::matrix::{Closure, Column};
+use crate::closure::twist::MotionSpace;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::{self, Echelon};
 use crate::linalg::modp::Residue;
+use crate::model::coupling::CoupledFreedom;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 
 /// A motion of the whole mechanism: a speed for each column of J.
@@ -12,13 +15,13 @@ pub type Speeds = Vec<Residue>;
 /// The motions a mechanism has in its reference pose: a basis of the kernel of J, reduced.
 #[must_use]
 pub fn motions(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
-    let mut columns = closure.dense(exact);
-    // Without contours J has no rows; one row of zeros gives every column its own motion.
-    columns
-        .iter_mut()
-        .filter(|c| c.is_empty())
-        .for_each(|c| c.push(0));
-    echelon::relations(exact.field(), &columns)
+    echelon::relations(exact.field(), &columns_with_rows(&closure.dense(exact)))
+}
+
+/// Returns columns that have a row: without contours J has none, and one row of zeros gives every column its own motion.
+fn columns_with_rows(columns: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
+    let with_row = |c: &Vec<Residue>| if c.is_empty() { vec![0] } else { c.clone() };
+    columns.iter().map(with_row).collect()
 }
 
 /// The twist of a link under a motion.
@@ -31,7 +34,8 @@ pub(crate) fn twist(
     echelon::combination(exact.field(), link_motion, speeds)
 }
 
-/// The joint motion of some links in a state: the span of their twists, one after the other, reduced.
+/// Returns the joint motion of some links and of the kept drives in a state: the span of the links' twists, one after the other, and of the
+/// drives' rates behind them, reduced. Locked drives rest.
 ///
 /// # Errors
 /// Where a coordinate has no value in the field.
@@ -42,15 +46,40 @@ pub(crate) fn joint_motion(
     links: &[LinkId],
 ) -> Result<Vec<Vec<Residue>>, ExactError> {
     let closure = Closure::new(exact, mechanism, state)?;
-    let kernel = motions(exact, &closure);
     let of_links = closure.link_motions(exact, mechanism, links);
+    let of_drives = drive_rates(exact, mechanism, &closure)?;
+    let mut columns = columns_with_rows(&closure.dense(exact));
+    let mut kept: Vec<&Vec<Vec<Residue>>> = of_links.iter().collect();
+    if mechanism.search.locks_drives {
+        for (c, column) in columns.iter_mut().enumerate() {
+            column.extend(of_drives.iter().map(|rates| rates[c][0]));
+        }
+    } else {
+        kept.extend(&of_drives);
+    }
     let mut span = Echelon::new(exact.field());
-    for speeds in &kernel {
-        let whole: Vec<Residue> = of_links
-            .iter()
-            .flat_map(|m| twist(exact, m, speeds))
-            .collect();
-        span.insert(&whole);
+    for speeds in echelon::relations(exact.field(), &columns) {
+        let of_each = kept.iter().flat_map(|m| twist(exact, m, &speeds));
+        span.insert(&of_each.collect::<Vec<Residue>>());
     }
     Ok(span.reduced())
+}
+
+/// Returns, for each drive that the search follows, the rate that each column of J gives it, as a list of one number.
+fn drive_rates(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Result<Vec<Vec<Vec<Residue>>>, ExactError> {
+    let space = MotionSpace::new(exact, &mechanism.mode)?;
+    let of_drive = |drive: &CoupledFreedom| {
+        let at = &mechanism.joints[drive.joint].frame;
+        let row = rate_row(exact, &space, mechanism, drive.joint, at)?.unwrap_or_default();
+        let of_column = |c: &Column<Residue>| {
+            let own = c.joint == drive.joint;
+            vec![if own { rate(exact, &row, &c.twist) } else { 0 }]
+        };
+        Ok(closure.columns.iter().map(of_column).collect())
+    };
+    mechanism.search.drives.iter().map(of_drive).collect()
 }

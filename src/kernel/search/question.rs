@@ -4,6 +4,7 @@ pub mod as_written;
 pub mod conditions;
 pub mod cost;
 pub mod grasp;
+pub mod kept;
 pub(crate) mod own_images;
 pub mod preference;
 pub mod rounded_rank;
@@ -12,13 +13,13 @@ pub(crate) mod symmetry;
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::redundancy::motion::joint_motion;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::question::conditions::{Conditions, OPEN, SearchError, Symmetry};
 use crate::search::question::cost::CostTable;
 use crate::search::question::grasp::{Grasp, grasps, is_free, loose};
+use crate::search::question::kept::{Followed, Kept};
 use crate::search::question::space::{Space, Variable};
 use crate::search::reduce::biconnected::{Block, blocks};
 use crate::search::reduce::plane_split::LeastModel;
@@ -44,20 +45,20 @@ pub struct Question {
     /// The contours of the free state, and the rows of J in it.
     pub(in crate::search) contours: Vec<Contour>,
     pub(in crate::search) rows: i64,
-    /// Links whose motion is kept, with their present joint motion.
-    pub(in crate::search) kept: (Vec<LinkId>, Vec<Vec<Residue>>),
+    /// What must move as it does now.
+    pub(in crate::search) kept: Kept,
     /// Dimension of that motion by singular values, where exact arithmetic has another mechanism than the one meant.
     pub(in crate::search) present: Option<usize>,
     /// What must be held in the searched state.
     pub(in crate::search) grasps: Vec<Grasp>,
-    /// Links whose motion the diagram of admissible variants keeps to its end.
+    /// Links whose motion the diagram of admissible variants keeps to its end, those that stand for drives included.
     pub(in crate::search) pinned: Vec<LinkId>,
     /// The blocks of the diagram of determinate variants, and of the other.
     pub(in crate::search) blocks: [Vec<Block>; 2],
 }
 
 /// The links whose motion may be kept: outputs and what is to be held, as far as they are in the free state.
-fn kept(mechanism: &Mechanism) -> Vec<LinkId> {
+fn kept_links(mechanism: &Mechanism) -> Vec<LinkId> {
     let outputs = mechanism
         .link_ids()
         .filter(|&l| mechanism.links[l].role == Role::Output);
@@ -114,11 +115,22 @@ impl Question {
     pub fn new(
         exact: ExactField,
         mechanism: impl Into<Arc<Mechanism>>,
-        conditions: Conditions,
+        mut conditions: Conditions,
     ) -> Result<Self, SearchError> {
-        let mechanism: Arc<Mechanism> = mechanism.into();
+        let mut mechanism: Arc<Mechanism> = mechanism.into();
+        let followed = Followed::new(&mechanism, &conditions)?;
+        if let Some(written) = &mut conditions.written {
+            let others = written.others.iter_mut();
+            others
+                .chain([&mut written.mechanism])
+                .for_each(|of| followed.enter(of));
+        }
+        followed.enter(&mut mechanism);
         if conditions.symmetry != Symmetry::All {
             symmetry::check(&exact, &mechanism, conditions.state.map(|s| s.state))?;
+        }
+        if conditions.symmetry == Symmetry::OnePerOrbit {
+            symmetry::check_drives(&mechanism)?;
         }
         let costs = CostTable::new(&mechanism.search.costs);
         let symmetric = conditions.symmetry == Symmetry::SymmetricOnly;
@@ -130,8 +142,14 @@ impl Question {
             &costs,
         )?;
         let steps = Steps::new(&space, &costs);
-        let kept = kept(&mechanism);
-        let present = joint_motion(&exact, &mechanism, StateId::FREE, &kept)?;
+        let links = kept_links(&mechanism);
+        let motion = joint_motion(&exact, &mechanism, StateId::FREE, &links)?;
+        if mechanism.search.locks_drives && !motion.is_empty() {
+            return Err(SearchError::UndecidedOutputs {
+                motions: motion.len(),
+            });
+        }
+        let kept = Kept { links, motion };
         let contours = contour_basis(&mechanism, StateId::FREE);
         let open = open(&mechanism, &contours);
         if open > OPEN {
@@ -142,18 +160,18 @@ impl Question {
         let searched = conditions.state.iter();
         let grasps = searched.flat_map(|s| grasps(&mechanism, s.state, s.hold_objects));
         let to_end = if conditions.keep_output {
-            &kept[..]
+            kept.bodies(&mechanism)
         } else {
-            &[]
+            Vec::new()
         };
-        let pinned = pinned(&mechanism, &space, to_end);
+        let pinned = pinned(&mechanism, &space, &to_end);
         Ok(Question {
             least: LeastModel::new(
                 &exact,
                 &mechanism,
                 &contours,
                 &space,
-                &present,
+                &kept,
                 conditions.whole_twists,
             )?,
             grasps: grasps.collect(),
@@ -166,7 +184,7 @@ impl Question {
             steps,
             exact,
             rows,
-            kept: (kept, present),
+            kept,
             present: None,
         })
     }
@@ -200,7 +218,7 @@ impl Question {
     /// Dimension of the kept links' present motion.
     #[must_use]
     pub(crate) fn present_motion(&self) -> usize {
-        self.present.unwrap_or(self.kept.1.len())
+        self.present.unwrap_or(self.kept.motion.len())
     }
 
     /// The prime field of the search.

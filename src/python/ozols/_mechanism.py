@@ -252,6 +252,7 @@ class Mechanism:
         state: str | None = None,
         allow_loose_object: bool = False,
         allow_output_change: bool = False,
+        drives: str = "kept",
         hold: Iterable[str] = (),
         allow: Mapping[str, Iterable[str]] | None = None,
         forbid: Mapping[str, Iterable[str]] | Iterable[str] = (),

@@ -187,7 +187,7 @@ fn what_cannot_be_drawn_is_said() {
         ),
         (
             vec!["gripper-10", "--motion", "--state", "clamped"],
-            "none can move",
+            "0-1:tz cannot move",
         ),
         // Once: "none can move", of a platform with eight motions.
         (

@@ -60,7 +60,7 @@ fn paths_pass_joints_either_way() {
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let joint = pose.columns[0].joint;
     let rows = |forward: bool| {
-        let all = pose.jacobian_with(&[vec![(joint, forward)]]);
+        let all = pose.jacobian_with(&[vec![(joint, forward)]], &[]);
         let first = pose.rows();
         (0..6).map(|i| all[(first + i, 0)]).collect::<Vec<_>>()
     };

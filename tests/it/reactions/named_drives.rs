@@ -12,8 +12,8 @@ use ozols::statics::reactions::geometry::Geometry;
 /// The gripper's slider, which slides along its guide and may turn about it.
 fn gripper(drive: &str) -> String {
     let text = builtin::text("gripper-10").unwrap();
-    assert!(text.contains("drive = true"));
-    text.replacen("drive = true", &format!("drive = {drive}"), 1)
+    assert!(text.contains("drive = \"tz\""));
+    text.replacen("drive = \"tz\"", &format!("drive = {drive}"), 1)
 }
 
 fn held(m: &Mechanism, state: StateId) -> Vec<Freedom> {

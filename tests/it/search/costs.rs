@@ -209,9 +209,10 @@ fn choices_cost_what_the_formula_says() {
 #[test]
 fn bounds_are_whole_steps_above_the_cheapest() {
     let mut m = built_in("gripper-10");
-    m.search.costs.by_type_milli = vec![("revolute".to_owned(), 9000)];
+    m.search.costs.by_type_milli = vec![("revolute".to_owned(), 2000)];
     let s = Search::new(exact_field(&m, 0).unwrap(), &m, Conditions::default()).unwrap();
-    assert!(s.steps.base_milli < 0 && s.steps.unit_milli > 1);
+    // No change costs less than nothing.
+    assert!(s.steps.base_milli == 0 && s.steps.unit_milli > 1);
     for step in [0, 1, 2, 17, 400] {
         let milli = s.steps.base_milli + i64::from(step) * s.steps.unit_milli;
         for within in [0, 1, s.steps.unit_milli - 1] {

@@ -324,7 +324,7 @@ impl<'a> Looker<'a> {
         let free: Vec<usize> = (0..f)
             .filter(|c| *c != self.request.drive && !self.request.held.contains(c))
             .collect();
-        let whole = pose.jacobian_with(&paths);
+        let whole = pose.jacobian_with(&paths, &[]);
         let part = |rows: usize| Matrix::from_fn(rows, free.len(), |r, c| whole[(r, free[c])]);
         let rank = |rows| rank_of_values(values(&part(rows)), self.tolerance).rank;
         rank(whole.nrows()) - rank(pose.rows())

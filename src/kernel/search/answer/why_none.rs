@@ -10,6 +10,7 @@ use crate::search::build::build_whole;
 use crate::search::check::brute::Matrices;
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, InState, SearchError};
+use crate::search::question::kept::Drives;
 use num_bigint::BigUint;
 use num_traits::Zero;
 
@@ -28,6 +29,8 @@ pub enum Relaxation {
     Harmful(u32),
     /// Outputs that move in other ways than now.
     OutputChange,
+    /// Drives that may let go.
+    FreeDrives,
     /// Objects that are not held.
     LooseObject,
 }
@@ -92,7 +95,10 @@ pub fn relaxations(
         cancelled,
     };
     let mut out = Vec::new();
-    out.extend(easing.redundant()?);
+    // Independent drives are not searched with redundant constraints left.
+    if !question.mechanism.search.locks_drives {
+        out.extend(easing.redundant()?);
+    }
     if let Some(state) = conditions.state {
         out.extend(easing.in_state(state)?);
     }
@@ -107,6 +113,11 @@ pub fn relaxations(
         && let Some((least, n)) = c.by_changes.iter().next()
     {
         out.push((Relaxation::Changes(*least), n.clone()));
+    }
+    if !question.mechanism.search.drives.is_empty()
+        && let Some(c) = easing.some(&|r| r.drives = Drives::Free)?
+    {
+        out.push((Relaxation::FreeDrives, c.total));
     }
     if conditions.keep_output
         && let Some(c) = easing.some(&|r| r.keep_output = false)?

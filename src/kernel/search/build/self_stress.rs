@@ -67,11 +67,7 @@ pub(in crate::search) fn space(
     order: &[usize],
     keep_output: bool,
 ) -> Option<SelfStressSpace> {
-    let kept = if keep_output {
-        &question.kept.0[..]
-    } else {
-        &[]
-    };
+    let kept = keep_output.then_some(&question.kept);
     let field = question.exact.field();
     let (mechanism, space) = (&question.mechanism, &model.space);
     let rows = ClosingRows::new(mechanism, space.dim, &question.contours, kept);

@@ -137,9 +137,9 @@ fn admissible(
     let keep_output = question.conditions.keep_output;
     if question.conditions.state.is_some() {
         let live = first.steps.last().map_or(&[][..], |s| &s.live);
-        let kept = question.kept.0.iter().filter(|_| keep_output);
+        let kept = keep_output.then(|| question.kept.bodies(&question.mechanism));
         let kept: Vec<LinkId> = std::iter::once(question.mechanism.frame())
-            .chain(kept.copied())
+            .chain(kept.into_iter().flatten())
             .collect();
         let ways = ways(
             &question.mechanism,
@@ -204,7 +204,7 @@ fn look_ahead(question: &Question, model: &Model, stages: &mut [Stage], same_joi
         };
         // The free state's lane comes first; what other lanes hold is of no concern.
         let (links, couplings) = (
-            question.mechanism.links.len(),
+            question.mechanism.bodies(),
             question.mechanism.couplings.len(),
         );
         let step = &last.step;
@@ -217,7 +217,7 @@ fn look_ahead(question: &Question, model: &Model, stages: &mut [Stage], same_joi
             live: &live,
             pending: &pending,
         };
-        let (kept, allowed) = (&question.kept.0, model.kept.len());
+        let (kept, allowed) = (&question.kept.bodies(&question.mechanism), model.kept.len());
         let mut test = lookahead(
             &question.exact,
             &question.mechanism,
@@ -262,19 +262,24 @@ fn collapse(
         let here = live.iter().position(|x| *x == (frame, *l));
         here.filter(|_| !contact(*l)).map(|block| (i, block))
     };
-    let (places, blocks): (Vec<usize>, Vec<usize>) = question
-        .kept
-        .0
+    let bodies = question.kept.bodies(&question.mechanism);
+    let (places, blocks): (Vec<usize>, Vec<usize>) = bodies
         .iter()
         .enumerate()
         .filter_map(|x| finished(&x))
         .unzip();
     let mut present = Echelon::new(question.exact.field());
     for row in &model.kept {
-        let part: Vec<Residue> = places
-            .iter()
-            .flat_map(|p| row[p * dim..(p + 1) * dim].iter().copied())
-            .collect();
+        let (links, rates) = row.split_at(question.kept.links.len() * dim);
+        let of_body = |&p: &usize| -> Vec<Residue> {
+            let mut twist = match p.checked_sub(question.kept.links.len()) {
+                None => links[p * dim..(p + 1) * dim].to_vec(),
+                Some(drive) => vec![rates[drive]],
+            };
+            twist.resize(dim, 0);
+            twist
+        };
+        let part: Vec<Residue> = places.iter().flat_map(of_body).collect();
         present.insert(&part);
     }
     (!blocks.is_empty()).then(|| Collapse::new(&blocks, dim, present.reduced()))

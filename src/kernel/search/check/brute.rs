@@ -60,7 +60,7 @@ impl Matrices {
         let layout = RowLayout::new(question);
         let fixed = variables.iter().filter(|v| v.choices.len() == 1);
         let whole = fixed.flat_map(|v| &v.joints).map(|&j| {
-            let rates = question.mechanism.couplings_of(j).count();
+            let rates = question.mechanism.rates_of(j);
             let every = (0..question.space.dim).map(|c| {
                 let mut twist = vec![0; question.space.dim + rates];
                 twist[c] = f.one();
@@ -228,7 +228,7 @@ pub fn judge(
         external: seen.external,
         harmful: 0,
     };
-    let mut good = !question.conditions.keep_output || seen.motion == question.kept.1.len();
+    let mut good = !question.conditions.keep_output || seen.motion == question.kept.motion.len();
     if let Some(s) = question.conditions.state.filter(|_| good) {
         let realized = realize(question, choices);
         let closure = Closure::new(&question.exact, &realized, s.state)?;

@@ -19,7 +19,7 @@ pub(in crate::search) struct RowLayout<'a> {
     dim: usize,
     free: Vec<Contour>,
     coupled: Vec<usize>,
-    /// From the frame to each kept link.
+    /// From the frame to each kept link; rows of kept drives come after theirs.
     paths: Vec<Vec<(JointId, bool)>>,
     state: Vec<Contour>,
     coupled_in_state: Vec<usize>,
@@ -28,7 +28,7 @@ pub(in crate::search) struct RowLayout<'a> {
 impl RowLayout<'_> {
     pub(in crate::search) fn new(question: &Question) -> RowLayout<'_> {
         let mechanism = &*question.mechanism;
-        let kept = question.kept.0.iter();
+        let kept = question.kept.links.iter();
         let paths = kept.map(|&l| path_from_frame(mechanism, StateId::FREE, l));
         // Couplings by index.
         let coupled = |s: StateId| -> Vec<usize> {
@@ -51,13 +51,13 @@ impl RowLayout<'_> {
     /// How many rows there are of each kind.
     fn rows(&self) -> [usize; 3] {
         [
-            self.free.len() * self.dim + self.coupled.len(),
-            self.paths.len() * self.dim,
+            self.free.len() * self.dim + self.coupled.len() + self.mechanism.locked_drives(),
+            self.paths.len() * self.dim + self.mechanism.kept_drives(),
             self.state.len() * self.dim + self.coupled_in_state.len(),
         ]
     }
 
-    /// The column of a twist at a joint; behind it stand the joint's entries in the rows of its couplings.
+    /// The column of a twist at a joint; behind it stand the joint's rates.
     pub(in crate::search) fn column<S: Scalars>(
         &self,
         s: &S,
@@ -80,8 +80,15 @@ impl RowLayout<'_> {
         let of_path = |p: &Vec<(JointId, bool)>| p.iter().find(|(q, _)| *q == j).map(|(_, s)| *s);
         let mut out = Vec::with_capacity(self.rows().iter().sum());
         out.extend(self.free.iter().flat_map(|c| block(c.direction(j))));
+        let drive = self.mechanism.drive_at(j);
+        let driven = |d: usize| match drive {
+            Some(own) if own == d => rates[rates.len() - 1].clone(),
+            _ => zero(),
+        };
         out.extend(self.coupled.iter().map(coupling));
+        out.extend((0..self.mechanism.locked_drives()).map(driven));
         out.extend(self.paths.iter().flat_map(|p| block(of_path(p))));
+        out.extend((0..self.mechanism.kept_drives()).map(driven));
         out.extend(self.state.iter().flat_map(|c| block(c.direction(j))));
         out.extend(self.coupled_in_state.iter().map(coupling));
         out

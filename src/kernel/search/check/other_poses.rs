@@ -18,6 +18,7 @@ use crate::rank::finite::local_dimension::motions;
 use crate::rank::numeric::scaling::rank_of_values;
 use crate::search::answer::k_best::Assignment;
 use crate::search::question::Question;
+use crate::search::question::kept::driven_in_variant;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols_dense::{Matrix, singular_values};
@@ -143,7 +144,11 @@ pub(crate) fn over(
         let want = Figures {
             mobility: question.mobility(variant.key),
             redundant: i64::from(variant.key.internal()),
-            output: *output,
+            // Where drives must be independent, the motion is theirs.
+            output: match question.mechanism.locked_drives() {
+                0 => *output,
+                drives => output.and(i64::try_from(drives).ok()),
+            },
         };
         if figures != want && out.other.is_none() {
             out.other = Some((figures, *output));
@@ -198,9 +203,16 @@ fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures
             output: None,
         });
     }
+    let drives: Vec<usize> = driven_in_variant(&question.mechanism, m)?
+        .iter()
+        .map(|d| {
+            let mut columns = pose.columns.iter();
+            columns.position(|c| (c.joint, c.freedom) == (d.joint, d.freedom))
+        })
+        .collect::<Option<_>>()?;
     let paths: Vec<Vec<(JointId, bool)>> = question
         .kept
-        .0
+        .links
         .iter()
         .map(|&l| path_from_frame(m, StateId::FREE, l))
         .collect();
@@ -209,7 +221,7 @@ fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures
         redundant,
         output: Some(
             int(crate::search::check::other_poses::rank(
-                &pose.jacobian_with(&paths),
+                &pose.jacobian_with(&paths, &drives),
             )?) - int(rank),
         ),
     })

@@ -4,9 +4,10 @@
 //! Only the options' frames and the contour basis are shared.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::closure::matrix::Closure;
+use crate::closure::matrix::{Closure, CouplingRow};
 use crate::geom::exact::ExactError;
 use crate::geom::scalars::Reals;
+use crate::model::coupling::CoupledFreedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::modular;
 use crate::rank::numeric::{self, NumericRank};
@@ -18,6 +19,7 @@ use crate::search::check::variant_mechanism::locked;
 use crate::search::check::variant_mechanism::realize;
 use crate::search::diagram::redundancy_so_far::Redundancy;
 use crate::search::question::Question;
+use crate::search::question::kept::driven_in_variant;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -288,8 +290,10 @@ fn opinion(
     let output = match &shape.locked {
         None => None,
         Some(contours) => {
-            let (locked, _) = decompose(question, &locked(question, m), StateId::FREE, contours)?;
-            Some(locked.rank.saturating_sub(free.rank))
+            let drives = driven_in_variant(&question.mechanism, m)?;
+            let locked = closure(&locked(question, m), StateId::FREE, contours)?;
+            let rank = rank(question, &with_locks(locked, &drives)?)?.rank;
+            Some(rank.saturating_sub(free.rank))
         }
     };
     let (mut conditioning, mut dropped) = (free.kept, free.dropped);
@@ -307,7 +311,8 @@ fn opinion(
     let agree = mobility == question.mobility(key)
         && redundant == i64::from(key.internal())
         && external.is_none_or(|e| e == i64::from(key.external()))
-        && output.is_none_or(|o| o == question.present_motion());
+        && output
+            .is_none_or(|o| o == question.present_motion() + question.mechanism.locked_drives());
     Some(Opinion {
         mobility,
         redundant,
@@ -326,9 +331,28 @@ fn decompose(
     state: StateId,
     contours: &[Contour],
 ) -> Option<(NumericRank, usize)> {
-    let closure = Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()?;
-    let rank = numeric::rank_with_tolerance(&closure, question.conditions.tolerance).ok()?;
-    Some((rank, closure.columns.len()))
+    let closure = closure(m, state, contours)?;
+    Some((rank(question, &closure)?, closure.columns.len()))
+}
+
+fn closure(m: &Mechanism, state: StateId, contours: &[Contour]) -> Option<Closure<f64>> {
+    Closure::with_contours(&Reals, m, state, contours.to_vec()).ok()
+}
+
+fn rank(question: &Question, closure: &Closure<f64>) -> Option<NumericRank> {
+    numeric::rank_with_tolerance(closure, question.conditions.tolerance).ok()
+}
+
+/// Returns a closure with a row more for each drive, which keeps its freedom at rest.
+fn with_locks(mut closure: Closure<f64>, drives: &[CoupledFreedom]) -> Option<Closure<f64>> {
+    for drive in drives {
+        let mut columns = closure.columns.iter();
+        let at = columns.position(|c| (c.joint, c.freedom) == (drive.joint, drive.freedom))?;
+        // Of two entries at one column the second one stays.
+        let entries = [(at, 0.0), (at, 1.0)];
+        closure.couplings.push(CouplingRow { entries });
+    }
+    Some(closure)
 }
 
 fn int(x: usize) -> i64 {

@@ -99,7 +99,7 @@ pub(crate) fn locked(question: &Question, realized: &Mechanism) -> Mechanism {
     let Some(any) = realized.joints.first() else {
         return out;
     };
-    for &link in question.kept.0.iter().filter(|l| **l != frame) {
+    for &link in question.kept.links.iter().filter(|l| **l != frame) {
         let mut lock = replaced(any, None);
         lock.id = format!("lock {}", realized.links[link].id);
         lock.links = [frame, link];

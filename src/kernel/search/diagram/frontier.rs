@@ -8,6 +8,9 @@
 //! A coupling whose first joint is chosen is *pending*: the rate it gives the second joint is one more coordinate, a block
 //! of its own of which only the first number is used. The second joint closes it, as a joint closes a contour, with a gap
 //! of one number.
+//!
+//! A kept drive is a link of its own, joined to the frame as soon as its joint is chosen; the first number of its twist is the
+//! drive's rate.
 
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
@@ -20,7 +23,7 @@ enum Source {
     Block(usize),
     /// The twist of the joint being added.
     Joint,
-    /// The rate of the joint being added in one of its couplings, counted along them.
+    /// A rate of the joint being added: in one of its couplings, counted along them, or behind these that of its kept drive.
     Rate(usize),
 }
 
@@ -31,7 +34,7 @@ pub struct Step {
     pub joint: JointId,
     /// Whether it closes a contour: then new block 0 is the gap that must vanish.
     pub closing: bool,
-    /// Couplings it closes: the gaps of their rates are the blocks after that.
+    /// Couplings it closes, and the drive that it locks: the gaps of their rates are the blocks after that.
     pub coupled: usize,
     /// New coordinates from old ones: (new block, old block, plus).
     pub blocks: Vec<(usize, usize, bool)>,
@@ -95,8 +98,7 @@ impl Step {
     }
 }
 
-/// A joint in one of several copies of the mechanism's links and couplings, which are numbered on: link `l` of copy `lane`
-/// is `lane * links + l`.
+/// A joint in one of several copies of the mechanism's links, kept drives and couplings, which are numbered on: see [`copy`].
 #[derive(Debug, Clone, Copy)]
 pub struct At {
     /// The joint.
@@ -179,13 +181,23 @@ impl<'m> Planner<'m> {
     /// Never for joints of the mechanism.
     pub(in crate::search) fn add(&mut self, joined: At) -> Step {
         let mechanism = self.mechanism;
-        let (count, frame) = (mechanism.links.len(), mechanism.frame());
+        let (count, frame) = (mechanism.bodies(), mechanism.frame());
         let is_frame = |l: &LinkId| l.index() % count == frame.index();
         let components = std::mem::take(&mut self.components);
         let mut joining = Joining::new(components, &self.pending);
         let ends = ends(mechanism, &joined);
         let closing = joining.join(ends, is_frame);
-        let coupled = couple(mechanism, joined, &mut joining.waiting, &mut joining.rows);
+        let mut coupled = couple(mechanism, joined, &mut joining.waiting, &mut joining.rows);
+        if mechanism.locked_drives() > 0 && mechanism.drive_at(joined.joint).is_some() {
+            let rate = Source::Rate(mechanism.rates_of(joined.joint) - 1);
+            joining.rows.push(Combination::from([(rate, 1)]));
+            coupled += 1;
+        }
+        if let Some(drive) = mechanism.kept_drive(joined.joint) {
+            let [drive, frame] =
+                [mechanism.drive_link(drive), frame].map(|l| copy(mechanism, l, joined.lane));
+            joining.drive(drive, frame, mechanism.rates_of(joined.joint) - 1);
+        }
         for l in ends {
             self.left.entry(l).and_modify(|n| *n -= 1);
         }
@@ -296,6 +308,21 @@ impl Joining {
         false
     }
 
+    /// Joins the link that stands for a drive to the frame; its rate is the one of this index of the joint that is added.
+    fn drive(&mut self, drive: LinkId, frame: LinkId, rate: usize) {
+        let home = self.components.iter_mut().find(|c| c.contains(&frame));
+        match home {
+            Some(home) => home.push(drive),
+            None => {
+                self.components.push(vec![frame, drive]);
+                self.relative.insert(frame, Combination::new());
+            }
+        }
+        let turned = Combination::from([(Source::Rate(rate), 1)]);
+        let rate = plus(&self.relative[&frame], 1, &turned);
+        self.relative.insert(drive, rate);
+    }
+
     /// Forgets links that are not live any more; the frame becomes the root where it is.
     fn forget(&mut self, live: impl Fn(&LinkId) -> bool, is_frame: impl Fn(&LinkId) -> bool) {
         for c in &mut self.components {
@@ -326,7 +353,12 @@ impl Joining {
 /// The links a joint is between, in its copy.
 fn ends(mechanism: &Mechanism, at: &At) -> [LinkId; 2] {
     let links = mechanism.joints[at.joint].links;
-    links.map(|l| LinkId::new(at.lane * mechanism.links.len() + l.index()))
+    links.map(|l| copy(mechanism, l, at.lane))
+}
+
+/// Returns the copy of a link, or of what stands for a drive, in a lane.
+pub(in crate::search) fn copy(mechanism: &Mechanism, link: LinkId, lane: usize) -> LinkId {
+    LinkId::new(lane * mechanism.bodies() + link.index())
 }
 
 /// Adds a joint's rates to its couplings: pending ones are closed, their gaps go to `rows`, and new ones begin to wait.

@@ -60,6 +60,7 @@ pub(crate) fn lookahead(
         places: &places,
         locks: &locks,
         kept,
+        links: mechanism.links.len(),
     };
     let free = images.free(&components, frame);
     let (taken, total) = (free.pivots(), images.width());
@@ -201,12 +202,18 @@ fn locks(
     let mut constraints = Echelon::new(f);
     for (j, span) in left {
         let [u, v] = mechanism.joints[*j].links;
-        for wrench in annihilator(f, dim, span) {
+        for wrench in annihilator(f, dim + mechanism.rates_of(*j), span) {
             let mut row = vec![0; places.width()];
             for (link, plus) in [(u, false), (v, true)] {
                 if let Some(&at) = places.links.get(&link) {
                     f.accumulate(&mut row[at..at + dim], &wrench[..dim], plus);
                 }
+            }
+            if let Some(drive) = mechanism.kept_drive(*j)
+                && let Some(&at) = places.links.get(&mechanism.drive_link(drive))
+            {
+                let rate = wrench[wrench.len() - 1];
+                f.accumulate(&mut row[at..=at], &[rate], true);
             }
             // The entries of a coupling's two joints are opposite: that of a joint to come is less what is pending, or less
             // that of the other joint to come.
@@ -226,12 +233,15 @@ fn locks(
         .collect()
 }
 
-/// What a joint with a span bears: all forces and moments where it has no freedom.
-fn annihilator(f: Field, dim: usize, span: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
+/// What a joint with a span of vectors of a width bears: all forces and moments where it has no freedom, and its rates rest.
+fn annihilator(f: Field, width: usize, span: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     if span.is_empty() {
-        (0..dim)
-            .map(|c| (0..dim).map(|i| if i == c { f.one() } else { 0 }).collect())
-            .collect()
+        let unit = |c| {
+            (0..width)
+                .map(|i| if i == c { f.one() } else { 0 })
+                .collect()
+        };
+        (0..width).map(unit).collect()
     } else {
         relations(f, &transpose(span))
     }
@@ -243,6 +253,8 @@ struct LinkImages<'a> {
     places: &'a RowPlaces<'a>,
     locks: &'a [Vec<Residue>],
     kept: &'a [LinkId],
+    /// How many links the mechanism has; those of higher numbers stand for drives.
+    links: usize,
 }
 
 impl LinkImages<'_> {
@@ -282,7 +294,9 @@ impl LinkImages<'_> {
         let mut free = Echelon::new(self.field);
         for component in components.iter().filter(|c| !c.contains(&frame)) {
             let together: Vec<(LinkId, bool)> = component.iter().map(|&l| (l, true)).collect();
-            for c in 0..self.places.dim {
+            // A drive has a rate, and is no link that turns and slides.
+            let is_drive = component.iter().all(|l| l.index() >= self.links);
+            for c in 0..if is_drive { 1 } else { self.places.dim } {
                 free.insert(&self.image(&together, c));
             }
         }

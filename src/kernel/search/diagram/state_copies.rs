@@ -9,7 +9,7 @@
 
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
-use crate::search::diagram::frontier::{At, Step, components, plan};
+use crate::search::diagram::frontier::{At, Step, components, copy, plan};
 use crate::search::question::grasp::Grasp;
 use crate::search::question::space::{Choice, Space};
 use std::ops::Range;
@@ -102,8 +102,7 @@ pub(in crate::search) fn ways(
     let mut list = additions(space, alone, 0..state);
     list.extend(additions(space, added, state..lanes.len()));
     let order: Vec<At> = list.iter().map(|a| a.at).collect();
-    let n = mechanism.links.len();
-    let copy = |l: LinkId, lane: usize| LinkId::new(lane * n + l.index());
+    let copy = |l: LinkId, lane: usize| copy(mechanism, l, lane);
     let components = components(live);
     let start: Vec<Vec<LinkId>> = (0..lanes.len())
         .flat_map(|lane| {

@@ -23,6 +23,20 @@ pub enum Symmetry {
     OnePerOrbit,
 }
 
+/// What is asked of the drives of a redesign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drives {
+    /// Outputs and drives move together as they do in the mechanism as built: no drive lets go.
+    #[default]
+    Kept,
+    /// The outputs alone must keep their motion.
+    Free,
+    /// There are as many motions of the outputs as drives, and the drives decide them: each drive moves freely, and with all of them
+    /// locked the outputs rest.
+    Independent,
+}
+
 /// A state that takes part, and what variants must be like in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InState {
@@ -62,6 +76,8 @@ pub struct Conditions {
     pub max_changes: Option<u32>,
     /// Whether the outputs, and the links the file holds, must keep exactly their present motions.
     pub keep_output: bool,
+    /// What is asked of the drives, where the outputs must keep their motions.
+    pub drives: Drives,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
     /// Whether variants are counted; where they are not, the diagrams of all are cut down at once.
@@ -92,6 +108,7 @@ impl Default for Conditions {
             max_mobility: None,
             max_changes: None,
             keep_output: true,
+            drives: Drives::Kept,
             symmetry: Symmetry::All,
             counted: true,
             cheapest: 0,
@@ -119,6 +136,25 @@ pub enum SearchError {
     /// Symmetry of a mechanism that is not its own mirror image.
     #[error(transparent)]
     Mirror(#[from] MirrorError),
+    /// Independent drives where nothing is driven.
+    #[error(
+        "no joint of the free state is driven, or the outputs may move in other ways: there are no drives to be independent"
+    )]
+    NoDrives,
+    /// Independent drives with what they are not counted with.
+    #[error(
+        "independent drives are searched in the free state alone, and without redundant constraints left"
+    )]
+    DrivesBeside,
+    /// Outputs that the drives do not decide.
+    #[error(
+        "the drives do not decide the outputs: with all drives locked the outputs have {motions} of their motions left, and no redesign \
+         takes a motion away"
+    )]
+    UndecidedOutputs {
+        /// How many independent motions are left.
+        motions: usize,
+    },
     /// Chains that close nowhere.
     #[error(
         "{open} joints are in no contour, and a search takes at most {OPEN} of them: they cannot be redundant, so leave such \

@@ -4,6 +4,8 @@
 //!               + Σ over unloading joints (cost of their type + link + change)
 //!               + harmful redundant constraints that a searched state adds · harmful, 0 by default
 //!
+//! A change never costs less than nothing: a plain bush is cheaper than a lead screw, but taking a screw out is no gain.
+//!
 //! Joint types have default costs ([`JointType::default_cost_milli`]); a file replaces any of them under `[search.costs]`,
 //! and an option may state a cost of its own.
 
@@ -55,7 +57,7 @@ impl CostTable {
         let change = self.change + if drive { self.driven } else { 0 };
         let replaced = to.map_or(0, |o| self.option(o) - self.option(present) + change);
         let inserted = unloading.map_or(0, |u| self.option(u) + self.link + self.change);
-        replaced + inserted
+        replaced.max(0) + inserted
     }
 
     /// The cost of a joint: the option's own, its name's, its type's, or by freedoms for a custom type.

@@ -1,6 +1,7 @@
 //! The space of variants: for each joint, or all that are each other's images, the choices and what they do.
 
 use crate::closure::coupling::{coefficient, length_ratio};
+use crate::closure::drive::{rate, rate_row};
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::scalars::Scalars;
@@ -18,8 +19,8 @@ pub struct Choice {
     pub option: usize,
     /// Index into the joint's unloading joints, where one is inserted.
     pub unloading: Option<usize>,
-    /// For each joint of the variable, independent twists that span its motion, each with the joint's entry in the row of
-    /// every coupling it is in behind it.
+    /// For each joint of the variable, independent twists that span its motion, each with the joint's rates behind it: its entry in
+    /// the row of every coupling it is in, then the rate of its kept drive.
     pub spans: Vec<Vec<Vec<Residue>>>,
     /// For each joint of the variable that is a face which the state adds, what it does under friction.
     pub faces: Vec<Option<Face>>,
@@ -149,7 +150,7 @@ fn choices(
     // The present joint is offered always.
     let offered =
         |(i, o): &(usize, &JointOption)| *i == 0 || o.state.is_none_or(|s| state == Some(s));
-    let rates = mechanism.couplings_of(id).count();
+    let rates = mechanism.rates_of(id);
     let unloading = joint.unloading.iter().enumerate();
     let unloading = unloading.filter(|(_, o)| o.state.is_none_or(|s| state == Some(s)));
     for unloading in std::iter::once(None).chain(unloading.map(|(u, _)| Some(u))) {
@@ -198,8 +199,8 @@ fn choices(
     Ok(out)
 }
 
-/// The twists of an option, and those of an unloading joint in series with it, one a freedom, each with the joint's entry in
-/// the row of every coupling it is in behind it.
+/// The twists of an option, and those of an unloading joint in series with it, one a freedom, each with the joint's rates behind it: its
+/// entry in the row of every coupling it is in, then the rate of its kept drive.
 ///
 /// # Errors
 /// Where a coordinate has no value in the number system.
@@ -212,11 +213,18 @@ pub(in crate::search) fn columns<S: Scalars>(
     inserted: Option<&JointOption>,
 ) -> Result<[Vec<Vec<S::Number>>; 2], ExactError> {
     let twists = |o: &JointOption| joint_twists(s, motion, &o.frame, &o.joint_type);
-    let own = twists(option)?
+    let mut own = twists(option)?
         .into_iter()
         .map(|(f, t)| with_rates(s, mechanism, joint, option, f, t))
         .collect::<Result<Vec<_>, _>>()?;
-    let rates = mechanism.couplings_of(joint).count();
+    if let Some(row) = rate_row(s, motion, mechanism, joint, &option.frame)? {
+        let driven = |twist: &mut Vec<S::Number>| {
+            let rate = rate(s, &row, twist);
+            twist.push(rate);
+        };
+        own.iter_mut().for_each(driven);
+    }
+    let rates = mechanism.rates_of(joint);
     let added = inserted.map_or_else(|| Ok(Vec::new()), twists)?;
     let added = added.into_iter().map(|(_, mut t)| {
         t.resize(t.len() + rates, S::Number::default());

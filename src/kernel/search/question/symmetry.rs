@@ -78,9 +78,32 @@ pub enum MirrorError {
         "the joints under [search] turn say no axis, three at a time at one place; add a group that is not on the axis, or search without symmetry"
     )]
     NoAxis,
+    /// A drive whose image is not driven.
+    #[error(
+        "joint {driven} is driven and its image {image} is not: count all variants, or ask nothing of the drives"
+    )]
+    UnlikeDrives {
+        /// The driven joint.
+        driven: String,
+        /// Its image.
+        image: String,
+    },
     /// The geometry has no image in the field.
     #[error(transparent)]
     Exact(#[from] ExactError),
+}
+
+/// Refuses kept drives that the symmetry does not carry over to kept drives: of two variants that are images of each other one
+/// could then keep the drives alone.
+pub(in crate::search) fn check_drives(mechanism: &Mechanism) -> Result<(), MirrorError> {
+    for drive in &mechanism.search.drives {
+        let image = mechanism.search.image(drive.joint);
+        if mechanism.kept_drive(image).is_none() {
+            let [driven, image] = [drive.joint, image].map(|j| mechanism.joints[j].id.clone());
+            return Err(MirrorError::UnlikeDrives { driven, image });
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a mechanism that its mirror pairs do not carry over to itself, in the free state and in `state`.

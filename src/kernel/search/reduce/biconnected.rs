@@ -52,7 +52,9 @@ pub(in crate::search) fn blocks(
     let each = variables.iter().map(|&v| vec![v]);
     let links = |of: &[usize]| -> BTreeSet<LinkId> {
         let joints = of.iter().flat_map(|&v| joints(v));
-        joints.flat_map(|j| mechanism.joints[j].links).collect()
+        let drive = |j| mechanism.kept_drive(j).map(|d| mechanism.drive_link(d));
+        let touched = joints.flat_map(|j| mechanism.joints[j].links.into_iter().chain(drive(j)));
+        touched.collect()
     };
     let mut left: Vec<(Vec<usize>, BTreeSet<LinkId>)> = tied(contours.chain(couplings).chain(each))
         .into_iter()

@@ -14,9 +14,10 @@ use crate::closure::contour::Contour;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::Mechanism;
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::reduce::plane::{Rows, planes, seen};
-use crate::search::question::space::{Choice, Space};
+use crate::search::question::kept::Kept;
+use crate::search::question::space::{Choice, Space, Variable};
 use crate::search::reduce::self_stress_space::ClosingRows;
 
 /// Some rows of the closure equations.
@@ -24,7 +25,7 @@ use crate::search::reduce::self_stress_space::ClosingRows;
 pub(in crate::search) struct Model {
     /// The variables and their choices in these rows.
     pub(in crate::search) space: Space,
-    /// The present motions of the kept links in these rows.
+    /// The present motions of the kept links and drives in these rows.
     pub(in crate::search) kept: Vec<Vec<Residue>>,
     /// Redundant constraints that every variant has in rows that the diagrams leave out.
     pub(in crate::search) already: u32,
@@ -40,8 +41,7 @@ pub(in crate::search) struct LeastModel {
 }
 
 impl LeastModel {
-    /// The least model of a space, with the contours of the free state; `kept` are motions of links, six numbers each. With `whole_twists`
-    /// nothing is left out.
+    /// The least model of a space, with the contours of the free state. With `whole_twists` nothing is left out.
     ///
     /// # Errors
     /// Where a coordinate has no value in the field.
@@ -53,23 +53,24 @@ impl LeastModel {
         mechanism: &Mechanism,
         contours: &[Contour],
         space: &Space,
-        kept: &[Vec<Residue>],
+        kept: &Kept,
         whole_twists: bool,
     ) -> Result<LeastModel, ExactError> {
         let f = exact.field();
         let whole = |parts| LeastModel {
             whole: Model {
                 space: space.clone(),
-                kept: kept.to_vec(),
+                kept: kept.motion.clone(),
                 already: 0,
             },
             parts,
         };
-        // Lanes of a searched state and rows of couplings have not been taken apart.
+        // Lanes of a searched state, rows of couplings and of locked drives have not been taken apart.
         if whole_twists
             || space.dim != 6
             || space.state.is_some()
             || !mechanism.couplings.is_empty()
+            || mechanism.locked_drives() > 0
         {
             return Ok(whole(None));
         }
@@ -81,7 +82,9 @@ impl LeastModel {
             let Some(parts) = plane.rows(exact) else {
                 continue;
             };
-            let [inside, outside] = parts.map(|p| Seen::new(f, space, p));
+            let [one, other] = parts;
+            let [inside, outside] = [(one, &other), (other, &one)]
+                .map(|(rows, beside)| Seen::new(f, space, rows, beside));
             if !falls_apart(space, [&inside, &outside]) {
                 continue;
             }
@@ -90,12 +93,12 @@ impl LeastModel {
                 [true, _] => (outside, inside),
                 [false, true] => (inside, outside),
                 [false, false] => {
-                    let parts =
-                        [inside, outside].map(|part| part.model(f, contours.len(), space, kept));
+                    let parts = [inside, outside]
+                        .map(|part| part.model(f, contours.len(), space, kept, mechanism));
                     return Ok(whole(Some(parts)));
                 }
             };
-            let mut whole = differing.model(f, contours.len(), space, kept);
+            let mut whole = differing.model(f, contours.len(), space, kept, mechanism);
             whole.already += redundant(f, mechanism, contours, &settled.present(space));
             return Ok(LeastModel { whole, parts: None });
         }
@@ -105,7 +108,7 @@ impl LeastModel {
 
 /// Redundant constraints among the present joints in some rows of the closure equations.
 fn redundant(f: Field, mechanism: &Mechanism, contours: &[Contour], present: &Space) -> u32 {
-    let rows = ClosingRows::new(mechanism, present.dim, contours, &[]);
+    let rows = ClosingRows::new(mechanism, present.dim, contours, None);
     let variables = present.variables.iter();
     let span = Echelon::of(f, variables.flat_map(|v| rows.columns(f, v, 0)));
     u32::try_from(rows.closing() - span.rank()).unwrap_or(u32::MAX)
@@ -114,18 +117,28 @@ fn redundant(f: Field, mechanism: &Mechanism, contours: &[Contour], present: &Sp
 /// Independent twists.
 type Span = Vec<Vec<Residue>>;
 
-/// Choices seen in three rows only.
+/// What choices allow in three rows alone.
 struct Seen {
-    /// For each choice of each variable, what its joints may do: independent, in reduced form.
+    /// For each choice of each variable, the motions of its joints that are in these rows only, each with its rates behind the three
+    /// numbers: independent, in reduced form.
     spans: Vec<Vec<Vec<Span>>>,
     rows: Rows,
 }
 
+/// Numbers of a twist in a part.
+const PART: usize = 3;
+
 impl Seen {
-    fn new(f: Field, space: &Space, rows: Rows) -> Seen {
-        let of_joint = |span: &Span| {
-            let seen = span.iter().map(|twist| seen(f, &rows, twist));
-            Echelon::of(f, seen).reduced()
+    fn new(f: Field, space: &Space, rows: Rows, beside: &Rows) -> Seen {
+        let of_joint = |span: &Span| -> Span {
+            let both = span.iter().map(|motion| {
+                let (twist, rates) = motion.split_at(6);
+                let parts = [beside, &rows].map(|rows| seen(f, rows, twist));
+                [&parts.concat(), rates].concat()
+            });
+            let both = Echelon::of(f, both).reduced().into_iter();
+            let within = both.filter(|motion| motion[..PART].iter().all(|&x| x == 0));
+            within.map(|motion| motion[PART..].to_vec()).collect()
         };
         let of_choice = |c: &Choice| c.spans.iter().map(of_joint).collect();
         let variables = space.variables.iter();
@@ -145,33 +158,66 @@ impl Seen {
 
     /// Rows that tell all motions apart: the pivots of their span, or any one row where nothing moves.
     fn used(&self, f: Field) -> Vec<usize> {
-        let twists = self.spans.iter().flatten().flatten().flatten();
-        let used = Echelon::of(f, twists).pivots();
+        let motions = self.spans.iter().flatten().flatten().flatten();
+        let used = Echelon::of(f, motions.map(|motion| &motion[..PART])).pivots();
         if used.is_empty() { vec![0] } else { used }
     }
 
-    /// Motions of links, in rows that are used.
-    fn of_links(&self, f: Field, motions: &[Vec<Residue>], used: &[usize]) -> Vec<Vec<Residue>> {
-        let mut out = Echelon::new(f);
-        for motion in motions {
-            let links = motion.chunks_exact(6);
+    /// Whether a joint has a rate in these rows.
+    fn has_rate(&self, space: &Space, joint: JointId) -> bool {
+        let of_variable = |(variable, choices): (&Variable, &Vec<Vec<Span>>)| {
+            let member = variable.joints.iter().position(|&j| j == joint);
+            let motions = |m: usize| choices.iter().flat_map(move |spans| &spans[m]);
+            member.is_some_and(|m| motions(m).any(|motion| motion[PART..].iter().any(|&x| x != 0)))
+        };
+        space.variables.iter().zip(&self.spans).any(of_variable)
+    }
+
+    /// The motions of kept links in rows that are used, and behind them the rates of kept drives that these rows have.
+    fn of_kept(
+        &self,
+        f: Field,
+        whole: &Space,
+        kept: &Kept,
+        mechanism: &Mechanism,
+        used: &[usize],
+    ) -> Vec<Vec<Residue>> {
+        let drives = mechanism.search.drives.iter();
+        let own: Vec<bool> = drives.map(|d| self.has_rate(whole, d.joint)).collect();
+        let of_motion = |motion: &Vec<Residue>| -> Vec<Residue> {
+            let (links, rates) = motion.split_at(6 * kept.links.len());
             let of_link = |twist| {
                 let rows = seen(f, &self.rows, twist);
                 used.iter().map(move |&r| rows[r])
             };
-            out.insert(&links.flat_map(of_link).collect::<Vec<_>>());
-        }
-        out.reduced()
+            let rates = rates
+                .iter()
+                .zip(&own)
+                .map(|(&rate, own)| if *own { rate } else { 0 });
+            links
+                .chunks_exact(6)
+                .flat_map(of_link)
+                .chain(rates)
+                .collect()
+        };
+        Echelon::of(f, kept.motion.iter().map(of_motion)).reduced()
     }
 
     /// The model of the rows that are used.
-    fn model(self, f: Field, contours: usize, whole: &Space, kept: &[Vec<Residue>]) -> Model {
+    fn model(
+        self,
+        f: Field,
+        contours: usize,
+        whole: &Space,
+        kept: &Kept,
+        mechanism: &Mechanism,
+    ) -> Model {
         let used = self.used(f);
         // In further rows of each contour nothing moves.
-        let idle = (3 - used.len()) * contours;
+        let idle = (PART - used.len()) * contours;
         Model {
             already: u32::try_from(idle).unwrap_or(u32::MAX),
-            kept: self.of_links(f, kept, &used),
+            kept: self.of_kept(f, whole, kept, mechanism, &used),
             space: self.space(whole, &used),
         }
     }
@@ -182,7 +228,10 @@ impl Seen {
         out.dim = used.len();
         for (variable, choices) in out.variables.iter_mut().zip(self.spans) {
             for (choice, spans) in variable.choices.iter_mut().zip(choices) {
-                let within = |t: Vec<Residue>| used.iter().map(|&r| t[r]).collect();
+                let within = |motion: Vec<Residue>| -> Vec<Residue> {
+                    let twist = used.iter().map(|&r| motion[r]);
+                    twist.chain(motion[PART..].iter().copied()).collect()
+                };
                 let of_joint = |span: Span| span.into_iter().map(within).collect();
                 choice.spans = spans.into_iter().map(of_joint).collect();
             }
@@ -198,8 +247,12 @@ impl Seen {
     }
 }
 
-/// Whether each choice's motions are those of the two parts together.
+/// Whether each choice's motions are those of the two parts together, and no joint has a rate in both.
 fn falls_apart(space: &Space, parts: [&Seen; 2]) -> bool {
+    let mut joints = space.variables.iter().flat_map(|v| &v.joints);
+    if joints.any(|&j| parts.iter().all(|p| p.has_rate(space, j))) {
+        return false;
+    }
     space.variables.iter().enumerate().all(|(v, variable)| {
         variable.choices.iter().enumerate().all(|(c, choice)| {
             choice.spans.iter().enumerate().all(|(j, span)| {

@@ -13,7 +13,8 @@ use crate::closure::contour::Contour;
 use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shortened};
 use std::ops::Range;
@@ -43,15 +44,17 @@ pub(in crate::search) struct ClosingRows<'m> {
     /// Couplings of the free state, by their numbers.
     couplings: Vec<usize>,
     paths: Vec<Vec<(JointId, bool)>>,
+    /// Whether the rates of kept drives matter.
+    keeps: bool,
 }
 
 impl<'m> ClosingRows<'m> {
-    /// Rows of the contours of the free state, and of these links.
+    /// Returns the rows of the contours of the free state, and those of kept links and drives where these matter.
     pub(in crate::search) fn new(
         mechanism: &'m Mechanism,
         dim: usize,
         contours: &'m [Contour],
-        kept: &[LinkId],
+        kept: Option<&Kept>,
     ) -> Self {
         let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
         let couplings = (0..mechanism.couplings.len()).filter(|&q| {
@@ -64,13 +67,26 @@ impl<'m> ClosingRows<'m> {
             dim,
             contours,
             couplings: couplings.collect(),
-            paths: kept.iter().map(|&l| path_in(&tree, l)).collect(),
+            paths: kept.map_or_else(Vec::new, |k| {
+                k.links.iter().map(|&l| path_in(&tree, l)).collect()
+            }),
+            keeps: kept.is_some(),
         }
     }
 
-    /// Rows of contours and couplings.
+    /// Returns the number of rows of kept links and drives.
+    fn kept(&self) -> usize {
+        let drives = if self.keeps {
+            self.mechanism.kept_drives()
+        } else {
+            0
+        };
+        self.paths.len() * self.dim + drives
+    }
+
+    /// Rows of contours, couplings and locked drives.
     pub(super) fn closing(&self) -> usize {
-        self.contours.len() * self.dim + self.couplings.len()
+        self.contours.len() * self.dim + self.couplings.len() + self.mechanism.locked_drives()
     }
 
     /// The columns of a choice at all joints of its variable.
@@ -86,10 +102,10 @@ impl<'m> ClosingRows<'m> {
             .collect()
     }
 
-    /// The column of a joint's twist, with its entries for couplings behind it.
+    /// The column of a joint's twist, with its rates behind it.
     fn column(&self, f: Field, joint: JointId, twist: &[Residue]) -> Vec<Residue> {
         let (d, closing) = (self.dim, self.closing());
-        let mut out = vec![0; closing + self.paths.len() * d];
+        let mut out = vec![0; closing + self.kept()];
         let mut put = |at: usize, forward: bool| {
             f.accumulate(&mut out[at..at + d], &twist[..d], forward);
         };
@@ -107,6 +123,16 @@ impl<'m> ClosingRows<'m> {
             if let Some(at) = self.couplings.iter().position(|&x| x == q) {
                 let at = self.contours.len() * d + at;
                 out[at] = f.add(out[at], twist[d + i]);
+            }
+        }
+        if let Some(i) = self.mechanism.drive_at(joint) {
+            let first = if self.mechanism.search.locks_drives {
+                Some(self.contours.len() * d + self.couplings.len())
+            } else {
+                self.keeps.then_some(closing + self.paths.len() * d)
+            };
+            if let Some(first) = first {
+                out[first + i] = twist[twist.len() - 1];
             }
         }
         out
@@ -236,7 +262,7 @@ impl SelfStressSpace {
             return None;
         }
         let present = order.iter().flat_map(|&v| of_choice(v, 0));
-        let width = rows.closing() + rows.paths.len() * space.dim;
+        let width = rows.closing() + rows.kept();
         let beside = BesidePresent::new(field, present, width);
         // Motions of the kept links, and what the choices add.
         let links = beside.units(field, rows.closing()..width);

@@ -2,6 +2,7 @@
 
 use crate::format::number::grouped;
 use crate::format::phrase::{plural, plural_of};
+use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
 use crate::search::check::second_prime::Verdict;
 use crate::view::search::conditions::in_state;
@@ -56,6 +57,15 @@ fn condition(outcome: &Outcome) -> String {
     }
 }
 
+/// Returns what variants keep, in words.
+pub(crate) fn keep_motion(mechanism: &Mechanism) -> &'static str {
+    match (mechanism.kept_drives(), mechanism.locked_drives()) {
+        (0, 0) => "keep the output motion",
+        (_, 0) => "keep the motion of outputs and drives",
+        _ => "have drives that decide the outputs, each freely",
+    }
+}
+
 /// How many variants do all that is asked, and how many are determinate whatever else they do.
 fn verdict(outcome: &Outcome) -> String {
     let mut out = String::new();
@@ -69,7 +79,7 @@ fn verdict(outcome: &Outcome) -> String {
     let more = [
         conditions
             .keep_output
-            .then_some("keep the output motion".to_owned()),
+            .then(|| keep_motion(&outcome.search.mechanism).to_owned()),
         conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
         conditions
             .max_changes

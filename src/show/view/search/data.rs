@@ -387,6 +387,7 @@ pub(in crate::view) fn condition(how: Relaxation) -> (&'static str, Option<i64>)
         Relaxation::Mobility(n) => ("max-mobility", Some(n)),
         Relaxation::Changes(n) => ("max-changes", Some(i64::from(n))),
         Relaxation::OutputChange => ("allow-output-change", None),
+        Relaxation::FreeDrives => ("drives", None),
         Relaxation::LooseObject => ("allow-loose-object", None),
     }
 }

@@ -252,10 +252,15 @@ fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextComman
     let steps = none.eased.iter().map(|(how, n)| {
         let (condition, to) = condition(*how);
         let name = format!("--{condition}");
-        let flag = to.map_or_else(|| name.clone(), |n| format!("{name} {n}"));
+        let flag = match (how, to) {
+            (Relaxation::FreeDrives, _) => format!("{name} free"),
+            (_, Some(n)) => format!("{name} {n}"),
+            (_, None) => name.clone(),
+        };
         let n = plural_of(&grouped(n), "variant");
         let least = match how {
             Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
+            Relaxation::FreeDrives => format!("{n}, in which a drive lets go"),
             Relaxation::LooseObject => format!("{n}, none of which holds what it grips"),
             _ => format!("{n}; no smaller number leaves any"),
         };

@@ -34,7 +34,7 @@ fn halves(v: &[Expr; 3]) -> [Option<f64>; 3] {
     v.each_ref().map(Expr::half_unit)
 }
 
-const Z: &str = "[0, 0, 1]";
+pub(super) const Z: &str = "[0, 0, 1]";
 
 #[test]
 fn a_number_knows_its_last_digit_and_arithmetic_does_not() {

@@ -6,7 +6,7 @@ use ozols::model::mechanism::LinkId;
 
 /// Joint motion written out with a twist for every link: unknowns are link twists and joint speeds; each joint demands
 /// t_b - t_a = Σ speeds · twists, and the frame rests; `coupled` are sums of two speeds with factors that must vanish. No
-/// contours, no spanning tree.
+/// contours, no spanning tree. `driven` are speeds whose motion counts beside that of the outputs.
 pub(super) struct Figures {
     pub(super) mobility: usize,
     pub(super) freedoms: usize,
@@ -21,6 +21,7 @@ pub(super) fn figures(
     joints: &[([LinkId; 2], Vec<Vec<Q>>)],
     coupled: &[[(usize, Q); 2]],
     outputs: &[LinkId],
+    driven: &[usize],
     pairs: &[(LinkId, LinkId)],
 ) -> Figures {
     let freedoms: usize = joints.iter().map(|(_, t)| t.len()).sum();
@@ -79,6 +80,11 @@ pub(super) fn figures(
             .flat_map(|&l| (0..6).map(move |c| (l, c)))
             .map(|(l, c)| rest(l, c)),
     );
+    rows.extend(driven.iter().map(|column| {
+        let mut row = vec![Q::zero(); width];
+        row[links * 6 + column] = Q::one();
+        row
+    }));
     let resting = reduce(rows).len();
     Figures {
         mobility: width - all,

@@ -1,0 +1,118 @@
+//! The rate of a driven freedom, as a linear function of the twist between the links of its joint.
+//!
+//! The rate is defined for every joint type that may stand in the place of the driven one: a turn's rate is the angular velocity
+//! along the driven axis, and a slide's rate is the velocity along it of the point where the joint is. A thread's rate is that of its
+//! turn.
+
+use crate::closure::coupling::square;
+use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::exact::ExactError;
+use crate::geom::expr::Expr;
+use crate::geom::scalars::{Reals, Scalars};
+use crate::geom::vector::{cross, dot, length};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{Frame, JointId, Mechanism};
+
+/// Returns the rate of a drive as coefficients of the twist of what stands at its joint in the frame `at`, up to a factor that is
+/// the same for all that may stand there; `None` where the search follows no drive at the joint.
+///
+/// # Errors
+/// Where a coordinate has no value in the number system.
+pub(crate) fn rate_row<S: Scalars>(
+    s: &S,
+    space: &MotionSpace<S::Number>,
+    mechanism: &Mechanism,
+    joint: JointId,
+    at: &Frame,
+) -> Result<Option<Vec<S::Number>>, ExactError> {
+    let Some(drive) = mechanism.drive_at(joint) else {
+        return Ok(None);
+    };
+    let freedom = mechanism.search.drives[drive].freedom;
+    let present = &mechanism.joints[joint].frame;
+    let size = Expr::from(1).div(&square(present, freedom));
+    let size = s.eval(&size.unwrap_or_else(|| Expr::from(1)))?;
+    let axis = axis_of(FrameValues::new(s, present)?.axes, freedom);
+    let point = s.eval3(&at.point)?;
+    let product3 = |a: &[S::Number; 3], b: &[S::Number; 3]| s.dot(a.clone(), b.clone());
+    // (ω × p)·a = ω·(p × a)
+    let arm = s.cross(point, axis.clone());
+    let row = match (space, freedom.slides()) {
+        (MotionSpace::Spatial, false) => {
+            let [a, b, c] = axis;
+            let zero = S::Number::default;
+            vec![a, b, c, zero(), zero(), zero()]
+        }
+        (MotionSpace::Spatial, true) => arm.into_iter().chain(axis).collect(),
+        (MotionSpace::Planar { axes: [n, ..] }, false) => {
+            vec![
+                product3(&axis, n),
+                S::Number::default(),
+                S::Number::default(),
+            ]
+        }
+        // v = (v·e1) e1/|e1|² + (v·e2) e2/|e2|² and ω = (ω·n) n/|n|², all multiplied by |n|²|e1|²|e2|².
+        (MotionSpace::Planar { axes: [n, e1, e2] }, true) => {
+            let [nn, aa, bb] = [product3(n, n), product3(e1, e1), product3(e2, e2)];
+            let product =
+                |a: &S::Number, b: &S::Number, c: S::Number| s.mul(s.mul(a.clone(), b.clone()), c);
+            vec![
+                product(&aa, &bb, product3(&arm, n)),
+                product(&nn, &bb, product3(&axis, e1)),
+                product(&nn, &aa, product3(&axis, e2)),
+            ]
+        }
+    };
+    Ok(Some(
+        row.into_iter().map(|x| s.mul(size.clone(), x)).collect(),
+    ))
+}
+
+/// Returns the value of a row of coefficients at a twist.
+pub(crate) fn rate<S: Scalars>(s: &S, row: &[S::Number], twist: &[S::Number]) -> S::Number {
+    let products = row.iter().zip(twist);
+    products.fold(S::Number::default(), |sum, (a, b)| {
+        s.add(sum, s.mul(a.clone(), b.clone()))
+    })
+}
+
+/// Returns the freedom of `joint_type` in the frame `at` whose speed is the rate of a driven freedom: the one about or along the driven
+/// axis. `None` where there is none, or where another freedom has a share in that rate.
+#[must_use]
+pub(crate) fn driven_in(
+    (present, driven): (&Frame, Freedom),
+    (at, joint_type): (&Frame, &JointType),
+) -> Option<Freedom> {
+    /// Sine or cosine below which axes are taken for parallel or square.
+    const SQUARE: f64 = 1e-9;
+    let axis = |frame: &Frame, freedom: Freedom| {
+        let values = FrameValues::new(&Reals, frame).ok()?;
+        let axis = axis_of(values.axes, freedom);
+        let size = length(axis);
+        Some(axis.map(|x| x / size))
+    };
+    let along = axis(present, driven)?;
+    let mut found = None;
+    for &freedom in joint_type.freedoms() {
+        // A thread slides as it turns.
+        if freedom.slides() != driven.slides() && !(driven.slides() && freedom == Freedom::Screw) {
+            continue;
+        }
+        let own = axis(at, freedom)?;
+        if length(cross(own, along)) < SQUARE && freedom.slides() == driven.slides() {
+            found = Some(freedom);
+        } else if dot(own, along).abs() > SQUARE {
+            return None;
+        }
+    }
+    found
+}
+
+/// Returns the axis that a freedom turns about or slides along, of a frame's axes x, y, z.
+fn axis_of<N>([x, y, z]: [[N; 3]; 3], freedom: Freedom) -> [N; 3] {
+    match freedom {
+        Freedom::Rx | Freedom::Tx => x,
+        Freedom::Ry | Freedom::Ty => y,
+        Freedom::Rz | Freedom::Tz | Freedom::Screw => z,
+    }
+}

@@ -1,0 +1,111 @@
+//! What a redesign must keep: the motions of the outputs together with the rates of the drives.
+//!
+//! A redesign works if its outputs and its drives move together as they do in the mechanism as built. The motions of the outputs alone are
+//! not enough: a bush in place of a lead screw leaves the table its one motion, but the motor then spins without moving it.
+
+use crate::closure::coupling::in_plane;
+use crate::closure::drive::driven_in;
+use crate::linalg::modp::Residue;
+use crate::model::coupling::CoupledFreedom;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+pub use crate::search::question::conditions::Drives;
+use crate::search::question::conditions::{Conditions, SearchError};
+use std::sync::Arc;
+
+/// What must move as it does in the mechanism as built.
+#[derive(Debug)]
+pub struct Kept {
+    /// The links, in ascending order.
+    pub links: Vec<LinkId>,
+    /// A reduced basis of their present motion in the free state: the twists of the links one after the other, then the rates of the
+    /// drives of [`SearchSpec::drives`](crate::model::mechanism::SearchSpec::drives).
+    pub motion: Vec<Vec<Residue>>,
+}
+
+impl Kept {
+    /// Returns the links, and for each kept drive a link that stands for it; see [`Mechanism::drive_link`].
+    #[must_use]
+    pub(in crate::search) fn bodies(&self, mechanism: &Mechanism) -> Vec<LinkId> {
+        let drives = (0..mechanism.kept_drives()).map(|d| mechanism.drive_link(d));
+        self.links.iter().copied().chain(drives).collect()
+    }
+}
+
+/// The driven freedoms that a search follows.
+pub(super) struct Followed {
+    freedoms: Vec<CoupledFreedom>,
+    locked: bool,
+}
+
+impl Followed {
+    /// Returns the driven freedoms that matter under some conditions.
+    ///
+    /// # Errors
+    /// Where independent drives are asked for and there are none, or together with what they are not counted with.
+    pub(super) fn new(mechanism: &Mechanism, conditions: &Conditions) -> Result<Self, SearchError> {
+        let independent = conditions.drives == Drives::Independent;
+        let freedoms = match conditions.drives {
+            Drives::Kept | Drives::Independent if conditions.keep_output => {
+                driven_freedoms(mechanism)
+            }
+            _ => Vec::new(),
+        };
+        if independent && freedoms.is_empty() {
+            return Err(SearchError::NoDrives);
+        }
+        if independent && (conditions.max_redundant > 0 || conditions.state.is_some()) {
+            return Err(SearchError::DrivesBeside);
+        }
+        Ok(Followed {
+            freedoms,
+            locked: independent,
+        })
+    }
+
+    /// Enters them in a mechanism.
+    pub(super) fn enter(&self, mechanism: &mut Arc<Mechanism>) {
+        let spec = &mechanism.search;
+        if (&spec.drives, spec.locks_drives) != (&self.freedoms, self.locked) {
+            let spec = &mut Arc::make_mut(mechanism).search;
+            spec.drives.clone_from(&self.freedoms);
+            spec.locks_drives = self.locked;
+        }
+    }
+}
+
+/// Returns, for each drive that is followed, the joint and the freedom whose speed is its rate in a variant; `None` where no single one is.
+#[must_use]
+pub(in crate::search) fn driven_in_variant(
+    mechanism: &Mechanism,
+    variant: &Mechanism,
+) -> Option<Vec<CoupledFreedom>> {
+    let of = |drive: &CoupledFreedom| {
+        let joint = &variant.joints[drive.joint];
+        let present = &mechanism.joints[drive.joint].frame;
+        let freedom = driven_in((present, drive.freedom), (&joint.frame, &joint.joint_type))?;
+        Some(CoupledFreedom { freedom, ..*drive })
+    };
+    mechanism.search.drives.iter().map(of).collect()
+}
+
+/// Returns the freedoms that drives of the free state move, one for each driven joint that moves in the mechanism's space.
+#[must_use]
+pub fn driven_freedoms(mechanism: &Mechanism) -> Vec<CoupledFreedom> {
+    let driven = |joint: JointId| {
+        let freedom = mechanism.joints[joint].driven_freedom()?;
+        Some(CoupledFreedom { joint, freedom })
+    };
+    let all = mechanism.joints_in(StateId::FREE).filter_map(driven);
+    all.filter_map(|d| in_space(mechanism, d)).collect()
+}
+
+/// Returns a driven freedom, or where the mechanism's plane does not have it and the file does not name it, the first one that it has.
+fn in_space(mechanism: &Mechanism, driven: CoupledFreedom) -> Option<CoupledFreedom> {
+    let joint = &mechanism.joints[driven.joint];
+    let others = joint.joint_type.freedoms().iter().copied();
+    let others = others.filter(|_| joint.drive_freedom.is_none());
+    let mut all = std::iter::once(driven.freedom).chain(others);
+    let found = all.find(|&f: &Freedom| in_plane(mechanism, driven.joint, f));
+    found.map(|freedom| CoupledFreedom { freedom, ..driven })
+}

@@ -1,0 +1,212 @@
+//! Drives decide: a redesign keeps the motion of outputs and drives together.
+//!
+//! The counts of built-in mechanisms are those of a trial that looked at every variant over another prime field, with code of its own.
+
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::{JointId, Mechanism};
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
+use ozols::search::check::brute::brute;
+use ozols::search::question::conditions::{Conditions, SearchError};
+use ozols::search::question::kept::Drives;
+
+/// Returns a search of a mechanism, ready to be made.
+fn search(m: &Mechanism, drives: Drives) -> Result<Search, SearchError> {
+    let conditions = Conditions {
+        drives,
+        ..Conditions::default()
+    };
+    Search::new(exact_field(m, 0).unwrap(), m, conditions)
+}
+
+/// Returns how many variants are admissible, counted on the diagram and one by one.
+fn admissible(m: &Mechanism, drives: Drives) -> u64 {
+    let search = search(m, drives).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let found = search.counts(&diagrams.admissible, true);
+    if search.size() <= 4096u32.into() {
+        assert_eq!(found.total, brute(&search).unwrap().1.total, "{}", m.name);
+    }
+    found.total.try_into().unwrap()
+}
+
+/// Returns a mechanism whose driven joints have the freedom of this name driven.
+fn driven(mut m: Mechanism, freedom: &str) -> Mechanism {
+    let freedom = ozols::model::joint_type::Freedom::from_name(freedom);
+    for j in m.joints.iter_mut().filter(|j| j.drive) {
+        j.drive_freedom = freedom;
+    }
+    m
+}
+
+#[test]
+fn counts_with_and_without_the_drives_are_those_of_the_trial() {
+    for (name, free, kept) in [
+        ("watt-six-bar", 325, 325),
+        ("sarrus", 6, 6),
+        ("four-bar", 14, 14),
+        ("altmann", 25, 21),
+        ("hooke-double", 256, 16),
+        ("oldham", 10, 5),
+        ("3-crr", 420, 12),
+        ("4-upu", 1_600, 256),
+        ("tripteron", 16_872, 47),
+        ("gripper-10", 25_761_436, 25_761_436),
+    ] {
+        let m = ozols::built_in(name).unwrap();
+        let found = [Drives::Free, Drives::Kept].map(|drives| admissible(&m, drives));
+        assert_eq!(found, [free, kept], "{name}");
+    }
+    let turned = driven(ozols::built_in("3-crr").unwrap(), "rz");
+    assert_eq!(admissible(&turned, Drives::Kept), 420);
+}
+
+/// A table on a screw: a plain bush in place of the nut lets the motor spin alone.
+const JACK: &str = r#"
+name = "jack"
+length_unit = "mm"
+link = [{ id = "base", role = "frame" }, { id = "screw" }, { id = "table", role = "output" }]
+[[joint]]
+id = "motor"
+links = ["base", "screw"]
+type = "revolute"
+axis = [0, 0, 1]
+point = [0, 0, 0]
+drive = true
+[[joint]]
+id = "nut"
+links = ["screw", "table"]
+type = "helical"
+axis = [0, 0, 1]
+point = [0, 0, 40]
+lead = 4
+options = ["helical", "cylindrical"]
+unloading = [{ name = "floating nut", freedoms = ["rx", "ry", "tx", "ty"] }]
+[[joint]]
+id = "rail"
+links = ["table", "base"]
+type = "prismatic"
+axis = [0, 0, 1]
+point = [30, 0, 40]
+"#;
+
+#[test]
+fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing() {
+    let m = mechanism_from_str("jack.toml", JACK).unwrap();
+    assert_eq!(
+        [Drives::Free, Drives::Kept].map(|d| admissible(&m, d)),
+        [2, 1]
+    );
+    let search = search(&m, Drives::Kept).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let nut = m.joint("nut").unwrap();
+    let of = |j: JointId| {
+        search
+            .space
+            .variables
+            .iter()
+            .position(|v| v.joints == [j])
+            .unwrap()
+    };
+    for v in search.cheapest(&diagrams, 10) {
+        let choice = &search.space.variables[of(nut)].choices[v.choices[of(nut)]];
+        assert_eq!(m.joints[nut].options[choice.option].name, "helical");
+    }
+    let mut costs = search.space.variables.iter().flat_map(|v| &v.choices);
+    assert!(costs.all(|c| c.cost_milli >= 0));
+}
+
+/// A beam on a pivot and a seat that two motors push along parallel rails: as built they fight. With a slide in place of the seat there is
+/// one motion for both; with a pin in a slot each motor decides its own side.
+const GANTRY: &str = r#"
+name = "gantry"
+mode = "planar"
+link = [{ id = "base", role = "frame" }, { id = "left" }, { id = "right" }, { id = "beam", role = "output" }]
+[[joint]]
+id = "left-rail"
+links = ["base", "left"]
+type = "prismatic"
+axis = [0, 1, 0]
+point = [0, 0, 0]
+drive = true
+[[joint]]
+id = "right-rail"
+links = ["base", "right"]
+type = "prismatic"
+axis = [0, 1, 0]
+point = [2, 0, 0]
+drive = true
+[[joint]]
+id = "left-pin"
+links = ["left", "beam"]
+type = "revolute"
+axis = [0, 0, 1]
+point = [0, 0, 0]
+[[joint]]
+id = "right-seat"
+links = ["right", "beam"]
+type = "fixed"
+axis = [0, 0, 1]
+reference = [1, 0, 0]
+point = [2, 0, 0]
+options = ["fixed", "slotted", { type = "prismatic", axis = [1, 0, 0] }]
+"#;
+
+#[test]
+fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
+    let m = mechanism_from_str("gantry.toml", GANTRY).unwrap();
+    // By hand: the slide keeps the one motion of the beam, the slot gives it a turn.
+    for (drives, mobility) in [(Drives::Kept, 1), (Drives::Independent, 2)] {
+        let search = search(&m, drives).unwrap();
+        let diagrams = search.build(&|| false, &mut |_| {});
+        let found = search.counts(&diagrams.admissible, true);
+        let by_mobility: Vec<_> = found.by_mobility.into_iter().collect();
+        assert_eq!(by_mobility, [(mobility, 1u8.into())]);
+        assert_eq!(admissible(&m, drives), 1);
+    }
+    // Without the second motor one drive is left, and the slide has what is asked.
+    let mut one = m;
+    one.joints[1].drive = false;
+    let search = search(&one, Drives::Independent).unwrap();
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let found: Vec<_> = search.cheapest(&diagrams, 5).collect();
+    assert_eq!((found.len(), search.mobility(found[0].key)), (1, 1));
+}
+
+#[test]
+fn independent_drives_are_refused_where_they_cannot_be() {
+    let gantry = mechanism_from_str("gantry.toml", GANTRY).unwrap();
+    let mut none = gantry.clone();
+    none.joints.iter_mut().for_each(|j| j.drive = false);
+    let refused = search(&none, Drives::Independent).map(|_| ()).unwrap_err();
+    assert!(matches!(refused, SearchError::NoDrives), "{refused}");
+    // A slot as built leaves the beam a motion that one drive does not decide.
+    let options =
+        "options = [\"fixed\", \"slotted\", { type = \"prismatic\", axis = [1, 0, 0] }]\n";
+    let slotted = GANTRY
+        .replace("\"fixed\"\naxis", "\"slotted\"\naxis")
+        .replace(options, "");
+    let mut slotted = mechanism_from_str("gantry.toml", &slotted).unwrap();
+    slotted.joints[1].drive = false;
+    let refused = search(&slotted, Drives::Independent)
+        .map(|_| ())
+        .unwrap_err();
+    let undecided = matches!(refused, SearchError::UndecidedOutputs { motions: 1 });
+    assert!(undecided, "{refused}");
+}
+
+#[test]
+fn a_driven_joint_of_several_freedoms_drives_the_one_that_is_named() {
+    let m = ozols::built_in("gripper-10").unwrap();
+    let slide = m.joint("0-1").unwrap();
+    let named = |freedom: Option<&str>| {
+        let mut m = m.clone();
+        m.joints[slide].drive_freedom =
+            freedom.and_then(ozols::model::joint_type::Freedom::from_name);
+        m.joints[slide].driven_freedom().unwrap().name()
+    };
+    assert_eq!(
+        [None, Some("tz"), Some("rz")].map(named),
+        ["tz", "tz", "rz"]
+    );
+}
