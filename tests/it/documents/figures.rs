@@ -41,7 +41,7 @@ const CATALOG: &str = "src/guide/catalog.md";
 #[test]
 fn records_of_the_methods_are_those_of_the_survey() {
     let all = SURVEY.cases.len();
-    let cell = |n: usize| (n > 0).then(|| n.to_string()).unwrap_or_default();
+    let cell = |n: usize| if n > 0 { n.to_string() } else { String::new() };
     let row = |of: &str, right: usize, pose: usize, wrong: usize, silent: usize| {
         let cells = [right, pose, wrong, silent].map(cell).join(" | ");
         says(MOBILITY, &format!("| {of} | {cells} |"));

@@ -125,9 +125,10 @@ fn text(hinges: &[Hinge], decimals: (usize, &[usize]), turned: bool, noise: &mut
     }
     for (i, (a, b, point, axis)) in hinges.iter().enumerate() {
         let size = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let axis = match turned || *axis != Z {
-            true => vector(axis.map(|x| x / size), decimals.1[i % decimals.1.len()]),
-            false => "[0, 0, 1]".to_owned(),
+        let axis = if turned || *axis != Z {
+            vector(axis.map(|x| x / size), decimals.1[i % decimals.1.len()])
+        } else {
+            "[0, 0, 1]".to_owned()
         };
         let point = vector(*point, decimals.0);
         writeln!(
