@@ -98,7 +98,7 @@ impl Step {
     }
 }
 
-/// A joint in one of several copies of the mechanism's links, kept drives and couplings, which are numbered on: see [`copy`].
+/// A joint in one of several copies of the mechanism's links, kept drives and couplings, which are numbered on, lane by lane.
 #[derive(Debug, Clone, Copy)]
 pub struct At {
     /// The joint.
