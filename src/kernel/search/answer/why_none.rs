@@ -120,7 +120,7 @@ pub fn relaxations(
         out.push((Relaxation::FreeDrives, c.total));
     }
     if conditions.keep_output
-        && let Some(c) = easing.some(&|r| r.keep_output = false)?
+        && let Some(c) = easing.some(&|r| (r.keep_output, r.drives) = (false, Drives::Free))?
     {
         out.push((Relaxation::OutputChange, c.total));
     }
