@@ -63,9 +63,9 @@ def loads(name, file, ending, of=None):
         failures.append(f"{name}: {why}")
 
 
-def mjcf(name, file, truth=None, rounding=0.0):
+def mjcf(name, file, exact=None, rounding=0.0):
     """One MJCF model: ours and MuJoCo's figures before and after, and the motion of one in the other. What is rounded on
-    purpose closes as far as its digits do."""
+    purpose closes as far as its digits do; MuJoCo's figures are those of the `exact` model then."""
     began = time.perf_counter()
     found, why = lint(file)
     took = time.perf_counter() - began
@@ -78,7 +78,7 @@ def mjcf(name, file, truth=None, rounding=0.0):
     if gap > max(1e-7, 30 * rounding):
         failures.append(f"{name}: MuJoCo does not close it ({gap:.1e})")
         return
-    peer = truth or before.figures(q)
+    peer = exact.figures(exact.close(exact.model.qpos0)[0]) if exact else before.figures(q)
     out = found["redundant_at_most"] - found["redundant"]
     rows.append((name, peer["w"], peer["redundant"], found["mobility"], found["redundant"], out, took))
     left = found["left_out"]
@@ -93,18 +93,20 @@ def mjcf(name, file, truth=None, rounding=0.0):
     expect(name, "redundant", found["redundant"], peer["redundant"])
     if found["redundant"] == 0:
         return
-    with tempfile.NamedTemporaryFile(suffix=".xml", dir=pathlib.Path(file).parent if truth else None) as t:
+    with tempfile.NamedTemporaryFile(suffix=".xml", dir=pathlib.Path(file).parent if exact else None) as t:
         code, _, err = ozols("fix", file, "-o", t.name)
         if code != 0:
             failures.append(f"{name}: not fixed: {err.strip().splitlines()[0]}")
             return
         loads(f"{name}, fixed", t.name, ".xml", file)
         after = mujoco_figures.Model(t.name)
-    follow(name, before, after, q, peer)
+    follow(name, before, after, q, peer, exact=exact)
 
 
-def follow(name, before, after, q, peer, by_places=False, steps=STEPS):
-    """The way of the model as it was, step by step, in the model as it is: closed there, of full rank, and nowhere else.
+def follow(name, before, after, q, peer, by_places=False, steps=STEPS, exact=None):
+    """The way of the model as it was, step by step, in the model as it is: closed there, of full rank, and nowhere else. Then it
+    falls for a second as the model as it was does, or as the `exact` one where rounding makes redundant rows contradict each
+    other: MuJoCo holds on to such rows as far as it can, which moves links by up to a fifth of the size (agile-eye, 4 digits).
 
     "The same" is to a millionth of the model's size, and ten times what the model as it was is open by where it does not close.
     The poses are told by the joints that both have; where ozols wrote both, which may cut loops elsewhere, by the places of
@@ -171,12 +173,13 @@ def follow(name, before, after, q, peer, by_places=False, steps=STEPS):
         if any(f.startswith(name) for f in failures):
             return
     # Of places alone, the format between knows no masses.
-    fell = second.apart(before, after, first, start, (ours, theirs), whole, own=not by_places)
+    fell = second.apart(exact or before, after, first, start, (ours, theirs), whole, own=not by_places)
     if fell is None:
         notes.append(f"{name}: MuJoCo does not keep its loops closed for a second")
         return
     off, went = fell
-    expect(name, f"a second later {off:.1e} of its size apart (it went {went:.1e})", bool(off < second.APART + before.zero), True)
+    near = second.APART * max(1.0, went)
+    expect(name, f"a second later {off:.1e} of its size apart (it went {went:.1e})", bool(off < near), True)
 
 
 def urdf(name, file, side):
@@ -313,14 +316,13 @@ def generated(name, kind, number, how, digits):
             file.write_text(text)
             return file
 
-        def figures(way):
-            peer = mujoco_figures.Model(put("-exact.xml", whole.mjcf(way)))
-            return peer.figures(peer.close(peer.model.qpos0)[0])
+        def exact(way):
+            return mujoco_figures.Model(put("-exact.xml", whole.mjcf(way)))
 
         if how in ["connect", "site", "weld"]:
             rounded = digits < generate.FULL
             file = put(".xml", model.mjcf(how))
-            mjcf(name, file, figures(how) if rounded else None, 10.0**-digits)
+            mjcf(name, file, exact(how) if rounded else None, 10.0**-digits)
             if how == "connect" and not rounded:
                 exported(name, folder, file)
             return
@@ -328,7 +330,8 @@ def generated(name, kind, number, how, digits):
             text, side = model.urdf(beside=True)
             urdf(name, put(".urdf", text), put(".yaml", side))
             return
-        truth = figures("weld")
+        peer = exact("weld")
+        truth = peer.figures(peer.close(peer.model.qpos0)[0])
         if whole.unsaid:
             notes.append(f"{name}: {whole.unsaid} of its couplings cannot be said: a mimic joint follows one other")
         text = model.sdf() if how == "sdf" else model.urdf()[0]

@@ -4,7 +4,8 @@ import mujoco
 import numpy as np
 
 STEP = 5e-4
-# Loops are stiff springs to MuJoCo, which redundant rows make stiffer; the share of a model's size that this may be.
+# Loops are stiff springs to MuJoCo, which redundant rows make stiffer; the share that this may be of a model's size, or of its way
+# where that is longer.
 APART = 5e-3
 # What holds nothing but itself weighs this little beside a link.
 LIGHT = 1e-3
