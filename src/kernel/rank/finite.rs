@@ -164,7 +164,7 @@ fn exactly(
     }
     // Not everything that moves at first order moves, where series stop it in a random direction.
     let shaky = stopped.is_some();
-    if !scales::are_alike(mechanism, closure.state)? {
+    if !scales::are_alike(exact, mechanism, closure.state)? {
         let (from, to) = (0, instantaneous - usize::from(shaky));
         return Ok(Finite::new(from, How::Undecided { from, to }));
     }

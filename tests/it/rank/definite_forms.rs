@@ -12,8 +12,32 @@ use proptest::prelude::*;
 const QUARTICS: [[i64; 4]; 3] = [[1, 3, -2, -2], [1, 5, -3, -3], [-1, -4, 6, -1]];
 const SEXTIC: [i64; 5] = [9, 5, 1, -7, -8];
 
-/// One slide for each list of curvatures, with rods of length `unit` over each; all lifts in a row, the last one fixed.
-fn forms(blocks: &[(Vec<i64>, &str)]) -> String {
+/// Returns a length, of another order of magnitude than the others now and then.
+fn unit() -> impl Strategy<Value = &'static str> {
+    prop_oneof![4 => Just("10"), 1 => Just("1e-8"), 1 => Just("1e6")]
+}
+
+/// Returns the curvatures of forms that only rest fulfils: Σ a = 0 and Σ a³ > 0, drawn at random, or of order six. All forms are
+/// positive, so that their sum is definite, too.
+fn definite_form() -> impl Strategy<Value = Vec<i64>> {
+    let balanced = |mut a: Vec<i64>| {
+        a.push(-a.iter().sum::<i64>());
+        let cubes: i64 = a.iter().map(|a| a.pow(3)).sum();
+        let of_order_four = cubes != 0 && a.iter().all(|&a| a != 0);
+        of_order_four.then(|| a.iter().map(|a| a * cubes.signum()).collect())
+    };
+    prop_oneof![
+        prop::sample::select(QUARTICS.to_vec()).prop_map(Vec::from),
+        Just(SEXTIC.to_vec()),
+        prop::collection::vec(-9i64..10, 2..4).prop_filter_map("not of order four", balanced),
+    ]
+}
+
+/// The curvatures of a slide's rods, the length of a rod of curvature 1, and whether the row of lifts ends behind it.
+type Block = (Vec<i64>, &'static str, bool);
+
+/// One slide for each list of curvatures, with rods of length `unit` over each; lifts in rows, the last one of each fixed.
+fn forms(blocks: &[Block]) -> String {
     let mut out = "name = \"forms\"\n[[link]]\nid = \"frame\"\nrole = \"frame\"\n".to_owned();
     let mut joints = 0;
     let mut joint = |out: &mut String, links: [&str; 2], kind: &str, at: String, axis: [i64; 3]| {
@@ -24,7 +48,7 @@ fn forms(blocks: &[(Vec<i64>, &str)]) -> String {
     };
     let ([x, y, z], mut below, mut rods) =
         ([[1, 0, 0], [0, 1, 0], [0, 0, 1]], "frame".to_owned(), 0);
-    for (b, (curvatures, unit)) in blocks.iter().enumerate() {
+    for (b, (curvatures, unit, ends)) in blocks.iter().enumerate() {
         let slide = format!("x{b}");
         let role = if b == 0 { "role = \"output\"\n" } else { "" };
         out += &format!("[[link]]\nid = {slide:?}\n{role}");
@@ -77,13 +101,16 @@ fn forms(blocks: &[(Vec<i64>, &str)]) -> String {
             );
             below = lift;
         }
+        if *ends || b + 1 == blocks.len() {
+            joint(&mut out, [&below, "frame"], "fixed", "0, 0".to_owned(), z);
+            below = "frame".to_owned();
+        }
     }
-    joint(&mut out, [&below, "frame"], "fixed", "0, 0".to_owned(), z);
     out
 }
 
 /// The least and the most that the finite mobility is said to be.
-fn range(blocks: &[(Vec<i64>, &str)]) -> (usize, usize) {
+fn range(blocks: &[Block]) -> (usize, usize) {
     let text = forms(blocks);
     let m = mechanism_from_str("forms.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let method = Method::Auto { tolerance: None };
@@ -96,20 +123,13 @@ proptest! {
     #![proptest_config(crate::fuzz::runs(6))]
     #[test]
     fn a_definite_form_beside_free_slides_is_no_motion(
-        quartic in prop::sample::select(QUARTICS.to_vec()),
-        sextic in any::<bool>(),
-        free in 0usize..3,
-        unit in prop::sample::select(vec!["10", "1e-8", "1e6"]),
+        definite in prop::collection::vec((definite_form(), unit(), any::<bool>()), 1..4),
+        free in prop::collection::vec((Just(vec![2, -2]), Just("10"), any::<bool>()), 0..3),
         first in any::<bool>(),
     ) {
-        let form = if sextic { SEXTIC.to_vec() } else { quartic.to_vec() };
-        // Of very different lengths where the unit is another.
-        let mut blocks = vec![(form, unit)];
-        blocks.extend(vec![(vec![2, -2], "10"); free]);
-        if first {
-            blocks.reverse();
-        }
-        let (least, most) = range(&blocks);
-        prop_assert!(least <= free && free <= most, "{} to {}, not {}", least, most, free);
+        let motions = free.len();
+        let (before, after) = if first { (free, definite) } else { (definite, free) };
+        let (least, most) = range(&[before, after].concat());
+        prop_assert!(least <= motions && motions <= most, "{} to {}, not {}", least, most, motions);
     }
 }

@@ -4,24 +4,27 @@
 //! a thousand-millionth of that size does is smaller than both: following the motion says nothing of it then.
 
 use crate::closure::twist::FrameValues;
-use crate::geom::exact::ExactError;
+use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::extent::Extent;
-use crate::geom::scalars::Reals;
-use crate::geom::vector::{across, cross, length, sub, unit};
+use crate::geom::scalars::{Reals, Scalars};
+use crate::geom::vector::{across, length, sub, unit};
+use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 
 /// The smallest length that following sees, over the size of the mechanism.
 const FINEST: f64 = 1e-5;
-/// Directions and points that differ by less are the same.
-const SAME: f64 = 1e-12;
 
 /// Returns whether every link between turning joints, every pitch and every ratio of a slide to a turn is long enough to be seen
-/// beside the whole mechanism.
+/// beside the whole mechanism. What is exactly zero is no length.
 ///
 /// # Errors
 /// Where a coordinate has no value.
-pub(super) fn are_alike(mechanism: &Mechanism, state: StateId) -> Result<bool, ExactError> {
+pub(super) fn are_alike(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<bool, ExactError> {
     let turning: Vec<JointId> = mechanism
         .joints_in(state)
         .filter(|&j| {
@@ -31,12 +34,14 @@ pub(super) fn are_alike(mechanism: &Mechanism, state: StateId) -> Result<bool, E
         .collect();
     let all = mechanism.joints_in(state);
     let frames = |j: JointId| FrameValues::new(&Reals, &mechanism.joints[j].frame);
+    let residues = |j: JointId| FrameValues::new(exact, &mechanism.joints[j].frame);
     let points = all.map(|j| frames(j).map(|f| f.point));
     let size = Extent::of(&points.collect::<Result<Vec<_>, _>>()?).length;
-    let seen = |x: f64| x.abs() <= SAME * size || x.abs() >= FINEST * size;
+    let seen = |x: f64| x.abs() >= FINEST * size;
     for (i, &a) in turning.iter().enumerate() {
-        let (of, frame) = (&mechanism.joints[a], frames(a)?);
-        if of.joint_type.freedoms().contains(&Freedom::Screw) && !seen(frame.pitch) {
+        let (of, frame, exactly) = (&mechanism.joints[a], frames(a)?, residues(a)?);
+        let screws = of.joint_type.freedoms().contains(&Freedom::Screw);
+        if screws && exactly.pitch != 0 && !seen(frame.pitch) {
             return Ok(false);
         }
         for &b in &turning[i + 1..] {
@@ -44,12 +49,15 @@ pub(super) fn are_alike(mechanism: &Mechanism, state: StateId) -> Result<bool, E
             if !of.links.iter().any(|l| other.links.contains(l)) {
                 continue;
             }
-            let to = frames(b)?;
-            let [z, w] = [frame.axes[2], to.axes[2]].map(unit);
+            let (to, there) = (frames(b)?, residues(b)?);
             let apart = sub(to.point, frame.point);
             // Where along parallel axes the points are does not matter.
-            let parallel = length(cross(z, w)) <= SAME;
-            if !seen(length(if parallel { across(apart, z) } else { apart })) {
+            let distance = match separation(exact, &exactly, &there) {
+                Separation::None => continue,
+                Separation::OfParallelAxes => length(across(apart, unit(frame.axes[2]))),
+                Separation::OfPoints => length(apart),
+            };
+            if !seen(distance) {
                 return Ok(false);
             }
         }
@@ -62,4 +70,33 @@ pub(super) fn are_alike(mechanism: &Mechanism, state: StateId) -> Result<bool, E
             _ => (FINEST..1.0 / FINEST).contains(&ratio.abs()),
         }
     }))
+}
+
+/// What is between two joints.
+enum Separation {
+    /// One axis, or one point.
+    None,
+    OfParallelAxes,
+    OfPoints,
+}
+
+/// Returns what is between two joints, by exact arithmetic: doubles do not tell a small length from none.
+fn separation(
+    exact: &ExactField,
+    a: &FrameValues<Residue>,
+    b: &FrameValues<Residue>,
+) -> Separation {
+    let apart: [Residue; 3] = std::array::from_fn(|i| exact.sub(b.point[i], a.point[i]));
+    if exact.cross(a.axes[2], b.axes[2]) != [0; 3] {
+        return if apart == [0; 3] {
+            Separation::None
+        } else {
+            Separation::OfPoints
+        };
+    }
+    if exact.cross(apart, a.axes[2]) == [0; 3] {
+        Separation::None
+    } else {
+        Separation::OfParallelAxes
+    }
 }
