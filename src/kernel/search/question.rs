@@ -20,6 +20,7 @@ use crate::search::question::conditions::{Conditions, OPEN, SearchError, Symmetr
 use crate::search::question::cost::CostTable;
 use crate::search::question::grasp::{Grasp, grasps, is_free, loose};
 use crate::search::question::kept::{Followed, Kept};
+use crate::search::question::own_images::OwnSymmetry;
 use crate::search::question::space::{Space, Variable};
 use crate::search::reduce::biconnected::{Block, blocks};
 use crate::search::reduce::plane_split::LeastModel;
@@ -126,21 +127,23 @@ impl Question {
                 .for_each(|of| followed.enter(of));
         }
         followed.enter(&mut mechanism);
+        let searched = conditions.state.map(|s| s.state);
+        if conditions.symmetry != Symmetry::All
+            && mechanism.search.order() == 1
+            && let Some(own) = OwnSymmetry::find(&exact, &mechanism, searched)
+        {
+            let search = own.of(&mechanism.search);
+            Arc::make_mut(&mut mechanism).search = search;
+        }
         if conditions.symmetry != Symmetry::All {
-            symmetry::check(&exact, &mechanism, conditions.state.map(|s| s.state))?;
+            symmetry::check(&exact, &mechanism, searched)?;
         }
         if conditions.symmetry == Symmetry::OnePerOrbit {
             symmetry::check_drives(&mechanism)?;
         }
         let costs = CostTable::new(&mechanism.search.costs);
         let symmetric = conditions.symmetry == Symmetry::SymmetricOnly;
-        let space = Space::new(
-            &exact,
-            &mechanism,
-            conditions.state.map(|s| s.state),
-            symmetric,
-            &costs,
-        )?;
+        let space = Space::new(&exact, &mechanism, searched, symmetric, &costs)?;
         let steps = Steps::new(&space, &costs);
         let links = kept_links(&mechanism);
         let motion = joint_motion(&exact, &mechanism, StateId::FREE, &links)?;

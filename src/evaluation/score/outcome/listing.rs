@@ -30,7 +30,8 @@ impl Request {
         };
         // Of a variant and its images one is kept.
         let images = match self.symmetry {
-            Symmetry::OnePerOrbit => mechanism.search.order(),
+            // Images that the file does not name are looked for later, and are pairs.
+            Symmetry::OnePerOrbit => mechanism.search.order().max(2),
             Symmetry::All | Symmetry::SymmetricOnly => 1,
         };
         Ok(looked.saturating_mul(images))

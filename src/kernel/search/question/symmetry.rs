@@ -15,9 +15,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MirrorError {
-    /// A file that names no mirror pairs.
+    /// A file that names no images, of a mechanism that has none.
     #[error(
-        "{mechanism} names no mirror pairs; add `mirror = [[\"joint\", \"its image\"], ...]` under [search]"
+        "no mirror and no half turn was found that carries {mechanism} over to itself; correct its points and axes, or name the images: `mirror = [[\"joint\", \"its image\"], ...]` under [search]"
     )]
     NoPairs {
         /// Name of the mechanism.
