@@ -289,7 +289,7 @@ fn bad_questions_are_refused_and_leave_no_file() {
 #[test]
 fn a_page_says_when_it_does_not_show_all_self_stresses() {
     let said = "of 37 self-stresses are here";
-    let jessen = out(&["report", "jessen-icosahedron"]);
+    let jessen = out(&["report", "jessen-icosahedron", "--nodes", "2000"]);
     assert!(
         jessen.contains(&format!("The first 24 {said}")),
         "{}",

@@ -20,5 +20,6 @@ mod order;
 mod self_stresses;
 mod suggest;
 pub(crate) mod twin;
+mod usual_options;
 mod variants;
 pub(crate) mod varied;

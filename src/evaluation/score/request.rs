@@ -258,6 +258,7 @@ impl Request {
                 .get_or_insert((i, settled.verdicts[i].as_written));
         }
         self.price(&mut out)?;
+        self.offer_usual(&mut out, tell);
         self.offer_unlisted(&mut out, tell)?;
         self.restrict(&mut out)?;
         self.insert(&mut out)?;

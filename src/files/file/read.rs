@@ -3,7 +3,7 @@
 mod claims;
 mod connected;
 mod contours;
-mod coupling;
+pub mod coupling;
 mod expected;
 mod joints;
 mod links;

@@ -1,9 +1,11 @@
 //! Joint types that a request names and the file does not list: offered in the joints' own frames.
 
+use crate::file::read::coupling::{coupled_freedoms, keeps_coupled};
 use crate::file::read::resolve::contains;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism, StateId};
 use crate::score::request::{Request, RequestError};
+use crate::search::answer::single_changes::{USUAL, USUAL_UNLOADING};
 use itertools::Itertools;
 
 /// The types that need no more than a joint's own frame: a screw needs its lead, too, and a weld leaves nothing to choose.
@@ -13,6 +15,37 @@ pub(in crate::score) fn types() -> impl Iterator<Item = &'static JointType> {
 }
 
 impl Request {
+    /// Offers the usual types at every joint where neither the file nor the request offers any. `tell` hears which.
+    pub(in crate::score) fn offer_usual(
+        &self,
+        mechanism: &mut Mechanism,
+        tell: &mut dyn FnMut(String),
+    ) {
+        let offers = |j: &Joint| j.options.len() > 1 || !j.unloading.is_empty();
+        let names_some =
+            !(self.options.is_empty() && self.allow.is_empty() && self.unloading.is_empty());
+        if names_some || mechanism.joints.iter().any(offers) {
+            return;
+        }
+        for id in mechanism.joint_ids() {
+            let joint = &mut mechanism.joints[id];
+            if is_changeable(joint) {
+                for t in USUAL {
+                    offer(mechanism, id, t.name(), &t);
+                }
+            } else if !joint.is_in(StateId::FREE) {
+                joint.unloading.push(option(joint, &USUAL_UNLOADING));
+            }
+        }
+        if mechanism.joints.iter().any(offers) {
+            tell(format!(
+                "note: {} offers no joint types, so the usual ones are tried at all joints without a drive: {}",
+                mechanism.name,
+                USUAL.iter().map(|t| t.name()).join(", ")
+            ));
+        }
+    }
+
     /// Offers the types that are named and that no joint has an option of: those of `--options` wherever a file's list would be
     /// offered, those of `--allow` at their joint. `tell` hears of directions that nobody stated.
     pub(in crate::score) fn offer_unlisted(
@@ -30,12 +63,12 @@ impl Request {
         };
         let of_type = |name: &&String| types().find(|t| t.name() == name.as_str()).cloned();
         let new = |name: &&String| !listed.contains(name);
-        let changeable =
-            |j: &Joint| j.is_in(StateId::FREE) && !j.drive && j.joint_type != JointType::Fixed;
         let mut wanted: Vec<(&'static str, String, JointType, Vec<JointId>)> = Vec::new();
         for name in self.options.iter().filter(new).unique() {
             if let Some(t) = of_type(&name) {
-                let all = mechanism.joints_with_ids().filter(|(_, j)| changeable(j));
+                let all = mechanism
+                    .joints_with_ids()
+                    .filter(|(_, j)| is_changeable(j));
                 let all = all.map(|(id, _)| id).collect();
                 wanted.push(("--options", name.clone(), t, all));
             }
@@ -54,7 +87,7 @@ impl Request {
         for (flag, name, joint_type, at) in wanted {
             let mut taken = false;
             for id in at {
-                taken |= offer(&mut mechanism.joints[id], &name, &joint_type);
+                taken |= offer(mechanism, id, &name, &joint_type);
             }
             if !taken {
                 return Err(RequestError::LosesMotion {
@@ -73,28 +106,48 @@ impl Request {
     }
 }
 
-/// Offers a type at a joint, if it allows what the joint does now.
-fn offer(joint: &mut Joint, name: &str, joint_type: &JointType) -> bool {
-    let option = |name: &str, of: &JointType| JointOption {
-        name: name.to_owned(),
+/// Returns whether a list of options for all joints is offered at this one.
+pub(in crate::score) fn is_changeable(joint: &Joint) -> bool {
+    joint.is_in(StateId::FREE) && !joint.drive && joint.joint_type != JointType::Fixed
+}
+
+/// Returns a type as an option in the frame of a joint.
+fn option(joint: &Joint, of: &JointType) -> JointOption {
+    JointOption {
+        name: of.name().to_owned(),
         joint_type: of.clone(),
         frame: joint.frame.clone(),
         cost_milli: None,
         state: None,
-    };
-    let present = option(joint.joint_type.name(), &joint.joint_type);
+    }
+}
+
+/// Offers a type at a joint, if it fits there, and returns whether it is offered.
+fn offer(mechanism: &mut Mechanism, id: JointId, name: &str, joint_type: &JointType) -> bool {
+    let joint = &mechanism.joints[id];
     if joint.joint_type == *joint_type || joint.options.iter().any(|o| o.name == name) {
         return true;
     }
-    let new = option(name, joint_type);
-    let fits = contains(&new, &present) == Some(true);
+    let fits = fits(mechanism, id, joint_type);
     if fits {
+        let joint = &mut mechanism.joints[id];
         if joint.options.is_empty() {
-            joint.options.push(present);
+            joint.options.push(option(joint, &joint.joint_type));
         }
-        joint.options.push(new);
+        joint.options.push(JointOption {
+            name: name.to_owned(),
+            ..option(joint, joint_type)
+        });
     }
     fits
+}
+
+/// Returns whether a type in a joint's frame allows what the joint does now and keeps the freedoms that are coupled there.
+pub(in crate::score) fn fits(mechanism: &Mechanism, id: JointId, joint_type: &JointType) -> bool {
+    let joint = &mechanism.joints[id];
+    let [new, present] = [joint_type, &joint.joint_type].map(|t| option(joint, t));
+    contains(&new, &present) == Some(true)
+        && keeps_coupled(&new, &present, &coupled_freedoms(mechanism, id))
 }
 
 /// The direction of a type that a joint's frame has no word for.

@@ -144,12 +144,7 @@ fn definite(t: &JointType, freedom: Freedom) -> bool {
 /// problem.
 fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) {
     for j in mechanism.joint_ids() {
-        let coupled: Vec<Freedom> = mechanism
-            .couplings
-            .iter()
-            .filter_map(|c| c.end_at(j).map(|e| c.ends[e].freedom))
-            .unique()
-            .collect();
+        let coupled = coupled_freedoms(mechanism, j);
         if coupled.is_empty() {
             continue;
         }
@@ -157,7 +152,7 @@ fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) 
         let keeps: Vec<bool> = joint
             .options
             .iter()
-            .map(|o| keeps(o, &joint.options[0], &coupled))
+            .map(|o| keeps_coupled(o, &joint.options[0], &coupled))
             .collect();
         for (option, _) in joint.options.iter().zip(&keeps).filter(|(_, k)| !**k) {
             if file.joint[j].options.is_some() {
@@ -177,8 +172,21 @@ fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) 
     }
 }
 
-/// Whether an option allows every motion of the present joint with the same rates of the coupled freedoms.
-fn keeps(option: &JointOption, present: &JointOption, coupled: &[Freedom]) -> bool {
+/// Returns the freedoms of a joint that are coupled.
+#[must_use]
+pub fn coupled_freedoms(mechanism: &Mechanism, j: JointId) -> Vec<Freedom> {
+    let couplings = mechanism.couplings.iter();
+    let own = couplings.filter_map(|c| c.end_at(j).map(|e| c.ends[e].freedom));
+    own.unique().collect()
+}
+
+/// Returns whether an option allows every motion of the present joint with the same rates of the coupled freedoms; always so where
+/// none is coupled.
+#[must_use]
+pub fn keeps_coupled(option: &JointOption, present: &JointOption, coupled: &[Freedom]) -> bool {
+    if coupled.is_empty() {
+        return true;
+    }
     let has =
         |f: &Freedom| option.joint_type.freedoms().contains(f) && definite(&option.joint_type, *f);
     coupled.iter().all(has) && contains_rates(option, present, coupled).unwrap_or(false)

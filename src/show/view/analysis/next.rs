@@ -2,10 +2,9 @@
 
 use super::State;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::search::answer::single_changes::{USUAL, USUAL_UNLOADING};
+use crate::search::answer::single_changes::USUAL_UNLOADING;
 use crate::view::analysis::suggestions::Suggestions;
 use crate::view::terminal::next_commands::{NextCommand, file_name, word};
-use itertools::Itertools;
 
 /// What to do after an analysis of `file`; `snap` is the tolerance its coordinates were snapped by, where they were.
 #[must_use]
@@ -51,20 +50,12 @@ fn to_remove(s: &State<'_>, file: &str, snap: &str) -> Option<NextCommand> {
     let of = found.of;
     let joined = |more: &str| format!("{more} {snap}").trim().to_owned();
     match (found.options == "usual", found.state) {
-        (false, StateId::FREE) => Some(NextCommand::new(
+        (_, StateId::FREE) => Some(NextCommand::new(
             "search",
             file,
             &joined(""),
             &format!("every redesign that removes all {of}, cheapest first"),
         )),
-        (true, StateId::FREE) => {
-            let names = USUAL.iter().map(|t| format!("\"{}\"", t.name())).join(", ");
-            Some(NextCommand {
-                command: format!("Write under [search]: options = [{names}]"),
-                gives: "so that joints have a choice; then `ozols search` finds what removes all"
-                    .to_owned(),
-            })
-        }
         (false, n) => {
             let left = found.changes.first().map_or(of, |x| x.remaining);
             let state = if n == StateId::new(1) {

@@ -268,8 +268,7 @@ fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextComman
         let kept = without(flags, &name);
         NextCommand::new("search", file, format!("{kept} {flag}").trim(), &least)
     });
-    let some = none.hopeless.least_redundant;
-    let options = match some.and_then(|_| outcome.would_help()) {
+    let options = match outcome.would_help() {
         Some(wider) => NextCommand::new(
             "search",
             file,
