@@ -71,7 +71,6 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Drive(a) => command::drive::run(&args.global, a),
         Command::Verify(a) => command::verify::run(&args.global, a),
         Command::Import(a) => command::import::run(a),
-        Command::Convert(a) => command::convert::run(a),
         Command::Lint(a) => command::lint::run(a),
         Command::Fix(a) => command::fix::run(a),
         Command::Draw(a) => command::draw::run(&args.global, a),

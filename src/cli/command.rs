@@ -8,7 +8,6 @@ pub(in crate::cli) mod check;
 pub(in crate::cli) mod clamped;
 pub(in crate::cli) mod closure;
 pub(in crate::cli) mod completions;
-pub(in crate::cli) mod convert;
 pub(in crate::cli) mod draw;
 pub(in crate::cli) mod drive;
 pub(in crate::cli) mod explain;
@@ -56,9 +55,6 @@ pub(in crate::cli) enum Command {
     /// Make a mechanism file of a robot description (URDF, MJCF, SDF) or a CAD assembly (.FCStd, .asmt).
     #[command(after_help = examples::IMPORT)]
     Import(import::Import),
-    /// Carry a robot description over to another format, loops and all: MJCF, SDF, URDF, Drake's tags.
-    #[command(after_help = examples::CONVERT)]
-    Convert(convert::Convert),
     /// Name each redundant constraint of robot descriptions and CAD assemblies, with its line and what removes it.
     #[command(after_help = examples::LINT)]
     Lint(lint::Lint),

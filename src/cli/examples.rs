@@ -72,14 +72,6 @@ Examples:
   ozols import robot.urdf --working-link effector --format json
   ozols analyze robot.toml                                   or at once: ozols analyze robot.urdf";
 
-pub(super) const CONVERT: &str = "\
-Examples:
-  ozols convert robot.urdf -o robot.xml                loops, weights, shapes by reference, limits, damping, actuators
-  ozols convert robot.urdf --loops loops.yaml -o robot.sdf    what is lost is told, kind by kind
-  ozols convert robot.urdf --to urdf-yaml -o loops.urdf       its loops in a file beside it, as for Pinocchio
-  ozols convert robot.urdf --to drake -o drake.urdf    its loops as Drake's ball constraints
-  ozols convert robot.urdf --closure auto -o robot.xml    the closure that holds nothing twice, or what each would do";
-
 pub(super) const LINT: &str = "\
 Examples:
   ozols lint robot.urdf                                what its loops hold twice: exit code 0 nothing, 1 something

@@ -3,7 +3,6 @@
 mod additions;
 mod asmt;
 mod cad;
-pub mod convert;
 mod description;
 mod edit;
 mod fcstd;

@@ -11,8 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 27] = [
-    "convert",
+const COMMANDS: [&str; 26] = [
     "lint",
     "fix",
     "report",

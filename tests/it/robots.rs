@@ -1,7 +1,6 @@
 //! Robot descriptions: real models against the figures of other engines, and what is refused.
 
 pub(crate) mod assemblies;
-mod convert;
 mod every_pose;
 mod exports;
 pub(crate) mod fix;

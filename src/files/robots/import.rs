@@ -82,22 +82,6 @@ fn root(
     document.read(&name, xml::utf8(&name, &found)?)
 }
 
-/// The mechanism of a robot in its pose, seen from the link that stands still; as well known as what it was made from.
-pub(crate) fn mechanism(
-    mut robot: Robot,
-    frame: usize,
-    known: Option<ToleranceEntry>,
-) -> Result<Mechanism, ImportError> {
-    let tree = spanning_tree(&robot, frame);
-    let found = entries(&mut robot, &tree, "", "", &Options::default());
-    let mut file = found.map_err(|p| p.at("", "", None))?.file;
-    file.tolerance = known;
-    build(&file).or_else(|_| {
-        let text = write::toml(&file, &[]).unwrap_or_default();
-        mechanism_from_str("the mechanism with another closure", &text)
-    })
-}
-
 /// Imports a description. `read` gives the files it includes.
 ///
 /// # Errors
@@ -153,7 +137,6 @@ pub fn import(
             archive,
             root,
             robot,
-            frame,
             places,
             joints,
             couplings,

@@ -4,7 +4,6 @@ pub(super) mod fix;
 mod gearbox;
 mod include;
 pub(super) mod joints;
-pub(super) mod payload;
 pub(super) mod read;
 pub(super) mod scene;
 pub(super) mod write;

@@ -2,6 +2,5 @@
 
 pub(super) mod fix;
 mod gazebo;
-pub(super) mod payload;
 pub(super) mod read;
 pub(super) mod write;

@@ -1,4 +1,3 @@
 //! What is told of robot descriptions.
 
-pub mod convert;
 pub mod lint;

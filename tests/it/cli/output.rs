@@ -185,7 +185,7 @@ fn what_is_read_is_not_written_over() {
     let id = id.lines().nth(1).unwrap();
     let read = || [&file, &robot, &db].map(|f| fs::read(f).unwrap());
     let before = read();
-    let over: [&[&str]; 19] = [
+    let over: [&[&str]; 18] = [
         &["watch", &file, "-o", &file],
         &["analyze", &file, "-o", &same],
         &["analyze", &file, "--certificate", &file],
@@ -198,7 +198,6 @@ fn what_is_read_is_not_written_over() {
         &["export", &robot, "--to", "mjcf", "-o", &robot],
         &["lint", &robot, "--format", "sarif", "-o", &robot],
         &["fix", &robot, "-o", &robot],
-        &["convert", &robot, "--to", "urdf", "-o", &robot],
         &["catalog", "export", &db, id, "-o", &db],
         &["catalog", "page", &db, "-o", &db],
         &["catalog", "query", &db, "-o", &db],

@@ -120,15 +120,18 @@ fn mjcf_defaults_and_series() {
 // A weld of two bodies that hinge on the world in one place: a closed loop of two coaxial hinges, W = 1, σ = 5.
 #[test]
 fn mjcf_weld_and_actuator() {
-    let t = mjcf("<worldbody><body name='a'><joint name='h'/></body><body name='b'><joint/></body></worldbody>
-        <equality><weld body1='a' body2='b'/><weld body1='a' body2='b' active='false'/></equality>
-        <actuator><motor joint='h'/></actuator>");
-    let i = import("m.xml", t.as_bytes(), &none, &Options::default()).unwrap();
-    assert_eq!(figures(&i, 1e-9), [3, 3, 1, 2, 1, 5]);
-    assert!(
-        i.toml().unwrap().contains("drive = true")
-            && i.toml().unwrap().contains("type = \"fixed\"")
-    );
+    // For a joint of one freedom it is the same in which frame its actuator acts.
+    for frame in ["joint", "jointinparent"] {
+        let t = mjcf(&format!(
+            "<worldbody><body name='a'><joint name='h'/></body><body name='b'><joint/></body></worldbody>
+            <equality><weld body1='a' body2='b'/><weld body1='a' body2='b' active='false'/></equality>
+            <actuator><motor {frame}='h'/></actuator>"
+        ));
+        let i = import("m.xml", t.as_bytes(), &none, &Options::default()).unwrap();
+        assert_eq!(figures(&i, 1e-9), [3, 3, 1, 2, 1, 5]);
+        let toml = i.toml().unwrap();
+        assert!(toml.contains("drive = true") && toml.contains("type = \"fixed\""));
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use crate::common::{ozols, run_on};
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{figures, folder, none, refused};
+use ozols::file::schema::Coordinate;
 use ozols::robots::{Imported, Options, import};
 
 fn read(name: &str, text: &str) -> Imported {
@@ -388,4 +389,41 @@ fn loops_that_rounding_leaves_open() {
     let doubts = rounded.report.doubts();
     assert!(doubts.contains("1 loop: open by"), "{doubts}");
     assert!(refused("m.xml", &text(5e-3)).contains("the loops do not close"));
+}
+
+/// A universal joint of Drake turns about x of its first link and then about y: after a quarter turn about x that is z.
+#[test]
+fn a_second_axis_is_carried_by_the_first() {
+    use ozols::geom::vector::{cross, real};
+    let urdf = "<robot name='r' xmlns:drake='http://drake.mit.edu'><link name='a'/><link name='b'/>
+      <drake:joint name='j' type='universal'><parent link='a'/><child link='b'/></drake:joint></robot>";
+    for (first, wanted) in [
+        (0.0, [0.0, 0.0, 1.0]),
+        (std::f64::consts::FRAC_PI_2, [0.0, 1.0, 0.0]),
+    ] {
+        let options = Options {
+            pose: vec![("j".to_owned(), vec![first, 0.0])],
+            ..Options::default()
+        };
+        let i = import("r.urdf", urdf.as_bytes(), &none, &options).unwrap();
+        let frame = &i.mechanism.joints[0].frame;
+        let normal = cross(real(&frame.axis), real(&frame.reference)).map(f64::abs);
+        let near = |(n, w): (&f64, f64)| (n - w).abs() < 1e-9;
+        assert!(normal.iter().zip(wanted).all(near), "{normal:?}");
+    }
+}
+
+/// Files that `ozols convert` of 0.2 wrote have all digits, and a comment that says how many of them are known.
+#[test]
+fn a_comment_says_how_well_places_are_known() {
+    let text = mjcf(
+        "<!-- ozols: places are known to 2e-5 m and 3e-6 rad by the digits of the file converted -->
+         <worldbody><body name='a'><joint/><body name='b' pos='0.1 0 0'><joint/></body></body></worldbody>",
+    );
+    let known = read("m.xml", &text).file.tolerance.unwrap();
+    let number = |c: Option<Coordinate>| match c {
+        Some(Coordinate::Decimal(x)) => x,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!([known.length, known.direction].map(number), [2e-5, 3e-6]);
 }

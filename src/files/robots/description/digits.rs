@@ -33,23 +33,11 @@ const LEAST: f64 = 1e-12;
 /// Nor is a place said to be known worse than to this part of the size of the mechanism, and a direction to so many radians.
 const MOST: f64 = 0.09;
 
-/// Begins the comment by which a converted file says how well its places are known: its numbers have all digits, those that they
-/// were calculated from had not.
+/// Begins the comment by which a file that `ozols convert` of 0.2 wrote says how well its places are known: its numbers have all
+/// digits, those that they were calculated from had not.
 const KNOWN: &str = "<!-- ozols: places are known to ";
 
-/// That comment, and nothing where every number was exact.
-pub(crate) fn comment(known: Option<&ToleranceEntry>) -> String {
-    let number = |c: &Option<Coordinate>| match c {
-        Some(Coordinate::Decimal(x)) => *x,
-        _ => 0.0,
-    };
-    known.map_or(String::new(), |t| {
-        let (length, direction) = (number(&t.length), number(&t.direction));
-        format!("{KNOWN}{length:e} m and {direction:e} rad by the digits of the file converted -->")
-    })
-}
-
-/// What such a comment of a text says.
+/// Returns what such a comment of a text says.
 fn stated_in(text: &str) -> Option<ToleranceEntry> {
     let (_, rest) = text.split_once(KNOWN)?;
     let (length, rest) = rest.split_once(" m and ")?;

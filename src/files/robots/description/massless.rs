@@ -65,14 +65,6 @@ impl Light {
         Light::beside(&masses, &inertias)
     }
 
-    /// The same as light as engines take it, where motions are to be the same without it.
-    pub(crate) fn lighter(self) -> Light {
-        Light {
-            mass: LEAST[0],
-            inertia: (self.inertia / 100.0).max(LEAST[1]),
-        }
-    }
-
     /// Beside what the links of a mechanism weigh.
     pub(crate) fn in_mechanism(m: &Mechanism) -> Light {
         let all = m.links.iter().filter_map(|l| l.mass.as_ref());
@@ -83,11 +75,6 @@ impl Light {
             Inertia::Tensor(all) => all[..3].to_vec(),
         });
         Light::beside(&masses, &inertias.collect::<Vec<f64>>())
-    }
-
-    /// Its moment of inertia about every axis, in kg·m².
-    pub(crate) fn moment(self) -> f64 {
-        self.inertia
     }
 
     /// As MJCF has it, with its centre at a place in its body.

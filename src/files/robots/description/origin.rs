@@ -18,8 +18,6 @@ pub struct Origin {
     /// The root element.
     pub(in crate::robots) root: usize,
     pub(in crate::robots) robot: Robot,
-    /// The link that stands still.
-    pub(in crate::robots) frame: usize,
     /// Places of the robot's links in the pose found.
     pub(in crate::robots) places: Vec<RigidMotion>,
     /// The robot's joints that the mechanism's are.

@@ -94,11 +94,6 @@ impl Part {
         self
     }
 
-    /// Whether it is what holds a body that has no joints, and is called as that.
-    pub(crate) fn is_nameless(&self, robot: &Robot) -> bool {
-        self.joint_type == JointType::Fixed && robot.links.get(self.links[1]) == Some(&self.id)
-    }
-
     /// The direction of a freedom in the joint's own frame.
     pub(crate) fn direction(&self, freedom: Freedom) -> Vector {
         match freedom {

@@ -2,7 +2,6 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
-use crate::robots::convert::payload::Words;
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
@@ -108,14 +107,5 @@ impl<'a> Lookup<'a> {
 
     pub(crate) fn vector(&self, name: &str, default: Vector) -> Result<Vector, ImportError> {
         Ok(self.numbers::<3>(name)?.unwrap_or(default))
-    }
-
-    /// Those attributes that are there, with their values.
-    pub(super) fn words(&self, keys: &[&str]) -> Words {
-        let one = |k: &&str| {
-            let (_, value) = self.attribute(k)?;
-            Some(((*k).to_owned(), value.to_owned()))
-        };
-        keys.iter().filter_map(one).collect()
     }
 }

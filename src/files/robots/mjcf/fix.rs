@@ -4,7 +4,6 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
-use crate::robots::convert::payload::Weight;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::parts::Part;
@@ -12,7 +11,7 @@ use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::mjcf::payload;
+use crate::robots::mjcf::weights::{self, Weight};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -34,7 +33,7 @@ pub(crate) fn free(
         defaults: Defaults::read(root)?,
         parents: parents(origin),
         // What links weigh is told by shapes and elements that are not wrong where kinematics are read.
-        weights: payload::read(root, &origin.robot).map_or_else(|_| BTreeMap::new(), |p| p.weights),
+        weights: weights::read(root, &origin.robot).unwrap_or_default(),
         inserted: Vec::new(),
     };
     for &(part, e, freed) in all {

@@ -6,7 +6,6 @@ use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
 use crate::robots::description::parts::{Part, Robot, free};
-use crate::robots::mjcf::actuators::driven;
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
 use crate::robots::mjcf::{include, replicate};
@@ -99,7 +98,8 @@ pub(crate) fn read(
 /// Marks the joint that an actuator drives, or those that it pulls by a tendon.
 fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
     let name = a.attribute("name");
-    let joint = driven(a);
+    // Whichever frame it acts in.
+    let joint = a.attribute("joint").or(a.attribute("jointinparent"));
     let mut joints = robot.joints.iter_mut();
     if let Some(j) = joints.find(|j| Some(j.id.as_str()) == joint) {
         j.drive = true;

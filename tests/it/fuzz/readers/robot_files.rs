@@ -4,7 +4,6 @@ use super::mechanism_files::told;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::JointId;
 use ozols::redundancy::release::Release;
-use ozols::robots::convert::{Target, Wanted, convert};
 use ozols::robots::{Imported, Options, fix, import};
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
@@ -89,24 +88,7 @@ pub(crate) fn read(name: &str, bytes: &[u8], side: Option<(&str, &[u8])>, bits: 
             mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap();
             let report = i.report.text(name);
             assert!(!report.is_empty());
-            report + &carried_over(&i, usize::from(bits >> 3)) + &let_go(&i, bits)
-        }
-        Err(e) => told(&e),
-    }
-}
-
-/// The description in one of the other formats, which is well-formed. Returns what was lost.
-fn carried_over(i: &Imported, which: usize) -> String {
-    if !["urdf", "mjcf", "sdf"].contains(&i.format.word) {
-        return String::new();
-    }
-    let (_, target, _) = Target::ALL[which % Target::ALL.len()];
-    match convert(i, target, &Wanted::default()) {
-        Ok(converted) => {
-            if let Err(e) = roxmltree::Document::parse(&converted.text) {
-                panic!("{e} in\n{}", converted.text);
-            }
-            converted.told.join("\n")
+            report + &let_go(&i, bits)
         }
         Err(e) => told(&e),
     }

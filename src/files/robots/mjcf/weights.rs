@@ -1,0 +1,264 @@
+//! What the bodies of an MJCF file weigh: by their `<inertial>`, else by their shapes.
+
+mod shape;
+mod weight;
+
+pub(super) use weight::Weight;
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
+use crate::robots::description::parts::Robot;
+use crate::robots::mjcf::context::{Compiler, compiler};
+use crate::robots::mjcf::defaults::Defaults;
+use crate::robots::xml::Element;
+use shape::weight_of_shape;
+use std::collections::BTreeMap;
+use weight::together;
+
+/// What `<compiler>` says of weights.
+struct Settings {
+    compiler: Compiler,
+    /// The least mass and moment of inertia of a body.
+    least: [f64; 2],
+    /// Whether a tensor that no body has becomes a ball's.
+    balance: bool,
+    /// Whether shapes say what bodies weigh; where the file leaves it open, those of bodies without `<inertial>`.
+    from_shapes: Option<bool>,
+    /// The groups of shapes that weigh anything, from the first to the last.
+    groups: [f64; 2],
+}
+
+impl Settings {
+    /// Returns the settings of a file.
+    fn read(root: Element<'_>) -> Result<Settings, ImportError> {
+        let mut out = Settings {
+            compiler: compiler(root)?,
+            least: [0.0; 2],
+            balance: false,
+            from_shapes: None,
+            groups: [0.0, 5.0],
+        };
+        for c in root.named("compiler") {
+            out.balance |= c.attribute("balanceinertia") == Some("true");
+            for (x, key) in out.least.iter_mut().zip(["boundmass", "boundinertia"]) {
+                *x = c.numbers::<1>(key)?.map_or(*x, |[x]| x);
+            }
+            match c.attribute("inertiafromgeom") {
+                Some("true") => out.from_shapes = Some(true),
+                Some("false") => out.from_shapes = Some(false),
+                _ => {}
+            }
+            out.groups = c.numbers::<2>("inertiagrouprange")?.unwrap_or(out.groups);
+        }
+        Ok(out)
+    }
+
+    /// Returns a weight that is no less than the file asks for.
+    fn bounded(&self, weight: Weight) -> Weight {
+        let mut out = weight;
+        let [mass, inertia] = self.least;
+        out.mass = out.mass.max(mass);
+        out.tensor[..3].iter_mut().for_each(|x| *x = x.max(inertia));
+        let [x, y, z, ..] = out.tensor;
+        if self.balance && (x + y < z || x + z < y || y + z < x) {
+            out.tensor[..3].fill((x + y + z) / 3.0);
+        }
+        out
+    }
+}
+
+/// A body or frame still to be read: its link, its place there, and the class of what is in it.
+struct Waiting<'a> {
+    element: Element<'a>,
+    link: usize,
+    place: RigidMotion,
+    class: Option<&'a str>,
+}
+
+/// Returns what the links weigh, in their frames; the robot is that of the same document.
+pub(super) fn read(
+    root: Element<'_>,
+    robot: &Robot,
+) -> Result<BTreeMap<usize, Weight>, ImportError> {
+    let defaults = Defaults::read(root)?;
+    let settings = Settings::read(root)?;
+    let mut stated = BTreeMap::new();
+    let mut of_shapes: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
+    let world = |element| Waiting {
+        element,
+        link: 0,
+        place: RigidMotion::IDENTITY,
+        class: element.attribute("childclass"),
+    };
+    let mut stack: Vec<Waiting<'_>> = root.named("worldbody").map(world).collect();
+    while let Some(at) = stack.pop() {
+        for e in at.element.children() {
+            let inner = |link, place| Waiting {
+                element: e,
+                link,
+                place,
+                class: e.attribute("childclass").or(at.class),
+            };
+            match e.name() {
+                "body" => {
+                    if let Some(&link) = robot.said.get(&e.id) {
+                        stack.push(inner(link, RigidMotion::IDENTITY));
+                    }
+                }
+                "frame" => {
+                    let place = at.place.then(&settings.compiler.place(e)?);
+                    stack.push(inner(at.link, place));
+                }
+                "geom" => {
+                    let look = defaults.of(e, "geom", at.class)?;
+                    if let Some(w) = weight_of_shape(&look, &settings)? {
+                        let place = at.place.then(&w.place);
+                        let all = of_shapes.entry(at.link).or_default();
+                        all.push(Weight { place, ..w });
+                    }
+                }
+                "inertial" => {
+                    stated.insert(at.link, inertial(e, &settings.compiler)?);
+                }
+                _ => {}
+            }
+        }
+    }
+    Ok(weights(robot, stated, &of_shapes, &settings))
+}
+
+/// Returns the weights of links: as stated, by their shapes where nothing else is said, and no less than what the file asks for.
+fn weights(
+    robot: &Robot,
+    stated: BTreeMap<usize, Weight>,
+    of_shapes: &BTreeMap<usize, Vec<Weight>>,
+    settings: &Settings,
+) -> BTreeMap<usize, Weight> {
+    let mut out = stated;
+    // What stands still for good needs no weight.
+    for (&link, all) in of_shapes.iter().filter(|(l, _)| **l != 0) {
+        let asked = settings.from_shapes.unwrap_or(!out.contains_key(&link));
+        if let (true, Some(w)) = (asked, together(all)) {
+            out.insert(link, w);
+        }
+    }
+    let bounded = settings.least.iter().any(|x| *x > 0.0);
+    for &link in robot.said.values().filter(|l| **l != 0) {
+        let none = bounded.then_some(Weight::NOTHING);
+        if let Some(w) = out.get(&link).copied().or(none) {
+            out.insert(link, settings.bounded(w));
+        }
+    }
+    out
+}
+
+/// Returns what an `<inertial>` says.
+fn inertial(e: Element<'_>, compiler: &Compiler) -> Result<Weight, ImportError> {
+    let mut tensor = [0.0; 6];
+    if let Some(d) = e.numbers::<3>("diaginertia")? {
+        tensor[..3].copy_from_slice(&d);
+    }
+    if let Some(all) = e.numbers::<6>("fullinertia")? {
+        tensor = all;
+    }
+    Ok(Weight {
+        mass: e.numbers::<1>("mass")?.map_or(0.0, |[x]| x),
+        place: compiler.place(e)?,
+        tensor,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robots::import::import;
+    use crate::robots::options::Options;
+
+    /// Returns what the one body of a model weighs.
+    fn weighed(compiler: &str, body: &str) -> Weight {
+        let text = format!(
+            "<mujoco><compiler {compiler}/><worldbody><body name='b'><joint name='j'/>{body}</body></worldbody></mujoco>"
+        );
+        let nothing = |_: &str| Err(std::io::Error::other("there is no such file"));
+        let found = import("m.xml", text.as_bytes(), &nothing, &Options::default());
+        let origin = found.unwrap_or_else(|e| panic!("{e}")).origin;
+        let root = origin.element(origin.root);
+        let all = read(root, &origin.robot).unwrap_or_else(|e| panic!("{e}"));
+        all.into_values().next().unwrap_or(Weight::NOTHING)
+    }
+
+    fn assert_near(found: &[f64], wanted: &[f64]) {
+        let near = |(f, w): (&f64, &f64)| (f - w).abs() < 1e-9;
+        assert!(
+            found.len() == wanted.len() && found.iter().zip(wanted).all(near),
+            "{found:?}, not {wanted:?}"
+        );
+    }
+
+    /// Masses of 3 and 1 kg at (0, 0, 0) and (0.2, 0.1, 0.4) have their middle a quarter of the way, and, beside what each is
+    /// itself, the inertia of 3/4 kg so far apart.
+    #[test]
+    fn shapes_apart_weigh_together() {
+        let w = weighed(
+            "",
+            "<geom type='sphere' size='0.1' mass='3'/><frame pos='0.2 0 0'><geom type='sphere' size='0.1' mass='1' pos='0 0.1 0.4'/></frame>",
+        );
+        assert_near(&[w.mass], &[4.0]);
+        assert_near(&w.place.translation, &[0.05, 0.025, 0.1]);
+        let own = 4.0 * 0.4 * 0.01;
+        let wanted = [
+            own + 0.75 * (0.01 + 0.16),
+            own + 0.75 * (0.04 + 0.16),
+            own + 0.75 * (0.04 + 0.01),
+            -0.75 * 0.02,
+            -0.75 * 0.08,
+            -0.75 * 0.04,
+        ];
+        assert_near(&w.tensor, &wanted);
+    }
+
+    /// A box of 2 by 1 by 1 m turned by 30° about z: (Ix - Iy) sin cos is its product of inertia.
+    #[test]
+    fn what_is_turned_has_products_of_inertia() {
+        let w = weighed(
+            "",
+            "<geom type='box' size='1 0.5 0.5' mass='12' euler='0 0 30'/>",
+        );
+        let (x, y) = (1.0 + 1.0, 4.0 + 1.0);
+        let (s, c) = (0.5, 3f64.sqrt() / 2.0);
+        let (xx, yy) = (c * c * x + s * s * y, s * s * x + c * c * y);
+        assert_near(&w.tensor, &[xx, yy, y, (x - y) * s * c, 0.0, 0.0]);
+    }
+
+    /// MuJoCo takes the first size alone of a box between two points, for both sides of it.
+    #[test]
+    fn a_box_between_points_is_as_deep_as_it_is_wide() {
+        let w = weighed(
+            "",
+            "<geom type='box' size='0.1 0.7 0.9' fromto='0 0 0 0 0 2' density='10'/>",
+        );
+        assert_near(&[w.mass], &[10.0 * 0.2 * 0.2 * 2.0]);
+        assert_near(&w.place.translation, &[0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn the_file_says_which_weights_hold() {
+        let both = "<inertial mass='2' pos='0 0 0' diaginertia='1 1 3'/><geom size='0.1' mass='5' group='1'/>";
+        for (compiler, mass) in [
+            ("", 2.0),
+            ("inertiafromgeom='true'", 5.0),
+            ("inertiafromgeom='false'", 2.0),
+            ("inertiafromgeom='true' inertiagrouprange='2 3'", 2.0),
+            ("boundmass='7'", 7.0),
+        ] {
+            assert_near(&[weighed(compiler, both).mass], &[mass]);
+        }
+        let mean = 5.0 / 3.0;
+        let balanced = weighed("balanceinertia='true'", both).tensor;
+        assert_near(&balanced, &[mean, mean, mean, 0.0, 0.0, 0.0]);
+        let plain = "<geom type='plane' size='1 1 1'/>";
+        assert_near(&[weighed("", plain).mass], &[0.0]);
+        let least = weighed("boundinertia='0.5'", plain).tensor;
+        assert_near(&least, &[0.5, 0.5, 0.5, 0.0, 0.0, 0.0]);
+    }
+}

@@ -1,0 +1,239 @@
+//! What shapes of MJCF weigh, filled evenly.
+
+use super::{Settings, Weight};
+use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::{Vector, add, length, scale, sub};
+use crate::robots::mjcf::context::Compiler;
+use crate::robots::mjcf::defaults::Lookup;
+use std::f64::consts::PI;
+
+/// kg/m³ where nothing is said.
+const WATER: f64 = 1000.0;
+
+/// A shape that weighs something. Lengths are in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Solid {
+    /// Whole edges.
+    Box(Vector),
+    Sphere(f64),
+    /// Radius, and whole length along z.
+    Cylinder(f64, f64),
+    /// Radius, and length along z without the round ends.
+    Capsule(f64, f64),
+    /// Half axes.
+    Ellipsoid(Vector),
+}
+
+/// Returns the numbers of `size`; 0 where there are fewer than three.
+fn sizes(look: &Lookup<'_>) -> Result<[f64; 3], ImportError> {
+    let Some((e, text)) = look.attribute("size") else {
+        return Ok([0.0; 3]);
+    };
+    let mut out = [0.0; 3];
+    match text.split_whitespace().count() {
+        0 => {}
+        1 => out[..1].copy_from_slice(&e.numbers::<1>("size")?.unwrap_or_default()),
+        2 => out[..2].copy_from_slice(&e.numbers::<2>("size")?.unwrap_or_default()),
+        _ => out = e.numbers::<3>("size")?.unwrap_or_default(),
+    }
+    Ok(out)
+}
+
+/// How large a shape is and where it stands.
+struct Measures {
+    /// The numbers of `size`; 0 where there are fewer.
+    sizes: [f64; 3],
+    /// Half the length of what is round.
+    half: f64,
+    /// Half the depth and half the length of what has three sizes.
+    deep: f64,
+    long: f64,
+    place: RigidMotion,
+}
+
+impl Measures {
+    /// Returns those of a shape.
+    fn of(look: &Lookup<'_>, compiler: &Compiler) -> Result<Measures, ImportError> {
+        let sizes = sizes(look)?;
+        let mut out = Measures {
+            sizes,
+            half: sizes[1],
+            deep: sizes[1],
+            long: sizes[2],
+            place: RigidMotion {
+                translation: look.vector("pos", [0.0; 3])?,
+                ..orientation(look, compiler)?
+            },
+        };
+        // Between two points a shape is round, or as deep as it is wide, and as long as they are apart.
+        if let Some([a, b, c, d, f, g]) = look.numbers::<6>("fromto")? {
+            let (from, to) = ([a, b, c], [d, f, g]);
+            out.half = length(sub(to, from)) / 2.0;
+            (out.deep, out.long) = (sizes[0], out.half);
+            out.place = RigidMotion {
+                translation: scale(add(from, to), 0.5),
+                ..RigidMotion::z_to(sub(from, to))
+            };
+        }
+        Ok(out)
+    }
+}
+
+/// Returns the solid of a shape; none of a plane, which has no end, nor of a mesh or another kind, whose file is not read.
+fn solid(look: &Lookup<'_>, measures: &Measures) -> Option<Solid> {
+    let word = match look.attribute("type") {
+        Some((_, word)) => word,
+        None if look.attribute("mesh").is_some() => "mesh",
+        None => "sphere",
+    };
+    let &Measures {
+        sizes: [first, ..],
+        half,
+        deep,
+        long,
+        ..
+    } = measures;
+    match word {
+        "sphere" => Some(Solid::Sphere(first)),
+        "capsule" => Some(Solid::Capsule(first, 2.0 * half)),
+        "cylinder" => Some(Solid::Cylinder(first, 2.0 * half)),
+        "ellipsoid" => Some(Solid::Ellipsoid([first, deep, long])),
+        "box" => Some(Solid::Box([2.0 * first, 2.0 * deep, 2.0 * long])),
+        _ => None,
+    }
+}
+
+/// Returns what a shape weighs on its body or frame, where it weighs something.
+pub(super) fn weight_of_shape(
+    look: &Lookup<'_>,
+    settings: &Settings,
+) -> Result<Option<Weight>, ImportError> {
+    let measures = Measures::of(look, &settings.compiler)?;
+    let [group] = look.numbers::<1>("group")?.unwrap_or_default();
+    let stated = look.numbers::<1>("mass")?.map(|[m]| m);
+    let [density] = look.numbers::<1>("density")?.unwrap_or([WATER]);
+    if group < settings.groups[0] || group > settings.groups[1] {
+        return Ok(None);
+    }
+    let filled_evenly = |solid| {
+        let (volume, [x, y, z]) = filled(solid);
+        let mass = stated.unwrap_or(density * volume);
+        Weight {
+            mass,
+            place: measures.place,
+            tensor: [x * mass, y * mass, z * mass, 0.0, 0.0, 0.0],
+        }
+    };
+    let weight = solid(look, &measures).map(filled_evenly);
+    Ok(weight.filter(|w| w.mass > 0.0))
+}
+
+/// Returns the turn that one of the five ways stands for, of the element or of its class.
+fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Result<RigidMotion, ImportError> {
+    let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+    match ways.iter().find_map(|w| look.attribute(w)) {
+        Some((e, _)) => compiler.turned(e),
+        None => Ok(RigidMotion::IDENTITY),
+    }
+}
+
+/// Returns the volume in m³, and the moments of inertia about x, y and z of a solid of 1 kg.
+fn filled(solid: Solid) -> (f64, Vector) {
+    let round = |r: f64, l: f64| {
+        let (across, along) = ((3.0 * r * r + l * l) / 12.0, r * r / 2.0);
+        [across, across, along]
+    };
+    match solid {
+        Solid::Box([x, y, z]) => {
+            let pair = |a: f64, b: f64| (a * a + b * b) / 12.0;
+            (x * y * z, [pair(y, z), pair(x, z), pair(x, y)])
+        }
+        Solid::Sphere(r) => (4.0 / 3.0 * PI * r.powi(3), [0.4 * r * r; 3]),
+        Solid::Cylinder(r, l) => (PI * r * r * l, round(r, l)),
+        Solid::Capsule(r, l) => {
+            let (ends, middle) = (4.0 / 3.0 * PI * r.powi(3), PI * r * r * l);
+            let whole = ends + middle;
+            let (e, m) = (ends / whole, middle / whole);
+            let [across, _, along] = round(r, l);
+            // Half balls, each about the end of the cylinder.
+            let far = 0.4 * r * r + l * l / 4.0 + 3.0 * l * r / 8.0;
+            let across = m * across + e * far;
+            (whole, [across, across, m * along + e * 0.4 * r * r])
+        }
+        Solid::Ellipsoid([a, b, c]) => {
+            let pair = |a: f64, b: f64| (a * a + b * b) / 5.0;
+            (
+                4.0 / 3.0 * PI * a * b * c,
+                [pair(b, c), pair(a, c), pair(a, b)],
+            )
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::vector::dot;
+
+    /// Moments by adding up small cubes, all that the formulas are not.
+    fn added_up(inside: impl Fn(Vector) -> bool) -> (f64, Vector) {
+        const N: i32 = 120;
+        let step = 2.0 / f64::from(N);
+        let (mut volume, mut moments) = (0.0, [0.0; 3]);
+        for i in 0..N * N * N {
+            let at = [i % N, i / N % N, i / N / N];
+            let [x, y, z] = at.map(|k| -1.0 + step * (f64::from(k) + 0.5));
+            if inside([x, y, z]) {
+                volume += step.powi(3);
+                for (m, d) in moments
+                    .iter_mut()
+                    .zip([y * y + z * z, x * x + z * z, x * x + y * y])
+                {
+                    *m += step.powi(3) * d;
+                }
+            }
+        }
+        (volume, moments.map(|m| m / volume))
+    }
+
+    #[test]
+    fn solids_weigh_what_small_cubes_do() {
+        let (r, l) = (0.4, 0.9);
+        for (solid, inside) in [
+            (
+                Solid::Box([0.8, 1.2, 1.6]),
+                Box::new(|[x, y, z]: Vector| x.abs() < 0.4 && y.abs() < 0.6 && z.abs() < 0.8)
+                    as Box<dyn Fn(Vector) -> bool>,
+            ),
+            (Solid::Sphere(0.7), Box::new(|p| dot(p, p) < 0.49)),
+            (
+                Solid::Cylinder(r, l),
+                Box::new(move |[x, y, z]| x * x + y * y < r * r && z.abs() < l / 2.0),
+            ),
+            (
+                Solid::Capsule(r, l),
+                Box::new(move |[x, y, z]| {
+                    let past = (z.abs() - l / 2.0).max(0.0);
+                    x * x + y * y + past * past < r * r
+                }),
+            ),
+            (
+                Solid::Ellipsoid([0.5, 0.7, 0.9]),
+                Box::new(|[x, y, z]| {
+                    (x / 0.5).powi(2) + (y / 0.7).powi(2) + (z / 0.9).powi(2) < 1.0
+                }),
+            ),
+        ] {
+            let (volume, moments) = filled(solid);
+            let (slow, added) = added_up(inside);
+            assert!(
+                (volume / slow - 1.0).abs() < 0.02,
+                "{solid:?}: {volume} {slow}"
+            );
+            for (m, a) in moments.iter().zip(added) {
+                assert!((m / a - 1.0).abs() < 0.03, "{solid:?}: {m} {a}");
+            }
+        }
+    }
+}
