@@ -11,7 +11,7 @@ use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;
 use crate::robots;
 use crate::score::outcome::Outcome;
-use crate::view::robots::lint::words;
+use crate::view::lint::words;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 

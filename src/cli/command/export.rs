@@ -15,7 +15,7 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::release::Release;
 use crate::robots;
 use crate::robots::formats::{self, Format, FormattedFile};
-use crate::view::robots::lint::words;
+use crate::view::lint::words;
 use crate::view::terminal::layout::fit;
 use anyhow::ensure;
 use clap::Args as ClapArgs;

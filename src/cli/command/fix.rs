@@ -16,7 +16,7 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Imported};
-use crate::view::robots::lint::{TypeChange, words};
+use crate::view::lint::{TypeChange, words};
 use crate::view::terminal::layout::fit;
 use anyhow::{Context, bail, ensure};
 use clap::{Args as ClapArgs, ValueHint};

@@ -16,7 +16,7 @@ use crate::redundancy::duplicate_constraints::{HeldTwice, held_twice};
 use crate::redundancy::other_poses::Where;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
-use crate::view::robots::lint::{self, Lint as Found, PassedOver, sarif};
+use crate::view::lint::{self, Lint as Found, PassedOver, sarif};
 use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::ensure;

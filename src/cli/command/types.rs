@@ -7,7 +7,7 @@ use crate::redundancy::release::Release;
 use crate::robots::{Origin, releases};
 use crate::score::request::Request;
 use crate::score::run::Event;
-use crate::view::robots::lint::TypeChange;
+use crate::view::lint::TypeChange;
 use anyhow::anyhow;
 
 /// Most joints, and nodes, that are searched unasked: beyond them it may take longer than one waits for.

@@ -1,11 +1,11 @@
 //! What shapes of MJCF weigh, filled evenly.
 
-use super::{Settings, Weight};
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, add, length, scale, sub};
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Lookup;
+use crate::robots::mjcf::weights::{Settings, Weight};
 use std::f64::consts::PI;
 
 /// kg/m³ where nothing is said.

@@ -1,3 +1,0 @@
-//! What is told of robot descriptions.
-
-pub mod lint;
