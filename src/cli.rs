@@ -75,7 +75,6 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Fix(a) => command::fix::run(a),
         Command::Draw(a) => command::draw::run(&args.global, a),
         Command::Report(a) => command::report::run(&args.global, a),
-        Command::Watch(a) => command::watch::run(&args.global, a),
         Command::Studio(a) => command::studio::run(&args.global, a),
         Command::Export(a) => command::export::run(&args.global, a),
         Command::Accuracy(a) => command::accuracy::run(&args.global, a),

@@ -26,7 +26,6 @@ pub(in crate::cli) mod studio;
 pub(in crate::cli) mod sweep;
 pub(in crate::cli) mod types;
 pub(in crate::cli) mod verify;
-pub(in crate::cli) mod watch;
 
 use crate::cli::examples;
 use crate::cli::option::named::File;
@@ -67,9 +66,6 @@ pub(in crate::cli) enum Command {
     /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
     #[command(after_help = examples::REPORT)]
     Report(report::Report),
-    /// Write the report anew whenever FILE changes, until Ctrl-C: a page to keep open beside an editor.
-    #[command(after_help = examples::WATCH)]
-    Watch(watch::Watch),
     /// Draw and change a mechanism in the browser, with the verdict and the ideas at every change.
     #[command(after_help = examples::STUDIO)]
     Studio(studio::StudioArgs),

@@ -98,14 +98,6 @@ Examples:
   ozols report gripper-10 --max-mobility 1 -o report.html    only redesigns without idle links
   ozols report gripper-10-loaded -o report.html              ranked under its workload, with the joints' loads";
 
-pub(super) const WATCH: &str = "\
-A page that is open in a browser shows each new one by itself. What is wrong with FILE is told, and the page stays as it was
-until FILE is mended. Files that FILE includes are not watched; that of --costs is.
-
-Examples:
-  ozols watch mine.toml                              writes mine.html, and again when mine.toml changes
-  ozols watch mine.toml -o page.html --top 20        under another name, with fewer variants";
-
 pub(super) const STUDIO: &str = "\
 Everything stays on this machine: the page is served to this machine alone, at an address with a token.
 

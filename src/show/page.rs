@@ -80,8 +80,6 @@ const SCRIPT: [&str; 10] = [
     include_str!("page/script/keep.js"),
     include_str!("page/script/main.js"),
 ];
-/// What a page that is written anew does besides.
-const LIVE: &str = include_str!("page/script/live.js");
 /// The sections that the table of contents names: their marks and heads.
 const SECTIONS: [(&str, &str); 5] = [
     ("verdict", "Verdict"),
@@ -173,7 +171,6 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                 svg.store aria-hidden="true" width="0" height="0" { defs { (store) } }
                 script type="application/json" id="data" { (PreEscaped(data)) }
                 script { @for (_, part) in SHARED { (PreEscaped(part)) } @for part in SCRIPT { (PreEscaped(part)) } }
-                @if page.live { script { (PreEscaped(LIVE)) } }
             }
         }
         "\n"

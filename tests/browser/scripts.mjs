@@ -12,7 +12,7 @@ const listed = (file, pattern, folder) => [...read(file).matchAll(pattern)].map(
 
 const SHARED = listed("src/show/page.rs", /part!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show");
 const PAGES = {
-  report: [...SHARED, ...listed("src/show/page.rs", /include_str!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show").filter((f) => !f.endsWith("live.js"))],
+  report: [...SHARED, ...listed("src/show/page.rs", /include_str!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show")],
   studio: [...SHARED, ...listed("src/studio/paper.rs", /part!\("([\w/]+\.js)"\)/g, "src/studio")],
   catalogue: listed("src/show/page/catalogue.rs", /include_str!\("(script\/[\w/]+\.js)"\)/g, "src/show/page"),
 };

@@ -12,7 +12,6 @@ mod other_files;
 mod output;
 mod small;
 mod too_many;
-mod watch;
 
 use crate::common::{count, out, run, text};
 use serde_json::Value;

@@ -11,11 +11,10 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 26] = [
+const COMMANDS: [&str; 25] = [
     "lint",
     "fix",
     "report",
-    "watch",
     "studio",
     "analyze",
     "search",
@@ -104,8 +103,8 @@ fn examples_of_the_main_help_run() {
 #[test]
 fn examples_of_every_command_run() {
     // `fix --at` names a joint that users have; `robot_fix` tries each of its options.
-    // What watches, and the studio, do not end by themselves; `watch` and `studio` try them.
-    let own = |c: &&&str| !["accuracy", "fix", "watch", "studio"].contains(*c);
+    // The studio does not end by itself; `studio` tries it.
+    let own = |c: &&&str| !["accuracy", "fix", "studio"].contains(*c);
     for command in COMMANDS.iter().filter(own) {
         run_examples(command);
     }

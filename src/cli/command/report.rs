@@ -11,47 +11,35 @@ use crate::cli::terminal::progress::{SearchWatch, note};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::scenes::scenes;
 use crate::page::{Commands, Page, Redesigns, html};
-use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::redundancy::analysis::{Method, analyse};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::request::{List, Request};
-use crate::view::analysis::{Analysis, State};
 use crate::view::terminal::next_commands::{file_name, flags, stem};
 use anyhow::ensure;
 use clap::Args as ClapArgs;
 use itertools::Itertools;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Report {
     #[command(flatten)]
-    pub(in crate::cli) file: File,
+    file: File,
     /// How many of the best variants the page holds, 10000 at most.
     #[arg(long, value_name = "K", default_value_t = 200)]
     top: usize,
     #[command(flatten)]
-    pub(in crate::cli) checked: Checked,
+    checked: Checked,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
-    pub(in crate::cli) output: Option<PathBuf>,
+    output: Option<PathBuf>,
 }
 
 /// A page with more variants than this is of no use to anybody.
 const MOST: usize = 10_000;
 
 pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
-    write(args, a, a.output.as_deref(), false)?;
-    Ok(Done::Found)
-}
-
-/// Writes the page, which looks for newer ones where it is `live`, and gives the verdict on each state in a few words.
-pub(in crate::cli) fn write(
-    args: &Global,
-    a: &Report,
-    path: Option<&Path>,
-    live: bool,
-) -> anyhow::Result<String> {
     let request = asked(args, a)?;
     let written = load::mechanism(&a.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
@@ -61,14 +49,12 @@ pub(in crate::cli) fn write(
         tolerance: request.snap,
     };
     let states = analyse(&written, &states, method)?;
-    let verdict = verdict(&written, &states);
     let conditions = request.conditions(&prepared, &mut note);
     let mechanism = Arc::new(prepared.mechanism);
     let write = |redesigns: Result<Redesigns<'_>, String>, ideas: Option<Redesigns<'_>>| {
         let page = html(&Page {
             mechanism: &mechanism,
             states: &states,
-            live,
             scenes: scenes(
                 &mechanism,
                 &states,
@@ -78,7 +64,7 @@ pub(in crate::cli) fn write(
             ideas,
             commands: commands(&mechanism, a, &request),
         })?;
-        output::to(path, |out| {
+        output::to(a.output.as_deref(), |out| {
             out.write_all(page.as_bytes())?;
             Ok(Done::Found)
         })
@@ -87,8 +73,7 @@ pub(in crate::cli) fn write(
     let (conditions, measured) = match conditions {
         Ok(conditions) => conditions,
         Err(why) => {
-            write(Err(format!("{why}.")), None)?;
-            return Ok(verdict);
+            return write(Err(format!("{why}.")), None);
         }
     };
     let mut watch = SearchWatch::new(args.quiet);
@@ -100,8 +85,7 @@ pub(in crate::cli) fn write(
     let variants = redesigns(&outcome, outcome.variants_unless(&interrupt::pending));
     // What is left is to be drawn: whoever interrupts that wants no page.
     interrupt::be_impatient();
-    write(Ok(variants), ideas)?;
-    Ok(verdict)
+    write(Ok(variants), ideas)
 }
 
 /// What the options ask of the search.
@@ -114,13 +98,6 @@ fn asked(args: &Global, a: &Report) -> anyhow::Result<Request> {
         list: List::Top(a.top),
         ..a.checked.request(args.seed)?
     })
-}
-
-/// The verdict on each state in a few words.
-fn verdict(mechanism: &Mechanism, states: &[StateAnalysis]) -> String {
-    let figures = Analysis::new(mechanism, states, &[]).states;
-    let words = |s: &State<'_>| format!("{}: {}, W = {}", s.state, s.verdict(), s.mobility);
-    figures.iter().map(words).join("; ")
 }
 
 /// A list of the page.

@@ -18,8 +18,6 @@ pub struct Page<'a> {
     pub mechanism: &'a Mechanism,
     /// Its figures in every state, in order.
     pub states: &'a [StateAnalysis],
-    /// Whether the page is written anew when the mechanism changes, and is to show that.
-    pub live: bool,
     /// Its redesigns, or why none were searched.
     pub redesigns: Result<Redesigns<'a>, String>,
     /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.

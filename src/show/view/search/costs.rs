@@ -16,7 +16,7 @@ const HEAD: &str = "\
 #   ozols show costs > costs.toml
 #   ozols search FILE --costs costs.toml
 #
-# `report`, `watch`, `draw`, `export` and `fix` take it, too. A line that is
+# `report`, `draw`, `export` and `fix` take it, too. A line that is
 # left out says nothing: [search.costs] of FILE holds, or the default. What
 # stands at one option of FILE stays. A custom joint costs a revolute joint, and
 # CUSTOM for each freedom beyond the first. Names of FILE's options may stand
