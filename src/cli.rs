@@ -19,7 +19,7 @@ use std::process::ExitCode;
 /// A search engine for statically determinate mechanisms.
 ///
 /// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), to a robot description (.urdf, .xml, .sdf) or
-/// to a CAD assembly (FreeCAD's .FCStd, OndselSolver's .asmt; see `ozols import` for more control), `-` for standard input,
+/// to a CAD assembly (FreeCAD's .FCStd, OndselSolver's .asmt; see `ozols export` for more control), `-` for standard input,
 /// or the name of a built-in mechanism (see `ozols list`).
 #[derive(Debug, Parser)]
 #[command(
@@ -70,7 +70,6 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Grip(a) => command::grip::run(&args.global, a),
         Command::Drive(a) => command::drive::run(&args.global, a),
         Command::Verify(a) => command::verify::run(&args.global, a),
-        Command::Import(a) => command::import::run(a),
         Command::Lint(a) => command::lint::run(a),
         Command::Fix(a) => command::fix::run(a),
         Command::Draw(a) => command::draw::run(&args.global, a),

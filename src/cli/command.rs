@@ -14,7 +14,6 @@ pub(in crate::cli) mod explain;
 pub(in crate::cli) mod export;
 pub(in crate::cli) mod fix;
 pub(in crate::cli) mod grip;
-pub(in crate::cli) mod import;
 pub(in crate::cli) mod lint;
 pub(in crate::cli) mod list;
 pub(in crate::cli) mod man;
@@ -51,9 +50,6 @@ pub(in crate::cli) enum Command {
     /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
     #[command(after_help = examples::VERIFY)]
     Verify(verify::Verify),
-    /// Make a mechanism file of a robot description (URDF, MJCF, SDF) or a CAD assembly (.FCStd, .asmt).
-    #[command(after_help = examples::IMPORT)]
-    Import(import::Import),
     /// Name each redundant constraint of robot descriptions and CAD assemblies, with its line and what removes it.
     #[command(after_help = examples::LINT)]
     Lint(lint::Lint),
@@ -69,7 +65,7 @@ pub(in crate::cli) enum Command {
     /// Draw and change a mechanism in the browser, with the verdict and the ideas at every change.
     #[command(after_help = examples::STUDIO)]
     Studio(studio::StudioArgs),
-    /// Write a mechanism in another format: TOML, JSON, URDF, MJCF, SDF, Graphviz DOT, GraphML; assemblies in their own.
+    /// Write a mechanism, robot description or CAD assembly in another format: TOML, JSON, URDF, MJCF, SDF, DOT, GraphML.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),
     /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.

@@ -12,7 +12,7 @@ Examples:
   ozols grip lever-gripper                     what its levers can hold, and with what drive moment
   ozols drive torsion-module                   the torsion bar, the cam spring, and the programme run
   ozols draw gripper-10 -o gripper.svg         its structural scheme
-  ozols import robot.urdf -o robot.toml        a mechanism file of a robot description
+  ozols export robot.urdf --to toml -o robot.toml    a mechanism file of a robot description
 Each command has its own: `ozols search --help`.
 
 Exit codes: 0 done; 1 nothing found, a certificate rejected or a stroke not finished; 2 bad input or failure;
@@ -65,12 +65,6 @@ Examples:
   ozols analyze four-bar --certificate proof.json  writes the proof
   ozols verify four-bar proof.json                 confirms it: 0 confirmed, 1 rejected";
 
-pub(super) const IMPORT: &str = "\
-Examples:
-  ozols import robot.urdf -o robot.toml                      what was mapped and dropped is said on standard error
-  ozols import robot.urdf --loops loops.yaml -o closed.toml  URDF is a tree: loops come from a file beside it
-  ozols import robot.urdf --working-link effector --format json
-  ozols analyze robot.toml                                   or at once: ozols analyze robot.urdf";
 
 pub(super) const LINT: &str = "\
 Examples:
@@ -113,7 +107,10 @@ Examples:
   ozols export gripper-10 --to sdf -o gripper.sdf        a robot description, loops and all
   ozols export gripper-10 --to dot                       its graph for Graphviz
   ozols export gripper-10 --variant 1 --to toml -o v.toml          the first redesign, a mechanism file of its own
-  ozols export gripper-10 --variant 3 --max-mobility 1 --to sdf    the third of those without idle links";
+  ozols export gripper-10 --variant 3 --max-mobility 1 --to sdf    the third of those without idle links
+  ozols export robot.urdf --to toml -o robot.toml                  what was mapped and dropped is said on standard error
+  ozols export robot.urdf --loops loops.yaml --to toml -o closed.toml    loops of a tree come from a file beside it
+  ozols export robot.urdf --working-link effector --to json";
 
 pub(super) const ACCURACY: &str = "\
 Examples:

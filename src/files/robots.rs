@@ -24,7 +24,7 @@ mod xml;
 pub use description::origin::{ElementPlace, Origin};
 pub use fix::fix;
 pub use foreign::refuse as refuse_foreign;
-pub use formats::is_description;
+pub use formats::{begins_description, is_description};
 pub use import::{Imported, import};
 pub use options::{Options, Reader};
 pub use problem::ExportError;

@@ -150,8 +150,8 @@ impl Desk {
         let text = match (file.kind, self.text()) {
             (Kind::Description, _) | (_, None) => {
                 return Err(Refused::Words(
-                    "a robot description or an assembly is here to be looked at, and to take an idea; `ozols import` makes a \
-                     mechanism file of it, which can be drawn"
+                    "a robot description or an assembly is here to be looked at, and to take an idea; `ozols export FILE --to \
+                     toml` makes a mechanism file of it, which can be drawn"
                         .to_owned(),
                 ));
             }

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 25] = [
+const COMMANDS: [&str; 24] = [
     "lint",
     "fix",
     "report",
@@ -23,7 +23,6 @@ const COMMANDS: [&str; 25] = [
     "grip",
     "drive",
     "verify",
-    "import",
     "draw",
     "export",
     "accuracy",

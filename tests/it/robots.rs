@@ -291,13 +291,13 @@ fn the_command() {
     let out = tempfile::tempdir().unwrap();
     let target = out.path().join("gripper.toml");
     let run = |more: &[&str]| {
-        ozols(&[&["import", file.to_str().unwrap()][..], more].concat())
+        ozols(&[&["export", file.to_str().unwrap()][..], more].concat())
             .output()
             .unwrap()
     };
-    let o = run(&["-o", target.to_str().unwrap()]);
+    let o = run(&["--to", "toml", "-o", target.to_str().unwrap()]);
     assert_eq!((o.status.code(), o.stdout.len()), (Some(0), 0));
-    assert_eq!(run(&["--quiet"]).stderr.len(), 0);
+    assert_eq!(run(&["--to", "toml", "--quiet"]).stderr.len(), 0);
     assert!(
         String::from_utf8(o.stderr)
             .unwrap()
@@ -307,8 +307,7 @@ fn the_command() {
         .output()
         .unwrap();
     assert_eq!(checked.status.code(), Some(0));
-    let json: serde_json::Value =
-        serde_json::from_slice(&run(&["--format", "json"]).stdout).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&run(&["--to", "json"]).stdout).unwrap();
     assert_eq!(json["joint"][0]["type"], "revolute");
     for bad in [
         &["--pose", "finger_joint"][..],
@@ -316,7 +315,7 @@ fn the_command() {
         &["--frame", "x"],
         &["--working-link", "x"],
     ] {
-        let o = run(bad);
+        let o = run(&[&["--to", "toml"][..], bad].concat());
         assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0), "{bad:?}");
     }
 }

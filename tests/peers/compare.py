@@ -227,7 +227,7 @@ def urdf(name, file, side):
 def as_mjcf(folder, file, more):
     """A model of any format as ozols writes it in MJCF."""
     toml, xml = folder / "model.toml", folder / "model.xml"
-    for words in (["import", file, *more, "-o", toml], ["export", toml, "--to", "mjcf", "-o", xml]):
+    for words in (["export", file, *more, "--to", "toml", "-o", toml], ["export", toml, "--to", "mjcf", "-o", xml]):
         code, _, err = ozols(*words)
         if code != 0:
             return None, err.strip().splitlines()[0]

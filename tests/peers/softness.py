@@ -125,7 +125,7 @@ def one(task):
                 after.unlink(missing_ok=True)
         # A redesign against the mechanism as it is, both with masses and moments of their own.
         whole = folder / "whole.toml"
-        if ozols("import", file, "-o", whole, "-q").returncode == 0:
+        if ozols("export", file, "--to", "toml", "-o", whole, "-q").returncode == 0:
             weigh(whole)
             plain = folder / "plain.xml"
             if (found := ozols("export", whole, "--to", "mjcf", "-o", plain, "-q")).returncode != 0:

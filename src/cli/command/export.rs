@@ -1,11 +1,11 @@
 //! `ozols export`.
 
-use crate::cli::command::import::description;
 use crate::cli::command::types::changed;
 use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::option::load;
-use crate::cli::option::named::File;
+use crate::cli::option::named::Named;
+use crate::cli::option::reading::{Reading, description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant;
 use crate::cli::option::variant::{Chosen, tell};
@@ -13,22 +13,28 @@ use crate::cli::terminal::output;
 use crate::cli::terminal::progress::note;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::release::Release;
-use crate::robots;
 use crate::robots::formats::{self, Format, FormattedFile};
+use crate::robots::{self, Imported};
 use crate::view::lint::words;
 use crate::view::terminal::layout::fit;
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::ensure;
-use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
 
-/// The format that holds exact numbers.
+/// The formats of the mechanism file: that which holds exact numbers, and the same as JSON.
 const TOML: &str = "toml";
+const JSON: &str = "json";
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Export {
+    /// A path, `-`, or the name of a built-in mechanism. A robot description (URDF, MJCF or SDF, by its root element) or a CAD
+    /// assembly (FreeCAD's .FCStd, OndselSolver's .asmt) is read as the options below say.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    file: Named,
     #[command(flatten)]
-    file: File,
+    reading: Reading,
     /// The format.
     #[arg(long, value_parser = written())]
     to: String,
@@ -53,8 +59,21 @@ pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     if formats::is_own(&a.to) {
         return own(a);
     }
-    let (mut m, left_behind) = load::with_what_is_left_behind(&a.file)?;
     let request = a.chosen.of(a.which.request(a.state.as_deref())?);
+    let imported = imported(a)?;
+    if let Some(imported) = &imported
+        && a.chosen.place().is_none()
+        && [TOML, JSON].contains(&a.to.as_str())
+    {
+        return mechanism_file(a, imported);
+    }
+    let (mut m, left_behind) = match imported {
+        Some(imported) => {
+            load::tell_doubts(&a.file, &imported);
+            (imported.mechanism, imported.report.left_behind())
+        }
+        None => (load::written(&a.file)?, None),
+    };
     if let Some(k) = a.chosen.place() {
         m = variant::kth(m, request, k, |v| v.mechanism())?;
     } else if request.snap.is_some() || a.to == TOML {
@@ -68,9 +87,49 @@ pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     })
 }
 
+/// Returns the robot description or the CAD assembly that FILE names; none where it names neither.
+fn imported(a: &Export) -> anyhow::Result<Option<Imported>> {
+    if load::is_described(&a.file)? {
+        return Ok(Some(description(a.file.path(), &a.reading.options()?)?));
+    }
+    let flags = a.reading.flags();
+    let flag = flags.split(' ').next().unwrap_or_default();
+    ensure!(
+        flag.is_empty(),
+        "{flag} is for robot descriptions, which {} is none of; give a URDF, MJCF or SDF file, or leave {flag} out",
+        a.file
+    );
+    Ok(None)
+}
+
+/// Writes the mechanism file of a description, with comments on what was merged and approximated, and says what was mapped and
+/// dropped.
+fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
+    let width = output::error_width();
+    output::note(&fit(&imported.report.text(&a.file), width));
+    output::to(a.output.as_deref(), |out| {
+        if a.to == TOML {
+            write!(out, "{}", imported.toml()?)?;
+        } else {
+            writeln!(out, "{:#}", imported.file.json())?;
+        }
+        Ok(Done::Found)
+    })?;
+    if let Some(path) = &a.output {
+        let file = path.display().to_string();
+        let steps = [
+            ("analyze", "its mobility and redundant constraints"),
+            ("search", "the redesigns that remove those"),
+        ];
+        let steps = steps.map(|(command, gives)| NextCommand::new(command, &file, "", gives));
+        output::note(&next_commands::text(&steps, output::error_width()));
+    }
+    Ok(Done::Found)
+}
+
 /// An assembly of a CAD program, in its own document: with the joint types of what is chosen.
 fn own(a: &Export) -> anyhow::Result<Done> {
-    let imported = description(a.file.file.path(), &a.file.loops.options()?)?;
+    let imported = description(a.file.path(), &a.reading.options()?)?;
     ensure!(
         imported.format.word == a.to,
         "--to {} writes a document of {} with other joint types; {} is none",
@@ -78,7 +137,7 @@ fn own(a: &Export) -> anyhow::Result<Done> {
         formats::written()
             .find(|f| f.word == a.to)
             .map_or("", |f| f.name),
-        a.file.file
+        a.file
     );
     let m = &imported.mechanism;
     let request = a.chosen.of(a.which.request(a.state.as_deref())?);

@@ -1,11 +1,11 @@
 //! `ozols fix`.
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
-use crate::cli::command::import::{Reading, description};
 use crate::cli::command::lint;
 use crate::cli::command::types;
 use crate::cli::command::types::{TypePlan, changed};
 use crate::cli::done::Done;
+use crate::cli::option::reading::{Reading, description};
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
 use crate::cli::option::variant::tell;

@@ -1,10 +1,10 @@
 //! `ozols lint`.
 
-use crate::cli::command::import::{Reading, description};
 use crate::cli::command::types;
 use crate::cli::done::Done;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
+use crate::cli::option::reading::{Reading, description};
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::output;
 use crate::file::problem::ImportError;

@@ -1,8 +1,9 @@
 //! FILE arguments: paths, standard input, and built-in names.
 
-use crate::api;
+use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::builtin;
 use crate::cli::option::named::{File, Loops, Named};
+use crate::cli::option::reading::description;
 use crate::cli::terminal::did_you_mean;
 use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
@@ -17,18 +18,26 @@ use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
 pub(in crate::cli) fn mechanism(file: &File) -> anyhow::Result<Mechanism> {
-    Ok(with_what_is_left_behind(file)?.0)
+    if let Some(imported) = imported(file)? {
+        return Ok(imported.mechanism);
+    }
+    written(&file.file)
 }
 
-/// The same, with what a description says besides, in a sentence; none where it says no more.
-pub(in crate::cli) fn with_what_is_left_behind(
-    file: &File,
-) -> anyhow::Result<(Mechanism, Option<String>)> {
-    if let Some(imported) = imported(file)? {
-        return Ok((imported.mechanism, imported.report.left_behind()));
+/// Returns the mechanism that a mechanism file describes.
+pub(in crate::cli) fn written(file: &Named) -> anyhow::Result<Mechanism> {
+    let (name, bytes) = plain(file)?;
+    Ok(mechanism_from_bytes(&name, &bytes)?)
+}
+
+/// Returns whether an argument names a robot description or a CAD assembly, by its ending or by what is in it.
+pub(in crate::cli) fn is_described(file: &Named) -> anyhow::Result<bool> {
+    let path = file.path();
+    if !path.is_file() {
+        return Ok(false);
     }
-    let (name, bytes) = plain(&file.file)?;
-    Ok((mechanism_from_bytes(&name, &bytes)?, None))
+    Ok(robots::is_description(file)
+        || robots::begins_description(&api::bytes(path, MAX_DESCRIPTION_BYTES)?))
 }
 
 /// Reads each of several; what is wrong with one is said, and takes nothing from the others. Whether nothing was.
@@ -105,12 +114,17 @@ fn imported(file: &File) -> anyhow::Result<Option<robots::Imported>> {
         );
         return Ok(None);
     }
-    let imported = crate::cli::command::import::description(path, &loops.options()?)?;
+    let imported = description(path, &loops.options()?)?;
+    tell_doubts(file, &imported);
+    Ok(Some(imported))
+}
+
+/// Says what is doubtful in a description.
+pub(in crate::cli) fn tell_doubts(file: &Named, imported: &robots::Imported) {
     let doubts = imported.report.doubts();
     if !doubts.is_empty() {
         crate::cli::terminal::output::note(&format!("{file}: {}\n{doubts}", imported.format.name));
     }
-    Ok(Some(imported))
 }
 
 /// Models a mechanism in the plane of x and y. A coupling of a freedom that leads out of it has nothing to couple there, and is

@@ -3,6 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
 use crate::model::mechanism::Mechanism;
+use crate::robots::cad::archive::Archive;
 use crate::robots::description::parts::Robot;
 use crate::robots::options::{Options, Reader};
 use crate::robots::problem::ExportError;
@@ -182,6 +183,16 @@ pub fn is_description(name: &str) -> bool {
         let known = FORMATS.iter().flat_map(|f| f.endings);
         known.into_iter().any(|k| e.eq_ignore_ascii_case(k))
     })
+}
+
+/// Returns whether the bytes of a file begin as a robot description or a CAD assembly does: as XML, a FreeCAD document or an assembly
+/// of OndselSolver.
+#[must_use]
+pub fn begins_description(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    Archive::of("", bytes).is_some()
+        || asmt::read::is_one(text)
+        || text.trim_ascii_start().starts_with(b"<")
 }
 
 /// The format of descriptions with a root element, and what reads them.

@@ -142,7 +142,8 @@ class Mechanism:
         frame: str | None = None,
         outputs: Iterable[str] = (),
     ) -> Mechanism:
-        """A robot description (URDF, MJCF or SDF, by its root element) or a CAD assembly. The options are those of ``ozols import``.
+        """A robot description (URDF, MJCF or SDF, by its root element) or a CAD assembly. The options are those
+        of ``ozols export``.
 
         ``pose`` gives joints values in radians and metres. Warns of what is left in doubt.
         """

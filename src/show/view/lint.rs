@@ -248,7 +248,8 @@ impl Lint {
             .map(|(_, n)| format!("  note: {n}\n"))
             .collect();
         if let more @ 1.. = self.notes().count().saturating_sub(NOTES) {
-            out += &format!("  note: {more} more of the kind, which `ozols import` tells\n");
+            out +=
+                &format!("  note: {more} more of the kind, which `ozols export --to toml` tells\n");
         }
         out
     }

@@ -186,7 +186,7 @@ fn no_reader_reads_without_a_bound() {
         "check huge",
         "lint huge",
         "lint robot.xml",
-        "import robot.xml",
+        "export robot.xml --to toml",
         "verify four-bar huge",
         "sweep --merge huge -o whole.jsonl",
         "sweep four-bar -o huge",
@@ -194,7 +194,7 @@ fn no_reader_reads_without_a_bound() {
         "catalog query huge",
         "grip lever-gripper --motion huge",
         "search four-bar --costs huge",
-        "import robot.urdf --loops huge",
+        "export robot.urdf --to toml --loops huge",
     ] {
         let _ = std::fs::remove_file(folder.path().join("robot.xml"));
         std::fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();

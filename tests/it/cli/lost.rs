@@ -147,7 +147,11 @@ fn an_included_file_is_not_written_over() {
     fs::write(&main, "<mujoco><include file=\"part.xml\"/></mujoco>").unwrap();
     let [main, part] = [main, part].map(|p| p.display().to_string());
     out(&["analyze", &main, "-q"]);
-    for words in [["export", "--to=mjcf"], ["import", "-q"], ["draw", "-q"]] {
+    for words in [
+        ["export", "--to=mjcf"],
+        ["export", "--to=toml"],
+        ["draw", "-q"],
+    ] {
         let o = run(&[words[0], &main, words[1], "-o", &part]);
         assert_eq!(o.status.code(), Some(2), "{words:?}");
         assert!(text(&o.stderr).contains("is what is read"));

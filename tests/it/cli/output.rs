@@ -193,7 +193,7 @@ fn what_is_read_is_not_written_over() {
         &["report", &file, "-o", &file],
         &["export", &file, "--to", "json", "-o", &file],
         &["search", "four-bar", "--costs", &file, "-o", &file],
-        &["import", &robot, "-o", &robot],
+        &["export", &robot, "--to", "toml", "-o", &robot],
         &["export", &robot, "--to", "mjcf", "-o", &robot],
         &["lint", &robot, "--format", "sarif", "-o", &robot],
         &["fix", &robot, "-o", &robot],

@@ -169,7 +169,7 @@ fn an_included_pipe_is_refused() {
     )
     .unwrap();
     refused(
-        &["import", file.to_str().unwrap()],
+        &["export", file.to_str().unwrap(), "--to", "toml"],
         &["pipe", "it is not a file"],
     );
 }

@@ -171,7 +171,7 @@ fn mocap_bodies_are_drives() {
         (&found["redundant"], &found["mobility"]),
         (&0.into(), &6.into())
     );
-    let (_, out, told) = run_on("import", "m.xml", &text, &[]);
+    let (_, out, told) = run_on("export", "m.xml", &text, &["--to", "toml"]);
     assert!(told.contains("1 mocap body, as a drive"), "{told}");
     assert!(out.contains("drive = true"), "{out}");
 }

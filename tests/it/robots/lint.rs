@@ -381,7 +381,7 @@ fn names_of_files_may_be_no_text() {
         ("catalog search FILE --ideas 1 -o x.db", &toml),
         ("analyze FILE", &urdf),
         ("lint FILE", &urdf),
-        ("import FILE", &urdf),
+        ("export FILE --to toml", &urdf),
         ("fix FILE", &urdf),
         ("analyze four-bar -o FILE", &toml),
     ] {

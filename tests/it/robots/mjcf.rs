@@ -255,7 +255,9 @@ fn includes_on_disk() {
     ] {
         let main = inner.join("main.xml");
         std::fs::write(&main, mjcf(&format!("<include file='{file}'/>"))).unwrap();
-        let o = ozols(&["import", main.to_str().unwrap()]).output().unwrap();
+        let o = ozols(&["export", main.to_str().unwrap(), "--to", "toml"])
+            .output()
+            .unwrap();
         assert_eq!(o.status.code(), Some(code), "{file}");
     }
 }

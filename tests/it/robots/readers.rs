@@ -96,7 +96,7 @@ fn sdf_includes_of_models() {
             "<sdf version='1.7'>\n<world name='w'>\n<include>{include}</include></world></sdf>"
         );
         let file = put("main/world.sdf", &text);
-        let o = ozols(&["import", &file, "--models", &models])
+        let o = ozols(&["export", &file, "--to", "toml", "--models", &models])
             .output()
             .unwrap();
         (
@@ -298,7 +298,7 @@ fn includes_within_a_named_root() {
         ("root/arm/bad.xml", true, 2),
     ] {
         let file = dir.path().join(file).display().to_string();
-        let mut words = vec!["import", &file];
+        let mut words = vec!["export", &file, "--to", "toml"];
         if models {
             words.extend(["--models", &root]);
         }
@@ -342,15 +342,16 @@ fn nothing_is_said_that_need_not_be() {
          <body name='c' pos='2 0 0'><joint name='l' ref='0.2'/></body></worldbody><equality>
          <connect body1='b' body2='c' anchor='2 0.5 0'/><joint joint1='j' joint2='l' polycoef='0.5 -1 0.1 0 0'/></equality>",
     );
-    for command in ["analyze", "check", "import", "lint", "search"] {
+    for command in ["analyze", "check", "lint", "search"] {
         let said = |more: &[&str]| run_on(command, "m.xml", &doubtful, more).2;
         assert_eq!(said(&["-q"]), "", "{command}");
     }
-    assert!(
-        run_on("import", "m.xml", &doubtful, &[])
-            .2
-            .contains("is a polynomial of l")
-    );
+    let exported = |more: &[&str]| {
+        let words = [&["--to", "toml"][..], more].concat();
+        run_on("export", "m.xml", &doubtful, &words).2
+    };
+    assert_eq!(exported(&["-q"]), "");
+    assert!(exported(&[]).contains("is a polynomial of l"));
 }
 
 // A four-bar in an oblique plane, written with five decimals: its sites miss each other across the plane, where no joint moves.

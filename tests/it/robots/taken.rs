@@ -102,7 +102,7 @@ fn gearboxes_are_couplings() {
         ))
     };
     assert_eq!(linted("m.sdf", &of("a"), &[]).0, 1);
-    let (_, out, _) = run_on("import", "m.sdf", &of("a"), &[]);
+    let (_, out, _) = run_on("export", "m.sdf", &of("a"), &["--to", "toml"]);
     assert!(out.contains("ratio = -3"), "{out}");
     // What has no such hinges is left out, and said.
     let (w, _, notes) = linted("m.sdf", &of("b"), &[]);
@@ -145,7 +145,7 @@ fn polynomials_are_taken_by_their_derivative() {
             w == 1 && notes.contains("derivative at this pose"),
             "{notes}"
         );
-        let (_, out, _) = run_on("import", "m.xml", &text, &["--pose", pose]);
+        let (_, out, _) = run_on("export", "m.xml", &text, &["--to", "toml", "--pose", pose]);
         assert!(out.contains(ratio), "{out}");
     }
 }
@@ -171,7 +171,7 @@ fn sdf_never_has_the_world_for_a_child() {
     }
 }
 
-// `import` said all of this, and `lint` none.
+// `export --to toml` said all of this, and `lint` none.
 #[test]
 fn lint_says_what_is_not_as_drawn() {
     let open = mjcf(

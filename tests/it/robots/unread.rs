@@ -220,7 +220,6 @@ fn loops_beside_a_description_are_named() {
         &["draw", "FILE", "-o", &out],
         &["export", "FILE", "--to", "toml"],
         &["report", "FILE", "-o", &out],
-        &["import", "FILE"],
         &["analyze", "FILE"],
     ] {
         let words: Vec<&str> = words
@@ -251,7 +250,7 @@ fn foreign_formats_are_named() {
         ("a.x_t", "**ABC", "Parasolid"),
         ("robot.yaml", "closed_loop: []", "--loops"),
     ] {
-        for command in ["analyze", "lint", "check", "import", "search", "fix"] {
+        for command in ["analyze", "lint", "check", "search", "fix"] {
             let (code, _, err) = run_on(command, name, text, &[]);
             assert_eq!(code, Some(2), "{command} {name}: {err}");
             assert!(
@@ -329,7 +328,7 @@ fn equalities_of_fixed_tendons_couple() {
         let found = (&file["mobility"], &file["left_out"]);
         assert_eq!(found, (&w.into(), &left_out.into()), "{equalities}: {told}");
         assert_eq!(code, Some(i32::from(left_out > 0)), "{told}");
-        let (_, toml, _) = run_on("import", "x.xml", &text, &[]);
+        let (_, toml, _) = run_on("export", "x.xml", &text, &["--to", "toml"]);
         assert!(toml.contains(ratio), "{toml}");
     }
     let (code, _, err) = run_on(

@@ -1,22 +1,14 @@
-//! `ozols import`.
+//! How robot descriptions and CAD assemblies are read.
 
 use crate::api;
-use crate::cli::done::Done;
-use crate::cli::option::named::{Loops, Named};
+use crate::cli::option::named::Loops;
 use crate::cli::terminal::output;
 use crate::robots::{self, Options};
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
+use crate::view::terminal::next_commands::word;
 use anyhow::{Context, ensure};
-use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use clap::{Args as ClapArgs, ValueHint};
 use itertools::Itertools;
 use std::path::{Path, PathBuf};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ImportFormat {
-    Toml,
-    Json,
-}
 
 /// How a description is read: the same for every command that reads one.
 #[derive(Debug, ClapArgs)]
@@ -53,23 +45,8 @@ pub(in crate::cli) struct Reading {
     working_link: Vec<String>,
 }
 
-#[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Import {
-    /// A robot description (URDF, MJCF or SDF, by its root element) or a CAD assembly (FreeCAD's .FCStd, OndselSolver's .asmt).
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    file: Named,
-    #[command(flatten)]
-    pub(in crate::cli) reading: Reading,
-    /// Output format.
-    #[arg(long, value_enum, default_value = "toml")]
-    format: ImportFormat,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
-}
-
 impl Reading {
-    /// The options of the import.
+    /// Returns the options of the import.
     pub(in crate::cli) fn options(&self) -> anyhow::Result<Options> {
         let mut options = Options {
             floating: self.floating,
@@ -87,7 +64,7 @@ impl Reading {
         Ok(options)
     }
 
-    /// The same as they are typed.
+    /// Returns the options as they are typed.
     pub(in crate::cli) fn flags(&self) -> String {
         let path = |p: &PathBuf| p.display().to_string();
         let valued = [
@@ -101,9 +78,7 @@ impl Reading {
         let valued = valued
             .iter()
             .flat_map(|(flag, values): &(&str, Vec<String>)| {
-                values
-                    .iter()
-                    .map(move |v| format!("{flag} {}", next_commands::word(v)))
+                values.iter().map(move |v| format!("{flag} {}", word(v)))
             });
         let switches = [
             ("--floating", self.floating),
@@ -113,30 +88,6 @@ impl Reading {
         let switches = switches.iter().filter(|s| s.1).map(|s| s.0.to_owned());
         valued.chain(switches).join(" ")
     }
-}
-
-pub(in crate::cli) fn run(a: &Import) -> anyhow::Result<Done> {
-    let options = a.reading.options()?;
-    let imported = description(a.file.path(), &options)?;
-    let width = output::error_width();
-    output::note(&fit(&imported.report.text(&a.file), width));
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            ImportFormat::Toml => write!(out, "{}", imported.toml()?)?,
-            ImportFormat::Json => writeln!(out, "{:#}", imported.file.json())?,
-        }
-        Ok(Done::Found)
-    })?;
-    if let Some(path) = &a.output {
-        let file = path.display().to_string();
-        let steps = [
-            ("analyze", "its mobility and redundant constraints"),
-            ("search", "the redesigns that remove those"),
-        ];
-        let steps = steps.map(|(command, gives)| NextCommand::new(command, &file, "", gives));
-        output::note(&next_commands::text(&steps, output::error_width()));
-    }
-    Ok(Done::Found)
 }
 
 fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
@@ -154,7 +105,7 @@ fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
     Ok((joint.to_owned(), values))
 }
 
-/// Imports a description.
+/// Returns the mechanism of a description, with the report on it.
 pub(in crate::cli) fn description(
     path: &Path,
     options: &Options,
