@@ -182,7 +182,7 @@ fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>
 /// ```
 pub fn analyze(mechanism: &Mechanism) -> Result<Vec<StateAnalysis>, Error> {
     let states: Vec<StateId> = mechanism.state_ids().collect();
-    let method = Method::Auto { tolerance: None };
+    let method = Method::Auto;
     Ok(analyse(mechanism, &states, method)?)
 }
 
@@ -235,11 +235,7 @@ pub enum Scheme {
 /// # Errors
 /// As [`analyze`]: the structural scheme shows where the redundant constraints are.
 pub fn draw(mechanism: &Mechanism, scheme: Scheme) -> Result<String, Error> {
-    let found = analyse(
-        mechanism,
-        &[StateId::FREE],
-        Method::Auto { tolerance: None },
-    )?;
+    let found = analyse(mechanism, &[StateId::FREE], Method::Auto)?;
     let subject = Subject {
         mechanism,
         state: StateId::FREE,

@@ -4,7 +4,7 @@ use crate::mechanism::Mechanism;
 use crate::told::{Told, failed, json, state};
 use ozols::file::read::workload::motion;
 use ozols::model::mechanism::StateId;
-use ozols::rank::method::registry;
+use ozols::rank::method::{RankOfJ, registry};
 use ozols::rank::rounded::verdict::verdict;
 use ozols::rank::stroke::request::AskedStroke;
 use ozols::redundancy::analysis::{Method, analyse};
@@ -36,6 +36,12 @@ pub(crate) fn analyze(
         if tolerance.is_some_and(|t| !(t > 0.0 && t < 1.0)) {
             return Err(failed("--tolerance must be between 0 and 1"));
         }
+        if tolerance.is_some() && matches!(by.about().rank, RankOfJ::Chosen) {
+            return Err(failed(format!(
+                "--tolerance has no effect with --method {method}, which goes by the digits and the [tolerance] table of the \
+                 file; leave it out, or use svd"
+            )));
+        }
         let Some(rank) = Method::of(by, tolerance) else {
             let answer = |&s| Ok((s, by.answer(m, s).map_err(failed)?));
             let answers = states.iter().map(answer).collect::<PyResult<Vec<_>>>()?;
@@ -62,7 +68,7 @@ pub(crate) fn stroke(
     let m = &mechanism.get().0;
     py.detach(|| {
         let state = state(m, named)?;
-        let verdict = verdict(m, state, tolerance).map_err(failed)?;
+        let verdict = verdict(m, state).map_err(failed)?;
         let read = motion::stroke(range).map_err(failed)?;
         let asked =
             AskedStroke::new(m, state, range, read, drive, &verdict, tolerance).map_err(failed)?;

@@ -106,7 +106,7 @@ pub(crate) fn drawn(
         }
     };
     let state = state(m, named)?;
-    let found = analyse(m, &[state], Method::Auto { tolerance: None }).map_err(failed)?;
+    let found = analyse(m, &[state], Method::Auto).map_err(failed)?;
     let subject = Subject {
         mechanism: m,
         state,

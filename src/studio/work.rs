@@ -87,7 +87,7 @@ fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
 /// Each state analysed; why not, in words, where it cannot be.
 pub(super) fn states(m: &Mechanism) -> Result<Vec<StateAnalysis>, String> {
     let all: Vec<StateId> = m.state_ids().collect();
-    analyse(m, &all, Method::Auto { tolerance: None }).map_err(|e| e.to_string())
+    analyse(m, &all, Method::Auto).map_err(|e| e.to_string())
 }
 
 /// The verdict as the page shows it: the analysis that `ozols analyze --format json` gives, the words of the report, and the

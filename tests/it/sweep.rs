@@ -145,7 +145,7 @@ fn written_in(text: &str, values: &[(&str, String)]) -> String {
 /// What the other commands say of the mechanism of a row, found on a path of its own.
 fn as_others_say(m: &Mechanism, row: &SampleRow, search: Option<&Request>) {
     let states: Vec<StateId> = m.state_ids().collect();
-    let found = analyse(m, &states, Method::Auto { tolerance: None }).unwrap();
+    let found = analyse(m, &states, Method::Auto).unwrap();
     assert_eq!(row.states.len(), found.len());
     for (state, found) in row.states.iter().zip(&found) {
         assert_eq!(state.state, found.state);

@@ -85,7 +85,7 @@ pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
 /// Where it cannot be analysed, searched or written.
 pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMechanism, RowError> {
     let (id, file) = named(&mechanism)?;
-    let method = Method::Auto { tolerance: None };
+    let method = Method::Auto;
     let as_built = analyse(&mechanism, &[StateId::FREE], method)?.swap_remove(0);
     let joints = mechanism.joints_in(StateId::FREE).count();
     let contours = contour_basis(&mechanism, StateId::FREE).len();

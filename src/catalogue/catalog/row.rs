@@ -325,7 +325,7 @@ impl LaidFile {
         let Some(figures) = self.figures else {
             return Ok(Err(NoLayout::NotRegular));
         };
-        let decided = decide(&self.built, StateId::FREE, None);
+        let decided = decide(&self.built, StateId::FREE);
         let Decision {
             verdict, finite, ..
         } = decided.map_err(AnalysisError::from)?;

@@ -22,7 +22,7 @@ use crate::view::analysis::{Analysis, State};
 use crate::view::stroke::StrokeData;
 use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
@@ -45,9 +45,8 @@ pub(in crate::cli) struct Analyze {
     /// How the rank is found.
     #[arg(long, value_parser = rank_method(), default_value = "auto")]
     method: &'static dyn MobilityMethod,
-    /// Relative tolerance of the floating-point methods, and of snapping measured geometry; by default what suits the
-    /// method and the digits.
-    #[arg(long, visible_alias = "snap", value_name = "T")]
+    /// Relative tolerance of the floating-point methods; by default what suits the method.
+    #[arg(long, value_name = "T")]
     pub(in crate::cli) tolerance: Option<f64>,
     /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
     #[arg(long)]
@@ -82,10 +81,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let states = states_asked(&mechanism, a)?;
     check_tolerance(a)?;
     let over = mechanism.state(&a.state).unwrap_or(StateId::FREE);
-    let asked = a
-        .stroke
-        .as_ref()
-        .map(|_| verdict(&mechanism, over, a.tolerance));
+    let asked = a.stroke.as_ref().map(|_| verdict(&mechanism, over));
     let asked = asked.transpose()?;
     let stroke = match (&a.stroke, &asked) {
         (Some(range), Some(verdict)) => Some(AskedStroke::new(
@@ -118,7 +114,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
         stroke,
         ..Analysis::new(&mechanism, &found, &advice)
     };
-    let next = steps(&mechanism, &analysis.states, &a.file.file, a.tolerance);
+    let next = steps(&mechanism, &analysis.states, &a.file.file);
     write(a, &analysis, &next)
 }
 
@@ -141,15 +137,18 @@ fn check_tolerance(a: &Analyze) -> anyhow::Result<()> {
     if let Some(t) = a.tolerance
         && !(t > 0.0 && t < 1.0)
     {
-        bail!("--tolerance, or --snap, must be between 0 and 1");
+        bail!("--tolerance must be between 0 and 1");
     }
-    if a.tolerance.is_some() && matches!(a.method.about().rank, RankOfJ::Exact | RankOfJ::NotFound)
-    {
-        bail!(
-            "--tolerance has no effect with --method {}, which does not round; leave it out, or use auto or svd",
-            a.method.name()
-        );
-    }
+    let why = match a.method.about().rank {
+        RankOfJ::Numeric => return Ok(()),
+        RankOfJ::Chosen => "which goes by the digits and the [tolerance] table of the file",
+        RankOfJ::Exact | RankOfJ::NotFound => "which does not round",
+    };
+    ensure!(
+        a.tolerance.is_none(),
+        "--tolerance has no effect with --method {}, {why}; leave it out, or use svd",
+        a.method.name()
+    );
     Ok(())
 }
 

@@ -121,7 +121,7 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
             continue;
         };
         // Why there is no analysis is for `ozols analyze` to say.
-        let Ok(found) = analyse(m, &[s], Method::Auto { tolerance: None }) else {
+        let Ok(found) = analyse(m, &[s], Method::Auto) else {
             continue;
         };
         // What is not decided is not at odds with a figure.

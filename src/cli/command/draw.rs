@@ -145,17 +145,14 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
     let searched = state != StateId::FREE;
     let request = a.which.request(searched.then_some(a.state.as_str()))?;
     let request = a.chosen.of(request);
-    let mut tolerance = None;
     if let Some(k) = a.chosen.place() {
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {
             let search = &v.outcome().search;
             draw::marks::of_variant(search, v.assignment(), &v.name())
         })?;
         (mechanism, marks) = (realized, Some(changes));
-    } else {
-        tolerance = request.tolerance()?;
     }
-    let found = analyse(&mechanism, &[state], Method::Auto { tolerance })?;
+    let found = analyse(&mechanism, &[state], Method::Auto)?;
     let subject = Subject {
         mechanism: &mechanism,
         state,

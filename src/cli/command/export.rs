@@ -76,7 +76,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     };
     if let Some(k) = a.chosen.place() {
         m = variant::kth(m, request, k, |v| v.mechanism())?;
-    } else if request.snap.is_some() || a.to == TOML {
+    } else if a.to == TOML {
         // Other formats hold decimals, in which the two are one.
         m = request.meant(&m, &mut note)?;
     }

@@ -45,10 +45,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
     // An unknown state is a mistake; geometry that cannot be searched is not.
     let prepared = request.prepare(written.clone(), &mut note)?;
     let states: Vec<StateId> = written.state_ids().collect();
-    let method = Method::Auto {
-        tolerance: request.snap,
-    };
-    let states = analyse(&written, &states, method)?;
+    let states = analyse(&written, &states, Method::Auto)?;
     let conditions = request.conditions(&prepared, &mut note);
     let mechanism = Arc::new(prepared.mechanism);
     let write = |redesigns: Result<Redesigns<'_>, String>, ideas: Option<Redesigns<'_>>| {

@@ -100,10 +100,6 @@ pub(in crate::cli) struct Which {
     /// Search a file whose coordinates are rounded exactly as it is written, though something else is meant.
     #[arg(long)]
     as_written: bool,
-    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within T (radians, and fractions of the
-    /// mechanism's size) in place of what the digits allow; lists what was moved, by how much, and what was not.
-    #[arg(long, value_name = "T")]
-    snap: Option<f64>,
     /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     nodes: usize,
@@ -184,7 +180,6 @@ impl Which {
                 _ => Symmetry::All,
             },
             as_written: self.as_written,
-            snap: self.snap,
             nodes: self.nodes,
             memory: self.memory.unwrap_or_else(memory::quarter),
             rank: self

@@ -151,9 +151,6 @@ pub struct Request {
     pub symmetry: Symmetry,
     /// Whether a file whose coordinates are rounded is searched exactly as it is written, though something else is meant.
     pub as_written: bool,
-    /// Make axes exactly parallel, square, coaxial or concurrent that are so to within this (radians, and fractions of the
-    /// mechanism's size), in place of what the digits allow.
-    pub snap: Option<f64>,
     /// Whether variants are counted, or no more of the diagram is built than the best need.
     pub counted: bool,
     /// Node budget of each diagram.
@@ -204,7 +201,6 @@ impl Default for Request {
             symmetry: Symmetry::All,
             counted: true,
             as_written: false,
-            snap: None,
             nodes: Conditions::default().nodes,
             memory: Conditions::default().memory,
             rank: Vec::new(),
@@ -238,7 +234,7 @@ impl Request {
     ) -> Result<Prepared, RequestError> {
         let state = self.state(&mechanism)?.map(|s| s.state);
         let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
-        let mut settled = settle(&mechanism, &states, self.tolerance()?)?;
+        let mut settled = settle(&mechanism, &states)?;
         let looked_at = !settled.verdicts.is_empty();
         let planar = matches!(mechanism.mode, Mode::Planar { .. });
         // In a plane joints have no freedom as they are written.
@@ -247,15 +243,13 @@ impl Request {
         let mut out = mechanism;
         let numeric = settled.open.filter(|_| !self.as_written);
         let numeric = numeric.map(|_| digits(&settled.verdicts));
-        if !self.as_written || self.snap.is_some() {
-            tell_moved(&out, &settled, tell);
+        if !self.as_written {
+            tell_moved(&settled, tell);
             let meant = settled.snapped.take();
             let near = || numeric.and_then(|_| nearest(&out, &settled.verdicts));
             out = meant.or_else(near).unwrap_or(out);
         } else if let Some(i) = settled.verdicts.iter().position(|v| !v.is_as_written()) {
-            settled
-                .open
-                .get_or_insert((i, settled.verdicts[i].as_written));
+            settled.open.get_or_insert(i);
         }
         self.price(&mut out)?;
         self.offer_usual(&mut out, tell);
@@ -272,40 +266,26 @@ impl Request {
         })
     }
 
-    /// The mechanism that is meant in all its states, or what `--snap` makes of it; as it is written where that is asked for, or
-    /// where nothing exact is meant. `tell` hears what was moved, or why nothing was.
+    /// The mechanism that is meant in all its states; as it is written where that is asked for, or where nothing exact is meant.
+    /// `tell` hears what was moved, or why nothing was.
     ///
     /// # Errors
-    /// Where the tolerance is none, or there is no verdict on the mechanism.
+    /// Where there is no verdict on the mechanism.
     pub fn meant(
         &self,
         mechanism: &Mechanism,
         tell: &mut dyn FnMut(String),
     ) -> Result<Mechanism, RequestError> {
-        let tolerance = self.tolerance()?;
-        let states: Vec<StateId> = match tolerance {
-            None if self.as_written => return Ok(mechanism.clone()),
-            None => mechanism.states_with_ids().map(|(s, _)| s).collect(),
-            // What is asked for needs no verdict.
-            Some(_) => Vec::new(),
-        };
-        let settled = settle(mechanism, &states, tolerance)?;
-        tell_moved(mechanism, &settled, tell);
+        if self.as_written {
+            return Ok(mechanism.clone());
+        }
+        let states: Vec<StateId> = mechanism.states_with_ids().map(|(s, _)| s).collect();
+        let settled = settle(mechanism, &states)?;
+        tell_moved(&settled, tell);
         if settled.open.is_some() {
             tell("written as it stands: the geometry that its digits mean is not exact, or they do not decide it (`ozols check` tells more)".to_owned());
         }
         Ok(settled.snapped.unwrap_or_else(|| mechanism.clone()))
-    }
-
-    /// The tolerance of `--snap`, where one is asked for.
-    ///
-    /// # Errors
-    /// Where it is none.
-    pub fn tolerance(&self) -> Result<Option<f64>, RequestError> {
-        match self.snap {
-            Some(t) if !(t > 0.0 && t < 1.0) => Err(RequestError::Snap),
-            snap => Ok(snap),
-        }
     }
 
     /// The state that takes part, with what is asked of variants in it.
@@ -348,11 +328,11 @@ impl Request {
         tell: &mut dyn FnMut(String),
     ) -> Result<(Conditions, Option<LooksRounded>), RequestError> {
         let state = self.state(&prepared.mechanism)?;
-        let rounded = prepared.rounded(self.as_written, self.snap.is_some(), tell);
+        let rounded = prepared.rounded(self.as_written, tell);
         let verdicts = rounded.iter().flat_map(|(_, v)| v);
         // Second opinions are read at the errors of what is searched.
         let tolerance = match &prepared.settled {
-            s if s.moved.is_empty() || s.open.is_some() => {
+            s if s.understood.is_none() || s.open.is_some() => {
                 verdicts.fold(DEFAULT_TOLERANCE, |a, v| a.max(v.tolerance))
             }
             _ => DEFAULT_TOLERANCE,

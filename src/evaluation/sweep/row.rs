@@ -143,7 +143,7 @@ impl Sweep {
         let method = if asked.as_written {
             Method::Modular
         } else {
-            Method::Auto { tolerance: None }
+            Method::Auto
         };
         let found = analyse(m, &states, method)?;
         let methods = match found.first() {

@@ -46,7 +46,7 @@ pub(super) fn over_stroke(
     text: &str,
     range: Stroke,
 ) -> Result<OverStroke, StrokeError> {
-    let verdict = verdict(m, state, None)?;
+    let verdict = verdict(m, state)?;
     let found = AskedStroke::new(m, state, text, range, None, &verdict, None)?.follow();
     let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
     let worst = found

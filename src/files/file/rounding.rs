@@ -6,9 +6,10 @@ use crate::geom::vector::{across, length, real, sub, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::model::rounded::{looks_rounded, uncertainties};
-use crate::rank::rounded::snap::relation::{Moved, Reach, Relation};
-use crate::rank::rounded::snap::{size, snap};
-use crate::rank::rounded::verdict::{Meant, RankVerdict, reach, verdict};
+use crate::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
+use crate::rank::rounded::nearly_special::{nearly_special, reach};
+use crate::rank::rounded::size;
+use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
 use itertools::Itertools;
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
@@ -27,7 +28,7 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     }
     for state in m.state_ids() {
         // Why there is no verdict is for `ozols analyze` to say.
-        let Ok(found) = verdict(m, state, None) else {
+        let Ok(found) = verdict(m, state) else {
             continue;
         };
         // What is meant has mostly the figures of what is written; only others are doubtful.
@@ -99,10 +100,7 @@ fn of_verdict(found: &RankVerdict) -> WarningKind {
     let state = found.state.clone();
     if found.is_decided() {
         let understood = match &found.meant {
-            Meant::Snapped {
-                understood: Some(all),
-                ..
-            } => format!(". Understood: {all}"),
+            Meant::Snapped { understood, .. } => format!(". Understood: {understood}"),
             _ => String::new(),
         };
         WarningKind::Meant {
@@ -124,9 +122,8 @@ fn nearly(m: &Mechanism) -> Vec<String> {
         length: r.length.max(least.length),
         angle: r.angle.max(least.angle),
     });
-    let moved = snap(m, within).moved;
-    let told = |x: &&Moved| x.turn > DOUBLE || x.shift > DOUBLE * size(m);
-    moved
+    let told = |x: &&NearJoint| x.turn > DOUBLE || x.shift > DOUBLE * size(m);
+    nearly_special(m, within)
         .iter()
         .filter(told)
         .filter_map(|x| words(m, x))
@@ -134,7 +131,7 @@ fn nearly(m: &Mechanism) -> Vec<String> {
 }
 
 /// "LF and LR are 0.002 degrees from coaxial"
-fn words(m: &Mechanism, x: &Moved) -> Option<String> {
+fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
     let strongest = x
         .relations
         .iter()
@@ -149,7 +146,6 @@ fn words(m: &Mechanism, x: &Moved) -> Option<String> {
         Relation::Coaxial => "coaxial",
         Relation::Meeting => "meeting",
         Relation::Concentric => "concentric",
-        Relation::EqualVectors => return None,
     };
     Some(match other {
         Some(j) => format!("{} and {id} are {far} from {special}", m.joints[*j].id),
@@ -167,6 +163,5 @@ fn rank(relation: Relation) -> usize {
         Relation::Meeting => 4,
         Relation::Concentric => 5,
         Relation::Coaxial => 6,
-        Relation::EqualVectors => 0,
     }
 }

@@ -39,7 +39,7 @@ pub enum WarningKind {
         unit: &'static str,
     },
     #[error(
-        "coordinates look measured or rounded: {what}; write exact ones in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\", where they are known (--snap T sets the tolerance else)"
+        "coordinates look measured or rounded: {what}; write exact ones in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\", where they are known (else a [tolerance] table says how far they may be off)"
     )]
     Measured { what: String },
     #[error(
@@ -62,7 +62,7 @@ pub enum WarningKind {
         reference: String,
     },
     #[error(
-        "nearly special: {what}; make them so exactly if they are meant to be (`ozols export FILE --snap T` does)"
+        "nearly special: {what}; make them so exactly if they are meant to be, or say how far they may be off in a [tolerance] table"
     )]
     NearlySpecial { what: String },
     #[error(

@@ -31,11 +31,8 @@ pub use error::AnalysisError;
 /// How the rank is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// The cheapest that is certain, see [`decide`]; a tolerance other than the digits ask for.
-    Auto {
-        /// Relative tolerance.
-        tolerance: Option<f64>,
-    },
+    /// The cheapest that is certain, see [`decide`].
+    Auto,
     /// Modulo two primes, every digit taken at its word.
     Modular,
     /// In floating point, with a relative tolerance.
@@ -43,12 +40,12 @@ pub enum Method {
 }
 
 impl Method {
-    /// The way to the rank that a method from the list of all names, with a tolerance other than what suits it; `None` for
-    /// one that gives a mobility alone.
+    /// The way to the rank that a method from the list of all names, with a tolerance other than what suits it where
+    /// it is in floating point; `None` for one that gives a mobility alone.
     #[must_use]
     pub fn of(method: &dyn MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
         match method.about().rank {
-            RankOfJ::Chosen => Some(Method::Auto { tolerance }),
+            RankOfJ::Chosen => Some(Method::Auto),
             RankOfJ::Exact => Some(Method::Modular),
             RankOfJ::Numeric => {
                 let elimination = Elimination::of(method)?;
@@ -140,7 +137,7 @@ pub fn analyse(
     states
         .iter()
         .map(|&s| match method {
-            Method::Auto { tolerance } => chosen(mechanism, s, tolerance),
+            Method::Auto => chosen(mechanism, s),
             Method::Modular => exactly(mechanism, s, None),
             Method::Numeric(elimination, tolerance) => {
                 let real = Closure::new(&Reals, mechanism, s)?;
@@ -152,16 +149,12 @@ pub fn analyse(
 }
 
 /// By the automatic choice.
-fn chosen(
-    mechanism: &Mechanism,
-    state: StateId,
-    tolerance: Option<f64>,
-) -> Result<StateAnalysis, AnalysisError> {
+fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, AnalysisError> {
     let Decision {
         verdict,
         finite,
         line,
-    } = decide(mechanism, state, tolerance)?;
+    } = decide(mechanism, state)?;
     let as_written = (verdict.as_written != verdict.rank()).then_some(verdict.as_written);
     let whole = match &verdict.meant {
         Meant::AsWritten => exactly(mechanism, state, Some(finite))?,
@@ -169,10 +162,8 @@ fn chosen(
         Meant::Near {
             mechanism: near,
             rank,
-            moved,
+            ..
         } => {
-            // What was found is as good as doubles; what is written is read at the tolerance asked for.
-            let tolerance = moved.map_or(verdict.tolerance, |_| NEAR);
             let found = NumericRank {
                 rank: *rank,
                 ..verdict.numeric.unwrap_or_default()
@@ -184,7 +175,8 @@ fn chosen(
                     state,
                     Elimination::Svd,
                     found,
-                    tolerance,
+                    // What was found is as good as doubles.
+                    NEAR,
                     Some(finite),
                 )?
             }
@@ -209,20 +201,16 @@ fn chosen(
     })
 }
 
-/// The mechanism that was snapped, and what was, a sentence each.
+/// Returns the mechanism that was snapped, and what was understood.
 fn snapped(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
-    let Meant::Snapped {
-        mechanism,
-        moved,
-        understood,
-        ..
-    } = meant
-    else {
-        return (None, Vec::new());
-    };
-    let each = || moved.iter().map(|x| x.words(&mechanism)).collect();
-    let words = understood.map_or_else(each, |all| vec![all]);
-    (Some(mechanism), words)
+    match meant {
+        Meant::Snapped {
+            mechanism,
+            understood,
+            ..
+        } => (Some(mechanism), vec![understood]),
+        _ => (None, Vec::new()),
+    }
 }
 
 /// By a floating-point rank; where it differs from the exact one, all else comes from singular values.

@@ -124,7 +124,7 @@ pub fn held_twice(
     inside: Option<&dyn Fn(&Pose) -> bool>,
 ) -> Result<HeldTwice, AnalysisError> {
     let state = StateId::FREE;
-    let mut found = analyse(m, &[state], Method::Auto { tolerance: None })?;
+    let mut found = analyse(m, &[state], Method::Auto)?;
     let analysis = found.remove(0);
     let mut out = HeldTwice {
         analysis,
@@ -139,7 +139,7 @@ pub fn held_twice(
     if most == 0 {
         return Ok(out);
     }
-    let meant = verdict(m, state, None)?;
+    let meant = verdict(m, state)?;
     let geometry = meant.mechanism().unwrap_or(m);
     let elsewhere = match inside {
         Some(inside) => out.look_elsewhere(geometry, errors(&meant), inside)?,

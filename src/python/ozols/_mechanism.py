@@ -270,7 +270,6 @@ class Mechanism:
         check: str = "full",
         method: str = "diagram",
         as_written: bool = False,
-        snap: float | None = None,
         nodes: int | None = None,
         memory: int | None = None,
         seed: int = 1,

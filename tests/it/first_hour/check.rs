@@ -66,7 +66,7 @@ fn check_doubts_what_is_likely_a_slip() {
             "point = [80, 90, 0]",
             "point = [80.0123456789, 90, 0]",
             "[[joint]]",
-            &["measured", "--snap"],
+            &["measured", "[tolerance]"],
         ),
         (
             "\"spherical\"]",

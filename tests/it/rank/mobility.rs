@@ -94,7 +94,7 @@ fn the_automatic_choice_is_right_on_every_built_in_mechanism_turned_and_measured
         for e in &m.expected {
             let state = m.state(&e.state).unwrap();
             let mut check = |what: String, m: &Mechanism| {
-                let s = &analyse(m, &[state], Method::Auto { tolerance: None }).unwrap()[0];
+                let s = &analyse(m, &[state], Method::Auto).unwrap()[0];
                 let is = (
                     s.mobility as i64,
                     s.finite.mobility as i64,
@@ -375,8 +375,8 @@ proptest! {
         let names: Vec<_> = builtin::names();
         let m = built_in(names[pick.index(names.len())]);
         prop_assume!(matches!(m.mode, Mode::Spatial) && m.name != "wren-platform");
-        let before = decide(&m, StateId::FREE, None).unwrap();
-        let after = decide(&as_measured(&m, seed, 1e-13, 1.0), StateId::FREE, None).unwrap();
+        let before = decide(&m, StateId::FREE).unwrap();
+        let after = decide(&as_measured(&m, seed, 1e-13, 1.0), StateId::FREE).unwrap();
         // Off by a thousand units of the sixteenth digit, which may leave it open.
         let rank = before.verdict.rank();
         prop_assert!((after.verdict.at_least()..=after.verdict.rank()).contains(&rank), "{} {rank}: {}", m.name, after.line);

@@ -46,7 +46,7 @@ fn tilted(by: &str) -> Mechanism {
 
 /// By hand: three parallel hinges and one that is not lock each other, whatever the tilt is. The counts are those of a tilt of 1.
 fn is_locked(m: &Mechanism) {
-    let found = analyse(m, &[StateId::FREE], Method::Auto { tolerance: None })
+    let found = analyse(m, &[StateId::FREE], Method::Auto)
         .unwrap()
         .remove(0);
     assert_eq!((found.mobility, found.redundant, found.rank), (0, 2, 4));

@@ -56,7 +56,7 @@ fn said(m: &Mechanism) -> Vec<String> {
             s.finite.describe(),
         )
     };
-    match analyse(m, &states, Method::Auto { tolerance: None }) {
+    match analyse(m, &states, Method::Auto) {
         Ok(found) => found.iter().map(of).collect(),
         Err(e) => vec![e.to_string()],
     }

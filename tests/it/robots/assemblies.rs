@@ -25,7 +25,7 @@ pub(crate) fn refused(name: &str, bytes: &[u8]) -> String {
 
 /// W and σ, as the commands have them.
 pub(crate) fn figures(i: &Imported) -> (usize, usize) {
-    let method = Method::Auto { tolerance: None };
+    let method = Method::Auto;
     let s = &analyse(&i.mechanism, &[StateId::FREE], method).unwrap()[0];
     assert_eq!(s.at_most(), None, "σ is one number");
     (s.mobility, s.redundant)

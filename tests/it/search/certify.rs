@@ -250,7 +250,7 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
         code == Some(0) && stderr.starts_with("warning: "),
         "{stderr}"
     );
-    for part in ["W = 0, σ = 2", "W = 1, σ = 3", "--snap"] {
+    for part in ["W = 0, σ = 2", "W = 1, σ = 3", "[tolerance]"] {
         assert!(stderr.contains(part), "no {part:?} in {stderr}");
     }
     let v: Value = serde_json::from_str(&stdout).unwrap();

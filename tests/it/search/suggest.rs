@@ -301,7 +301,7 @@ fn analyses_fit_the_terminal() {
     ] {
         let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
-        let found = analyse(&m, &states, Method::Auto { tolerance: None }).unwrap();
+        let found = analyse(&m, &states, Method::Auto).unwrap();
         let advice: Vec<Advice> = found
             .iter()
             .zip(m.state_ids())

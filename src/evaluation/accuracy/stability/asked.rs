@@ -32,7 +32,7 @@ impl Replies {
             Some(right)
         };
         let (last, truth) = all.last()?;
-        let found = decide(last, StateId::FREE, None).ok();
+        let found = decide(last, StateId::FREE).ok();
         let [w, finite] = Said::of_decision(found.as_ref(), (truth.instantaneous, truth.finite));
         Some(Replies {
             right: registry::ALL.iter().map(of).collect(),

@@ -69,7 +69,7 @@ fn same(a: &Outcome, b: &Outcome) -> bool {
 
 /// What is said of a turned mechanism; counts where they are known.
 fn ask(m: Mechanism, case: &Case, truth: Option<&Outcome>) -> [Option<Said>; 3] {
-    let found = decide(&m, case.state, None).ok();
+    let found = decide(&m, case.state).ok();
     let figures = (case.truth.instantaneous, case.truth.finite);
     let [w, finite] = Said::of_decision(found.as_ref(), figures);
     let counts = truth.map(|truth| {

@@ -23,7 +23,7 @@ fn ask(text: &str, truth: (i64, i64)) -> Said {
     let Ok(m) = mechanism_from_str("offset.toml", text) else {
         return Said::Open;
     };
-    let found = decide(&m, StateId::FREE, None).ok();
+    let found = decide(&m, StateId::FREE).ok();
     let [w, finite] = Said::of_decision(found.as_ref(), truth);
     w.max(finite)
 }

@@ -28,7 +28,7 @@ const ROWS: [&str; 5] = [
 /// Whether each of [`ROWS`] is right at the pose.
 fn ask(m: &Mechanism, state: StateId, truth: i64) -> [bool; 5] {
     let is = |w: Option<usize>| w.and_then(|w| i64::try_from(w).ok()) == Some(truth);
-    let found = verdict(m, state, None).ok();
+    let found = verdict(m, state).ok();
     let of = |rank: Option<usize>| is(found.as_ref().zip(rank).map(|(v, r)| v.figures(r).0));
     let decided = found.as_ref().is_some_and(|v| v.is_decided());
     let right = of(found.as_ref().map(|v| v.rank()));

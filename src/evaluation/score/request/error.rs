@@ -10,9 +10,6 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RequestError {
-    /// A tolerance that is none.
-    #[error("--snap must be between 0 and 1")]
-    Snap,
     /// A pool that is none, or too large.
     #[error("--pool must be from 1 to {most}")]
     Pool {

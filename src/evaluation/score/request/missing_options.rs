@@ -108,7 +108,6 @@ impl Outcome {
             hold: Vec::new(),
             unloading: Vec::new(),
             costs: None,
-            snap: None,
             as_written: true,
             rank: Vec::new(),
             list: List::Top(1),

@@ -11,7 +11,7 @@ use crate::search::question::rounded_rank::Digits;
 use std::sync::Arc;
 
 /// What to do about rounded coordinates.
-pub(in crate::score) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or snap them with --snap TOLERANCE";
+pub(in crate::score) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or say how far they may be off in a [tolerance] table";
 
 /// Why a geometry looks rounded, with the verdicts on its states.
 pub type LooksRounded = (Rounded, Vec<RankVerdict>);
@@ -70,19 +70,10 @@ fn in_places(ready: &Mechanism, file: &Mechanism) -> Mechanism {
     out
 }
 
-/// Tells what was moved, and what was not.
-pub(in crate::score) fn tell_moved(m: &Mechanism, settled: &Settled, tell: &mut dyn FnMut(String)) {
+/// Tells what was understood, where something was moved.
+pub(in crate::score) fn tell_moved(settled: &Settled, tell: &mut dyn FnMut(String)) {
     if let Some(all) = &settled.understood {
-        return tell(format!("snapped: {all}"));
-    }
-    for moved in &settled.moved {
-        tell(format!("snapped: {}", moved.words(m)));
-    }
-    for one in &settled.refused {
-        let (id, far) = (&m.joints[one.joint].id, one.far(m));
-        tell(format!(
-            "not snapped: joint {id} would have to move by {far}"
-        ));
+        tell(format!("snapped: {all}"));
     }
 }
 
@@ -115,12 +106,10 @@ pub(in crate::score) fn nearest(m: &Mechanism, verdicts: &[RankVerdict]) -> Opti
 }
 
 impl Prepared {
-    /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written, and snapped, is
-    /// asked.
+    /// Why the geometry looks rounded, where that may matter; whether the file is to be taken as written is asked.
     pub(in crate::score) fn rounded(
         &self,
         as_written: bool,
-        snapped: bool,
         tell: &mut dyn FnMut(String),
     ) -> Option<LooksRounded> {
         let Prepared {
@@ -128,15 +117,15 @@ impl Prepared {
         } = self;
         let why = settled.verdicts.iter().find_map(|v| v.rounded.clone());
         let told = |why: Option<Rounded>| why.map(|w| (w, settled.verdicts.clone()));
-        let Some((v, has)) = settled.open.map(|(i, has)| (&settled.verdicts[i], has)) else {
+        let Some(v) = settled.open.map(|i| &settled.verdicts[i]) else {
             let measured = |w: &Rounded| w.digits.is_some();
             let meant = settled.verdicts.iter().all(RankVerdict::is_as_written);
-            if let (Some(w), true, false) = (why.as_ref().filter(|w| measured(w)), meant, snapped) {
+            if let (Some(w), true) = (why.as_ref().filter(|w| measured(w)), meant) {
                 tell(looks_measured(&mechanism.name, w));
             }
             return told(why.filter(|w| measured(w) || !meant));
         };
-        let differ = difference(&mechanism.name, why.as_ref(), v, has, snapped);
+        let differ = difference(&mechanism.name, why.as_ref(), v);
         if as_written {
             tell(format!("warning: {differ}; {CURE}"));
         } else {
@@ -163,14 +152,8 @@ fn looks_measured(name: &str, w: &Rounded) -> String {
     }
 }
 
-/// How the rank that exact arithmetic `has` differs from what a verdict tells of the mechanism of this name.
-fn difference(
-    name: &str,
-    why: Option<&Rounded>,
-    v: &RankVerdict,
-    has: usize,
-    snapped: bool,
-) -> String {
+/// How the rank as written differs from what a verdict tells of the mechanism of this name.
+fn difference(name: &str, why: Option<&Rounded>, v: &RankVerdict) -> String {
     let looks = why.map_or_else(
         || {
             format!(
@@ -180,20 +163,15 @@ fn difference(
         },
         |w| format!("the coordinates of {name} look rounded ({w}), and that matters"),
     );
-    let [of, near] = [has, v.at_least()].map(|rank| v.figures(rank));
+    let [of, near] = [v.as_written, v.at_least()].map(|rank| v.figures(rank));
     let n = v.numeric.unwrap_or_default();
-    let written = if snapped && has != v.as_written {
-        "snapped"
-    } else {
-        "as written"
-    };
     let likely = if v.is_decided() {
         "is meant to have"
     } else {
         "may be meant to have"
     };
     format!(
-        "{looks}: {written}, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
+        "{looks}: as written, state {} has W = {}, σ = {}; to within {:.0e} it {likely} W = {}, σ = {} (smallest singular \
          value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
         v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
     )

@@ -90,7 +90,7 @@ pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
         if rows * columns * rows.min(columns) > LARGEST {
             return None;
         }
-        let found = verdict(m, StateId::FREE, None).ok()?;
+        let found = verdict(m, StateId::FREE).ok()?;
         found.is_decided().then(|| columns - found.rank())
     };
     let mut without = m.clone();

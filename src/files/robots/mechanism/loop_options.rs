@@ -15,7 +15,7 @@ pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile)
     if !closes.contains(&true) {
         return false;
     }
-    let Ok(found) = verdict(m, StateId::FREE, None) else {
+    let Ok(found) = verdict(m, StateId::FREE) else {
         return false;
     };
     let rank = found.at_least();

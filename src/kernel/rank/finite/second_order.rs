@@ -12,7 +12,7 @@ use crate::model::mechanism::{JointId, Mechanism, Mode};
 use crate::model::rounded::Uncertainties;
 use crate::motion::pose::Pose;
 use crate::rank::finite::tangent_cone::{Flat, Quadrics, form, norm, works};
-use crate::rank::rounded::snap::size;
+use crate::rank::rounded::size;
 use ozols_dense::{Matrix, Svd, svd};
 
 /// Steps of differences, in radians and fractions of the size.

@@ -21,34 +21,25 @@ pub struct Decision {
     pub line: String,
 }
 
-/// Decides for a state; `tolerance` overrides the one that follows from the digits.
+/// Decides for a state.
 ///
 /// # Errors
 /// Where the geometry has no image in a prime field, or the singular values do not converge.
 ///
 /// # Complexity
 /// That of [`verdict`], and of the finite mobility.
-pub fn decide(
-    mechanism: &Mechanism,
-    state: StateId,
-    tolerance: Option<f64>,
-) -> Result<Decision, NoAnswer> {
-    let verdict = verdict(mechanism, state, tolerance)?;
+pub fn decide(mechanism: &Mechanism, state: StateId) -> Result<Decision, NoAnswer> {
+    let verdict = verdict(mechanism, state)?;
     Ok(Decision {
-        finite: finite_of(mechanism, state, &verdict, tolerance)?,
+        finite: finite_of(mechanism, state, &verdict)?,
         line: line(&verdict),
         verdict,
     })
 }
 
 /// The finite mobility of what is meant.
-fn finite_of(
-    m: &Mechanism,
-    state: StateId,
-    found: &RankVerdict,
-    tolerance: Option<f64>,
-) -> Result<Finite, NoAnswer> {
-    let half = allowed(m, found.rounded.as_ref(), tolerance);
+fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finite, NoAnswer> {
+    let half = allowed(m, found.rounded.as_ref());
     // What was moved, by half a unit at most, and what is true are on either side of what is written.
     let times = if found.is_as_written() { 1.0 } else { 2.0 };
     let known = half.map(|half| Roundings::new(m, half, times));
@@ -111,15 +102,11 @@ fn line(found: &RankVerdict) -> String {
             "exact geometry, so ranks over prime fields; no rounding of the last digits changes them{needed}"
         ),
         Meant::Snapped { moved, .. } => format!(
-            "{why}snapped within the digits ({} joints), exact rank then; {gap} agree; {both}",
-            moved.len()
+            "{why}snapped within the digits ({moved} joints), exact rank then; {gap} agree; {both}"
         ),
-        Meant::Near {
-            moved: Some(units), ..
-        } => format!(
+        Meant::Near { moved: units, .. } => format!(
             "{why}a geometry with that rank is within {units:.2} units of the last digits; {gap}; {both}"
         ),
-        Meant::Near { moved: None, .. } => format!("{why}{gap}; {both}"),
         Meant::Undecided { .. } => format!("{why}{}", found.undecided()),
     }
 }
@@ -143,7 +130,7 @@ impl MobilityMethod for Auto {
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let Decision {
             verdict, finite, ..
-        } = decide(mechanism, state, None)?;
+        } = decide(mechanism, state)?;
         if let Meant::Undecided { .. } = verdict.meant {
             return Err(NoAnswer::Failed(verdict.undecided()));
         }

@@ -1,31 +1,20 @@
-//! What a scene that is meant has, in a sentence, and what it has moved, joint by joint.
+//! What a scene that is meant has, in a sentence, and which joints it has moved.
 
 use crate::geom::vector::{cross, dot, length, real, sub, unit};
 use crate::meant::mechanism::Meant;
 use crate::meant::relations::RelationKind;
-use crate::model::mechanism::{Frame, JointId};
-use crate::rank::rounded::snap::relation::{Moved, Relation};
+use crate::model::mechanism::{Frame, Joint, JointId};
 
-/// The joints that a scene has moved, in file order, with what they are now.
+/// Returns the joints that a scene has moved, in file order.
 #[must_use]
-pub fn moves(meant: &Meant) -> Vec<Moved> {
-    let mut out: Vec<Moved> = Vec::new();
-    for (j, joint) in meant.mechanism.joints_with_ids() {
+pub fn moved_joints(meant: &Meant) -> Vec<JointId> {
+    let moved = |(j, joint): &(JointId, &Joint)| {
         let before = &meant.written[j.index()];
-        let now = &joint.frame;
-        let shift = length(sub(real(&now.point), real(&before.point)));
-        let turn = turned(before, now);
-        if shift == 0.0 && turn == 0.0 {
-            continue;
-        }
-        out.push(Moved {
-            joint: j,
-            shift,
-            turn,
-            relations: relations(meant, j),
-        });
-    }
-    out
+        let shift = length(sub(real(&joint.frame.point), real(&before.point)));
+        shift != 0.0 || turned(before, &joint.frame) != 0.0
+    };
+    let joints = meant.mechanism.joints_with_ids();
+    joints.filter(moved).map(|(j, _)| j).collect()
 }
 
 /// How far the axes of a frame have turned `[rad]`.
@@ -38,43 +27,6 @@ fn turned(before: &Frame, now: &Frame) -> f64 {
     let told = |x: f64| if x > 1e-15 { x } else { 0.0 };
     let of = |a: &[_; 3], b: &[_; 3]| told(angle(real(a), real(b)));
     of(&before.axis, &now.axis).max(of(&before.reference, &now.reference))
-}
-
-/// What a joint is to others, each relation once, to the first that has it.
-fn relations(meant: &Meant, j: JointId) -> Vec<(Relation, Option<JointId>)> {
-    let mut out: Vec<(Relation, Option<JointId>)> = Vec::new();
-    let mut add = |r: Relation, with: JointId| {
-        if with != j && !out.iter().any(|(known, _)| *known == r) {
-            out.push((r, Some(with)));
-        }
-    };
-    let rays = meant.rays.iter().zip(&meant.scene.cluster);
-    for (_, cluster) in rays.clone().filter(|(of, _)| **of == Some(j)) {
-        let alike = rays
-            .clone()
-            .find(|(of, c)| *c == cluster && of.is_some_and(|of| of != j));
-        if let Some(with) = alike.and_then(|(of, _)| *of) {
-            add(Relation::Parallel, with);
-        }
-    }
-    for (kind, points) in &meant.scene.relations {
-        if !points.iter().any(|&p| meant.points[p] == j) {
-            continue;
-        }
-        let Some(with) = points.iter().map(|&p| meant.points[p]).find(|of| *of != j) else {
-            continue;
-        };
-        add(
-            match kind {
-                RelationKind::Coincident => Relation::Concentric,
-                RelationKind::InPlane | RelationKind::Mirrored => Relation::InPlane,
-                RelationKind::OnLine => Relation::Coaxial,
-                RelationKind::EqualVectors => Relation::EqualVectors,
-            },
-            with,
-        );
-    }
-    out
 }
 
 /// What was understood: "13 axes parallel, 14 centres in planes, 4 equal vectors; no number moved by more than 0.9 halves of a

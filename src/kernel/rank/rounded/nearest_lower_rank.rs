@@ -12,7 +12,7 @@ use crate::geom::vector::{length, real};
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 use crate::model::rounded::Uncertainties;
 use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::rank::rounded::snap::size;
+use crate::rank::rounded::size;
 use ozols_dense::{Matrix, svd, thin_svd};
 
 /// Newton steps at most.

@@ -2,13 +2,13 @@
 //!
 //! Rounding raises ranks. A singular value above the rounding bound is real; if all that the exact rank counts are, the
 //! exact rank holds. If not, those below the bound may be zero, and are taken for it only if a gap says so and there is such a
-//! geometry within the digits: by snapping, exactly, or else by Newton's method.
+//! geometry within the digits: the scene that is meant, exactly, or else by Newton's method.
 
 use crate::closure::matrix::Closure;
 use crate::geom::scalars::Reals;
 use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
-use crate::model::rounded::{Rounded, Uncertainties, Units, looks_rounded, uncertainties};
+use crate::model::rounded::{Rounded, Uncertainties, looks_rounded, uncertainties};
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
@@ -16,10 +16,9 @@ use crate::rank::numeric::rounding_bound::bound;
 use crate::rank::numeric::scaling::NumericRank;
 use crate::rank::numeric::values::{ROUND_OFF, Values, relative_values};
 use crate::rank::reduce::sufficient_rows::LeastRows;
-use crate::rank::rounded::moves::{moves, understood};
+use crate::rank::rounded::moves::{moved_joints, understood};
 use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest};
-use crate::rank::rounded::snap::relation::{Moved, Reach};
-use crate::rank::rounded::snap::{size, snap};
+use crate::rank::rounded::size;
 
 /// A gap narrower than this among what rounding can have made says nothing.
 const CLEAR: f64 = 30.0;
@@ -43,10 +42,10 @@ pub enum Meant {
         mechanism: Box<Mechanism>,
         /// Rank of its J, exact.
         rank: usize,
-        /// What was moved.
-        moved: Vec<Moved>,
-        /// What was understood, where digits say what is meant.
-        understood: Option<String>,
+        /// How many joints were moved.
+        moved: usize,
+        /// What was understood.
+        understood: String,
     },
     /// The nearest one whose J has a smaller rank.
     Near {
@@ -54,9 +53,8 @@ pub enum Meant {
         mechanism: Box<Mechanism>,
         /// Rank of its J, numeric.
         rank: usize,
-        /// The largest move of a coordinate, in units of its last digit; none where the one that is written is read at the
-        /// tolerance asked for.
-        moved: Option<f64>,
+        /// The largest move of a coordinate, in units of its last digit.
+        moved: f64,
     },
     /// Not decided.
     Undecided {
@@ -80,7 +78,7 @@ pub struct RankVerdict {
     pub as_written: usize,
     /// Singular values of the J that is written, at the rank meant; none where every digit is exact.
     pub numeric: Option<NumericRank>,
-    /// What rounding can do to a singular value, relative to the largest; or the tolerance asked for.
+    /// What rounding can do to a singular value, relative to the largest.
     pub tolerance: f64,
     /// What is meant.
     pub meant: Meant,
@@ -167,26 +165,10 @@ impl RankVerdict {
                 n.kept, n.dropped
             )
         });
-        let snap = self
-            .suggested_tolerance()
-            .map_or_else(String::new, |t| format!(", or allow --snap {t:.0e}"));
         format!(
             "undecided: W = {w}, σ = {sigma} as written, W = {near_w}, σ = {near_sigma} if digits are left over from \
-             rounding{gap}. Write roots or expressions such as \"sqrt(3)/2\", give more digits{snap}"
+             rounding{gap}. Write roots or expressions such as \"sqrt(3)/2\", give more digits, or say how far they may be off in a [tolerance] table"
         )
-    }
-
-    /// A tolerance for `--snap` in the gap below the rank that is likely meant.
-    #[must_use]
-    pub(crate) fn suggested_tolerance(&self) -> Option<f64> {
-        let n = self.numeric?;
-        let power = |x: f64| 10f64.powf(x.log10().ceil());
-        let wide = power(n.dropped.max(ROUND_OFF) * 10.0);
-        Some(if wide < n.kept / 10.0 {
-            wide
-        } else {
-            (n.kept * n.dropped).sqrt()
-        })
     }
 }
 
@@ -208,8 +190,7 @@ pub(in crate::rank) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<
     ))
 }
 
-/// The verdict on a state; `tolerance` is asked for in place of what the digits say: values below it are zero, and joints
-/// are snapped within it.
+/// Returns the verdict on a state.
 ///
 /// # Errors
 /// Where the geometry has no image in a prime field, or the singular values do not converge.
@@ -219,28 +200,22 @@ pub(in crate::rank) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<
 /// within the digits has the rank of the values above the bound: likely, not proven. Undecided otherwise.
 ///
 /// # Complexity
-/// One modular rank; with decimals one singular value decomposition more, and only where they disagree the snapping, and
-/// then [`nearest`].
-pub fn verdict(
-    mechanism: &Mechanism,
-    state: StateId,
-    tolerance: Option<f64>,
-) -> Result<RankVerdict, NoAnswer> {
-    let scene = resolved(mechanism, tolerance);
-    verdict_on(mechanism, state, tolerance, scene.as_ref())
+/// The scene that is meant; one modular rank; with decimals one singular value decomposition more, and only where they disagree
+/// [`nearest`].
+pub fn verdict(mechanism: &Mechanism, state: StateId) -> Result<RankVerdict, NoAnswer> {
+    let scene = resolved(mechanism);
+    verdict_on(mechanism, state, scene.as_ref())
 }
 
-/// The scene that is meant, where digits say what is and no tolerance is asked for in their place.
-pub(in crate::rank) fn resolved(mechanism: &Mechanism, tolerance: Option<f64>) -> Option<Scene> {
-    let scene = || scene_of(mechanism).filter(|s| s.scene.moved <= FURTHEST);
-    tolerance.is_none().then(scene).flatten()
+/// Returns the scene that is meant, where digits say what is.
+pub(in crate::rank) fn resolved(mechanism: &Mechanism) -> Option<Scene> {
+    scene_of(mechanism).filter(|s| s.scene.moved <= FURTHEST)
 }
 
 /// [`verdict`] with the scene that is meant known.
 pub(in crate::rank) fn verdict_on(
     mechanism: &Mechanism,
     state: StateId,
-    tolerance: Option<f64>,
     scene: Option<&Scene>,
 ) -> Result<RankVerdict, NoAnswer> {
     let file = mechanism;
@@ -262,16 +237,13 @@ pub(in crate::rank) fn verdict_on(
         rounded,
         resolved: scene.is_some(),
     };
-    let Some(half) = allowed(file, found.rounded.as_ref(), tolerance) else {
+    let Some(half) = allowed(file, found.rounded.as_ref()) else {
         return Ok(found);
     };
     let Some(values) = relative_values(&real)? else {
         return Ok(found);
     };
-    found.tolerance = match tolerance {
-        Some(t) => t,
-        None => (bound(mechanism, &real, &half) / values.largest).max(LEAST),
-    };
+    found.tolerance = (bound(mechanism, &real, &half) / values.largest).max(LEAST);
     let above = values.above(found.tolerance);
     let scene = match scene.filter(|s| s.scene.moved > 0.0) {
         Some(s) => Some((s, rank_of(&s.mechanism, state)?)),
@@ -279,38 +251,31 @@ pub(in crate::rank) fn verdict_on(
     };
     let rank = scene.map_or(as_written, |s| s.1);
     if above >= rank {
-        let (at, meant) = counted(&values, above, rank, scene, tolerance);
+        let (at, meant) = counted(&values, above, rank, scene);
         (found.numeric, found.meant) = (Some(values.at(at)), meant);
         return Ok(found);
     }
     // A value below the tolerance may be zero, whatever the exact rank makes of it.
     found.numeric = Some(values.at(above));
-    found.meant = match tolerance {
+    found.meant = if values.gap(above, ROUND_OFF) < CLEAR {
         // One gap is much like another there.
-        None if values.gap(above, ROUND_OFF) < CLEAR => Meant::Undecided {
+        Meant::Undecided {
             near: values.left_over(above).unwrap_or(above),
-        },
-        _ => meant(mechanism, state, above, &half, tolerance)?,
+        }
+    } else {
+        meant(mechanism, state, above, &half)
     };
     Ok(found)
 }
 
-/// What coordinates may be off by: as the tolerance asks, or as the digits say; none where every digit is exact.
+/// Returns what coordinates may be off by: half the units of their last digits; none where every digit is exact.
 pub(in crate::rank) fn allowed(
     file: &Mechanism,
     rounded: Option<&Rounded>,
-    tolerance: Option<f64>,
 ) -> Option<Uncertainties> {
-    match tolerance {
-        Some(t) => Some(Uncertainties::uniform(file, t * size(file) / 2.0, t / 2.0)),
-        None => rounded.map(|r| half_units(file, r)),
-    }
-}
-
-/// Half the units of the numbers of a mechanism that looks rounded.
-fn half_units(file: &Mechanism, r: &Rounded) -> Uncertainties {
-    let [length, direction] = [r.units.length, r.units.direction].map(|u| u / 2.0);
-    uncertainties(file).unwrap_or_else(|| Uncertainties::uniform(file, length, direction))
+    let units = rounded?.units;
+    let [length, direction] = [units.length, units.direction].map(|u| u / 2.0);
+    Some(uncertainties(file).unwrap_or_else(|| Uncertainties::uniform(file, length, direction)))
 }
 
 /// The verdict where no rounding can have made the singular values that the rank counts, and the rank to show them at.
@@ -319,13 +284,12 @@ fn counted(
     above: usize,
     rank: usize,
     scene: Option<(&Scene, usize)>,
-    tolerance: Option<f64>,
 ) -> (usize, Meant) {
-    match (values.left_over(rank), tolerance, scene) {
-        (Some(near), None, _) => (near, Meant::Undecided { near }),
+    match (values.left_over(rank), scene) {
+        (Some(near), _) => (near, Meant::Undecided { near }),
         // No rounding can have made what the digits say is there in truth.
-        (_, _, Some(_)) if above > rank => (rank, Meant::Undecided { near: rank }),
-        (_, _, Some((s, _))) => (rank, snapped(s, rank)),
+        (_, Some(_)) if above > rank => (rank, Meant::Undecided { near: rank }),
+        (_, Some((s, _))) => (rank, snapped(s, rank)),
         _ => (rank, Meant::AsWritten),
     }
 }
@@ -335,49 +299,21 @@ fn snapped(scene: &Scene, rank: usize) -> Meant {
     Meant::Snapped {
         mechanism: Box::new(scene.mechanism.clone()),
         rank,
-        moved: moves(scene),
-        understood: Some(understood(scene)),
+        moved: moved_joints(scene).len(),
+        understood: understood(scene),
     }
 }
 
-/// How far the digits of a mechanism allow its joints to be moved; none where they are exact.
-#[must_use]
-pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
-    let half = half_units(mechanism, &looks_rounded(mechanism)?);
-    let [length, direction] = half.largest(mechanism).map(|h| 2.0 * h);
-    let units = Units { length, direction };
-    Some(Reach::of_units(units, size(mechanism)))
-}
-
-/// The mechanism that is meant if J is to have a rank.
-fn meant(
-    mechanism: &Mechanism,
-    state: StateId,
-    rank: usize,
-    half: &Uncertainties,
-    tolerance: Option<f64>,
-) -> Result<Meant, NoAnswer> {
-    let (asked, size) = (tolerance.is_some(), size(mechanism));
-    if let Some(t) = tolerance {
-        let snapped = snap(mechanism, Reach::relative(t, size));
-        if rank_of(&snapped.mechanism, state)? == rank {
-            return Ok(Meant::Snapped {
-                mechanism: Box::new(snapped.mechanism),
-                rank,
-                moved: snapped.moved,
-                understood: None,
-            });
-        }
-    }
+/// Returns the mechanism that is meant if J is to have a rank.
+fn meant(mechanism: &Mechanism, state: StateId, rank: usize, half: &Uncertainties) -> Meant {
     // With few digits a geometry of that rank is near by chance, unless it asks for several conditions at once.
     let [length, direction] = half.largest(mechanism);
-    let share = (WIDE * 2.0 * direction.max(length / size)).min(1.0);
+    let share = (WIDE * 2.0 * direction.max(length / size(mechanism))).min(1.0);
     let chance = |n: &Nearest| {
         let conditions = i32::try_from(n.conditions).unwrap_or(i32::MAX);
         share.powi(conditions.max(1))
     };
-    let found = nearest(mechanism, state, rank, half).filter(|n| asked || chance(n) <= CHANCE);
-    Ok(match found {
+    match nearest(mechanism, state, rank, half).filter(|n| chance(n) <= CHANCE) {
         Some(Nearest {
             mechanism: m,
             moved,
@@ -385,15 +321,10 @@ fn meant(
         }) => Meant::Near {
             mechanism: Box::new(m),
             rank,
-            moved: Some(moved),
-        },
-        None if asked => Meant::Near {
-            mechanism: Box::new(mechanism.clone()),
-            rank,
-            moved: None,
+            moved,
         },
         None => Meant::Undecided { near: rank },
-    })
+    }
 }
 
 #[cfg(test)]
@@ -409,7 +340,7 @@ mod tests {
             let door = hinges(&[([0, 1], [0.0; 3]), ([0, 1], apart), ([0, 2], X)]);
             let m = drawn(&door, &[]);
             let half = Uncertainties::uniform(&m, unit / 2.0, unit / 2.0);
-            let found = meant(&m, StateId::FREE, 2, &half, None).unwrap();
+            let found = meant(&m, StateId::FREE, 2, &half);
             assert_eq!(
                 matches!(found, Meant::Near { .. }),
                 near,

@@ -6,19 +6,10 @@ use crate::search::answer::single_changes::USUAL_UNLOADING;
 use crate::view::analysis::suggestions::Suggestions;
 use crate::view::terminal::next_commands::{NextCommand, file_name, word};
 
-/// What to do after an analysis of `file`; `snap` is the tolerance its coordinates were snapped by, where they were.
+/// What to do after an analysis of `file`.
 #[must_use]
-pub fn next(
-    m: &Mechanism,
-    states: &[State<'_>],
-    file: &str,
-    snap: Option<f64>,
-) -> Vec<NextCommand> {
-    let snap = snap.map_or(String::new(), |t| format!("--snap {t:e}"));
-    let mut steps: Vec<NextCommand> = states
-        .iter()
-        .filter_map(|s| to_remove(s, file, &snap))
-        .collect();
+pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand> {
+    let mut steps: Vec<NextCommand> = states.iter().filter_map(|s| to_remove(s, file)).collect();
     if !steps.is_empty() {
         return steps;
     }
@@ -43,17 +34,16 @@ pub fn next(
 
 /// What finds the redesigns that remove what is redundant in a state, or gives joints a choice; nothing where no change is
 /// known that removes any.
-fn to_remove(s: &State<'_>, file: &str, snap: &str) -> Option<NextCommand> {
+fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
     let Some(Suggestions::Found(found)) = &s.suggestions else {
         return None;
     };
     let of = found.of;
-    let joined = |more: &str| format!("{more} {snap}").trim().to_owned();
     match (found.options == "usual", found.state) {
         (_, StateId::FREE) => Some(NextCommand::new(
             "search",
             file,
-            &joined(""),
+            "",
             &format!("every redesign that removes all {of}, cheapest first"),
         )),
         (false, n) => {
@@ -66,7 +56,7 @@ fn to_remove(s: &State<'_>, file: &str, snap: &str) -> Option<NextCommand> {
             Some(NextCommand::new(
                 "search",
                 file,
-                &joined(&format!("--max-external {left}{state}")),
+                &format!("--max-external {left}{state}"),
                 &format!("redesigns that leave at most {left} of the {of} external, too"),
             ))
         }

@@ -119,7 +119,6 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
                 .filter(|(_, on)| *on)
                 .map(|(flag, _)| format!("--{flag}")),
         )
-        .chain(r.snap.map(|t| format!("--snap {t}")))
         .join(" ")
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> String {
             if m.joints.len() >= 20 {
                 return "large".to_owned();
             }
-            match analyse(&m, &[StateId::FREE], Method::Auto { tolerance: None }) {
+            match analyse(&m, &[StateId::FREE], Method::Auto) {
                 Ok(_) => "analysed".to_owned(),
                 Err(e) => e.to_string(),
             }

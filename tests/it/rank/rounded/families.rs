@@ -160,7 +160,7 @@ const FAMILIES: [Family; 6] = [
 /// What is said of a file: W and finite mobility, each with the most it can be; `None` where W is not decided.
 fn said(text: &str) -> Option<(usize, [usize; 2])> {
     let m = mechanism_from_str("it.toml", text).unwrap();
-    let found = decide(&m, StateId::FREE, None).unwrap();
+    let found = decide(&m, StateId::FREE).unwrap();
     let w = found.verdict.figures(found.verdict.rank()).0;
     let finite = [found.finite.mobility, found.finite.at_most()];
     found.verdict.is_decided().then_some((w, finite))

@@ -60,10 +60,7 @@ fn counts(m: &Mechanism, truth: &Outcome) -> (Said, String) {
 
 /// W and the finite mobility of the free state.
 fn mobilities(m: &Mechanism, exact: &Mechanism) -> (Said, String) {
-    let (Ok(found), Ok(truth)) = (
-        decide(m, StateId::FREE, None),
-        decide(exact, StateId::FREE, None),
-    ) else {
+    let (Ok(found), Ok(truth)) = (decide(m, StateId::FREE), decide(exact, StateId::FREE)) else {
         return (Said::OtherDoubted, "no verdict".to_owned());
     };
     let of = |d: &ozols::rank::method::auto::Decision| {
@@ -173,10 +170,7 @@ fn most_built_ins_at_six_decimals_are_decided() {
         let exact = plain(name);
         let m = turned(&exact, 6, &mut Noise::new(11, n));
         let decided = m.state_ids().map(|state| {
-            let (found, truth) = (
-                decide(&m, state, None).ok()?,
-                decide(&exact, state, None).ok()?,
-            );
+            let (found, truth) = (decide(&m, state).ok()?, decide(&exact, state).ok()?);
             let figures = |d: &ozols::rank::method::auto::Decision| {
                 (d.verdict.figures(d.verdict.rank()), d.finite.mobility)
             };
@@ -218,7 +212,7 @@ fn offsets_beyond_the_digits_are_kept() {
         for off in [2.5, 4.0, 13.0, 137.0, 1000.0] {
             let along = [noise.uniform(), noise.uniform()];
             let m = door(decimals, along, off);
-            let d = decide(&m, StateId::FREE, None).unwrap();
+            let d = decide(&m, StateId::FREE).unwrap();
             let w = d.verdict.figures(d.verdict.rank()).0;
             let sure = d.verdict.is_decided() && d.finite.is_proven();
             assert!(
@@ -228,7 +222,7 @@ fn offsets_beyond_the_digits_are_kept() {
             );
         }
         let m = door(decimals, [0.3, noise.uniform()], 0.0);
-        let d = decide(&m, StateId::FREE, None).unwrap();
+        let d = decide(&m, StateId::FREE).unwrap();
         assert_eq!(
             d.verdict.figures(d.verdict.rank()).0,
             1,
@@ -257,7 +251,7 @@ fn offsets_near_the_end_of_doubles() {
                 let mut noise = Noise::new(3, i * SpecialKind::ALL.len() + k);
                 let text = kind.text(units, decimals, i % 2 == 1, &mut noise);
                 let m = ozols::file::text::mechanism_from_str("off.toml", &text).unwrap();
-                let found = decide(&m, StateId::FREE, None).ok();
+                let found = decide(&m, StateId::FREE).ok();
                 let [w, finite] = said::Said::of_decision(found.as_ref(), kind.figures(true));
                 w.max(finite) >= said::Said::Hedged
             });
@@ -290,7 +284,7 @@ fn offsets_of_a_unit_and_a_half_are_not_proven_away() {
                 }
                 let text = kind.text(units, decimals, turned, &mut Noise::new(seed, i));
                 let m = ozols::file::text::mechanism_from_str("off.toml", &text).unwrap();
-                let found = decide(&m, StateId::FREE, None).ok();
+                let found = decide(&m, StateId::FREE).ok();
                 let [w, finite] = said::Said::of_decision(found.as_ref(), kind.figures(true));
                 assert!(
                     w.max(finite) != said::Said::Wrong,

@@ -2,13 +2,12 @@
 
 use crate::common::{out, run, run_on, text};
 use ozols::file::text::mechanism_from_str;
-use ozols::geom::vector::{length, real, sub};
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::model::rounded::{looks_rounded, uncertainties};
 use ozols::rank::method::registry;
-use ozols::rank::rounded::snap::relation::Reach;
-use ozols::rank::rounded::snap::{size, snap};
-use ozols::redundancy::analysis::{Method, analyse};
+use ozols::rank::rounded::nearly_special::nearly_special;
+use ozols::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
+use ozols::rank::rounded::size;
+use ozols::redundancy::analysis::Method;
 use serde_json::Value;
 
 /// The built-in four-bar tilted by 30 degrees about x, to so many decimals, its axes within the last of them.
@@ -171,10 +170,9 @@ options = ["spherical", "sphere-in-cylinder"]
 "#;
 
 #[test]
-fn a_door_keeps_its_hinges_apart_when_it_is_snapped() {
-    let counts = |file: &str, more: &[&str]| {
-        let all = [&["--format", "json"], more].concat();
-        let (code, stdout, stderr) = run_on("search", "door.toml", file, &all);
+fn a_door_on_measured_hinges_has_the_redesigns_of_the_exact_one() {
+    let counts = |file: &str| {
+        let (code, stdout, stderr) = run_on("search", "door.toml", file, &["--format", "json"]);
         assert_eq!(code, Some(0), "{stderr}");
         value(&stdout)["admissible"].clone()
     };
@@ -183,18 +181,8 @@ fn a_door_keeps_its_hinges_apart_when_it_is_snapped() {
         .replace("0.657979273, 1.303612859, 1.949246364", "0, 0, 2")
         .replace("0.267261242, 0.534522484, 0.801783726", "0, 0, 1")
         .replace("0.267261243, 0.534522483, 0.801783726", "0, 0, 1");
-    assert_eq!(counts(&exact, &[]), "2");
-    assert_eq!(counts(DOOR, &["--snap", "1e-5"]), "2");
-    assert_eq!(counts(DOOR, &[]), "2");
-    let m = mechanism_from_str("door.toml", DOOR).unwrap();
-    let snapped = snap(&m, Reach::relative(1e-5, size(&m)));
-    let apart = |m: &Mechanism| {
-        let [a, b] = [0, 1].map(|i| real(&m.joints[i].frame.point));
-        length(sub(a, b))
-    };
-    assert!((apart(&snapped.mechanism) - apart(&m)).abs() < 1e-8);
-    let s = &analyse(&snapped.mechanism, &[StateId::FREE], Method::Modular).unwrap()[0];
-    assert_eq!((s.mobility, s.redundant), (1, 5));
+    assert_eq!(counts(&exact), "2");
+    assert_eq!(counts(DOOR), "2");
 }
 
 /// A wishbone on two bolts, its ball, and the upright on a second ball and a rod: dimensions to 0.01 mm.
@@ -235,37 +223,25 @@ axis = [0, 1, 0]
 "#;
 
 #[test]
-fn nothing_is_moved_further_than_is_allowed() {
+fn nothing_further_than_its_reach_is_nearly_special() {
     let m = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
     for tolerance in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
         let reach = Reach::relative(tolerance, size(&m));
-        let snapped = snap(&m, reach);
-        for (before, after) in m.joints.iter().zip(&snapped.mechanism.joints) {
-            let shift = length(sub(real(&before.frame.point), real(&after.frame.point)));
-            assert!(
-                shift <= 1.0001 * reach.length,
-                "{tolerance}: {} by {shift}",
-                before.id
-            );
-        }
-        let moved = snapped.moved.iter().chain(&snapped.refused);
-        for x in moved.clone() {
-            assert!(!x.words(&m).is_empty());
-        }
+        let near = nearly_special(&m, reach);
         assert!(
-            snapped
-                .moved
-                .iter()
-                .all(|x| x.shift <= 1.0001 * reach.length && x.turn <= 1.0001 * reach.angle)
+            near.iter()
+                .all(|x| x.shift <= 1.0001 * reach.length && x.turn <= 1.0001 * reach.angle),
+            "{tolerance}: {near:?}"
         );
     }
-    let bolts = snap(&m, Reach::relative(1e-3, size(&m)));
-    let told: Vec<String> = bolts.moved.iter().map(|x| x.words(&m)).collect();
-    assert!(
-        told.iter()
-            .any(|t| t.starts_with("joint LR moved by 0.0") && t.contains("coaxial with LF")),
-        "{told:?}"
-    );
+    let bolts = nearly_special(&m, Reach::relative(1e-3, size(&m)));
+    let [front, rear] = ["LF", "LR"].map(|id| m.joint(id).unwrap());
+    let coaxial = |x: &NearJoint| {
+        x.joint == rear
+            && x.far(&m).starts_with("0.0")
+            && x.relations.contains(&(Relation::Coaxial, Some(front)))
+    };
+    assert!(bolts.iter().any(coaxial), "{bolts:?}");
 }
 
 #[test]
@@ -307,7 +283,7 @@ fn what_is_not_decided_is_said_so_everywhere() {
     let on = |command: &str, more: &[&str]| run_on(command, "it.toml", &file, more);
     let (code, stdout, _) = on("analyze", &[]);
     assert_eq!(code, Some(0));
-    for part in ["undecided", "--snap"] {
+    for part in ["undecided", "[tolerance]"] {
         assert!(stdout.contains(part), "no {part:?} in {stdout}");
     }
     let (_, stdout, _) = on("analyze", &["--format", "json"]);
@@ -329,7 +305,7 @@ fn what_is_not_decided_is_said_so_everywhere() {
         "{stdout}"
     );
     assert!(
-        stderr.contains("may be meant to have") && stderr.contains("--snap"),
+        stderr.contains("may be meant to have") && stderr.contains("[tolerance]"),
         "{stderr}"
     );
     // Whichever is meant, the truth is in the bracket.
@@ -347,7 +323,8 @@ fn what_is_not_decided_is_said_so_everywhere() {
     let (_, _, stderr) = on("check", &[]);
     assert!(stderr.contains("undecided"), "{stderr}");
     // What it says helps.
-    let (code, stdout, stderr) = on("search", &["--snap", "1e-5", "--format", "json"]);
+    let known = format!("{file}\n[tolerance]\ndirection = 1e-5\n");
+    let (code, stdout, stderr) = run_on("search", "it.toml", &known, &["--format", "json"]);
     assert_eq!(
         (code, &value(&stdout)["determinate"]),
         (Some(0), &"34".into()),
@@ -363,7 +340,7 @@ fn the_finite_mobility_is_that_of_the_rank_whatever_the_method() {
         .filter(|m| Method::of(*m, None).is_some());
     for method in whole.map(|m| m.name()) {
         for tolerance in [None, Some("1e-4"), Some("1e-12")] {
-            if tolerance.is_some() && ["modular", "rational", "finite"].contains(&method) {
+            if tolerance.is_some() && ["auto", "modular", "rational", "finite"].contains(&method) {
                 continue;
             }
             let more: Vec<&str> = tolerance
@@ -390,40 +367,22 @@ fn the_finite_mobility_is_that_of_the_rank_whatever_the_method() {
 
 #[test]
 fn a_tolerance_is_never_ignored() {
-    let (code, _, stderr) = run_on(
-        "analyze",
-        "it.toml",
-        &tilted(6),
-        &["--method", "modular", "--tolerance", "1e-6"],
-    );
-    assert_eq!(code, Some(2));
-    assert!(stderr.contains("--method modular"), "{stderr}");
+    for method in ["modular", "auto"] {
+        let words = ["--method", method, "--tolerance", "1e-6"];
+        let (code, _, stderr) = run_on("analyze", "it.toml", &tilted(6), &words);
+        assert_eq!(code, Some(2));
+        assert!(stderr.contains(&format!("--method {method}")), "{stderr}");
+    }
     // Exact geometry, too: the tilt of 1e-3 is nothing to 1e-2.
     let exact =
         out(&["show", "four-bar"]).replacen("axis = [0, 0, 1]", "axis = [0, \"1/1000\", 1]", 1);
     let w = |more: &[&str]| {
-        let (_, stdout, _) = run_on(
-            "analyze",
-            "it.toml",
-            &exact,
-            &[&["--format", "json"], more].concat(),
-        );
+        let words = [&["--format", "json"], more].concat();
+        let (_, stdout, _) = run_on("analyze", "it.toml", &exact, &words);
         value(&stdout)["states"][0]["mobility"].as_i64().unwrap()
     };
-    assert_eq!((w(&[]), w(&["--snap", "1e-2"])), (0, 1));
-    // And where nothing is searched: the file that is written is snapped.
-    let (_, stdout, stderr) = run_on(
-        "export",
-        "it.toml",
-        &tilted(6),
-        &["--to", "toml", "--snap", "1e-4"],
+    assert_eq!(
+        (w(&[]), w(&["--method", "svd", "--tolerance", "1e-2"])),
+        (0, 1)
     );
-    assert!(stderr.contains("snapped: "), "{stderr}");
-    let (_, stdout, _) = run_on(
-        "analyze",
-        "it.toml",
-        &stdout,
-        &["--format", "json", "--method", "modular"],
-    );
-    assert_eq!(value(&stdout)["states"][0]["mobility"], 1);
 }

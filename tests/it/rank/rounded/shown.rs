@@ -224,7 +224,7 @@ const SLIDES: [&str; 2] = ["prismatic", "cylindrical"];
 
 /// Whether a file has the redesigns of the exact one; if not, it must have said that it is not exact.
 fn same(exact: &Mechanism, file: &Mechanism, options: &[&str], what: &str) -> bool {
-    let of = |m: &Mechanism| decide(m, StateId::FREE, None).unwrap();
+    let of = |m: &Mechanism| decide(m, StateId::FREE).unwrap();
     let (truth, is) = (of(exact), of(file));
     let w = truth.verdict.figures(truth.verdict.rank()).0;
     let [least, most] = [is.verdict.rank(), is.verdict.at_least()].map(|r| is.verdict.figures(r).0);
@@ -259,7 +259,7 @@ fn turned_at(exact: &Mechanism, options: &[&str], decimals: &[usize], what: &str
 #[test]
 fn a_wedge_chuck_with_slides_at_120_degrees_in_decimals_has_the_redesigns_of_the_exact_one() {
     let exact = read(&wedge_chuck(&|exact, _| exact.to_owned()));
-    let w = decide(&exact, StateId::FREE, None).unwrap();
+    let w = decide(&exact, StateId::FREE).unwrap();
     // Seven slides, two directions a contour.
     assert_eq!(w.verdict.figures(w.verdict.rank()), (1, 12));
     for d in [3, 4, 6, 9, 12] {

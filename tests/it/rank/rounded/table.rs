@@ -107,7 +107,7 @@ fn judged(
 #[test]
 fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
     let table = judged("W", 41, |m, case| {
-        let v = verdict(m, case.state, None).unwrap();
+        let v = verdict(m, case.state).unwrap();
         let [w, most] = [v.rank(), v.at_least()].map(|rank| v.figures(rank).0);
         // Undecided is no answer, even where its range leaves the truth out.
         let worth = if v.is_decided() {
@@ -134,7 +134,7 @@ fn no_verdict_on_rounded_coordinates_is_wrong_and_sure() {
 #[test]
 fn no_finite_mobility_of_rounded_coordinates_is_wrong_and_sure() {
     judged("finite mobility", 61, |m, case| {
-        let found = decide(m, case.state, None).unwrap();
+        let found = decide(m, case.state).unwrap();
         let finite = found.finite;
         let what = format!(
             "finite {} for {}: {}",

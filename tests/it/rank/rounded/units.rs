@@ -13,9 +13,10 @@ use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::model::rounded::uncertainties;
 use ozols::rank::numeric::scaling::{Scaling, scaled};
 use ozols::rank::rounded::intended::settle;
-use ozols::rank::rounded::moves::{moves, understood};
-use ozols::rank::rounded::snap::size;
-use ozols::rank::rounded::verdict::{reach, verdict};
+use ozols::rank::rounded::moves::{moved_joints, understood};
+use ozols::rank::rounded::nearly_special::reach;
+use ozols::rank::rounded::size;
+use ozols::rank::rounded::verdict::verdict;
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols_dense::singular_values;
 
@@ -61,7 +62,7 @@ fn what_rounding_can_do_is_that_of_all_hinges_together() {
         let squares: f64 = passed.map(|&(j, _)| off(j).powi(2)).sum();
         let whole = squares.sqrt();
         let largest = singular_values(&scaled(&closure)).unwrap()[0];
-        let found = verdict(&m, StateId::FREE, None).unwrap().tolerance;
+        let found = verdict(&m, StateId::FREE).unwrap().tolerance;
         assert!(
             (found / (whole / largest) - 1.0).abs() < 1e-9,
             "{name}: {found}"
@@ -72,7 +73,7 @@ fn what_rounding_can_do_is_that_of_all_hinges_together() {
 
 /// Two joints may each be off by a unit of its place and, at an arm of the size, by one of its direction.
 #[test]
-fn joints_are_snapped_as_far_as_two_roundings_go() {
+fn joints_are_near_as_far_as_two_roundings_go() {
     for name in ["bennett", "gripper-10"] {
         let m = measured(name, 7);
         let ([length, direction], found) = (units(&m), reach(&m).unwrap());
@@ -98,7 +99,7 @@ fn moves_are_of_points_axes_and_references() {
     for (written, joint) in s.written.iter_mut().zip(&s.mechanism.joints) {
         *written = joint.frame.clone();
     }
-    assert!(moves(&s).is_empty());
+    assert!(moved_joints(&s).is_empty());
     let (still, angle) = (s.written.clone(), 0.01f64);
     let leaned = |v: &[Expr; 3], other: &[Expr; 3]| -> [Expr; 3] {
         let [v, other] = [v, other].map(real);
@@ -112,12 +113,7 @@ fn moves_are_of_points_axes_and_references() {
     s.written[2].reference = leaned(&still[2].reference, &still[2].axis);
     s.written[4].axis = leaned(&still[4].axis, &still[4].reference);
     s.written[5].point[0] = Expr::from_f64(still[5].point[0].to_f64() + 0.25).unwrap();
-    let found = moves(&s);
-    let joints: Vec<usize> = found.iter().map(|m| m.joint.index()).collect();
-    assert_eq!(joints, [2, 4, 5]);
-    near(found[0].turn, angle, 1e-9);
-    near(found[1].turn, angle, 1e-9);
-    near(found[2].shift, 0.25, 1e-9);
+    assert_eq!(moved_joints(&s), [2, 4, 5].map(JointId::new));
 }
 
 /// An axis that is parallel to none is not counted, and moves are told in units: two halves.
@@ -138,7 +134,7 @@ fn what_was_understood_is_counted_in_groups_and_units() {
     assert!(understood(&s).starts_with("3 + 2 axes parallel;"));
 }
 
-/// Where nothing is open, the mechanism that a search takes has the rank of the verdict, whatever tolerance is asked for.
+/// Where nothing is open, the mechanism that a search takes has the rank of the verdict.
 #[test]
 fn what_is_settled_has_the_rank_of_its_verdict() {
     let (mut open, mut closed) = (0, 0);
@@ -150,19 +146,17 @@ fn what_is_settled_has_the_rank_of_its_verdict() {
     ] {
         for decimals in [4, 6, 9] {
             let m = measured(name, decimals);
-            for tolerance in [None, Some(1e-9), Some(1e-6), Some(1e-3)] {
-                let found = settle(&m, &[StateId::FREE], tolerance).unwrap();
-                if found.open.is_some() {
-                    open += 1;
-                    continue;
-                }
-                closed += 1;
-                let taken = found.snapped.as_ref().unwrap_or(&m);
-                let exact = analyse(taken, &[StateId::FREE], Method::Modular).unwrap();
-                let said = found.verdicts[0].rank();
-                assert_eq!(exact[0].rank, said, "{name} {decimals} {tolerance:?}");
+            let found = settle(&m, &[StateId::FREE]).unwrap();
+            if found.open.is_some() {
+                open += 1;
+                continue;
             }
+            closed += 1;
+            let taken = found.snapped.as_ref().unwrap_or(&m);
+            let exact = analyse(taken, &[StateId::FREE], Method::Modular).unwrap();
+            let said = found.verdicts[0].rank();
+            assert_eq!(exact[0].rank, said, "{name} {decimals}");
         }
     }
-    assert!(open > 2 && closed > 2, "{open} {closed}");
+    assert!(open > 0 && closed > 0, "{open} {closed}");
 }

@@ -1,4 +1,4 @@
-//! Lines made coaxial or concurrent, and centres of joints put where they meet.
+//! Lines that are nearly coaxial or concurrent, and centres of joints near where they meet.
 
 use super::relation::Relation;
 use crate::geom::exact_vector::{ExactVector, add_scaled, cross, foot, is_zero, sub};

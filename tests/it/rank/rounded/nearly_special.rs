@@ -1,10 +1,11 @@
-//! What snapping makes of small mechanisms, against what is exact by hand: directions, places and reach.
+//! What is nearly special in small mechanisms, against what is exact by hand: directions, places and reach.
 
 use ozols::file::text::mechanism_from_str;
-use ozols::geom::vector::{Vector, real};
+use ozols::geom::vector::{Vector, dot, unit};
 use ozols::model::mechanism::Mechanism;
-use ozols::rank::rounded::snap::relation::{Reach, Relation};
-use ozols::rank::rounded::snap::{Snapped, size, snap};
+use ozols::rank::rounded::nearly_special::nearly_special;
+use ozols::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
+use ozols::rank::rounded::size;
 
 /// A chain of joints, each with its type, point and axis.
 fn chain(joints: &[(&str, Vector, Vector)]) -> Mechanism {
@@ -26,68 +27,63 @@ fn chain(joints: &[(&str, Vector, Vector)]) -> Mechanism {
     mechanism_from_str("chain.toml", &text).unwrap()
 }
 
-fn snapped(m: &Mechanism, tolerance: f64) -> Snapped {
-    snap(m, Reach::relative(tolerance, size(m)))
+fn near(m: &Mechanism, tolerance: f64) -> Vec<NearJoint> {
+    nearly_special(m, Reach::relative(tolerance, size(m)))
 }
 
-fn axis(s: &Snapped, joint: usize) -> Vector {
-    real(&s.mechanism.joints[joint].frame.axis)
-}
-
-fn relations(s: &Snapped, joint: usize) -> Vec<Relation> {
-    let of = s.moved.iter().find(|x| x.joint.index() == joint);
+fn relations(near: &[NearJoint], joint: usize) -> Vec<Relation> {
+    let of = near.iter().find(|x| x.joint.index() == joint);
     of.map_or(Vec::new(), |x| x.relations.iter().map(|r| r.0).collect())
 }
 
+/// The side that an axis points to makes no difference.
 #[test]
-fn an_axis_stays_on_the_side_it_points_to() {
+fn axes_are_nearly_parallel_to_global_ones_either_way() {
     let m = chain(&[
         ("revolute", [0.0, 0.0, 0.0], [1e-5, 0.0, -1.0]),
         ("revolute", [1.0, 0.5, 0.0], [0.0, 1.0, 2e-5]),
         ("revolute", [2.0, 0.0, 0.5], [-1.0, 1e-5, 0.0]),
     ]);
-    let s = snapped(&m, 1e-4);
-    assert_eq!(axis(&s, 0), [0.0, 0.0, -1.0]);
-    assert_eq!(axis(&s, 1), [0.0, 1.0, 0.0]);
-    assert_eq!(axis(&s, 2), [-1.0, 0.0, 0.0]);
+    let found = near(&m, 1e-4);
+    for (joint, turn) in [1e-5, 2e-5, 1e-5].into_iter().enumerate() {
+        assert!(relations(&found, joint).contains(&Relation::Parallel));
+        assert!((found[joint].turn - turn).abs() < 1e-12, "{found:?}");
+    }
 }
 
 /// The third axis lies in the plane of the first two but for a hair, the fourth by far not, and no two are square.
 #[test]
-fn only_what_is_nearly_in_a_plane_is_put_there() {
+fn only_what_is_nearly_in_a_plane_is_said_to_be() {
     let third = [1.3, 1.1, 1.7 + 1e-5];
-    let fourth = [1.0, 0.3, 0.55];
     let m = chain(&[
         ("revolute", [0.0, 0.0, 0.0], [1.0, 0.3, 0.6]),
         ("revolute", [1.0, 0.0, 0.7], [0.3, 0.8, 1.1]),
         ("revolute", [2.0, 1.0, 0.0], third),
-        ("revolute", [3.0, 0.3, 0.2], fourth),
+        ("revolute", [3.0, 0.3, 0.2], [1.0, 0.3, 0.55]),
     ]);
-    let s = snapped(&m, 1e-4);
-    assert_eq!(relations(&s, 2), [Relation::InPlane]);
-    let [x, y, z] = axis(&s, 2);
+    let found = near(&m, 1e-4);
+    assert_eq!(relations(&found, 2), [Relation::InPlane]);
     // across both: (1, 0.3, 0.6) × (0.3, 0.8, 1.1) = (-0.15, -0.92, 0.71)
-    assert!((-0.15 * x - 0.92 * y + 0.71 * z).abs() < 1e-12);
-    assert_eq!(relations(&s, 3), []);
-    assert_eq!(axis(&s, 3), fourth);
-    assert!(s.refused.is_empty(), "{s:?}");
+    let normal = unit([-0.15, -0.92, 0.71]);
+    let off = dot(normal, unit(third)).abs().asin();
+    let told = found.iter().find(|x| x.joint.index() == 2).unwrap().turn;
+    assert!((told - off).abs() < 1e-12, "{told} {off}");
+    assert_eq!(relations(&found, 3), []);
 }
 
-/// Two axes pass each other by a hair above (1, 0, 0): both are put through one point, which is where they nearly meet.
+/// Two axes pass each other by a hair above (1, 0, 0), which is where they nearly meet.
 #[test]
-fn axes_that_nearly_meet_meet_where_they_nearly_do() {
+fn axes_that_nearly_meet_are_said_to() {
     let m = chain(&[
         ("revolute", [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
         ("revolute", [1.0, 0.5, 1e-5], [0.0, 1.0, 0.0]),
         ("revolute", [3.0, 2.0, 1.0], [0.0, 0.0, 1.0]),
     ]);
-    let s = snapped(&m, 1e-4);
-    let place = |j: usize| real(&s.mechanism.joints[j].frame.point);
-    let (one, two) = (place(0), place(1));
-    assert!(one[1].abs() < 1e-12 && (one[2] - two[2]).abs() < 1e-12);
-    assert!((two[0] - 1.0).abs() < 1e-12);
-    let meet = |j: usize| relations(&s, j).contains(&Relation::Meeting);
+    let found = near(&m, 1e-4);
+    let meet = |j: usize| relations(&found, j).contains(&Relation::Meeting);
     assert!(meet(0) || meet(1));
+    let off = found.iter().map(|x| x.shift).fold(0.0, f64::max);
+    assert!((off - 1e-5).abs() < 1e-12, "{off}");
 }
 
 /// Lines along (1, 2, 2) and (2, -1, 2), a thousandth apart along their common square (6, 2, -5); short as their directions are
@@ -102,6 +98,6 @@ fn axes_that_pass_each_other_clearly_do_not_meet() {
             [0.02, -0.01, 0.02],
         ),
     ]);
-    let s = snapped(&m, 1e-5);
-    assert!(s.moved.is_empty() && s.refused.is_empty(), "{s:?}");
+    let found = near(&m, 1e-5);
+    assert!(found.is_empty(), "{found:?}");
 }

@@ -1,4 +1,4 @@
-//! Directions made exactly parallel, square or coplanar to directions met before.
+//! Directions that are nearly parallel, square or coplanar to directions met before.
 
 use super::relation::Relation;
 use crate::geom::exact_vector::{ExactVector, across, cross, is_zero};
@@ -31,12 +31,6 @@ fn sine(a: Vector, b: Vector) -> f64 {
     length(vector::cross(a, b))
 }
 
-/// The same direction, not the opposite one.
-fn along(exact: ExactVector, v: Vector) -> ExactVector {
-    let sign = Expr::from(if dot(real(&exact), v) < 0.0 { -1 } else { 1 });
-    exact.map(|x| &x * &sign)
-}
-
 impl Directions {
     /// The global axes, after the normal of the plane of motion where there is one.
     pub(super) fn new(angle: f64, normal: Option<&ExactVector>) -> Directions {
@@ -65,7 +59,7 @@ impl Directions {
             .min_by(|a, b| a.1.total_cmp(&b.1))
         {
             let same = is_zero(&cross(&k.exact, d));
-            return (!same).then(|| (along(k.exact.clone(), v), Relation::Parallel, k.joint));
+            return (!same).then(|| (k.exact.clone(), Relation::Parallel, k.joint));
         }
         let found = self.square(d, v).or_else(|| self.in_plane(d, v));
         let exact = found.as_ref().map_or(d, |(exact, ..)| exact).clone();
@@ -83,7 +77,7 @@ impl Directions {
         let square: Vec<&Known> = self.known.iter().filter(near).collect();
         let first = square.first()?;
         let second = square.iter().find(|k| sine(first.unit, k.unit) > PLANE);
-        let both = second.map(|k| along(cross(&first.exact, &k.exact), v));
+        let both = second.map(|k| cross(&first.exact, &k.exact));
         let exact = both
             .filter(|exact| sine(unit(real(exact)), v) <= self.angle)
             .unwrap_or_else(|| across(d, &first.exact));
