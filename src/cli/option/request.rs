@@ -87,7 +87,7 @@ pub(in crate::cli) struct Which {
     /// Costs of joint types and changes, in place of the defaults and of [search.costs] in FILE: a TOML file such as
     /// `ozols show costs` prints.
     #[arg(long, value_name = "COSTS", value_hint = clap::ValueHint::FilePath)]
-    pub(in crate::cli) costs: Option<PathBuf>,
+    costs: Option<PathBuf>,
     /// Only variants that are their own mirror image.
     #[arg(long)]
     symmetric: bool,
@@ -113,7 +113,7 @@ pub(in crate::cli) struct Which {
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Checked {
     #[command(flatten)]
-    pub(in crate::cli) which: Which,
+    which: Which,
     /// The state that takes part besides the free one, its joints among what is searched; the file's first where only
     /// --max-external or --max-harmful is given.
     #[arg(long, value_name = "STATE")]

@@ -52,16 +52,6 @@ pub struct Rounded {
     pub digits: Option<usize>,
 }
 
-impl Rounded {
-    /// A relative tolerance that errors of measured coordinates stay below, at least 1e-9 and at most 1e-6; none where no
-    /// coordinate looks measured.
-    #[must_use]
-    pub fn tolerance(&self) -> Option<f64> {
-        let digits = i32::try_from(self.digits?).unwrap_or(i32::MAX);
-        Some(10f64.powi(2 - digits.min(300)).clamp(1e-9, 1e-6))
-    }
-}
-
 impl fmt::Display for Rounded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the {} has {}", self.place, self.value)?;
@@ -293,23 +283,5 @@ mod tests {
         assert_eq!(shared(units.clone()), 1e-6);
         units.extend([1e-5, 1e-4]);
         assert_eq!(shared(units), 1e-5);
-    }
-
-    #[test]
-    fn the_tolerance_follows_the_digits() {
-        let with = |digits| Rounded {
-            coordinates: 1,
-            place: String::new(),
-            value: String::new(),
-            units: Units {
-                length: 0.0,
-                direction: 0.0,
-            },
-            pi: false,
-            digits,
-        };
-        assert_eq!(with(Some(16)).tolerance(), Some(1e-9));
-        assert!((with(Some(9)).tolerance().unwrap() - 1e-7).abs() < 1e-20);
-        assert_eq!(with(None).tolerance(), None);
     }
 }
