@@ -194,7 +194,7 @@ fn no_reader_reads_without_a_bound() {
         "catalog query huge",
         "grip lever-gripper --motion huge",
         "search four-bar --costs huge",
-        "export robot.urdf --to toml --loops huge",
+        "fix robot.urdf --loops huge",
     ] {
         let _ = std::fs::remove_file(folder.path().join("robot.xml"));
         std::fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
