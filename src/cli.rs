@@ -79,7 +79,6 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Accuracy(a) => command::accuracy::run(&args.global, a),
         Command::Bench(a) => command::bench::run(&args.global, a),
         Command::Catalog(a) => command::catalog::run(&args.global, a),
-        Command::Sweep(a) => command::sweep::run(&args.global, a),
         Command::Check(a) => command::check::run(&args.global, a),
         Command::New(a) => command::new::run(&args.global, a),
         Command::List(a) => command::list::run(a),

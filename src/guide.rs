@@ -3,7 +3,7 @@
 //! Start with [`first_hour`], or draw in the [`studio`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
 //! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
 //! formulas and numbers fail, [`robots`] (import and export), [`assemblies`] of CAD programs, [`beside`] other tools, [`catalog`] (structures
-//! that nobody has drawn yet), [`sweep`] (parameters of a file over a grid or at random), and [`speed`]. For programs: [`rust`] and [`python`]. Contributors:
+//! that nobody has drawn yet), and [`speed`]. For programs: [`rust`] and [`python`]. Contributors:
 //! read [`architecture`] and [`adding`]; what changed is in the [`changelog`].
 //!
 //! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
@@ -43,9 +43,6 @@ pub mod beside {}
 
 #[doc = include_str!("guide/catalog.md")]
 pub mod catalog {}
-
-#[doc = include_str!("guide/sweep.md")]
-pub mod sweep {}
 
 #[doc = include_str!("guide/speed.md")]
 pub mod speed {}

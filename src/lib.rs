@@ -63,7 +63,7 @@ pub use score::request::Request;
 use ozols_kernel::format;
 
 pub use ozols_catalogue::{catalog, chains, synthesis};
-pub use ozols_evaluation::{accuracy, score, sweep};
+pub use ozols_evaluation::{accuracy, score};
 pub use ozols_files::{file, robots};
 pub use ozols_forces::{drive, grip, statics};
 pub use ozols_kernel::{

@@ -22,7 +22,6 @@ pub(in crate::cli) mod report;
 pub(in crate::cli) mod search;
 pub(in crate::cli) mod statics;
 pub(in crate::cli) mod studio;
-pub(in crate::cli) mod sweep;
 pub(in crate::cli) mod types;
 pub(in crate::cli) mod verify;
 
@@ -77,9 +76,6 @@ pub(in crate::cli) enum Command {
     /// The structures that a mechanism can have, before it is drawn: chains, and grippers made of them.
     #[command(after_help = examples::CATALOG)]
     Catalog(catalog::Catalog),
-    /// Take the parameters of a mechanism file over a grid or at random: where σ changes, which redesigns are best, peak forces.
-    #[command(after_help = examples::SWEEP)]
-    Sweep(sweep::SweepArgs),
     /// Write a commented mechanism file to start from.
     #[command(after_help = examples::NEW)]
     New(new::New),

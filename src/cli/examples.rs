@@ -131,15 +131,6 @@ Examples:
   ozols catalog chains --links 6                     the chains of Watt and Stephenson
   ozols catalog chains --links 7 --mobility 2        those with two inputs";
 
-pub(super) const SWEEP: &str = "\
-Examples:
-  ozols sweep parallelogram-3-rods                         five numbers of each range, the ends among them
-  ozols sweep parallelogram-3-rods --sobol 8 --seed 7 -o random.jsonl
-  ozols sweep parallelogram-3-rods --grid 3 --csv sweep.csv --svg sweep.svg --plot best-cost
-  ozols sweep parallelogram-3-rods --shard 1/2 -o 1.jsonl  half of it, for one of two machines
-  ozols sweep parallelogram-3-rods --shard 2/2 -o 2.jsonl  the other half
-  ozols sweep --merge 1.jsonl 2.jsonl -o all.jsonl         both together: the table that one machine makes";
-
 pub(super) const CHECK: &str = "\
 Warnings are no failure; only a file that cannot be used ends with exit code 2.
 

@@ -1,7 +1,5 @@
-//! Parts of a long work that many machines share: by a hash of the names of its pieces, so that each can tell its own, and
-//! with a digest of rows, so that it can be told whether the parts make the whole.
+//! Parts of a long work that many machines share: by a hash of the names of its pieces, so that each can tell its own.
 
-use num_bigint::BigUint;
 use sha2::{Digest as _, Sha256};
 use std::fmt;
 use std::str::FromStr;
@@ -62,30 +60,6 @@ impl fmt::Display for Shard {
     }
 }
 
-/// How many rows, and the sum of their SHA-256 modulo 2^256: it does not depend on their order, and those of parts add up to
-/// the whole's.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Digest {
-    /// How many.
-    pub rows: usize,
-    sum: BigUint,
-}
-
-impl Digest {
-    /// Takes in a row.
-    pub fn add(&mut self, row: &str) {
-        self.rows += 1;
-        self.sum += BigUint::from_bytes_be(&Sha256::digest(row));
-        self.sum = &self.sum % (BigUint::from(1u8) << 256);
-    }
-
-    /// The sum in 64 hexadecimal digits.
-    #[must_use]
-    pub fn hex(&self) -> String {
-        format!("{:0>64}", self.sum.to_str_radix(16))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,22 +83,5 @@ mod tests {
         for wrong in ["0/7", "8/7", "1/0", "7", "a/b", "-1/2", "1/2/3"] {
             assert_eq!(wrong.parse::<Shard>(), Err(NoShard), "{wrong}");
         }
-    }
-
-    #[test]
-    fn a_digest_does_not_depend_on_the_order() {
-        let of = |rows: &[&str]| {
-            let mut digest = Digest::default();
-            rows.iter().for_each(|r| digest.add(r));
-            digest
-        };
-        assert_eq!(of(&["a", "b"]), of(&["b", "a"]));
-        assert_ne!(of(&["a", "b"]), of(&["a", "c"]));
-        assert_eq!(of(&[]).hex(), "0".repeat(64));
-        // SHA-256 of "abc", FIPS 180-2.
-        assert_eq!(
-            of(&["abc"]).hex(),
-            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
-        );
     }
 }

@@ -1,4 +1,4 @@
-//! Charts as self-contained SVG: lines on linear or log axes, contours, verdict matrices, bands, and a page that gathers them.
+//! Charts as self-contained SVG: lines on linear or log axes, verdict matrices, bands, and a page that gathers them.
 //!
 //! The SVG is written by a helper of our own: plotters and charts-rs fix the colours, so that one picture cannot be both
 //! light and dark, poloto has no log axis, charming runs V8, none keeps names at line ends apart, and the `svg` crate puts
@@ -11,7 +11,6 @@
 mod axes;
 mod axis;
 mod bands;
-mod contours;
 mod data;
 mod drawn;
 mod frame;
@@ -22,9 +21,7 @@ mod outline;
 mod page;
 mod polygons;
 
-pub use data::{
-    Axis, Band, Bands, Cell, Chart, Contours, Matrix, Scale, Series, Style, VerdictKind,
-};
+pub use data::{Axis, Band, Bands, Cell, Chart, Matrix, Scale, Series, Style, VerdictKind};
 pub use outline::Outline;
 pub use page::page;
 pub use polygons::{Panel, PanelPair, PlanArrow, Polygons};

@@ -7,7 +7,6 @@ mod chart;
 mod mechanism;
 mod search;
 mod statics;
-mod sweep;
 mod told;
 mod waiting;
 
@@ -24,13 +23,11 @@ mod _native {
     #[pymodule_export]
     use crate::chart::chart;
     #[pymodule_export]
-    use crate::mechanism::{Mechanism, builtin_names, builtin_text};
+    use crate::mechanism::{Mechanism, builtin_names};
     #[pymodule_export]
     use crate::search::{Outcome, Variant, Variants, search};
     #[pymodule_export]
     use crate::statics::statics;
-    #[pymodule_export]
-    use crate::sweep::{sweep_make, sweep_merge, sweep_plan, sweep_plot, sweep_read};
     #[pymodule_export]
     use crate::told::Error;
 

@@ -121,9 +121,3 @@ pub(crate) fn drawn(
 pub(crate) fn builtin_names() -> Vec<&'static str> {
     ozols::builtin::names()
 }
-
-/// The file of a built-in mechanism, where there is one of this name.
-#[pyfunction]
-pub(crate) fn builtin_text(name: &str) -> Option<&'static str> {
-    ozols::builtin::text(name)
-}

@@ -23,7 +23,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 const AHEAD: usize = 64;
 
 /// A [`Request`] as JSON of Python's.
-pub(crate) fn request(asked: &str) -> PyResult<Request> {
+fn request(asked: &str) -> PyResult<Request> {
     let from = &mut serde_json::Deserializer::from_str(asked);
     serde_path_to_error::deserialize(from).map_err(|e| {
         // What the place of a character in that text would be is nothing that was typed.

@@ -13,5 +13,4 @@ pub mod reactions;
 pub mod search;
 pub mod statics;
 pub mod stroke;
-pub mod sweep;
 pub mod terminal;

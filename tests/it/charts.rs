@@ -42,7 +42,7 @@ fn labels(svg: &str) -> Option<[usize; 2]> {
 fn each_axis_of_each_chart_has_two_labels_or_more() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let commands: [&[&str]; 7] = [
+    let commands: [&[&str]; 6] = [
         &[
             "statics",
             "parallel-shears",
@@ -62,18 +62,6 @@ fn each_axis_of_each_chart_has_two_labels_or_more() {
         &["statics", "--stability", "-o", &at("stability")],
         &["grip", "lever-gripper", "--svg", &at("grip")],
         &["drive", "torsion-module", "--svg", &at("drive")],
-        &[
-            "sweep",
-            "parallelogram-3-rods",
-            "--grid",
-            "3",
-            "--csv",
-            &at("sweep.csv"),
-            "--svg",
-            &at("sweep.svg"),
-            "--plot",
-            "best-cost",
-        ],
         &["bench", "--quick", "four-bar", "-o", &at("bench")],
     ];
     for args in commands {

@@ -11,14 +11,13 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 24] = [
+const COMMANDS: [&str; 23] = [
     "lint",
     "fix",
     "report",
     "studio",
     "analyze",
     "search",
-    "sweep",
     "statics",
     "grip",
     "drive",

@@ -16,7 +16,6 @@ mod expressions;
 mod mechanism_files;
 pub(crate) mod readers;
 mod robot_files;
-mod small_files;
 
 use proptest::prelude::*;
 use proptest::sample::{Index, select};

@@ -34,5 +34,4 @@ mod sources;
 mod statics;
 mod structure;
 mod studio;
-mod sweep;
 mod tables;

@@ -219,32 +219,3 @@ def test_rows_survive_the_death_of_the_scheduler_and_of_a_worker(alone, in_tmp, 
         for process in there:
             process.kill()
             process.wait()
-
-
-def test_a_sweep_on_workers_has_the_rows_of_one_process(cluster, in_tmp):
-    asked = {"grid": 4, "search": {"max_mobility": 1}, "seed": 3}
-    here = ozols.sweep("parallelogram-3-rods", out="here.jsonl", **asked)
-    killed, ready, parts = [], threading.Event(), in_tmp / "there.jsonl.parts"
-
-    def kill():
-        with distributed.Client(cluster) as watching:
-            pids = watching.run(os.getpid)
-            ready.set()
-            killed.append(kill_a_busy_worker(watching, pids, parts.exists))
-
-    killer = threading.Thread(target=kill)
-    killer.start()
-    ready.wait()
-    with distributed.Client(cluster) as client:
-        there = ozols.sweep("parallelogram-3-rods", out="there.jsonl", client=client, shards=8, **asked)
-        killer.join()
-        assert killed
-        assert there.digest() == here.digest()
-        assert there.path.read_bytes() == here.path.read_bytes()
-        assert not parts.exists()
-        # A second run does nothing, and says the same.
-        before = os.stat("there.jsonl")
-        again = ozols.sweep("parallelogram-3-rods", out="there.jsonl", client=client, shards=8, **asked)
-        assert (os.stat("there.jsonl"), str(again)) == (before, str(there))
-        with pytest.raises(ozols.Error, match="another sweep"):
-            ozols.sweep("parallelogram-3-rods", out="there.jsonl", client=client, grid=3)

@@ -1,4 +1,4 @@
-"""The array jobs of the guide, by a `sbatch` that runs them here one after another."""
+"""The array job of the guide, by a `sbatch` that runs it here one after another."""
 
 import os
 import re
@@ -83,11 +83,3 @@ def test_a_catalogue_by_an_array_job_has_the_rows_of_one_process(cluster):
     before = Path("grippers.db").read_bytes()
     run(cluster, "grippers.sbatch", THREE)
     assert Path("grippers.db").read_bytes() == before
-
-
-def test_a_sweep_by_an_array_job_has_the_bytes_of_one_process(cluster):
-    rods = subprocess.run([COMMAND, "show", "parallelogram-3-rods"], capture_output=True, check=True)
-    Path("rods.toml").write_bytes(rods.stdout)
-    run(cluster, "rods.sbatch", THREE, (r"--sobol \d+", "--sobol 12"))
-    alone = ozols.sweep("rods.toml", sobol=12, out="alone.jsonl")
-    assert Path("rods.jsonl").read_bytes() == alone.path.read_bytes()

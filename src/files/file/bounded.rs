@@ -2,7 +2,7 @@
 
 use super::identity;
 use std::fs::File;
-use std::io::{self, BufRead, ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 /// The bytes of a file, one more than `limit` at most: the reader of them says that there are too many.
@@ -39,21 +39,6 @@ pub fn text(path: &Path, limit: usize) -> io::Result<String> {
     text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
-/// Reads the next line, its end included; nothing at the end of the file.
-///
-/// # Errors
-/// Where the line is longer than `limit` bytes or no UTF-8, both of the kind `InvalidData`, or the file cannot be read.
-pub fn line(from: &mut impl BufRead, limit: usize) -> io::Result<String> {
-    let mut bytes = Vec::new();
-    let mut some = from.take(limit as u64 + 1);
-    some.read_until(b'\n', &mut bytes)?;
-    if bytes.len() > limit {
-        return Err(too_long(limit));
-    }
-    let text = String::from_utf8(bytes);
-    text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
-}
-
 /// An open file that is none of those that never end, or wait for ever to be opened.
 ///
 /// # Errors
@@ -71,25 +56,4 @@ fn too_long(limit: usize) -> io::Error {
         ErrorKind::InvalidData,
         format!("it has more than the {limit} bytes that are read"),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::line;
-    use std::io::{Cursor, ErrorKind};
-
-    #[test]
-    fn lines_are_read_one_by_one_and_none_too_long() {
-        let mut from = Cursor::new("ab\n\ncd\nefghij");
-        let mut next = || line(&mut from, 3);
-        assert_eq!(next().unwrap(), "ab\n");
-        assert_eq!(next().unwrap(), "\n");
-        assert_eq!(next().unwrap(), "cd\n");
-        assert_eq!(next().unwrap_err().kind(), ErrorKind::InvalidData);
-        let mut from = Cursor::new("ab");
-        assert_eq!(line(&mut from, 3).unwrap(), "ab");
-        assert_eq!(line(&mut from, 3).unwrap(), "");
-        let odd = line(&mut Cursor::new(b"\xff\n"), 3);
-        assert_eq!(odd.unwrap_err().kind(), ErrorKind::InvalidData);
-    }
 }

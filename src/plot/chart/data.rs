@@ -113,22 +113,3 @@ pub struct Bands {
     /// The name of each row with its bands.
     pub rows: Vec<(String, Vec<Band>)>,
 }
-
-/// A quantity over two others, sample by sample.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contours {
-    /// What is shown.
-    pub title: String,
-    /// One sentence under the title, or nothing.
-    pub subtitle: String,
-    /// The axis across.
-    pub x: Axis,
-    /// The axis up.
-    pub y: Axis,
-    /// The quantity, with its unit.
-    pub value: String,
-    /// x, y and value; a value that is not finite is none.
-    pub samples: Vec<(f64, f64, f64)>,
-    /// Whether values are counts, between which there is nothing.
-    pub counts: bool,
-}

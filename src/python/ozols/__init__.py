@@ -22,7 +22,6 @@ from ._mechanism import Builder, Drawing, Mechanism
 from ._native import VERSION as __version__
 from ._native import Error
 from ._outcome import Outcome, Variant
-from ._sweep import Sweep, sweep
 from ._view import Told, View
 
 __all__ = [
@@ -31,11 +30,9 @@ __all__ = [
     "Error",
     "Mechanism",
     "Outcome",
-    "Sweep",
     "Told",
     "Variant",
     "View",
     "__version__",
     "catalog",
-    "sweep",
 ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import json
 import os
 import subprocess
@@ -62,16 +61,6 @@ def _asked(given: Mapping[str, Any]) -> str:
         "rank": [f"{t}={float(w)!r}" for t, w in terms],
     }
     return json.dumps({k: v for k, v in asked.items() if v is not None}, default=_entry)
-
-
-def asked(given: Mapping[str, Any]) -> str:
-    """Some keywords of :meth:`Mechanism.search`, the others at their defaults, as the library takes them."""
-    known = inspect.signature(Mechanism.search).parameters.values()
-    every = {p.name: p.default for p in known if p.name not in ("self", "progress")}
-    unknown = [name for name in given if name not in every]
-    if unknown:
-        raise TypeError(f"a search has no keyword {unknown[0]!r}; it has {', '.join(every)}")
-    return _asked({**every, **given})
 
 
 class Mechanism:

@@ -13,7 +13,6 @@ __all__ = [
     "Variants",
     "analyze",
     "builtin_names",
-    "builtin_text",
     "catalog_build",
     "catalog_merge",
     "catalog_plan",
@@ -22,11 +21,6 @@ __all__ = [
     "search",
     "statics",
     "stroke",
-    "sweep_make",
-    "sweep_merge",
-    "sweep_plan",
-    "sweep_plot",
-    "sweep_read",
 ]
 
 VERSION: str
@@ -85,7 +79,6 @@ class Variant:
     def draw(self, kind: str, state: str) -> str: ...
 
 def builtin_names() -> list[str]: ...
-def builtin_text(name: str) -> str | None: ...
 def analyze(mechanism: Mechanism, named: str, method: str, tolerance: float | None) -> _Told: ...
 def stroke(mechanism: Mechanism, range: str, drive: str | None, named: str, tolerance: float | None) -> _Told: ...
 def statics(mechanism: Mechanism, named: str, stroke: str | None, spatial: bool, unilateral: bool) -> _Told: ...
@@ -99,17 +92,6 @@ def catalog_build(
     progress: Callable[[int, int], object] | None,
 ) -> int: ...
 def catalog_merge(path: _Path, parts: Sequence[_Path]) -> int: ...
-def sweep_plan(asked: dict[str, Any]) -> tuple[str, int]: ...
-def sweep_make(
-    asked: dict[str, Any],
-    path: _Path,
-    part: tuple[int, int],
-    threads: int,
-    progress: Callable[[int, int], object] | None,
-) -> tuple[int, str, int]: ...
-def sweep_merge(path: _Path, parts: Sequence[_Path]) -> tuple[int, str]: ...
-def sweep_read(path: _Path) -> _Told: ...
-def sweep_plot(path: _Path, quantity: str, over: Sequence[str]) -> str: ...
 def chart(
     title: str,
     subtitle: str,

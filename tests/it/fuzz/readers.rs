@@ -48,7 +48,7 @@ impl Reader {
 }
 
 /// All of them; the last two go the whole way from a mechanism to its redesigns.
-pub(crate) const READERS: [Reader; 19] = {
+pub(crate) const READERS: [Reader; 18] = {
     use mechanism_files as mechanisms;
     use robot_files as robots;
     [
@@ -101,12 +101,6 @@ pub(crate) const READERS: [Reader; 19] = {
             &mechanisms::WORDS,
             small_files::spec_seeds,
             small_files::spec,
-        ),
-        Reader::new(
-            "sweep",
-            &mechanisms::WORDS,
-            small_files::sweep_seeds,
-            small_files::sweep,
         ),
         Reader::new("toml", &mechanisms::WORDS, mechanisms::toml, |b| {
             mechanisms::read("x.toml", b)

@@ -8,12 +8,7 @@ use ozols::file::costs::costs_from_str;
 use ozols::file::edit::{Edit, edited};
 use ozols::file::read::workload::trajectory::trajectory;
 use ozols::file::text::mechanism_from_str;
-use ozols::shard::{Digest, Shard};
-use ozols::sweep::row::SampleRow;
-use ozols::sweep::table;
-use ozols::view::sweep::SweepData;
-use ozols::view::sweep::plot::PlottedQuantity;
-use std::path::Path;
+use ozols::shard::Shard;
 use std::sync::LazyLock;
 
 fn texts(some: &[&str]) -> Vec<Vec<u8>> {
@@ -119,80 +114,6 @@ pub(crate) fn spec_seeds() -> Vec<Vec<u8>> {
     let mut out = texts(&["links = \"6\"\njaws = 2\n", ""]);
     out.extend([Spec::default(), all].map(|s| s.canonical().into_bytes()));
     out
-}
-
-/// The table of a sweep, its last line made to fit: shown in all ways. Returns what was said.
-pub(crate) fn sweep(bytes: &[u8]) -> String {
-    let text = String::from_utf8_lossy(bytes);
-    let mut digest = Digest::default();
-    let rows = text.split_inclusive('\n').skip(1);
-    for row in rows.filter(|r| r.ends_with('\n')) {
-        if serde_json::from_str::<SampleRow>(row).is_ok() {
-            digest.add(row);
-        }
-    }
-    let foot = serde_json::json!({ "rows": digest.rows, "digest": digest.hex() });
-    // Files in memory, where there are any: of each process and thread its own.
-    let memory = Path::new("/dev/shm");
-    let folder = if memory.is_dir() {
-        memory.to_owned()
-    } else {
-        std::env::temp_dir()
-    };
-    let own = format!(
-        "ozols-fuzz-{}-{:?}",
-        std::process::id(),
-        std::thread::current().id()
-    );
-    let path = folder.join(own);
-    std::fs::write(&path, format!("{text}{foot}\n")).unwrap();
-    let read = table::read(&path);
-    std::fs::remove_file(&path).unwrap();
-    match read {
-        Ok(table) => {
-            let shown = SweepData::new(&table);
-            let _ = (
-                shown.text(Some(80)),
-                shown.csv(),
-                serde_json::to_string(&shown).unwrap(),
-            );
-            let quantities = [
-                PlottedQuantity::Redundant,
-                PlottedQuantity::Mobility,
-                PlottedQuantity::PeakForce,
-                PlottedQuantity::BestCost,
-            ];
-            let drawn = quantities.into_iter().map(|q| match shown.plot(q, &[]) {
-                Ok(plot) => {
-                    let svg = plot.svg();
-                    if let Err(e) = roxmltree::Document::parse(&svg) {
-                        panic!("{e} in\n{svg}");
-                    }
-                    "drawn".to_owned()
-                }
-                Err(e) => e.to_string(),
-            });
-            drawn.collect::<Vec<_>>().join("\n")
-        }
-        Err(e) => e.to_string().replace(&path.display().to_string(), "it"),
-    }
-}
-
-pub(crate) fn sweep_seeds() -> Vec<Vec<u8>> {
-    let head = r#"{"sweep":"rods","version":1,"ozols":"0.2.0","file":"ab","parameters":{"a":["from 1","to 3"],"b":["1","2"]},"sampling":"grid 2 x 2","asked":"","samples":4,"shard":"1/1"}"#;
-    let row = |n: usize, more: &str| {
-        format!(
-            r#"{{"sample":{n},"at":{{"a":{},"b":{}}},"states":[{{"state":"free","mobility":1,"finite_mobility":"1","finite_mobility_known_by":"rank","redundant":{n},"per_contour":[{n}],"certainty":"proven"}}]{more}}}"#,
-            1 + n / 2,
-            1 + n % 2
-        )
-    };
-    let more = r#","exact":{"a":"sqrt(2)"},"methods":{"svd":"right"}"#;
-    let rows = [row(0, ""), row(1, more), row(2, ""), row(3, "")];
-    texts(&[
-        &format!("{head}\n{}\n", rows.join("\n")),
-        &format!("{head}\n{{\"sample\":0,\"at\":{{\"a\":1,\"b\":1}},\"problem\":\"none\"}}\n"),
-    ])
 }
 
 /// Words of the command line that are taken apart, and chains. Returns what was said.

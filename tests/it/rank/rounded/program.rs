@@ -257,25 +257,6 @@ fn check_says_what_is_nearly_special() {
     }
 }
 
-/// A sweep tells the least and the most that the redundancy can be, as an analysis does.
-#[test]
-fn a_sweep_tells_what_is_not_decided() {
-    use ozols::sweep::space::Sampling;
-    let varied = "[parameter]\nz = { range = [0, 1] }\n[[point]]\nid = \"p\"\nlink = \"2\"\npoint = [0, 0, \"z\"]\n";
-    let file = tilted_by(12, 1e-4) + varied;
-    let sweep = crate::sweep::sweep(&file, Sampling::Grid { points: 2 }, crate::sweep::asked());
-    let row = sweep.row(&sweep.space.sample(1));
-    let found = &ozols::analyze(&ozols::from_toml(&file).unwrap()).unwrap()[0];
-    let (w, sigma) = found.at_most().unwrap();
-    let told = &row.states[0];
-    assert_eq!(
-        (told.redundant, told.redundant_at_most),
-        (found.redundant, Some(sigma))
-    );
-    assert!(w != sigma && found.redundant < sigma);
-    assert_eq!(told.certainty, "undecided");
-}
-
 #[test]
 fn what_is_not_decided_is_said_so_everywhere() {
     // Twelve digits that agree in six: left over from rounding, or real?
