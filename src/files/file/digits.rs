@@ -3,9 +3,7 @@
 //! The readers of TOML and JSON give doubles, and 0.49400 as a double is 0.494: it says less of how well it is known.
 
 use crate::file::locate::{Document, DocumentStep, index, key};
-use crate::file::schema::{
-    Coordinate, JointEntry, MechanismFile, OptionEntry, ParameterEntry, Unloading,
-};
+use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, Unloading};
 
 /// Puts the text of decimals that end with a zero in place of their doubles; it is read as an expression, of the same value.
 ///
@@ -61,17 +59,8 @@ type Visit<'v> = &'v mut dyn FnMut(&[DocumentStep], &mut Coordinate);
 fn geometry(file: &mut MechanismFile, visit: Visit<'_>) {
     let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
     vector(file.plane_normal.as_mut(), &root("plane_normal"), visit);
-    for (name, entry) in &mut file.parameter {
-        let at = key(&root("parameter"), name);
-        match entry {
-            ParameterEntry::Constant(c) => visit(&at, c),
-            ParameterEntry::Varied(v) => {
-                number(v.default.as_mut(), &key(&at, "default"), visit);
-                for (i, c) in v.values.iter_mut().flatten().enumerate() {
-                    visit(&index(&key(&at, "values"), i), c);
-                }
-            }
-        }
+    for (name, value) in &mut file.parameter {
+        visit(&key(&root("parameter"), name), value);
     }
     for (i, joint) in file.joint.iter_mut().enumerate() {
         of_joint(joint, &index(&root("joint"), i), visit);

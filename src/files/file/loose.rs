@@ -1,7 +1,7 @@
 //! What can be told of a file that is not whole yet: where its items are, and the part of it that hangs on the frame.
 
 use crate::file::read::value::number::vector;
-use crate::file::read::value::parameters::{Values, knowing};
+use crate::file::read::value::parameters::knowing;
 use crate::file::schema::{Coordinate, MechanismFile};
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 #[must_use]
 pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
     let one = |v: &[Coordinate; 3]| {
-        let mut out = knowing(file, &Values::new());
+        let mut out = knowing(file);
         let before = out.count();
         let read = vector(v, &[], &mut out);
         (out.count() == before).then(|| read.map(|e| e.to_f64()))

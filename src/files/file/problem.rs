@@ -182,24 +182,6 @@ pub enum ProblemKind {
     )]
     BadParameter { name: String },
     #[error(
-        "the range of parameter \"{name}\" is empty: from {from} to {to}; give the lesser number first"
-    )]
-    EmptyRange {
-        name: String,
-        from: String,
-        to: String,
-    },
-    #[error(
-        "parameter \"{name}\" has no values; give a range such as [10, 20], or values such as [10, 12, 15]"
-    )]
-    NoValues { name: String },
-    #[error("the default {value} of parameter \"{name}\" is not {of}; choose one that is")]
-    BadDefault {
-        name: String,
-        value: String,
-        of: &'static str,
-    },
-    #[error(
         "nothing depends on parameter \"{name}\"; use it in an expression in quotes, such as \"2*{name}\", or remove it"
     )]
     UnusedParameter { name: String },

@@ -21,7 +21,7 @@ use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::read::coupling::couplings;
 use crate::file::read::search::ranking::{joint_types, ranking};
-use crate::file::read::value::parameters::{Values, knowing, unused};
+use crate::file::read::value::parameters::{knowing, unused};
 use crate::file::read::value::unit::length_unit;
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
@@ -42,14 +42,6 @@ use size::size;
 use value::limits::LIMITS;
 use value::tolerance::tolerance;
 
-/// Builds a mechanism, its parameters at their defaults.
-///
-/// # Errors
-/// The problems found, the first hundred of them.
-pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
-    build_at(file, &Values::new())
-}
-
 /// Refuses a file of too many entries before any of them is read.
 fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
     for (what, count, limit) in [
@@ -69,9 +61,12 @@ fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
     Ok(())
 }
 
-/// Builds a mechanism at values of its parameters; those not given have their defaults.
-pub(crate) fn build_at(file: &MechanismFile, values: &Values) -> Result<Mechanism, Vec<Finding>> {
-    let mut out = knowing(file, values);
+/// Builds a mechanism.
+///
+/// # Errors
+/// The problems found, the first hundred of them.
+pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
+    let mut out = knowing(file);
     few_enough(file)?;
     let length_unit = length_unit(file, &mut out);
     let mode = mode(file, &mut out);

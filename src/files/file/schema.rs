@@ -3,7 +3,6 @@
 mod drive;
 mod grip;
 mod number;
-mod parameter;
 mod ranking;
 mod tolerance;
 mod words;
@@ -14,7 +13,6 @@ use crate::model::joint_type::JointType;
 pub use drive::DriveEntry;
 pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};
 pub use number::{Coordinate, Quantities, Quantity};
-pub use parameter::{ParameterEntry, VariedEntry};
 pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -51,10 +49,9 @@ pub struct MechanismFile {
     /// Normal of the plane of motion in planar mode; z by default.
     #[serde(default)]
     pub plane_normal: Option<[Coordinate; 3]>,
-    /// Numbers by name, for expressions: `[parameter]` with `height = 40`, or what `ozols sweep` varies,
-    /// `height = { range = [30, 50], default = 40 }`.
+    /// Numbers by name, for expressions: `[parameter]` with `height = 40`, and `point = [0, "2*height", 0]`.
     #[serde(default)]
-    pub parameter: BTreeMap<String, ParameterEntry>,
+    pub parameter: BTreeMap<String, Coordinate>,
     /// How well numbers are known: half a unit of their last digit where left out.
     #[serde(default)]
     pub tolerance: Option<ToleranceEntry>,

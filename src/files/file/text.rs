@@ -2,12 +2,11 @@
 
 use crate::file::control_characters::controls;
 use crate::file::digits;
-use crate::file::findings::{Finding, Findings};
+use crate::file::findings::Finding;
 use crate::file::lengths::wrong_lengths;
 use crate::file::locate::Document;
 use crate::file::problem::{ImportError, Problem, ProblemKind};
-use crate::file::read::value::parameters::{Parameter, Values, parameters};
-use crate::file::read::{build, build_at};
+use crate::file::read::build;
 use crate::file::schema::MechanismFile;
 use crate::model::mechanism::Mechanism;
 
@@ -38,33 +37,6 @@ pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, Impor
 /// ```
 pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportError> {
     read(name, text, build)
-}
-
-/// The same at values of its parameters; those not given have their defaults.
-///
-/// # Errors
-/// Every problem found, each with its place.
-pub fn mechanism_at(name: &str, text: &str, values: &Values) -> Result<Mechanism, ImportError> {
-    read(name, text, |file| build_at(file, values))
-}
-
-/// The parameters of a file by name, ascending.
-///
-/// # Errors
-/// Every problem with them, each with its place.
-///
-/// # Examples
-/// ```
-/// use ozols::file::text::parameters_of;
-/// let text = ozols::builtin::text("parallelogram-3-rods").unwrap();
-/// assert!(!parameters_of("rods.toml", text).unwrap().is_empty());
-/// ```
-pub fn parameters_of(name: &str, text: &str) -> Result<Vec<Parameter>, ImportError> {
-    read(name, text, |file| {
-        let mut out = Findings::default();
-        let found = parameters(file, &mut out);
-        out.unless(found)
-    })
 }
 
 /// The text in the bytes of a file that is not too large.

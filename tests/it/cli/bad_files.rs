@@ -167,6 +167,36 @@ fn error_coordinates() {
 }
 
 #[test]
+fn error_parameters() {
+    let text = with("[80, 90, 0]", "[\"width\", 90, 0]");
+    let number = "expected a number, or an expression in quotes";
+    for (parameters, line_with, part) in [
+        ("width = 80\npi = 3", "pi = 3", "can be named \"pi\""),
+        ("width = 80\n\"2a\" = 3", "2a", "can be named \"2a\""),
+        ("width = 80\nidle = 3", "idle", "nothing depends on"),
+        ("width = true", "width = ", number),
+        ("width = { range = [70, 90] }", "width = ", number),
+        ("width = \"1/0\"", "width = ", "division by zero"),
+        ("wide = 80", "\"width\"", "and the parameters wide"),
+    ] {
+        let text = format!("{text}\n[parameter]\n{parameters}\n");
+        bad_file("bad.toml", &text, line_with, &[part]);
+    }
+}
+
+/// A parameter is what its number is in its place.
+#[test]
+fn a_parameter_stands_for_its_number() {
+    let text = with("[80, 90, 0]", "[\"2*width\", 90, 0]") + "\n[parameter]\nwidth = 40\n";
+    let points = |text: &str| {
+        let m = ozols::from_toml(text).unwrap();
+        let one = |j: &ozols::model::mechanism::Joint| j.frame.point.each_ref().map(|x| x.to_f64());
+        m.joints.iter().map(one).collect::<Vec<_>>()
+    };
+    assert_eq!(points(&text), points(&four_bar()));
+}
+
+#[test]
 fn error_coordinate_overflow() {
     bad_file(
         "bad.toml",

@@ -3,7 +3,7 @@
 pub(crate) mod limits;
 pub(in crate::file::read) mod names;
 pub(crate) mod number;
-pub mod parameters;
+pub(crate) mod parameters;
 pub(crate) mod quantity;
 pub(in crate::file::read) mod tolerance;
 pub(in crate::file::read) mod unit;

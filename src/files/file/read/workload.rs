@@ -12,7 +12,7 @@ use crate::file::locate::DocumentStep;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::read::claims::claims;
-use crate::file::read::value::parameters::{Values, knowing};
+use crate::file::read::value::parameters::knowing;
 use crate::file::read::value::unit::length_unit;
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
@@ -81,7 +81,7 @@ pub fn tables_alone(
         if tables.is_empty() || !file.link.is_empty() || !file.joint.is_empty() {
             return Ok(None);
         }
-        let mut out = knowing(file, &Values::new());
+        let mut out = knowing(file);
         let unit = length_unit(file, &mut out).metres;
         grip(file, unit, None, &mut out);
         drive(file, unit, None, &mut out);
@@ -104,7 +104,7 @@ fn workload<T>(
     table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &mut Findings) -> Option<T>,
     missing: ProblemKind,
 ) -> Result<WorkloadFile<T>, Vec<Finding>> {
-    let mut out = knowing(file, &Values::new());
+    let mut out = knowing(file);
     let mechanism = if file.link.is_empty() && file.joint.is_empty() {
         None
     } else {
