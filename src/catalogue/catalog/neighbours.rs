@@ -87,14 +87,12 @@ const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.pa
      s.jaw_a, s.jaw_b, s.jaw_c, p.code, p.driven_from, g.least_force, g.force_ratio, g.turn, g.pin_force, g.width * g.height, g.price \
      FROM structures s JOIN grippers g ON g.id = s.id LEFT JOIN pairs p ON p.structure = s.id \
      WHERE g.reached = 1 AND s.links BETWEEN ?1 - 4 AND ?1 + 4";
-/// Catalogues of earlier versions have no figures over a stroke.
-const HAS_FIGURES: &str = "SELECT 1 FROM sqlite_schema WHERE name = 'grippers'";
 /// Where the figures of a row begin.
 const FIRST_FIGURE: usize = 11;
 
 /// What of a catalogue is next to a structure, with as many jaws: the same chain with other roles, and what two links less or more, or four, make of
 /// it, taken out two and two in a row (`without_two_links`); four only where a layout is symmetric, whose two halves
-/// lose two links each. Nothing of a catalogue that knows no strokes.
+/// lose two links each.
 ///
 /// # Errors
 /// Those of the database.
@@ -103,9 +101,6 @@ const FIRST_FIGURE: usize = 11;
 /// A few canonical numberings for each layout of up to four links less or more; some fifty for symmetric ones of four more.
 pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Neighbours, StoreError> {
     let mut out = Neighbours::default();
-    if store.query(HAS_FIGURES, None)?.1.is_empty() {
-        return Ok(out);
-    }
     let links = structure.chain.links();
     let (_, rows) = store.query(LAYOUTS, Some(&links.to_string()))?;
     let own = Own::new(structure);

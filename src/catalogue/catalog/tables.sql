@@ -61,7 +61,7 @@ CREATE TABLE layouts (
   certainty TEXT NOT NULL,         -- exact, or at least
   best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, where the certainty is at least
 ) WITHOUT ROWID;
-CREATE TABLE strokes (             -- what a layout does of the task it was made for; none of those that earlier versions made
+CREATE TABLE strokes (             -- what a layout does of the task it was made for
   structure TEXT PRIMARY KEY REFERENCES structures(id),
   narrowest REAL NOT NULL,         -- the part widths asked, mm
   widest REAL NOT NULL,

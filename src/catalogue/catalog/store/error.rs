@@ -1,6 +1,6 @@
 //! What is wrong with a catalogue.
 
-use super::version::{OLDEST, VERSION};
+use super::version::VERSION;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -41,21 +41,13 @@ pub enum StoreError {
         "{} is empty: the command that was making the catalogue was ended; run it again and it carries on", .0.display()
     )]
     Empty(PathBuf),
-    /// Tables of a version that is not known.
-    #[error("{} was made by a later version of ozols (tables {found}, this one has {VERSION}); take that version", path.display())]
-    Later {
-        /// The file.
-        path: PathBuf,
-        /// Its version.
-        found: i64,
-    },
-    /// Tables too old to be written to.
+    /// Tables of another version.
     #[error(
-        "{} was made by an early version of ozols (tables {found}) that did not count all that is kept now: it can be read, but to \
-         add to it, build it again under another name (tables {OLDEST} and later are carried on)",
+        "{} has tables of version {found}, and this ozols reads version {VERSION} alone; build it again under another name: \
+         `ozols catalog build -o NAME.db`",
         path.display()
     )]
-    Early {
+    Version {
         /// The file.
         path: PathBuf,
         /// Its version.

@@ -18,8 +18,6 @@ use std::time::{Duration, Instant};
 pub struct Store {
     pub(super) path: PathBuf,
     pub(super) db: Connection,
-    /// That of the tables in the file.
-    pub(super) version: i64,
 }
 
 /// Rows that wait for the disk at most, and for how long: it takes as long for many as for one.

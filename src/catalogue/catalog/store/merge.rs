@@ -3,7 +3,6 @@
 use super::error::StoreError;
 use super::held::{Store, Stored};
 use super::open::plain_name;
-use super::version::OLDEST;
 use crate::catalog::spec::Spec;
 use crate::shard::Shard;
 use num_integer::Integer;
@@ -21,7 +20,7 @@ pub struct Merged {
     pub added: usize,
     /// Parts that are missing of the whole, in words that `--shard` takes: none where all structures are there.
     pub missing: Vec<Shard>,
-    /// Files that do not say that all of their part is there: what made them was ended, or of an earlier version.
+    /// Files that do not say that all of their part is there: what made them was ended.
     pub unfinished: Vec<PathBuf>,
 }
 
@@ -29,12 +28,6 @@ impl Merged {
     /// Takes a part into the whole, which is opened unless it is open already.
     fn take_in(&mut self, path: &Path, whole: Option<Store>, part: &Path) -> Stored<Store> {
         let from = Store::open(part)?;
-        if from.version < OLDEST {
-            return Err(StoreError::Early {
-                path: part.to_owned(),
-                found: from.version,
-            });
-        }
         let spec = from.meta("spec")?;
         let is_finished = spec.is_none() || !from.parts()?.is_empty();
         let whole = match (whole, spec) {
@@ -53,7 +46,7 @@ impl Merged {
                 }
             }
         };
-        self.added += whole.take_in(part, from.version)?;
+        self.added += whole.take_in(part)?;
         self.taken += 1;
         if !is_finished {
             self.unfinished.push(part.to_owned());
@@ -124,29 +117,7 @@ impl Store {
         Ok(missing(&self.parts()?))
     }
 
-    fn take_in(&self, part: &Path, version: i64) -> Stored<usize> {
-        // What each version has beside those before it.
-        let later = [
-            (
-                5,
-                "INSERT OR IGNORE INTO main.parts SELECT * FROM part.parts;",
-            ),
-            (
-                6,
-                "INSERT INTO main.strokes SELECT * FROM part.strokes WHERE structure NOT IN there;",
-            ),
-            (
-                7,
-                "INSERT INTO main.pairs SELECT * FROM part.pairs WHERE structure NOT IN there; \
-                 INSERT INTO main.classics SELECT * FROM part.classics WHERE structure NOT IN there;",
-            ),
-            (
-                8,
-                "INSERT INTO main.planes SELECT * FROM part.planes WHERE structure NOT IN there;",
-            ),
-        ];
-        let later = later.iter().filter(|(since, _)| version >= *since);
-        let later: String = later.map(|(_, statement)| *statement).collect();
+    fn take_in(&self, part: &Path) -> Stored<usize> {
         let all = || -> rusqlite::Result<usize> {
             self.attach(part)?;
             // What is there already stays as it is, with no idea of another search of it.
@@ -157,15 +128,19 @@ impl Store {
             let count = "SELECT (SELECT count(*) FROM part.structures WHERE id NOT IN there) \
                          + (SELECT count(*) FROM part.drawn WHERE id NOT IN there)";
             let added: i64 = self.db.query_row(count, [], |r| r.get(0))?;
-            self.db.execute_batch(&format!(
+            self.db.execute_batch(
                 "INSERT INTO main.structures SELECT * FROM part.structures WHERE id NOT IN there;
                  INSERT INTO main.drawn SELECT * FROM part.drawn WHERE id NOT IN there;
                  INSERT INTO main.layouts SELECT * FROM part.layouts WHERE structure NOT IN there;
                  INSERT INTO main.counts SELECT * FROM part.counts WHERE structure NOT IN there;
                  INSERT INTO main.ideas SELECT * FROM part.ideas WHERE structure NOT IN there;
-                 {later}
-                 DROP TABLE there; COMMIT; DETACH DATABASE part;"
-            ))?;
+                 INSERT INTO main.strokes SELECT * FROM part.strokes WHERE structure NOT IN there;
+                 INSERT INTO main.planes SELECT * FROM part.planes WHERE structure NOT IN there;
+                 INSERT INTO main.pairs SELECT * FROM part.pairs WHERE structure NOT IN there;
+                 INSERT INTO main.classics SELECT * FROM part.classics WHERE structure NOT IN there;
+                 INSERT OR IGNORE INTO main.parts SELECT * FROM part.parts;
+                 DROP TABLE there; COMMIT; DETACH DATABASE part;",
+            )?;
             Ok(usize::try_from(added).unwrap_or(0))
         };
         self.ok(all())

@@ -6,7 +6,7 @@
 
 use super::error::StoreError;
 use super::held::{Store, Stored};
-use super::version::{self, FileKind, OLDEST, VERSION};
+use super::version::{self, FileKind, VERSION};
 use crate::catalog::spec::Spec;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::{Connection, ErrorCode, OpenFlags, ffi};
@@ -46,18 +46,16 @@ impl Store {
             }
             done => done?,
         };
-        let version = match kind {
+        match kind {
             FileKind::Fresh => return Err(StoreError::Empty(path.to_owned())),
             FileKind::Other => return Err(StoreError::Other(path.to_owned())),
-            FileKind::Catalogue(found) => known(path, found)?,
-        };
+            FileKind::Catalogue(found) => check_version(path, found)?,
+        }
         check_pages(path, &db)?;
-        Store::wrap(path, version::fill_in(&db, version))?;
         Store::wrap(path, db.authorizer(Some(only_questions)))?;
         Ok(Store {
             path: path.to_owned(),
             db,
-            version,
         })
     }
 
@@ -88,18 +86,13 @@ impl Store {
             FileKind::Other => return Err(StoreError::Other(path.to_owned())),
             FileKind::Fresh => Store::wrap(path, version::make(&db))?,
             FileKind::Catalogue(found) => {
-                if known(path, found)? < OLDEST {
-                    let path = path.to_owned();
-                    return Err(StoreError::Early { path, found });
-                }
+                check_version(path, found)?;
                 check_pages(path, &db)?;
-                Store::wrap(path, version::migrate(&db, found))?;
             }
         }
         let mut store = Store {
             path: path.to_owned(),
             db,
-            version: VERSION,
         };
         if let Some(spec) = spec {
             store.be_of(spec)?;
@@ -111,25 +104,23 @@ impl Store {
 
     /// Notes what the catalogue is of, or sees that it is the same.
     pub(super) fn be_of(&mut self, spec: &str) -> Stored<()> {
-        let asked = now(spec);
-        match self.meta("spec")?.map(|there| now(&there)) {
-            Some(there) if there != asked => Err(differs(&self.path, &there, &asked)),
+        match self.meta("spec")? {
+            Some(there) if there != spec => Err(differs(&self.path, &there, spec)),
             Some(_) => Ok(()),
             None => {
-                self.set_meta("spec", &asked)?;
+                self.set_meta("spec", spec)?;
                 self.set_meta("ozols", env!("CARGO_PKG_VERSION"))
             }
         }
     }
 }
 
-/// The version found, where it is one.
-fn known(path: &Path, found: i64) -> Stored<i64> {
+/// Refuses a catalogue with tables of another version.
+fn check_version(path: &Path, found: i64) -> Stored<()> {
     let path = path.to_owned();
     match found {
-        1..=VERSION => Ok(found),
-        later if later > VERSION => Err(StoreError::Later { path, found }),
-        _ => Err(StoreError::Other(path)),
+        VERSION => Ok(()),
+        _ => Err(StoreError::Version { path, found }),
     }
 }
 
@@ -203,11 +194,6 @@ fn only_questions(asked: AuthContext<'_>) -> Authorization {
         } if !TELLING.contains(&pragma_name) => Authorization::Deny,
         _ => Authorization::Allow,
     }
-}
-
-/// A specification as this version writes it: what an earlier one did not know of is as it is by default.
-fn now(spec: &str) -> String {
-    toml::from_str::<Spec>(spec).map_or_else(|_| spec.to_owned(), |s| s.canonical())
 }
 
 /// What two specifications differ in.

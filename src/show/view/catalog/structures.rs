@@ -98,7 +98,7 @@ pub struct StructureData {
     pub classics: Vec<Map<String, Value>>,
     /// The row of `layouts`; `None` where it has no layout.
     pub layout: Option<Map<String, Value>>,
-    /// The row of `strokes`; `None` where its layout was made for no task.
+    /// The row of `strokes`; `None` where it has no layout.
     pub stroke: Option<Map<String, Value>>,
     /// The row of `planes`; `None` where it has no layout, or one that nothing is said of.
     pub planes: Option<Map<String, Value>>,
