@@ -69,8 +69,7 @@ Examples:
 pub(super) const LINT: &str = "\
 Examples:
   ozols lint robot.urdf                                what its loops hold twice: exit code 0 nothing, 1 something
-  ozols lint robot.urdf --format json                  the same for programs
-  ozols lint robot.urdf --format sarif -o lint.sarif   for code scanning";
+  ozols lint robot.urdf --format json                  the same for programs";
 
 pub(super) const FIX: &str = "\
 Examples:

@@ -2,6 +2,7 @@
 
 use crate::cli::command::types;
 use crate::cli::done::Done;
+use crate::cli::option::format::TextOrJson;
 use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::option::reading::{Reading, description};
@@ -16,20 +17,12 @@ use crate::redundancy::duplicate_constraints::{HeldTwice, held_twice};
 use crate::redundancy::other_poses::Where;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
-use crate::view::lint::{self, Lint as Found, PassedOver, sarif};
+use crate::view::lint::{self, Lint as Found, PassedOver};
 use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueEnum, ValueHint};
+use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum LintFormat {
-    Text,
-    Json,
-    /// SARIF 2.1.0, for code scanning.
-    Sarif,
-}
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Lint {
@@ -40,7 +33,7 @@ pub(in crate::cli) struct Lint {
     reading: Reading,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    format: LintFormat,
+    format: TextOrJson,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -61,7 +54,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            LintFormat::Text => {
+            TextOrJson::Text => {
                 for file in &all {
                     let (text, verdict) = match file {
                         Err(passed) => {
@@ -96,8 +89,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                     .collect();
                 write!(out, "{}", next_commands::text(&steps, width))?;
             }
-            LintFormat::Json => output::json(out, &lint::json(&found, &others))?,
-            LintFormat::Sarif => output::json_of_others(out, &sarif::sarif(&found, &others))?,
+            TextOrJson::Json => output::json(out, &lint::json(&found, &others))?,
         }
         Ok(match found.iter().all(|l| l.is_in_order()) {
             _ if failed => Done::Partly,

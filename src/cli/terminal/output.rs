@@ -114,14 +114,6 @@ pub(in crate::cli) fn json(
     Ok(writeln!(out, "{}", contract::pretty(value)?)?)
 }
 
-/// The same without a number of ours: a format of others.
-pub(in crate::cli) fn json_of_others(
-    out: &mut dyn Write,
-    value: &impl serde::Serialize,
-) -> anyhow::Result<()> {
-    Ok(writeln!(out, "{}", serde_json::to_string_pretty(value)?)?)
-}
-
 /// No text is fitted to less.
 const NARROWEST: u16 = 40;
 

@@ -1,9 +1,8 @@
-//! What robot descriptions hold twice: text, JSON, and SARIF for code scanning.
+//! What robot descriptions hold twice: text and JSON.
 
 mod assembly;
 mod finding;
 mod passed_over;
-pub mod sarif;
 
 pub use assembly::{Misfit, TypeChange};
 pub use finding::{Finding, words};
@@ -228,28 +227,20 @@ impl Lint {
         out
     }
 
-    /// What was not taken as it is drawn, each with a word for programs.
-    fn notes(&self) -> impl Iterator<Item = (&'static str, &str)> {
-        let moved = self.moved.iter().map(|n| ("not-as-drawn", n.as_str()));
-        let outside = self.outside_limits.iter();
-        let outside = outside.map(|n| ("outside-limits", n.as_str()));
-        let left = self
-            .approximated
-            .iter()
-            .map(|n| ("approximated", n.as_str()));
-        moved.chain(outside).chain(left)
-    }
-
-    /// The same in lines.
+    /// Returns what was not taken as it is drawn, in lines.
     fn told(&self) -> String {
-        let all = self.notes();
-        let mut out: String = all
+        let notes = || {
+            let moved = self.moved.iter().chain(&self.outside_limits);
+            moved.chain(&self.approximated)
+        };
+        let mut out: String = notes()
             .take(NOTES)
-            .map(|(_, n)| format!("  note: {n}\n"))
+            .map(|n| format!("  note: {n}\n"))
             .collect();
-        if let more @ 1.. = self.notes().count().saturating_sub(NOTES) {
+        if let more @ 1.. = notes().count().saturating_sub(NOTES) {
             out +=
-                &format!("  note: {more} more of the kind, which `ozols export --to toml` tells\n");
+                &format!("  note: {more} more of the kind, which `ozols export --to toml` tells
+");
         }
         out
     }

@@ -195,7 +195,7 @@ fn what_is_read_is_not_written_over() {
         &["search", "four-bar", "--costs", &file, "-o", &file],
         &["export", &robot, "--to", "toml", "-o", &robot],
         &["export", &robot, "--to", "mjcf", "-o", &robot],
-        &["lint", &robot, "--format", "sarif", "-o", &robot],
+        &["lint", &robot, "--format", "json", "-o", &robot],
         &["fix", &robot, "-o", &robot],
         &["catalog", "export", &db, id, "-o", &db],
         &["catalog", "page", &db, "-o", &db],

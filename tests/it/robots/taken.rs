@@ -197,13 +197,5 @@ fn lint_says_what_is_not_as_drawn() {
         let told = out.lines().find(|l| l.contains(words));
         let told = told.unwrap_or_else(|| panic!("{words}: {out}{err}"));
         assert!(told.trim_start().starts_with("note: "), "{told}");
-        let sarif = [&["--format", "sarif"], more].concat();
-        let (_, out, _) = run_on("lint", name, text, &sarif);
-        let v: Value = serde_json::from_str(&out).unwrap();
-        let told = &v["runs"][0]["invocations"][0];
-        assert_eq!(told["executionSuccessful"], true);
-        let note = &told["toolExecutionNotifications"][0];
-        assert_eq!(note["level"], "note", "{out}");
-        assert!(note["message"]["text"].as_str().unwrap().contains(words));
     }
 }

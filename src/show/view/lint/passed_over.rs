@@ -42,25 +42,6 @@ impl PassedOver {
             format!("{file}: not looked at: {why}\n")
         }
     }
-
-    /// A notification of SARIF.
-    fn notification(&self) -> Value {
-        let (id, level) = if self.rigid {
-            ("nothing-moves", "note")
-        } else {
-            ("not-looked-at", "error")
-        };
-        notification(&self.file, id, level, &self.why)
-    }
-}
-
-fn notification(file: &str, id: &str, level: &str, text: &str) -> Value {
-    json!({
-        "descriptor": { "id": id },
-        "level": level,
-        "message": { "text": text },
-        "locations": [{ "physicalLocation": { "artifactLocation": { "uri": file } } }],
-    })
 }
 
 /// Tells of them beside the findings in JSON; nothing where there are none.
@@ -68,25 +49,4 @@ pub(super) fn in_json(out: &mut Value, all: &[PassedOver]) {
     if !all.is_empty() {
         out["passed_over"] = json!(all);
     }
-}
-
-/// The same in SARIF, and the notes on files that were looked at: file, word and text.
-pub(super) fn in_sarif<'a>(
-    out: &mut Value,
-    all: &[PassedOver],
-    notes: impl Iterator<Item = (&'a str, &'a str, &'a str)>,
-) {
-    let notes = notes.map(|(file, id, text)| notification(file, id, "note", text));
-    let told: Vec<Value> = all
-        .iter()
-        .map(PassedOver::notification)
-        .chain(notes)
-        .collect();
-    if told.is_empty() {
-        return;
-    }
-    out["runs"][0]["invocations"] = json!([{
-        "executionSuccessful": all.iter().all(|p| p.rigid),
-        "toolExecutionNotifications": told,
-    }]);
 }
