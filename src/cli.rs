@@ -86,7 +86,6 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Schema => command::check::schema(),
         Command::Explain(a) => command::explain::run(a),
         Command::Completions(a) => command::completions::run(a, Args::command()),
-        Command::Man(a) => command::man::run(a, Args::command()),
     });
     finish(result)
 }

@@ -16,7 +16,6 @@ pub(in crate::cli) mod fix;
 pub(in crate::cli) mod grip;
 pub(in crate::cli) mod lint;
 pub(in crate::cli) mod list;
-pub(in crate::cli) mod man;
 pub(in crate::cli) mod new;
 pub(in crate::cli) mod report;
 pub(in crate::cli) mod search;
@@ -97,7 +96,4 @@ pub(in crate::cli) enum Command {
     /// Print the script that completes commands and options in a shell.
     #[command(after_help = examples::COMPLETIONS)]
     Completions(completions::Completions),
-    /// Print the manual page, or write one for each command.
-    #[command(after_help = examples::MAN)]
-    Man(man::Man),
 }

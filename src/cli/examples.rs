@@ -175,11 +175,6 @@ Examples:
   ozols completions zsh > _ozols
   ozols completions fish > ozols.fish";
 
-pub(super) const MAN: &str = "\
-Examples:
-  ozols man > ozols.1                                then: man ./ozols.1
-  ozols man -o man1                                  the main page and one for each command";
-
 /// What `ozols` alone says.
 pub(super) const FIRST: &str = "\
 ozols finds the redundant constraints of a mechanism, and every redesign that removes them.

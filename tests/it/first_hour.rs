@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const COMMANDS: [&str; 23] = [
+const COMMANDS: [&str; 22] = [
     "lint",
     "fix",
     "report",
@@ -34,7 +34,6 @@ const COMMANDS: [&str; 23] = [
     "schema",
     "explain",
     "completions",
-    "man",
 ];
 
 fn run(args: &[&str]) -> (Option<i32>, String, String) {
@@ -288,7 +287,7 @@ fn terms_are_explained_by_name_sign_and_list() {
     );
 }
 
-// completions and man
+// completions
 
 #[test]
 fn every_shell_gets_a_script_and_bash_can_read_its_own() {
@@ -306,29 +305,6 @@ fn every_shell_gets_a_script_and_bash_can_read_its_own() {
     };
     assert!(o.status.success(), "{}", text(&o.stderr));
     assert_eq!(run(&["completions", "tcsh"]).0, Some(2));
-}
-
-#[test]
-fn man_pages_are_pages_and_name_every_command() {
-    let main = out(&["man"]);
-    let titled = |page: &str| page.starts_with(".TH ozols") && page.matches(".ie ").count() == 1;
-    assert!(titled(&main));
-    for command in COMMANDS {
-        assert!(main.contains(&format!("ozols\\-{command}(1)")), "{command}");
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let into = folder.path().join("man1");
-    assert_eq!(out(&["man", "-o", into.to_str().unwrap()]), "");
-    assert_eq!(fs::read_to_string(into.join("ozols.1")).unwrap(), main);
-    for command in COMMANDS {
-        let page = fs::read_to_string(into.join(format!("ozols-{command}.1"))).unwrap();
-        assert!(titled(&page), "{command}");
-        assert!(
-            page.contains("EXAMPLES") && page.contains(&format!("ozols {command}")),
-            "{page}"
-        );
-    }
-    assert_eq!(fs::read_dir(&into).unwrap().count(), COMMANDS.len() + 1);
 }
 
 // Colour.

@@ -218,7 +218,6 @@ fn a_full_device_is_an_error_with_its_name() {
         "analyze four-bar",
         "search four-bar --format json",
         "list",
-        "man",
         "completions bash",
         "schema",
     ] {
