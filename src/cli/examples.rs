@@ -65,7 +65,6 @@ Examples:
   ozols analyze four-bar --certificate proof.json  writes the proof
   ozols verify four-bar proof.json                 confirms it: 0 confirmed, 1 rejected";
 
-
 pub(super) const LINT: &str = "\
 Examples:
   ozols lint robot.urdf                                what its loops hold twice: exit code 0 nothing, 1 something

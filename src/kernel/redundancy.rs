@@ -3,6 +3,7 @@
 
 pub mod analysis;
 pub mod contour_shares;
+pub mod drives;
 pub mod duplicate_constraints;
 pub(crate) mod external;
 pub mod figures;

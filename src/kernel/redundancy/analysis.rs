@@ -19,6 +19,7 @@ use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::rank::rounded::verdict::Meant;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::contour_shares::{coupling_shares, shares};
+use crate::redundancy::drives::{DriveFault, drive_faults};
 pub use crate::redundancy::external::External;
 use crate::redundancy::external::{external, freedoms_of, int, present_links};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
@@ -82,6 +83,8 @@ pub struct StateAnalysis {
     pub working_mobility: usize,
     /// Dimension of the motions that leave every output at rest.
     pub local_mobility: usize,
+    /// What is wrong with the drives, where J has the exact rank.
+    pub drives: Vec<DriveFault>,
     /// σ = 6k + c - rank for c couplings.
     pub redundant: usize,
     /// W by Malyshev's formula, 6(n-1) - Σ constraints (3(n-1) - Σ in a plane) less the couplings: right only where σ = 0.
@@ -254,6 +257,7 @@ fn numerically(
         per_coupling: measured.coupling_shares(),
         external,
         idle: Vec::new(),
+        drives: Vec::new(),
         self_stresses: Vec::new(),
         ..whole
     })
@@ -363,6 +367,23 @@ fn exactly(
     let kernel = motions(exact, &closure);
     let outputs = outputs(mechanism);
     let working_mobility = span_of_links(exact, mechanism, &closure, &kernel, &outputs);
+    let finite = match known {
+        Some(known) => known,
+        None => finite(exact, mechanism, &closure, rank)?,
+    };
+    let drives = drive_faults(
+        exact,
+        mechanism,
+        &closure,
+        &kernel,
+        working_mobility,
+        &finite,
+    );
+    let mut idle = idle_motions(exact, mechanism, &closure, &kernel, &outputs);
+    // What a drive moves at a dead point moves the outputs elsewhere.
+    if drives.contains(&DriveFault::DeadPoint) {
+        idle.retain(|i| !i.through.iter().any(|&j| mechanism.joints[j].drive));
+    }
     let freedoms = closure.columns.len();
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
     let links = present_links(mechanism, &joints);
@@ -379,10 +400,8 @@ fn exactly(
         rows: closure.rows(),
         rank,
         mobility: freedoms - rank,
-        finite: match known {
-            Some(known) => known,
-            None => finite(exact, mechanism, &closure, rank)?,
-        },
+        finite,
+        drives,
         working_mobility,
         local_mobility: kernel.len() - working_mobility,
         redundant: closure.rows() - rank,
@@ -395,7 +414,7 @@ fn exactly(
         external: (state != StateId::FREE)
             .then(|| external(exact, mechanism, &closure, &kernel))
             .transpose()?,
-        idle: idle_motions(exact, mechanism, &closure, &kernel, &outputs),
+        idle,
         self_stresses: self_stresses(exact, mechanism, &closure)?,
         left_out: closure.left_out.clone(),
         method: modular::Modular.name(),

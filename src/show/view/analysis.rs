@@ -1,5 +1,6 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
+mod drives;
 pub(crate) mod idle;
 pub(crate) mod least_rows;
 pub mod mechanism;
@@ -15,6 +16,7 @@ use crate::redundancy::analysis::{self, StateAnalysis};
 use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::local_mobility;
 use crate::redundancy::stress::{JointWrench, StressVerdict};
+use crate::view::analysis::drives::DriveFault;
 use crate::view::analysis::least_rows::{ContourRows, least_rows};
 use crate::view::analysis::suggestions::{Advice, Suggestions};
 use crate::view::assumed::{as_read, kind};
@@ -67,6 +69,8 @@ pub struct State<'a> {
     pub finite: [String; 2],
     pub working_mobility: usize,
     pub local_mobility: usize,
+    /// What is wrong with the drives.
+    pub drives: Vec<DriveFault<'a>>,
     pub redundant: usize,
     /// The most it can be, where rounded coordinates leave that undecided.
     pub redundant_at_most: Option<usize>,
@@ -245,6 +249,11 @@ impl<'a> State<'a> {
             finite: [s.finite.figure(), as_read(mechanism, s.finite.describe())],
             working_mobility: s.working_mobility,
             local_mobility: s.local_mobility,
+            drives: s
+                .drives
+                .iter()
+                .map(|d| DriveFault::new(mechanism, d))
+                .collect(),
             redundant: s.redundant,
             redundant_at_most: most.map(|(_, sigma)| sigma),
             formula_mobility: s.formula_mobility,

@@ -238,9 +238,10 @@ impl Lint {
             .map(|n| format!("  note: {n}\n"))
             .collect();
         if let more @ 1.. = notes().count().saturating_sub(NOTES) {
-            out +=
-                &format!("  note: {more} more of the kind, which `ozols export --to toml` tells
-");
+            out += &format!(
+                "  note: {more} more of the kind, which `ozols export --to toml` tells
+"
+            );
         }
         out
     }

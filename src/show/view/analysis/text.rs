@@ -38,6 +38,9 @@ impl State<'_> {
             self.mobility_figure()
         )?;
         self.write_counts(out)?;
+        for fault in &self.drives {
+            writeln!(out, "  {}", fault.text)?;
+        }
         for motion in self.idle_motions() {
             writeln!(out, "  idle: {motion}")?;
         }

@@ -1,0 +1,77 @@
+//! What a designer has to know of the drives of a mechanism: which are locked, which fight, and where the outputs stand still.
+
+use crate::closure::matrix::Closure;
+use crate::geom::exact::ExactField;
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::Residue;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::rank::finite::Finite;
+use crate::redundancy::motion::Speeds;
+
+/// A fault of the drives of a state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum DriveFault {
+    /// There are more drives than the mechanism has degrees of freedom, so that they work against each other.
+    Surplus {
+        /// How many drives there are.
+        drives: usize,
+        /// How many degrees of freedom there are at most.
+        mobility: usize,
+    },
+    /// The speeds of the drives that move depend on each other.
+    Dependent {
+        /// How many drives move.
+        drives: usize,
+        /// How many of their speeds are independent.
+        independent: usize,
+    },
+    /// A drive cannot move in this pose.
+    Locked(JointId),
+    /// The outputs stand still to first order while something else moves.
+    DeadPoint,
+}
+
+/// Returns the faults of the drives of a state with these motions, J x = 0, of which the outputs have `working` independent ones.
+///
+/// # Complexity
+/// O(d² w) field operations for d drives and w motions.
+pub(super) fn drive_faults(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    motions: &[Speeds],
+    working: usize,
+    finite: &Finite,
+) -> Vec<DriveFault> {
+    let driven = closure.columns.iter().enumerate().filter(|(_, c)| {
+        let joint = &mechanism.joints[c.joint];
+        joint.drive && joint.driven_freedom() == Some(c.freedom)
+    });
+    let driven: Vec<(usize, JointId)> = driven.map(|(i, c)| (i, c.joint)).collect();
+    if driven.is_empty() {
+        return Vec::new();
+    }
+    let moves = |&&(column, _): &&(usize, JointId)| motions.iter().any(|x| x[column] != 0);
+    let moving = driven.iter().filter(moves).count();
+    let mut speeds = Echelon::new(exact.field());
+    for x in motions {
+        let of_drives: Vec<Residue> = driven.iter().map(|&(column, _)| x[column]).collect();
+        speeds.insert(&of_drives);
+    }
+    let (drives, mobility) = (driven.len(), finite.at_most());
+    let mut out = Vec::new();
+    if drives > mobility {
+        out.push(DriveFault::Surplus { drives, mobility });
+    } else if speeds.rank() < moving {
+        out.push(DriveFault::Dependent {
+            drives: moving,
+            independent: speeds.rank(),
+        });
+    }
+    let locked = driven.iter().filter(|one| !moves(one));
+    out.extend(locked.map(|&(_, joint)| DriveFault::Locked(joint)));
+    if working == 0 && moving > 0 {
+        out.push(DriveFault::DeadPoint);
+    }
+    out
+}
