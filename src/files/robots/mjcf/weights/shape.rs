@@ -5,7 +5,8 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, add, length, scale, sub};
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Lookup;
-use crate::robots::mjcf::weights::{Settings, Weight};
+use crate::robots::mjcf::weights::settings::Settings;
+use crate::robots::mjcf::weights::weight::Weight;
 use std::f64::consts::PI;
 
 /// kg/m³ where nothing is said.
