@@ -15,6 +15,7 @@ mod couplings;
 mod documents;
 mod drawings;
 mod drive;
+mod drive_faults;
 mod first_hour;
 mod fuzz;
 mod grip;

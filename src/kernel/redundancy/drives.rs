@@ -4,13 +4,15 @@ use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::finite::Finite;
 use crate::redundancy::motion::Speeds;
 
 /// A fault of the drives of a state.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DriveFault {
+    /// Nothing moves, although there are drives.
+    Immobile,
     /// There are more drives than the mechanism has degrees of freedom, so that they work against each other.
     Surplus {
         /// How many drives there are.
@@ -31,7 +33,7 @@ pub enum DriveFault {
     DeadPoint,
 }
 
-/// Returns the faults of the drives of a state with these motions, J x = 0, of which the outputs have `working` independent ones.
+/// Returns the faults of the drives of the free state with these motions, J x = 0, of which the outputs have `working` independent ones.
 ///
 /// # Complexity
 /// O(d² w) field operations for d drives and w motions.
@@ -48,7 +50,8 @@ pub(super) fn drive_faults(
         joint.drive && joint.driven_freedom() == Some(c.freedom)
     });
     let driven: Vec<(usize, JointId)> = driven.map(|(i, c)| (i, c.joint)).collect();
-    if driven.is_empty() {
+    // Clamped, a drive is meant to be locked.
+    if driven.is_empty() || closure.state != StateId::FREE {
         return Vec::new();
     }
     let moves = |&&(column, _): &&(usize, JointId)| motions.iter().any(|x| x[column] != 0);
@@ -59,6 +62,9 @@ pub(super) fn drive_faults(
         speeds.insert(&of_drives);
     }
     let (drives, mobility) = (driven.len(), finite.at_most());
+    if mobility == 0 {
+        return vec![DriveFault::Immobile];
+    }
     let mut out = Vec::new();
     if drives > mobility {
         out.push(DriveFault::Surplus { drives, mobility });

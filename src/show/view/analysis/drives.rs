@@ -8,7 +8,7 @@ use serde::Serialize;
 /// A fault of the drives.
 #[derive(Debug, Serialize)]
 pub struct DriveFault<'a> {
-    /// `surplus`, `dependent`, `locked` or `dead-point`.
+    /// `immobile`, `surplus`, `dependent`, `locked` or `dead-point`.
     pub kind: &'static str,
     /// The joint of a locked drive.
     pub joint: Option<&'a str>,
@@ -18,6 +18,11 @@ pub struct DriveFault<'a> {
 impl<'a> DriveFault<'a> {
     pub(super) fn new(mechanism: &'a Mechanism, fault: &drives::DriveFault) -> DriveFault<'a> {
         let (kind, joint, text) = match *fault {
+            drives::DriveFault::Immobile => (
+                "immobile",
+                None,
+                "the mechanism is driven and cannot move".to_owned(),
+            ),
             drives::DriveFault::Surplus { drives, mobility } => {
                 let freedom = plural_of(&mobility.to_string(), "degree");
                 let text = format!(
@@ -31,7 +36,7 @@ impl<'a> DriveFault<'a> {
                 independent,
             } => {
                 let text = format!(
-                    "{drives} drives move and {independent} of their speeds can be chosen: the drives work against each other"
+                    "{drives} drives move and {independent} of their speeds can be chosen in this pose: the drives work against each other"
                 );
                 ("dependent", None, text)
             }

@@ -1,0 +1,93 @@
+//! What `ozols analyze` says of the drives: which are locked, which work against each other, where the outputs stand still.
+
+use crate::common::{json, ozols};
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::StateId;
+use ozols::redundancy::analysis::{Method, analyse};
+use ozols::redundancy::drives::DriveFault;
+
+/// Returns a loop of hinges about z between as many links as there are points, the first of which is the frame.
+fn ring(points: &[[i64; 2]], driven: &[usize], output: usize) -> String {
+    let n = points.len();
+    let mut text = "name = \"ring\"\n".to_owned();
+    for l in 0..n {
+        text += &format!("[[link]]\nid = \"{l}\"\n");
+        if l == 0 {
+            text += "role = \"frame\"\n";
+        } else if l == output {
+            text += "role = \"output\"\n";
+        }
+    }
+    for (j, [x, y]) in points.iter().enumerate() {
+        let next = (j + 1) % n;
+        text += &format!(
+            "[[joint]]\nid = \"j{j}\"\nlinks = [\"{j}\", \"{next}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n"
+        );
+        if driven.contains(&j) {
+            text += "drive = true\n";
+        }
+    }
+    text
+}
+
+fn faults(text: &str) -> Vec<DriveFault> {
+    let m = mechanism_from_str("ring.toml", text).unwrap();
+    let mut all = analyse(&m, &[StateId::FREE], Method::Auto).unwrap();
+    all.remove(0).drives
+}
+
+/// Of a crank and a coupler in line, the rocker stands still: a drive there is locked, and with a drive at the crank it is an output at
+/// its dead point.
+#[test]
+fn faults_of_drives_are_found() {
+    let open = [[0, 0], [1, 2], [4, 3], [3, 0]];
+    let in_line = [[0, 0], [1, 0], [3, 0], [3, 2]];
+    let five = [[0, 0], [1, 4], [5, 7], [9, 5], [8, 1]];
+    let triangle = [[0, 0], [4, 0], [1, 3]];
+    let locked = |text: &str| match faults(text)[..] {
+        [DriveFault::Locked(j)] => j.index(),
+        ref other => panic!("{other:?}"),
+    };
+    assert_eq!(faults(&ring(&open, &[0], 3)), []);
+    assert_eq!(faults(&ring(&open, &[], 3)), []);
+    let surplus = DriveFault::Surplus {
+        drives: 2,
+        mobility: 1,
+    };
+    assert_eq!(faults(&ring(&open, &[0, 3], 3)), [surplus]);
+    assert_eq!(locked(&ring(&in_line, &[3], 2)), 3);
+    assert_eq!(faults(&ring(&in_line, &[0], 3)), [DriveFault::DeadPoint]);
+    assert_eq!(faults(&ring(&five, &[0, 4], 2)), []);
+    assert_eq!(faults(&ring(&triangle, &[0], 2)), [DriveFault::Immobile]);
+    // The other two links in line hold one of the two directions in which the drives move the pin.
+    let stretched = [[0, 0], [1, 3], [4, 4], [6, 2], [8, 0]];
+    let dependent = DriveFault::Dependent {
+        drives: 2,
+        independent: 1,
+    };
+    assert_eq!(faults(&ring(&stretched, &[0, 1], 2)), [dependent]);
+}
+
+/// A drive of a clamped gripper is meant to be locked, and a dead point is no idle motion.
+#[test]
+fn what_is_meant_is_no_fault() {
+    let clamped = json(&["analyze", "gripper-10", "--format", "json"]);
+    for state in clamped["states"].as_array().unwrap() {
+        assert_eq!(
+            state["drives"].as_array().unwrap().len(),
+            0,
+            "{}",
+            state["state"]
+        );
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("dead.toml");
+    std::fs::write(&file, ring(&[[0, 0], [1, 0], [3, 0], [3, 2]], &[0], 3)).unwrap();
+    let o = ozols(&["analyze", file.to_str().unwrap(), "--format", "json"])
+        .output()
+        .unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    let state = &found["states"][0];
+    assert_eq!(state["drives"][0]["kind"], "dead-point");
+    assert_eq!(state["idle"].as_array().unwrap().len(), 0);
+}
