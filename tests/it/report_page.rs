@@ -240,7 +240,7 @@ fn a_file_is_written_and_needs_nothing_else() {
 fn pages_say_what_is_not_there() {
     let page = out(&["report", "slider-crank-determinate"]);
     assert!(page.contains("Statically determinate") && page.contains("Nothing needs changing"));
-    let page = out(&["report", "miura-ori"]);
+    let page = out(&["report", "tongs"]);
     assert!(page.contains("No joint has a choice"));
     assert_eq!(data(&page)["search"], Value::Null);
     let page = out(&["report", "gripper-10", "--max-changes", "1"]);

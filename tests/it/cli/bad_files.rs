@@ -173,7 +173,7 @@ fn error_parameters() {
     for (parameters, line_with, part) in [
         ("width = 80\npi = 3", "pi = 3", "can be named \"pi\""),
         ("width = 80\n\"2a\" = 3", "2a", "can be named \"2a\""),
-        ("width = 80\nidle = 3", "idle", "nothing depends on"),
+        ("width = 80\nidle = 3", "idle = 3", "nothing depends on"),
         ("width = true", "width = ", number),
         ("width = { range = [70, 90] }", "width = ", number),
         ("width = \"1/0\"", "width = ", "division by zero"),
