@@ -1,112 +1,103 @@
-//! A joint type by itself: its two links as solids, aslant and along the axis z, with an arrow for each freedom.
+//! A joint type by itself: its symbol large, aslant and along its axis, with the freedoms at the axes of its frame.
 
-mod arrows;
-mod bodies;
-mod by_symbol;
-mod paint;
-mod solids;
-mod view;
-
-use self::solids::PairPart;
-use self::view::ReadyView;
-use crate::draw::place::projection;
-use crate::draw::sheet::{Caption, Drawing, Shape, Sheet, Swatch, plan};
-use crate::model::joint_type::JointType;
-use crate::svg::plane::{Rect, add};
+use crate::draw::place::projection::{self, View};
+use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
+use crate::draw::symbol::pieces::PaperPose;
+use crate::draw::symbol::symbols;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
 use itertools::Itertools;
 
-/// The space between the two views.
-const BETWEEN: f64 = 36.0;
+/// How many times the size in a scheme.
+const LARGE: f64 = 5.5;
+/// The length of an axis that lies in the paper.
+const AXIS: f64 = 120.0;
+/// The room of one view.
+const ROOM: Point = [360.0, 310.0];
 
-/// The look of what only these drawings have.
-const STYLE: &str = include_str!("pairs/pair.css");
-
-/// Draws a joint type in two views: as it is made where it has a name of its own, else by its symbol.
+/// Draws a joint type in two views.
 #[must_use]
 pub fn joint_type(of: &JointType) -> Drawing {
-    let faces = bodies::bodies(of);
-    if faces.is_empty() {
-        return by_symbol::joint_type(of);
-    }
-    let views = [projection::aslant(), projection::along_z()];
-    let [left, right] = views.map(|v| ReadyView::new(&faces, of.freedoms(), &v));
-    let wide = |r: Rect| r.right - r.left;
-    let tall = |r: Rect| r.bottom - r.top;
-    let height = tall(left.room).max(tall(right.room));
-    let area = Rect {
-        left: 0.0,
-        top: 0.0,
-        right: wide(left.room) + BETWEEN + wide(right.room),
-        bottom: height,
+    let freedoms = of.freedoms().iter().map(|f| f.name()).join(", ");
+    let freedoms = if freedoms.is_empty() {
+        "none".to_owned()
+    } else {
+        freedoms
     };
-    let line = class_and_freedoms(of);
+    let line = format!("class {}, freedoms: {freedoms}", of.class());
     let caption = Caption {
         title: of.name(),
         subtitle: [&line, "left aslant, right along the axis z"],
         description: &format!(
-            "The joint type {}, {line}, as two links in two views, with an arrow for each freedom.",
+            "The joint type {}, {line}, in two views with the axes of its frame.",
             of.name()
         ),
-        legend: legend(&faces, of),
+        legend: Vec::new(),
+    };
+    let area = Rect {
+        left: 0.0,
+        top: 0.0,
+        right: 2.0 * ROOM[0],
+        bottom: ROOM[1],
     };
     let plan = plan(&caption, area, 0.0);
     let mut sheet = Sheet::new(&caption, &plan);
-    sheet.style(STYLE);
-    let second = wide(left.room) + BETWEEN;
-    for (seen, x, name) in [(left, 0.0, "aslant"), (right, second, "along z")] {
-        let top = (height - tall(seen.room)) / 2.0;
-        let corner = [x - seen.room.left, top - seen.room.top];
-        sheet.group("data-view", name, add(corner, plan.shift), |s| {
-            seen.draw(s);
-        });
+    for (n, view) in [projection::aslant(), projection::along_z()]
+        .iter()
+        .enumerate()
+    {
+        let middle = [ROOM[0] * (n as f64 + 0.5), ROOM[1] / 2.0];
+        draw(&mut sheet, of, view, add(middle, plan.shift));
     }
     sheet.finish(&caption, &plan)
 }
 
-/// The class of a type and its freedoms by name.
-fn class_and_freedoms(of: &JointType) -> String {
-    let freedoms = of.freedoms().iter().map(|f| f.name()).join(", ");
-    let freedoms = if freedoms.is_empty() {
-        "none"
-    } else {
-        &freedoms
-    };
-    format!("class {}, freedoms: {freedoms}", of.class())
+fn draw(sheet: &mut Sheet, of: &JointType, view: &View, at: Point) {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let shapes = symbols::symbol(of, &PaperPose::of_axes(axes, view), "", LARGE);
+    for (n, axis) in axes.into_iter().enumerate() {
+        let tip = scale(view.flat(axis), AXIS);
+        if norm(tip) > 4.0 {
+            arrow(sheet, add(at, scale(tip, -0.55)), add(at, tip));
+        }
+        let name = ["x", "y", "z"][n];
+        let own = of.freedoms().iter().filter(|f| axis_of(**f) == n);
+        let own = own.map(|f| f.name()).join(" ");
+        let label = if own.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{name}: {own}")
+        };
+        let (x, y) = (tip[0], tip[1]);
+        let place = if norm(tip) > 4.0 {
+            let out = scale(tip, (AXIS + 4.0) / AXIS);
+            [
+                out[0] + 26.0 * x.signum() * f64::from(x.abs() > 1.0),
+                out[1] + 12.0 * y.signum() * f64::from(y.abs() > 1.0),
+            ]
+        } else {
+            [-0.62 * AXIS, 0.62 * AXIS]
+        };
+        sheet.text("small", 12.0, add(at, place), Anchor::Middle, &label);
+    }
+    sheet.shapes(&shapes, at);
+    sheet.symbol(symbols::extent(&shapes).moved(at));
 }
 
-/// What the tones and the arrows are, as far as they are there.
-fn legend(faces: &[solids::SolidFace], of: &JointType) -> Vec<(Swatch, String)> {
-    let corners = vec![[-13.0, -6.0], [13.0, -6.0], [13.0, 6.0], [-13.0, 6.0]];
-    let swatch = |class: &str| {
-        let box_of = |class: &str| Shape::Path {
-            class: class.to_owned(),
-            points: corners.clone(),
-            closed: true,
-        };
-        vec![box_of(class), box_of("edge")]
-    };
-    let mut out = vec![
-        (Swatch::Shapes(swatch("body-a")), "one link".to_owned()),
-        (
-            Swatch::Shapes(swatch("body-b")),
-            "the other link".to_owned(),
-        ),
-    ];
-    if faces.iter().any(|f| f.part == PairPart::Between) {
-        let between = Swatch::Shapes(swatch("body-c"));
-        out.push((between, "a part between them".to_owned()));
+fn arrow(sheet: &mut Sheet, from: Point, to: Point) {
+    sheet.line("fine", from, to);
+    let along = sub(to, from);
+    let back = scale(along, -8.0 / norm(along));
+    let side = [-back[1] * 0.42, back[0] * 0.42];
+    let corners = [to, add(add(to, back), side), sub(add(to, back), side)];
+    sheet.path("ink", &polyline(&corners, true));
+}
+
+/// The axis of the frame that a freedom is about or along.
+fn axis_of(f: Freedom) -> usize {
+    match f {
+        Freedom::Rx | Freedom::Tx => 0,
+        Freedom::Ry | Freedom::Ty => 1,
+        Freedom::Rz | Freedom::Tz | Freedom::Screw => 2,
     }
-    if faces.iter().any(|f| f.cut) {
-        let mut strokes = swatch("cut");
-        strokes.extend((-1..=1).map(|i| {
-            let x = 7.0 * f64::from(i);
-            Shape::line("hatch".to_owned(), vec![[x - 5.0, 5.0], [x + 5.0, -5.0]])
-        }));
-        out.push((Swatch::Shapes(strokes), "cut open".to_owned()));
-    }
-    if !of.freedoms().is_empty() {
-        let arrow = Shape::line("freedom".to_owned(), vec![[-12.0, 0.0], [12.0, 0.0]]);
-        out.push((Swatch::Shapes(vec![arrow]), "a freedom".to_owned()));
-    }
-    out
 }
