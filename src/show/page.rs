@@ -53,14 +53,10 @@ macro_rules! part {
 }
 
 /// The scripts that the studio's page runs too, in their order.
-pub const SHARED: [(&str, &str); 10] = [
+pub const SHARED: [(&str, &str); 6] = [
     part!("page/script/element.js"),
     part!("page/script/hull.js"),
     part!("page/script/scene.js"),
-    part!("page/script/solids.js"),
-    part!("page/script/fittings.js"),
-    part!("page/script/bodies.js"),
-    part!("page/script/shaded.js"),
     part!("page/script/closure.js"),
     part!("page/script/player.js"),
     part!("page/script/drag.js"),

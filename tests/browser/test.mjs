@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import path from "node:path";
-import { bodyTests } from "./bodies.mjs";
+import { dragTests } from "./drags.mjs";
 import { catalogueTests } from "./catalogue.mjs";
 import { pairTests } from "./pairs.mjs";
 import { stageTests } from "./stage.mjs";
@@ -30,7 +30,7 @@ const loaded = report("gripper-10-loaded", "gripper-10-loaded", "--pool", "20000
 catalogueTests(test);
 pairTests(test);
 stageTests(test, { gripper, loaded });
-bodyTests(test, { gripper });
+dragTests(test, { gripper });
 studioTests(test);
 
 test("the verdict stands at the top, and every part has its words", async () => {

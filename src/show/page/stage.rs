@@ -47,7 +47,6 @@ fn player(analysis: &Analysis<'_>) -> Markup {
                     "Drawing "
                     select id="drawn-kind" {
                         option value="space" { "in motion" }
-                        option value="bodies" { "as bodies, in motion" }
                         option value="kinematic" { "kinematic scheme" }
                         option value="scheme" { "structural scheme" }
                     }

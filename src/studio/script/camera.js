@@ -14,7 +14,6 @@ const camera = {
   centre: [0, 0, 0],
   zoom: 4,
   size: [800, 600],
-  bodies: false,
 };
 
 const flatOf = (v) => [dot(camera.view[0], v), -dot(camera.view[1], v)];

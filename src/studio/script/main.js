@@ -65,15 +65,6 @@ function makeViews() {
     room.append(one);
   }
   room.append(button("All", fitAll, "All of it in sight (F)"));
-  const bodies = button("Bodies", () => {
-    camera.bodies = !camera.bodies && canShade();
-    bodies.setAttribute("aria-pressed", camera.bodies);
-    byId("sheet").classList.toggle("solid", camera.bodies);
-    if (camera.bodies && camera.plane) lookAslant();
-    takeScene();
-  }, "Links as solids");
-  bodies.setAttribute("aria-pressed", "false");
-  room.append(bodies);
   tellViews();
 }
 

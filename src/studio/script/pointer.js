@@ -76,7 +76,7 @@ function dragPin(pin) {
         preview.answer = value;
         byId("sheet").dataset.answered = Number(byId("sheet").dataset.answered ?? 0) + 1;
         const scene = sceneNow();
-        if (scene) playOn(scene, camera.bodies, () => [drawSheet]);
+        if (scene) playOn(scene, () => [drawSheet]);
         tell("draft", value);
       });
     },

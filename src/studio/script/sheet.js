@@ -6,7 +6,6 @@ const layer = {};
 const pointedAt = { pin: null, link: null, contour: null, idea: null, stress: null };
 /** Most names that are written beside pins. */
 const NAMED = 60;
-let bodiesCanvas = null;
 
 function makeSheet() {
   const svg = svgElement("svg", { class: "ozd", "aria-hidden": "true" });
@@ -69,7 +68,7 @@ function jointOnPaper(scene, sight, pose, j) {
 /** The contours, tinted by what is redundant in each. */
 function tints(scene, sight, pose) {
   const state = judgedState();
-  if (!state || player.solid) return [];
+  if (!state) return [];
   const at = new Map(scene.joints.filter((j) => j.pair).map((j) => [j.id, jointOnPaper(scene, sight, pose, j)]));
   const all = state.per_contour.map((c, n) => ({ ...c, n, round: c.joints.map((id) => at.get(id)).filter(Boolean) }));
   const area = (round) => Math.abs(turning(round));
@@ -125,7 +124,7 @@ function marksOf(paperOf) {
 /** The names of pins; those at one place together. */
 function names(paperOf) {
   const all = pins();
-  if (all.length > NAMED || player.solid) return [];
+  if (all.length > NAMED) return [];
   const groups = [];
   for (const p of all) {
     const at = paperOf(p);
@@ -155,14 +154,8 @@ function drawSheet(traces) {
     const { swaps, symbols } = swapsOfIdea();
     const marked = symbols && bending === scene ? { ...scene, symbols } : bending;
     const loads = loadsOf(scene);
-    if (player.solid) {
-      fill("tints", []);
-      fill("things", []);
-      showBodies(marked, swaps, pose, traces, loads);
-    } else {
-      fill("tints", tints(bending, sight, pose));
-      fill("things", [...pictureOf(marked, sight, pose, player.stress === null ? player.motion : null, loads, swaps, null), ...traces.flatMap((t) => tracePicture(t, sight))]);
-    }
+    fill("tints", tints(bending, sight, pose));
+    fill("things", [...pictureOf(marked, sight, pose, player.stress === null ? player.motion : null, loads, swaps, null), ...traces.flatMap((t) => tracePicture(t, sight))]);
   } else {
     fill("tints", []);
     fill("things", []);
@@ -180,20 +173,6 @@ function loosePins(paperOf) {
   const known = new Set((player.scene?.joints ?? []).map((j) => j.id));
   const stale = !desk.look?.whole && !desk.look?.partly;
   return pins().filter((p) => stale || !known.has(p.id)).map((p) => ring(paperOf(p), p.what === "joint" ? 6 : 3.5, p.what === "joint" ? "joint loose" : "ink loose"));
-}
-
-/** The bodies, shaded, under what is written on the sheet. */
-const bodiesMade = { scene: null, idea: null };
-function showBodies(scene, swaps, pose, traces, loads) {
-  if (!bodiesCanvas) {
-    bodiesCanvas = shadedCanvas();
-    byId("sheet").prepend(bodiesCanvas.canvas);
-  }
-  if (bodiesMade.scene !== scene || bodiesMade.idea !== pointedAt.idea) {
-    bodiesCanvas.take(bodiesOf(scene, swaps));
-    Object.assign(bodiesMade, { scene, idea: pointedAt.idea });
-  }
-  bodiesCanvas.show(player.sight, pose, [0, 0, ...camera.size], besideBodies(scene, player.stress === null ? player.motion : null, traces, loads));
 }
 
 /** Problems beside the things that they concern. */
@@ -227,5 +206,5 @@ function takeScene() {
     takeScene.seen = true;
     firstView(scene);
   }
-  playOn(scene, camera.bodies, () => [drawSheet]);
+  playOn(scene, () => [drawSheet]);
 }

@@ -73,7 +73,6 @@ pub(super) struct Swapped {
     pub(super) joint: usize,
     pub(super) axes: [Vector; 3],
     pub(super) symbol: usize,
-    pub(super) pair: Pair,
 }
 
 /// A symbol at its place.

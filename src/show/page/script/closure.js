@@ -9,6 +9,7 @@ const FIRM = 1e4;
 const [OPEN, SHUT] = [0.05, 1e-4];
 
 const turnOf = (v, [x, y, z]) => [0, 1, 2].map((i) => v[0] * x[i] + v[1] * y[i] + v[2] * z[i]);
+const mean = (points) => times(points.reduce(plus, [0, 0, 0]), 1 / points.length);
 const AXES = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 /** Where links are: of each the images of the three axes, and of the origin. */

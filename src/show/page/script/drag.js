@@ -2,6 +2,8 @@
 
 /** So near, in pixels of the drawing, a link is meant. */
 const GRASP = 9;
+/** Distances below this, in pixels, are none. */
+const SAME = 2;
 
 /** How far right and up of the origin of space a place of the drawing is. */
 const inView = ([x, y]) => {
@@ -9,10 +11,20 @@ const inView = ([x, y]) => {
   return [(x - fit.at[0]) / fit.scale, -(y - fit.at[1]) / fit.scale];
 };
 
+/** The places on each link: those of its joints, and its points of interest. */
+function placesOf(scene) {
+  const of = scene.names.map(() => []);
+  for (const j of scene.joints) {
+    if (j.turned) continue;
+    for (const link of new Set(j.links)) if (!of[link].some((p) => length(minus(p, j.at)) < SAME)) of[link].push(j.at);
+  }
+  return of;
+}
+
 /** The segments that links are taken at: their outlines, and the place of one whose joints are all in one. */
 function segmentsOf(scene) {
-  const solid = scene.wires.filter((w) => w.of === null && !w.turned && /bone|plate/.test(w.class));
-  const outlines = solid.flatMap(({ link, form, points }) => {
+  const wires = scene.wires.filter((w) => w.of === null && !w.turned && /bone|plate/.test(w.class));
+  const outlines = wires.flatMap(({ link, form, points }) => {
     const all = points.map((p, i) => [p, points[(i + 1) % points.length]]);
     return (form !== "line" && points.length > 2 ? all : all.slice(0, -1)).map((ends) => ({ link, ends }));
   });

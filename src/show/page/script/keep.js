@@ -1,5 +1,7 @@
 // What a reader may take along: pictures as SVG or PNG files, tables as CSV on the clipboard.
 
+/** Pixels of a saved picture for each of the drawing's. */
+const FINE = 2;
 /** What of a look is written into a picture whose rules stand in the page. */
 const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray", "font-size", "font-family", "font-weight", "text-anchor"];
 
@@ -90,35 +92,21 @@ function paint(on, part) {
   }
 }
 
-/** A canvas with the page's ground under what is drawn on it. */
-function grounded(width, height) {
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [width, height];
-  const on = canvas.getContext("2d");
-  on.fillStyle = getComputedStyle(document.body).backgroundColor;
-  on.fillRect(0, 0, width, height);
-  return { canvas, on };
-}
-
-const savePicture = (canvas, name) => canvas.toBlob((blob) => hand(`${name}.png`, blob));
-
-/** Bodies as they are seen. */
-function saveBodies(seen, name) {
-  const { canvas, on } = grounded(seen.width, seen.height);
-  on.drawImage(seen, 0, 0);
-  savePicture(canvas, name);
-}
-
+/** Saves a picture on the page's ground. */
 function savePng(svg, name) {
   staged(svg, (whole) => {
-    const { canvas, on } = grounded(...["width", "height"].map((side) => Math.ceil(FINE * Number(whole.getAttribute(side)))));
+    const canvas = document.createElement("canvas");
+    for (const side of ["width", "height"]) canvas[side] = Math.ceil(FINE * Number(whole.getAttribute(side)));
+    const on = canvas.getContext("2d");
+    on.fillStyle = getComputedStyle(document.body).backgroundColor;
+    on.fillRect(0, 0, canvas.width, canvas.height);
     for (const part of whole.querySelectorAll("path,circle,rect,text")) if (!part.closest("defs")) paint(on, part);
-    savePicture(canvas, name);
+    canvas.toBlob((blob) => hand(`${name}.png`, blob));
   });
 }
 
 /** Buttons that save the picture of a figure. */
-function keepButtons(svgOf, nameOf, whole, seenOf = () => null) {
+function keepButtons(svgOf, nameOf, whole) {
   const button = (words, label, act) => {
     const made = element("button", { type: "button", class: "keep", "aria-label": label }, words);
     made.addEventListener("click", act);
@@ -127,7 +115,7 @@ function keepButtons(svgOf, nameOf, whole, seenOf = () => null) {
   return element("span", { class: "keeps" },
     whole ? button("Full size", "The drawing in full size", () => showWhole(svgOf())) : null,
     button("SVG", "Save the picture as SVG", () => saveSvg(svgOf(), nameOf())),
-    button("PNG", "Save the picture as PNG", () => (seenOf() ? saveBodies(seenOf(), nameOf()) : savePng(svgOf(), nameOf()))));
+    button("PNG", "Save the picture as PNG", () => savePng(svgOf(), nameOf())));
 }
 
 /** Rows of cells as CSV, as RFC 4180 has it. */
@@ -167,12 +155,8 @@ const fileName = (...words) => [page.mechanism, ...words].join("-").replace(/[^\
 function listenToKeepers() {
   for (const pane of document.querySelectorAll(".pane")) {
     const what = () => (pane.id === "built" ? "as-built" : `${noun().toLowerCase()}-${view.chosen + 1}`);
-    const lines = () => {
-      drawForPaper();
-      return pane.querySelector(".turn svg");
-    };
-    const bodies = () => pane.querySelector(".turn canvas");
-    pane.querySelector("figcaption").append(keepButtons(lines, () => fileName(what(), stage.kind), true, bodies));
+    const lines = () => pane.querySelector(".turn svg");
+    pane.querySelector("figcaption").append(keepButtons(lines, () => fileName(what(), stage.kind), true));
   }
   for (const figure of document.querySelectorAll("#mechanism figure.drawing")) {
     const { kind, state } = figure.dataset;

@@ -8,8 +8,6 @@ const player = {
   scene: null,
   /** The pictures: each shows what is played. */
   screens: [],
-  /** Whether they are of bodies, which are looked at aslant at first. */
-  solid: false,
   now: 0,
   forward: true,
   running: null,
@@ -25,14 +23,11 @@ const player = {
   tracing: false,
   traced: [],
 };
-/** How far bodies are turned at first, to the side and up. */
-const ASLANT = [0.55, 0.4];
 const knob = Object.fromEntries(["play", "range", "again", "loop", "shown", "home", "say", "trace", "untrace"].map((part) => [part, document.querySelector(`[data-part="${part}"]`)]));
 const poses = () => player.scene.moves[player.motion].poses;
 
 /** Where the links are. */
 const poseNow = () => (player.stress === null ? player.pulled ?? poses()[player.now] : null);
-const homeTurn = () => (player.solid ? ASLANT : [0, 0]);
 
 function drawScreens() {
   const traces = tracesOf();
@@ -107,16 +102,15 @@ function show(which) {
   look();
 }
 
-/** Plays a scene on the screens that `make` gives; the view and the picture stay where it is the same scene seen alike. */
-function playOn(scene, solid, make) {
-  const [same, alike] = [scene === player.scene, solid === player.solid];
-  [player.scene, player.solid] = [scene, solid];
+/** Plays a scene on the screens that `make` gives; the view and the picture stay where it is the same scene. */
+function playOn(scene, make) {
+  const same = scene === player.scene;
+  player.scene = scene;
   player.screens = make();
   if (!same) {
-    player.traced = [];
+    [player.traced, player.side, player.tilt] = [[], 0, 0];
     knob.shown.replaceChildren(...[...scene.moves, ...scene.stresses].map((s, n) => element("option", { value: n }, s.name)));
   }
-  if (!same || !alike) [player.side, player.tilt] = homeTurn();
   tellTraces();
   if (same) look();
   else show(0);

@@ -7,6 +7,9 @@ const END_ON = 0.9;
 const plus = (a, b) => a.map((x, i) => x + b[i]);
 const times = (a, s) => a.map((x) => x * s);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+const minus = (a, b) => a.map((x, i) => x - b[i]);
+const length = (a) => Math.hypot(...a);
+const unit = (a) => times(a, 1 / (length(a) || 1));
 const cross = (a, b) => [0, 1, 2].map((i) => a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
 
 /** A direction turned by a rotation vector. */

@@ -7,7 +7,7 @@ const spaceOf = page.states.map((_, s) => document.querySelector(`[data-space="$
 const [ROUND, BELOW, WIDE] = [8, 88, 240];
 
 /** Whether a kind is in space, and moves. */
-const moves = (kind) => kind === "space" || kind === "bodies";
+const moves = (kind) => kind === "space";
 
 /** A fresh picture of a state and a kind. */
 function pictureFor(state, kind) {
@@ -33,16 +33,6 @@ function crop(svg, scene) {
   svg.querySelector('[data-home="scale"]').setAttribute("transform", `translate(${from} 0)`);
 }
 
-/** The canvas of a pane, made once. */
-const canvases = new Map();
-function canvasOf(id, scene) {
-  if (!canvases.has(id)) canvases.set(id, shadedCanvas());
-  const shaded = canvases.get(id);
-  const [, , width, height] = roomOf(scene);
-  shaded.canvas.style.aspectRatio = `${width} / ${height}`;
-  return shaded;
-}
-
 /** W and σ in a few words. */
 const inShort = ({ mobility, redundant }) => `σ = ${redundant}, W = ${mobility}`;
 
@@ -52,11 +42,10 @@ function swapsOf(scene, state, changes) {
   return new Map(rows.map((n) => [scene.swaps[n].joint, scene.swaps[n]]));
 }
 
-/** Puts a picture into a pane: lines, or bodies with lines for paper. */
-function setPicture(id, svg, words, shaded) {
+/** Puts a picture into a pane. */
+function setPicture(id, svg, words) {
   const pane = byId(id);
-  pane.querySelector(".turn").replaceChildren(...[shaded?.canvas, svg].filter(Boolean));
-  pane.querySelector(".turn").classList.toggle("solid", Boolean(shaded));
+  pane.querySelector(".turn").replaceChildren(svg);
   pane.querySelector("figcaption > span").textContent = words;
 }
 
@@ -75,35 +64,18 @@ function draw(i) {
     const swaps = moves(kind) ? swapsOf(scene, state, changes) : null;
     panes.push({ id: "drawing", svg, swaps, words: `${noun()} ${i + 1}: ${inShort(figures(i, state))}` });
   }
-  const bodies = kind === "bodies";
-  for (const pane of panes) setPicture(pane.id, pane.svg, pane.words, bodies ? canvasOf(pane.id, scene) : null);
+  for (const pane of panes) setPicture(pane.id, pane.svg, pane.words);
   for (const part of document.querySelectorAll("[data-moves]")) part.hidden = !moves(kind);
   for (const help of document.querySelectorAll("[data-state-help]")) help.hidden = !moves(kind) || Number(help.dataset.stateHelp) !== state;
   tellTurns(moves(kind));
   if (moves(kind)) {
     for (const { svg } of panes) crop(svg, scene);
-    playOn(scene, bodies, () => panes.flatMap(({ id, svg, swaps }) => {
-      const lines = lineScreen(svg, swaps, id === "built");
-      return bodies ? [bodyScreen(canvasOf(id, scene), swaps, id === "built"), forPaper(lines)] : [lines];
-    }));
+    playOn(scene, () => panes.map(({ id, svg, swaps }) => lineScreen(svg, swaps, id === "built")));
   } else {
     stop();
     player.screens = [];
   }
 }
-
-/** Whether what is drawn for paper alone is drawn, too. */
-let paper = false;
-const forPaper = (show) => (traces) => paper && show(traces);
-
-/** Draws all pictures, for paper too: there bodies are lines. */
-function drawForPaper() {
-  if (!player.screens.length) return;
-  paper = true;
-  drawScreens();
-  paper = false;
-}
-addEventListener("beforeprint", drawForPaper);
 
 /** Whether the pictures can be turned, for who cannot see that. */
 function tellTurns(turns) {
@@ -140,7 +112,6 @@ function listenToStage() {
     stage.state = Number(states.value);
     const inSpace = spaceOf[stage.state] !== null;
     kinds.options[0].disabled = !inSpace;
-    kinds.options[1].disabled = !inSpace || !canShade();
     if (!inSpace && moves(kinds.value)) kinds.value = "kinematic";
     stage.kind = kinds.value;
     draw(view.chosen);

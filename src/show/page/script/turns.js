@@ -2,6 +2,8 @@
 
 /** A turn by a key, and by a pixel of a drag. */
 const [KEY, PIXEL] = [Math.PI / 18, 0.01];
+/** Round a turned scene in its room. */
+const MARGIN = 24;
 
 /** Right, up and towards the reader after a turn to the side and one up, in radians from the first view. */
 function seenFrom(scene, side, tilt) {
@@ -14,8 +16,9 @@ function seenFrom(scene, side, tilt) {
   return [to, plus(times(scene.upright, c), times(level, -s)), plus(times(level, c), times(scene.upright, s))];
 }
 
-/** How a view is put into a room, in the middle: smaller where it would not fit, and larger up to a factor. */
-function fitted(scene, view, poses, [left, top, right, bottom], most, margin) {
+/** How a view is put into the room of a scene, in the middle: smaller where it would not fit. */
+function fitted(scene, view, poses) {
+  const [left, top, right, bottom] = scene.room;
   const reach = [0, 1].map(() => [Infinity, -Infinity]);
   const note = (p) => [dot(view[0], p), -dot(view[1], p)].forEach((x, k) => {
     reach[k] = [Math.min(reach[k][0], x), Math.max(reach[k][1], x)];
@@ -24,27 +27,22 @@ function fitted(scene, view, poses, [left, top, right, bottom], most, margin) {
     for (const wire of scene.wires) wire.points.forEach((p) => note(carried(pose, wire.link, p)));
     for (const joint of scene.joints) note(carried(pose, joint.links[0], joint.at));
   }
-  const room = [right - left, bottom - top].map((x) => x - 2 * margin);
-  const scale = Math.min(most, ...room.map((x, k) => x / Math.max(reach[k][1] - reach[k][0], 1)));
+  const room = [right - left, bottom - top].map((x) => x - 2 * MARGIN);
+  const scale = Math.min(1, ...room.map((x, k) => x / Math.max(reach[k][1] - reach[k][0], 1)));
   const middle = reach.map(([a, b]) => (a + b) / 2);
   return { scale, at: [(left + right) / 2 - scale * middle[0], (top + bottom) / 2 - scale * middle[1]] };
 }
 
 /** How the scene is seen. */
 function sightNow() {
-  const { scene, side, tilt, stress, solid } = player;
-  const away = solid || side !== 0 || tilt !== 0;
+  const { scene, side, tilt, stress } = player;
+  const away = !isAtHome();
   const view = away ? seenFrom(scene, side, tilt) : scene.view;
-  const [left, top, wide, high] = roomOf(scene);
-  const [room, most, margin] = solid ? [[left, top, left + wide, top + high], 2, 44] : [scene.room, 1, 24];
-  const fit = away ? fitted(scene, view, stress === null ? poses() : [null], room, most, margin) : { scale: 1, at: scene.origin };
+  const fit = away ? fitted(scene, view, stress === null ? poses() : [null]) : { scale: 1, at: scene.origin };
   return { view, fit, away };
 }
 
-function isAtHome() {
-  const [across, up] = homeTurn();
-  return player.side === across && player.tilt === up;
-}
+const isAtHome = () => player.side === 0 && player.tilt === 0;
 
 function turnBy(across, up) {
   const { scene } = player;
@@ -55,13 +53,13 @@ function turnBy(across, up) {
 }
 
 function goHome() {
-  [player.side, player.tilt] = homeTurn();
+  [player.side, player.tilt] = [0, 0];
   look();
 }
 
 /** Where a pane's picture is pointed at, in the coordinates of the drawing. */
 function pointed(turn, event) {
-  const { left, top, width, height } = turn.querySelector("canvas, svg").getBoundingClientRect();
+  const { left, top, width, height } = turn.querySelector("svg").getBoundingClientRect();
   const room = roomOf(player.scene);
   const scale = Math.min(width / room[2], height / room[3]);
   return [room[0] + room[2] / 2 + (event.clientX - left - width / 2) / scale, room[1] + room[3] / 2 + (event.clientY - top - height / 2) / scale];
@@ -114,17 +112,6 @@ function lineScreen(svg, swaps, asBuilt) {
     what.dataset.first ??= what.textContent;
     what.textContent = sight.away ? "Kinematic scheme, turned" : what.dataset.first;
     svg.querySelector("[data-scene]").replaceChildren(...parts, ...traces.flatMap((t) => tracePicture(t, sight)));
-  };
-}
-
-/** A picture of bodies, with other fittings at some joints. */
-function bodyScreen(shaded, swaps, asBuilt) {
-  const { scene } = player;
-  shaded.take(bodiesOf(scene, swaps));
-  return (traces) => {
-    const { stress, sight, motion } = player;
-    const loads = stress === null || !asBuilt ? [] : scene.stresses[stress].arrows;
-    shaded.show(sight, poseNow(), roomOf(scene), besideBodies(scene, stress === null ? motion : null, traces, loads));
   };
 }
 

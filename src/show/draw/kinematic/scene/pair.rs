@@ -9,8 +9,6 @@ use serde::Serialize;
 /// The joint between two links of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(in crate::draw::kinematic) struct Pair {
-    /// The word of its type.
-    joint_type: &'static str,
     /// Its freedoms in order: slides go along axes of the second link where turns come before them.
     free: Vec<&'static str>,
     /// Whether the first of the scene's two links is the joint's second.
@@ -40,7 +38,6 @@ impl Kinematic<'_> {
             0.0
         };
         Pair {
-            joint_type: of.name(),
             free: free.iter().map(|f| f.name()).collect(),
             swapped: self.carriers(i).0 != joint.links[0],
             pitch: pitch * self.projection.scale,

@@ -51,14 +51,12 @@ impl Kinematic<'_> {
             if swap.unloading {
                 parts.push(flat(&swap::ring(symbol.reach())));
             }
-            let pair = self.pair(i, of);
             let spot = &mut self.spots[i];
             spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
             out.push(Swapped {
                 joint: self.points.len() + n,
                 axes: [place.x, place.y, place.z].map(fine),
                 symbol: scene.symbol(parts),
-                pair,
             });
         }
         out
