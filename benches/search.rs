@@ -10,9 +10,9 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use ozols::builtin;
-use ozols::closure::matrix::Closure;
+use ozols::closure::Closure;
 use ozols::file::text::mechanism_from_str;
-use ozols::geom::scalars::Reals;
+use ozols::geom::Reals;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{JointOption, Mechanism, StateId};
 use ozols::rank::exact::modular;

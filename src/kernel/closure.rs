@@ -1,12 +1,286 @@
 //! Loop closure: which contours a mechanism has, and the matrix that says how joint speeds must agree round them.
+//!
+//! The loop-closure matrix J: rows of closed contours, then one row per coupling; one column per joint freedom.
 
-pub(crate) mod connected;
 pub mod contour;
 pub mod coupling;
 pub(crate) mod drive;
-pub mod matrix;
 pub mod mirror;
 pub(crate) mod symmetry_image;
 pub mod tree;
 pub(crate) mod turn;
 pub mod twist;
+
+use crate::closure::contour::{Contour, contour_basis};
+use crate::closure::coupling::coefficient;
+use crate::closure::tree::{path_from_frame, path_in, spanning_tree};
+use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::geom::Scalars;
+use crate::geom::exact::ExactError;
+use crate::geom::expr::Expr;
+use crate::geom::extent::Extent;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+
+/// One column of J: a freedom of a joint.
+#[derive(Debug, Clone)]
+pub struct Column<N> {
+    /// The joint.
+    pub joint: JointId,
+    /// The freedom, in the joint's frame.
+    pub freedom: Freedom,
+    /// Its unit twist, 6 or 3 components.
+    pub twist: Vec<N>,
+}
+
+/// The row of a coupling: entries at the columns of the two freedoms.
+#[derive(Debug, Clone)]
+pub struct CouplingRow<N> {
+    /// The columns, with the entry there.
+    pub entries: [(usize, N); 2],
+}
+
+/// J of some of the joints of a state.
+#[derive(Debug, Clone)]
+pub struct Part<N> {
+    /// The joints.
+    pub joints: Vec<JointId>,
+    /// Their J.
+    pub closure: Closure<N>,
+    /// Which contours of the state are theirs.
+    pub contours: Vec<usize>,
+    /// Which couplings of the state are theirs.
+    pub couplings: Vec<usize>,
+}
+
+/// J of a state, kept as its columns, contours and couplings: entry blocks are ± the twist where the contour passes the
+/// joint.
+#[derive(Debug, Clone)]
+pub struct Closure<N> {
+    /// The state.
+    pub state: StateId,
+    /// Rows per contour.
+    pub dim: usize,
+    /// The contours, in order; those of the free state first.
+    pub contours: Vec<Contour>,
+    /// The columns, grouped by joint in file order.
+    pub columns: Vec<Column<N>>,
+    /// The couplings of the state, in file order.
+    pub couplings: Vec<CouplingRow<N>>,
+    /// Where the joints are and how far apart, in real numbers.
+    pub extent: Option<Extent>,
+    /// Joints whose freedoms out of the plane were left out, with how many (planar mode only).
+    pub left_out: Vec<(JointId, usize)>,
+}
+
+impl<N: Clone + Default + PartialEq> Closure<N> {
+    /// Builds J of a state in a number system.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the number system.
+    pub fn new<S: Scalars<Number = N>>(
+        s: &S,
+        mechanism: &Mechanism,
+        state: StateId,
+    ) -> Result<Self, ExactError> {
+        Self::with_contours(s, mechanism, state, contour_basis(mechanism, state))
+    }
+
+    /// Builds J for contours that the caller has already, such as those of a mechanism with the same links and joints.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the number system.
+    pub fn with_contours<S: Scalars<Number = N>>(
+        s: &S,
+        mechanism: &Mechanism,
+        state: StateId,
+        contours: Vec<Contour>,
+    ) -> Result<Self, ExactError> {
+        let space = MotionSpace::new(s, &mechanism.mode)?;
+        let (mut columns, mut left_out) = (Vec::new(), Vec::new());
+        for j in mechanism.joints_in(state) {
+            let joint = &mechanism.joints[j];
+            let twists = joint_twists(s, &space, &joint.frame, &joint.joint_type)?;
+            let missing = joint.joint_type.freedoms().len() - twists.len();
+            if missing > 0 {
+                left_out.push((j, missing));
+            }
+            columns.extend(twists.into_iter().map(|(freedom, twist)| Column {
+                joint: j,
+                freedom,
+                twist,
+            }));
+        }
+        let couplings = coupling_rows(s, mechanism, state, &columns)?;
+        let points: Vec<&[Expr; 3]> = mechanism
+            .joints_in(state)
+            .map(|j| &mechanism.joints[j].frame.point)
+            .collect();
+        Ok(Closure {
+            extent: s.extent(&points),
+            state,
+            dim: space.dim(),
+            contours,
+            columns,
+            couplings,
+            left_out,
+        })
+    }
+
+    /// Returns J of some joints, ascending, that share contours and couplings with no others.
+    ///
+    /// # Complexity
+    /// One pass over J.
+    #[must_use]
+    pub fn part(&self, joints: &[JointId]) -> Part<N> {
+        let has = |j: JointId| joints.binary_search(&j).is_ok();
+        let columns: Vec<usize> = (0..self.columns.len())
+            .filter(|&c| has(self.columns[c].joint))
+            .collect();
+        let contours: Vec<usize> = (0..self.contours.len())
+            .filter(|&k| self.contours[k].joints.iter().any(|&(j, _)| has(j)))
+            .collect();
+        let couplings: Vec<usize> = (0..self.couplings.len())
+            .filter(|&q| {
+                columns
+                    .binary_search(&self.couplings[q].entries[0].0)
+                    .is_ok()
+            })
+            .collect();
+        let place = |c: usize| columns.partition_point(|&own| own < c);
+        let coupling = |&q: &usize| CouplingRow {
+            entries: (self.couplings[q].entries.clone()).map(|(c, x)| (place(c), x)),
+        };
+        Part {
+            joints: joints.to_vec(),
+            closure: Closure {
+                state: self.state,
+                dim: self.dim,
+                contours: contours.iter().map(|&k| self.contours[k].clone()).collect(),
+                columns: columns.iter().map(|&c| self.columns[c].clone()).collect(),
+                couplings: couplings.iter().map(coupling).collect(),
+                extent: self.extent,
+                left_out: Vec::new(),
+            },
+            contours,
+            couplings,
+        }
+    }
+
+    /// Number of rows, 6k + c for c couplings (3k + c in a plane).
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.contour_rows() + self.couplings.len()
+    }
+
+    /// Number of rows of the contours, 6k (3k in a plane).
+    #[must_use]
+    pub fn contour_rows(&self) -> usize {
+        self.dim * self.contours.len()
+    }
+
+    /// The contour rows of column `c` written out in full, for the chosen contours in the given order.
+    pub fn dense_column<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        c: usize,
+        contours: &[usize],
+    ) -> Vec<N> {
+        let column = &self.columns[c];
+        let mut out = vec![N::default(); self.dim * contours.len()];
+        for (row, &k) in contours.iter().enumerate() {
+            if let Some(forward) = self.contours[k].direction(column.joint) {
+                for (o, t) in out[row * self.dim..].iter_mut().zip(&column.twist) {
+                    *o = if forward {
+                        t.clone()
+                    } else {
+                        s.sub(N::default(), t.clone())
+                    };
+                }
+            }
+        }
+        out
+    }
+
+    /// J written out, as a list of columns.
+    pub fn dense<S: Scalars<Number = N>>(&self, s: &S) -> Vec<Vec<N>> {
+        let all: Vec<usize> = (0..self.contours.len()).collect();
+        let mut columns: Vec<Vec<N>> = (0..self.columns.len())
+            .map(|c| self.dense_column(s, c, &all))
+            .collect();
+        for coupling in &self.couplings {
+            columns.iter_mut().for_each(|c| c.push(N::default()));
+            for (c, entry) in &coupling.entries {
+                if let Some(last) = columns[*c].last_mut() {
+                    *last = entry.clone();
+                }
+            }
+        }
+        columns
+    }
+
+    /// For each column, the twist it gives a link when the joint moves at unit speed along the path from the frame:
+    /// rows of "the motion of `link`", one list of `dim` numbers a column.
+    pub fn link_motion<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        mechanism: &Mechanism,
+        link: LinkId,
+    ) -> Vec<Vec<N>> {
+        self.motion_along(s, &path_from_frame(mechanism, self.state, link))
+    }
+
+    /// The same of several links.
+    pub(crate) fn link_motions<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        mechanism: &Mechanism,
+        links: &[LinkId],
+    ) -> Vec<Vec<Vec<N>>> {
+        let tree = spanning_tree(mechanism, self.state);
+        let each = links.iter();
+        each.map(|&l| self.motion_along(s, &path_in(&tree, l)))
+            .collect()
+    }
+
+    /// What each column gives the link at the end of a path.
+    fn motion_along<S: Scalars<Number = N>>(&self, s: &S, path: &[(JointId, bool)]) -> Vec<Vec<N>> {
+        self.columns
+            .iter()
+            .map(|c| match path.iter().find(|(j, _)| *j == c.joint) {
+                Some((_, true)) => c.twist.clone(),
+                Some((_, false)) => c
+                    .twist
+                    .iter()
+                    .map(|t| s.sub(N::default(), t.clone()))
+                    .collect(),
+                None => vec![N::default(); self.dim],
+            })
+            .collect()
+    }
+}
+
+/// The rows of a state's couplings.
+fn coupling_rows<N: Clone + Default + PartialEq, S: Scalars<Number = N>>(
+    s: &S,
+    mechanism: &Mechanism,
+    state: StateId,
+    columns: &[Column<N>],
+) -> Result<Vec<CouplingRow<N>>, ExactError> {
+    let mut rows = Vec::new();
+    for coupling in mechanism.couplings_in(state) {
+        let at = coupling.ends.map(|e| {
+            columns
+                .iter()
+                .position(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
+        });
+        // The importer sees to it that coupled freedoms are there.
+        if let [Some(a), Some(b)] = at {
+            let first = s.eval(&coefficient(mechanism, coupling))?;
+            rows.push(CouplingRow {
+                entries: [(a, first), (b, s.eval(&Expr::from(1))?)],
+            });
+        }
+    }
+    Ok(rows)
+}

@@ -1,6 +1,283 @@
 //! Numbers, phrases and tables as text, for everything that writes for people or for other programs.
+//!
+//! Numbers as text. Every measured figure has one of these styles:
+//!
+//! | style | digits | 1234.5678 | 2 | 0.00001 | for |
+//! |---|---|---|---|---|---|
+//! | [`significant`] | 4 at most | 1235 | 2 | 1e-5 | sentences and tables |
+//! | [`figure`] | 5, as many in every row | 1234.6 | 2.0000 | 1.0000e-5 | columns of forces |
+//! | [`brief`] | 3 | 1235 | 2.00 | 1.00e-5 | a difference told in passing |
+//! | [`scientific`] | 2 at most | 1235 | 2 | 1e−5 | tolerances and noise in captions |
+//! | [`tooltip`] | 6 at most | 1234.57 | 2 | 1e−5 | points of a chart |
+//! | [`decimals`] | to a given decimal | 1234.57 | 2 | 0 | coordinates |
+//!
+//! Whole numbers that may be large are [`grouped`], costs are written by [`cost`], times by [`duration`].
 
 pub mod csv;
-pub mod number;
-pub mod phrase;
 pub mod plain;
+
+use std::ops::Range;
+
+/// "1 redundant constraint", "2 redundant constraints".
+pub fn plural(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+/// The same of a number that is written already: "1 variant", "25,761,436 variants".
+pub fn plural_of(n: &str, what: &str) -> String {
+    format!("{n} {what}{}", if n == "1" { "" } else { "s" })
+}
+
+/// "a, b or c".
+pub fn disjunction<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
+    let mut all: Vec<&str> = of.into_iter().collect();
+    match (all.pop(), all.is_empty()) {
+        (Some(last), false) => format!("{} or {last}", all.join(", ")),
+        (last, _) => last.unwrap_or_default().to_owned(),
+    }
+}
+
+/// "a", "a and b", "a, b and c".
+pub fn list<T: AsRef<str>>(of: &[T]) -> String {
+    match of {
+        [] => String::new(),
+        [one] => one.as_ref().to_owned(),
+        [most @ .., last] => {
+            let most: Vec<&str> = most.iter().map(AsRef::as_ref).collect();
+            format!("{} and {}", most.join(", "), last.as_ref())
+        }
+    }
+}
+
+/// How a number of any size is written.
+struct Style {
+    /// Significant digits.
+    digits: i32,
+    /// Powers of ten of the first digit that do without an exponent.
+    plain: Range<i32>,
+    /// Whether zeros at the end are kept.
+    padded: bool,
+}
+
+impl Style {
+    fn write(&self, x: f64) -> String {
+        if x == 0.0 {
+            return "0".to_owned();
+        }
+        let text = format!("{x:.0$e}", self.digits.max(1) as usize - 1);
+        let Some((mantissa, power)) = text.split_once('e') else {
+            return text;
+        };
+        let trim = |text| if self.padded { text } else { trimmed(text) };
+        match power.parse() {
+            Ok(power) if self.plain.contains(&power) => {
+                let decimals = (self.digits - 1 - power).max(0) as usize;
+                trim(&format!("{x:.decimals$}")).to_owned()
+            }
+            _ => format!("{}e{power}", trim(mantissa)),
+        }
+    }
+}
+
+/// A decimal without the zeros that end it.
+fn trimmed(text: &str) -> &str {
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        text
+    }
+}
+
+/// A measured number to four significant digits: 12.35, 0.001235, 1.235e-7. What rounds to nothing beside everything else
+/// is nothing.
+pub fn significant(x: f64) -> String {
+    let style = Style {
+        digits: 4,
+        plain: -4..7,
+        padded: false,
+    };
+    style.write(if x.abs() < 1e-9 { 0.0 } else { x })
+}
+
+/// A value of a column, with five significant figures; a dash where there is none.
+pub fn figure(x: f64) -> String {
+    if !x.is_finite() {
+        return "-".to_owned();
+    }
+    let style = Style {
+        digits: 5,
+        plain: -4..7,
+        padded: true,
+    };
+    style.write(x)
+}
+
+/// A number told in passing, with three figures.
+pub fn brief(x: f64) -> String {
+    let style = Style {
+        digits: 3,
+        plain: -3..6,
+        padded: true,
+    };
+    style.write(x)
+}
+
+/// A power of ten or a short decimal, with a true minus: 1e−9, 3.2e−10, 1.
+pub fn scientific(x: f64) -> String {
+    let style = Style {
+        digits: 2,
+        plain: -2..4,
+        padded: false,
+    };
+    minus(&style.write(x))
+}
+
+/// A value to six digits, with a true minus.
+pub fn tooltip(x: f64) -> String {
+    let style = Style {
+        digits: 6,
+        plain: -4..6,
+        padded: false,
+    };
+    minus(&style.write(x))
+}
+
+/// A figure rounded to so many digits, for files whose bytes must not depend on the last bits.
+pub fn rounded(x: f64, digits: i32) -> f64 {
+    let style = Style {
+        digits,
+        plain: -4..6,
+        padded: false,
+    };
+    style.write(x).parse().unwrap_or(x)
+}
+
+/// A number to so many decimals, without zeros at the end and without a negative zero.
+pub fn decimals(x: f64, most: usize) -> String {
+    let text = format!("{x:.most$}");
+    match trimmed(&text) {
+        "-0" => "0".to_owned(),
+        text => text.to_owned(),
+    }
+}
+
+/// A whole number with groups of three: 13,841,287,201.
+pub fn grouped(number: impl ToString) -> String {
+    let number = number.to_string();
+    let first = usize::from(number.starts_with('-'));
+    let mut out = String::new();
+    for (i, digit) in number.char_indices() {
+        if i > first && (number.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// A cost in thousandths as a decimal: 11.5.
+pub fn cost(milli: i64) -> String {
+    let (sign, size) = (if milli < 0 { "-" } else { "" }, milli.unsigned_abs());
+    let text = format!("{sign}{}.{:03}", size / 1000, size % 1000);
+    trimmed(&text).to_owned()
+}
+
+/// A time in the unit that suits it: 4.2 µs, 30 h.
+pub fn duration(seconds: f64) -> String {
+    const HOUR: f64 = 3600.0;
+    let (value, unit) = match seconds {
+        s if s < 1e-6 => (s * 1e9, "ns"),
+        s if s < 1e-3 => (s * 1e6, "µs"),
+        s if s < 1.0 => (s * 1e3, "ms"),
+        s if s < 120.0 => (s, "s"),
+        s if s < 2.0 * HOUR => (s / 60.0, "min"),
+        s if s < 48.0 * HOUR => (s / HOUR, "h"),
+        s if s < 17_532.0 * HOUR => (s / (24.0 * HOUR), "days"),
+        s => (s / (8766.0 * HOUR), "years"),
+    };
+    let decimals = usize::from(value < 9.95);
+    format!("{value:.decimals$} {unit}")
+}
+
+/// A difference with its sign, a true minus: −3, +1.
+pub fn signed(x: i64) -> String {
+    minus(&format!("{x:+}"))
+}
+
+/// A number's text with a true minus sign.
+pub fn minus(text: &str) -> String {
+    text.replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_end_with_and() {
+        assert_eq!(list(&["a", "b", "c"]), "a, b and c");
+        assert_eq!(list(&["a"]), "a");
+        assert_eq!(plural(1, "way") + ", " + &plural(2, "way"), "1 way, 2 ways");
+    }
+
+    #[test]
+    fn long_times_are_told_as_people_do() {
+        let told = [4.2e-6, 0.5, 119.0, 7000.0, 90_000.0, 8.6e5, 8e7].map(duration);
+        let said = [
+            "4.2 µs",
+            "500 ms",
+            "119 s",
+            "117 min",
+            "25 h",
+            "10 days",
+            "2.5 years",
+        ];
+        assert_eq!(told, said);
+    }
+
+    #[test]
+    fn every_style_is_as_its_table_says() {
+        type Style = fn(f64) -> String;
+        let styles: [(Style, [&str; 6]); 5] = [
+            (significant, ["1235", "2", "1e-5", "1.235e7", "-0.25", "0"]),
+            (
+                figure,
+                ["1234.6", "2.0000", "1.0000e-5", "1.2346e7", "-0.25000", "0"],
+            ),
+            (brief, ["1235", "2.00", "1.00e-5", "1.23e7", "-0.250", "0"]),
+            (scientific, ["1235", "2", "1e−5", "1.2e7", "−0.25", "0"]),
+            (tooltip, ["1234.57", "2", "1e−5", "1.23457e7", "−0.25", "0"]),
+        ];
+        for (style, expected) in styles {
+            let values = [1234.5678, 2.0, 0.000_01, 12_345_678.0, -0.25, -0.0];
+            assert_eq!(values.map(style), expected);
+        }
+        assert_eq!(
+            [1234.5678, 2.0, -0.000_01].map(|x| decimals(x, 2)),
+            ["1234.57", "2", "0"]
+        );
+    }
+
+    #[test]
+    fn digits_are_counted_after_rounding_and_nothing_is_no_number() {
+        assert_eq!(figure(9.999_99), "10.000");
+        assert_eq!(significant(1e-12), "0");
+        assert_eq!(
+            [f64::NAN, f64::INFINITY].map(figure),
+            ["-".to_owned(), "-".to_owned()]
+        );
+        assert_eq!(tooltip(f64::NEG_INFINITY), "−inf");
+    }
+
+    #[test]
+    fn whole_numbers_costs_and_times_read_well() {
+        assert_eq!(grouped("13841287201"), "13,841,287,201");
+        assert_eq!(
+            ["-123", "-1234", "999"].map(grouped),
+            ["-123", "-1,234", "999"]
+        );
+        assert_eq!([11_500, -2_000, 7].map(cost), ["11.5", "-2", "0.007"]);
+        assert_eq!([4.21e-6, 0.0123].map(duration), ["4.2 µs", "12 ms"]);
+        assert_eq!([-3, 1].map(signed), ["−3", "+1"]);
+    }
+}

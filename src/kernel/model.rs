@@ -4,15 +4,91 @@
 //! Text formats live in `import`; nothing here reads a file.
 
 pub mod claim;
-pub mod coupling;
 #[cfg(test)]
 pub(crate) mod drawn;
 pub mod drive;
 mod driven;
 pub mod grip;
-pub mod id;
 pub mod joint_type;
 pub mod loads;
 pub mod mechanism;
 pub mod ranking;
 pub mod rounded;
+
+use serde::Serialize;
+use std::ops::{Index, IndexMut};
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+        pub struct $name(usize);
+
+        impl $name {
+            /// The id of the part at this place of its list.
+            #[must_use]
+            pub const fn new(index: usize) -> Self {
+                Self(index)
+            }
+
+            /// The part's place in its list, from 0.
+            #[must_use]
+            pub const fn index(self) -> usize {
+                self.0
+            }
+
+            /// The ids of the first `count` parts, in order.
+            pub fn first(count: usize) -> impl DoubleEndedIterator<Item = Self> + ExactSizeIterator + Clone + use<> {
+                (0..count).map(Self)
+            }
+        }
+
+        impl<T> Index<$name> for [T] {
+            type Output = T;
+
+            fn index(&self, id: $name) -> &T {
+                &self[id.0]
+            }
+        }
+
+        impl<T> IndexMut<$name> for [T] {
+            fn index_mut(&mut self, id: $name) -> &mut T {
+                &mut self[id.0]
+            }
+        }
+
+        impl<T> Index<$name> for Vec<T> {
+            type Output = T;
+
+            fn index(&self, id: $name) -> &T {
+                &self[id.0]
+            }
+        }
+
+        impl<T> IndexMut<$name> for Vec<T> {
+            fn index_mut(&mut self, id: $name) -> &mut T {
+                &mut self[id.0]
+            }
+        }
+    };
+}
+
+id! {
+    /// A link, by its place in [`Mechanism::links`](mechanism::Mechanism::links).
+    LinkId
+}
+
+id! {
+    /// A joint, by its place in [`Mechanism::joints`](mechanism::Mechanism::joints).
+    JointId
+}
+
+id! {
+    /// A state, by its place in [`Mechanism::states`](mechanism::Mechanism::states).
+    StateId
+}
+
+impl StateId {
+    /// The state every mechanism has, with nothing clamped or added; the first of a file.
+    pub const FREE: StateId = StateId(0);
+}

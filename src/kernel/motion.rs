@@ -1,4 +1,4 @@
-//! Poses of closed mechanisms, and mechanisms followed along a drive.
+//! Poses of closed mechanisms, mechanisms in another of their poses, and mechanisms followed along a drive.
 
 pub mod close;
 pub mod drive_range;
@@ -6,3 +6,55 @@ pub mod follow;
 pub mod jaws;
 pub mod pose;
 pub mod working;
+
+use crate::geom::expr::Expr;
+use crate::geom::vector::{Vector, add, length, real, scale, sub};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::motion::pose::Pose;
+
+/// The mechanism with every joint where the pose has it; none where a number is too large.
+///
+/// # Complexity
+/// One pass over the joints.
+#[must_use]
+pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
+    let mut out = m.clone();
+    let written = |v: Vector| -> Option<[Expr; 3]> {
+        let [x, y, z] = v.map(|x| Expr::from_f64(x).ok());
+        Some([x?, y?, z?])
+    };
+    for (j, joint) in m.joints_with_ids() {
+        let freedoms = joint.joint_type.freedoms();
+        // As poses have it: a slot is of the second link and its pin of the first; else a guide is of the first.
+        let has = |f| freedoms.contains(&f);
+        let slot = has(Freedom::Tx) && !has(Freedom::Ty);
+        let carrier = joint.links[usize::from(!slot)];
+        let at = sub(real(&joint.frame.point), pose.middle);
+        let at = pose.links[carrier.index()].point(scale(at, 1.0 / pose.length));
+        let frame = &mut out.joints[j].frame;
+        frame.point = written(add(scale(at, pose.length), pose.middle))?;
+        let of = |wanted: &[Freedom]| direction(pose, j, wanted);
+        let carried = |d: &[Expr; 3]| pose.links[joint.links[0].index()].direction(real(d));
+        let z = of(&[Freedom::Rz, Freedom::Tz, Freedom::Screw]);
+        let x = of(&[Freedom::Rx, Freedom::Tx]);
+        frame.axis = written(z.unwrap_or_else(|| carried(&joint.frame.axis)))?;
+        frame.reference = written(x.unwrap_or_else(|| carried(&joint.frame.reference)))?;
+    }
+    Some(out)
+}
+
+/// A direction of a link in another pose, as it is in the pose of the file.
+#[must_use]
+pub(crate) fn turned_back(pose: &Pose, link: LinkId, d: Vector) -> Vector {
+    pose.links[link.index()].inverse().direction(d)
+}
+
+/// The line of the first of some freedoms that a joint has.
+fn direction(pose: &Pose, joint: JointId, wanted: &[Freedom]) -> Option<Vector> {
+    let mut columns = pose.columns.iter();
+    let found = columns.find(|c| c.joint == joint && wanted.contains(&c.freedom))?;
+    let [a, b, c, d, e, f] = found.twist;
+    let (turn, shift) = ([a, b, c], [d, e, f]);
+    Some(if length(turn) > 0.0 { turn } else { shift })
+}

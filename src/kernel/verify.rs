@@ -17,7 +17,7 @@ pub use flaw::Flaw;
 use num_bigint::BigInt;
 use num_traits::Zero;
 
-use crate::linalg::common_denominator::common_denominator;
+use crate::linalg::common_denominator;
 use crate::linalg::number_ring::{Element, combine};
 use certificate::{Certificate, KernelVector};
 use matrix::MatrixOverRing;

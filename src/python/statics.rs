@@ -6,7 +6,7 @@ use ozols::file::read::workload::motion;
 use ozols::grip::clamped::{ClampingReactions, clamped};
 use ozols::grip::jaw_loads::{Gripping, JawError};
 use ozols::model::mechanism::StateId;
-use ozols::redundancy::with_drives_held::exact_self_stresses;
+use ozols::redundancy::stress::exact_self_stresses;
 use ozols::statics::contour_group::solutions::GroupMethod;
 use ozols::statics::reactions::Unsolved;
 use ozols::statics::solve::{Model, SolvedReactions, StaticsError, solve};

@@ -29,7 +29,7 @@ pub mod verdict;
 mod workload;
 
 use crate::format::plain::straight;
-use crate::redundancy::analysis::AnalysisError;
+use crate::redundancy::AnalysisError;
 use crate::view::analysis::Analysis;
 use data::Data;
 use maud::{Markup, PreEscaped, html};

@@ -4,7 +4,7 @@ use crate::common::built_in;
 use ozols::builtin;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
-use ozols::redundancy::figures::{StateFigures, figures};
+use ozols::redundancy::{StateFigures, figures};
 
 #[test]
 fn every_built_in_mechanism_has_the_figures_it_states() {

@@ -232,7 +232,7 @@ fn rods_and_rockers_are_told_apart() {
     for (link, on_frame) in [("2", false), ("6", false), ("3", true), ("7", true)] {
         let l = m.links.iter().position(|x| x.id == link).unwrap();
         let joined = |j: &&ozols::model::mechanism::Joint| {
-            let at = j.links.map(ozols::model::id::LinkId::index);
+            let at = j.links.map(ozols::model::LinkId::index);
             at.contains(&l) && at.contains(&m.frame().index())
         };
         assert_eq!(m.joints.iter().any(|j| joined(&j)), on_frame, "{link}");

@@ -7,7 +7,7 @@ use ozols::closure::contour::{closed_walk, contour_basis};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse};
-use ozols::redundancy::figures::figures;
+use ozols::redundancy::figures;
 use petgraph::algo::dijkstra;
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;

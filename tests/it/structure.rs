@@ -6,7 +6,7 @@ use crate::search::twin;
 use ozols::accuracy::lattice::{self, LatticeKind};
 use ozols::builtin;
 use ozols::closure::contour::Contour;
-use ozols::closure::matrix::{Closure, Column, CouplingRow};
+use ozols::closure::{Closure, Column, CouplingRow};
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::exact::ExactField;
 use ozols::linalg::echelon;

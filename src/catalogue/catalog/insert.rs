@@ -3,7 +3,7 @@
 use crate::catalog::drawn::{DrawnMechanism, known};
 use crate::catalog::entered::{Entered, LaidOut, StructureColumns};
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
-use crate::format::number;
+use crate::format;
 use crate::geom::vector::sides;
 use crate::model::ranking::Term;
 use crate::synthesis::stroke::planes::Stacking;
@@ -110,7 +110,7 @@ fn structure<S, L>(
 
 /// Rounded to what the figure is worth, so that the file does not depend on the last bits.
 fn rounded(x: f64) -> f64 {
-    number::rounded(if x.abs() < 1e-9 { 0.0 } else { x }, 4)
+    format::rounded(if x.abs() < 1e-9 { 0.0 } else { x }, 4)
 }
 
 fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {

@@ -11,7 +11,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::rank::finite::Finite;
 use crate::rank::method::auto::{Decision, decide};
-use crate::redundancy::analysis::AnalysisError;
+use crate::redundancy::AnalysisError;
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
 use crate::score::evaluation::terms::Scores;

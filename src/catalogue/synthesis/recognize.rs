@@ -15,7 +15,7 @@ use crate::chains::pairs::chain::PairChain;
 use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
-use crate::model::id::StateId;
+use crate::model::StateId;
 use crate::model::mechanism::Mechanism;
 use found::jaws;
 use in_plane::InPlane;

@@ -11,7 +11,7 @@ use crate::file::lint::{Checked, across, check};
 use crate::file::locate::DocumentStep;
 use crate::file::read::workload::tables_alone;
 use crate::file::warning::{WarningKind, Warnings};
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::{Expected, Mechanism};
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};

@@ -3,7 +3,7 @@
 use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
 use crate::cli::done::Done;
 use crate::cli::terminal::output;
-use crate::format::number::significant;
+use crate::format::significant;
 use crate::grip::clamped::{ClampingReactions, clamped};
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;

@@ -11,7 +11,7 @@ use crate::cli::option::variant::Chosen;
 use crate::cli::option::variant::tell;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::note;
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;

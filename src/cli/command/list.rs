@@ -6,7 +6,7 @@ use crate::cli::terminal::did_you_mean;
 use crate::cli::terminal::output;
 use crate::format::csv;
 use crate::model::mechanism::StateId;
-use crate::redundancy::figures::figures;
+use crate::redundancy::figures;
 use crate::view::terminal::layout::{fit, table};
 use anyhow::Context;
 use clap::{Args as ClapArgs, ValueEnum};

@@ -11,7 +11,7 @@ use crate::cli::terminal::machine;
 use crate::cli::terminal::memory;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::SearchWatch;
-use crate::format::number::{duration, grouped};
+use crate::format::{duration, grouped};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::WhyNone;
 use crate::score::request::{List, Method, Request};

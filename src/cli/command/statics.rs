@@ -13,7 +13,7 @@ use crate::file::read::workload::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::redundancy::with_drives_held::exact_self_stresses;
+use crate::redundancy::stress::exact_self_stresses;
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;

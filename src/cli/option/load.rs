@@ -9,7 +9,7 @@ use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::geom::expr::Expr;
-use crate::model::coupling::Coupling;
+use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::robots;
 use anyhow::{bail, ensure};

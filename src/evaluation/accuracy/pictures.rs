@@ -6,8 +6,7 @@ use super::survey::{Case, MethodRecord, Reply, Survey};
 use super::timing::{Machine, quantile};
 use super::tuned::Tuned;
 use crate::chart::{Axis, Bands, Cell, Chart, Matrix, Scale, Series, Style, VerdictKind};
-use crate::format::number::{duration, scientific, signed};
-use crate::format::phrase::list;
+use crate::format::{duration, list, scientific, signed};
 use crate::rank::method::MobilityMethod;
 use crate::rank::method::registry;
 

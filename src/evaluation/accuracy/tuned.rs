@@ -2,8 +2,8 @@
 
 use super::AnswerVerdict;
 use super::cases::Case;
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::rank::method::registry;
 use crate::rank::method::{Answer, Certainty, NoAnswer, Quantity};
 use crate::rank::numeric::Elimination;

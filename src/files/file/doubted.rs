@@ -3,7 +3,7 @@
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::schema::MechanismFile;
 use crate::file::warning::WarningKind;
-use crate::format::number::significant;
+use crate::format::significant;
 use crate::geom::expr::Expr;
 use crate::model::mechanism::Mechanism;
 use crate::model::rounded::ratio::{doubt, doubt_of};

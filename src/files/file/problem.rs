@@ -1,6 +1,6 @@
 //! What can be wrong with a file, in words that name the item and the remedy.
 
-use crate::format::phrase::plural;
+use crate::format::plural;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;

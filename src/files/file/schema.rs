@@ -8,7 +8,7 @@ mod tolerance;
 mod words;
 mod workload;
 
-use crate::format::phrase::disjunction;
+use crate::format::disjunction;
 use crate::model::joint_type::JointType;
 pub use drive::DriveEntry;
 pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};

@@ -17,8 +17,7 @@ use crate::file::schema::{
 use crate::file::write::number::{component, coordinate, ratio};
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
-use crate::model::coupling::Coupling;
-use crate::model::joint_type::{Freedom, JointType};
+use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment, Stiffness};
 use crate::model::mechanism::{
     Expected, Frame, Joint, JointId, JointOption, Mechanism, Mode, Role, StateId,

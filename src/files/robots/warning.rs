@@ -1,6 +1,6 @@
 //! What an import mapped, approximated and dropped.
 
-use crate::format::phrase::plural;
+use crate::format::plural;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

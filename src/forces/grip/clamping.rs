@@ -1,6 +1,6 @@
 //! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
 
-use crate::format::number::decimals;
+use crate::format::decimals;
 use crate::geom::vector::{length, unit};
 use crate::grip::contact::{Gripper, TouchingPose, Unholdable};
 use crate::grip::holding::{

@@ -3,7 +3,7 @@
 //! D'Alembert: with the inertia forces added, each body is in equilibrium. Three equations a body, two unknowns a pair
 //! (force of a turning pair; normal force and moment of a sliding one) and one more a drive.
 
-use crate::geom::scalars::{Reals, Scalars};
+use crate::geom::{Reals, Scalars};
 use crate::model::loads::{Inertia, acts_at};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::Decomposition;

@@ -3,8 +3,8 @@
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
-use crate::geom::scalars::{Reals, Scalars};
 use crate::geom::vector::{X, Y, Z, across, cross, dot, length, real, unit};
+use crate::geom::{Reals, Scalars};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
 use std::fmt;

@@ -5,11 +5,10 @@
 //! s_b - ratio·(|a|/|b|)·s_a = 0 for speeds s on axes a and b.
 
 use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
-use crate::geom::scalars::Reals;
-use crate::model::coupling::Coupling;
-use crate::model::joint_type::Freedom;
+use crate::model::joint_type::{Coupling, Freedom};
 use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
 
 /// Squares of lengths that differ by less than this part are those of two axes of one length, written in decimals.

@@ -8,8 +8,8 @@ use crate::closure::coupling::square;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
-use crate::geom::scalars::{Reals, Scalars};
 use crate::geom::vector::{cross, dot, length};
+use crate::geom::{Reals, Scalars};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, Mechanism};
 

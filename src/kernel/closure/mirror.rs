@@ -1,9 +1,9 @@
 //! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
 
 use crate::closure::symmetry_image::{Carrier, Map, Miss, Spot};
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
-use crate::geom::scalars::Scalars;
 use crate::geom::vector::{Vector, dot, length, real};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Frame, JointId, Mechanism};

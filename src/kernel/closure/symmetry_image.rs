@@ -1,9 +1,9 @@
 //! Whether a joint is the image of another when space is reflected or turned, and by how much it is not.
 
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
-use crate::format::number::brief;
+use crate::format::brief;
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Scalars;
 use crate::geom::vector::{Vector, cross, dot, length, real};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};

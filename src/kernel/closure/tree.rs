@@ -1,7 +1,9 @@
-//! Breadth-first spanning trees: of the links of a mechanism, and of any graph.
+//! Breadth-first spanning trees: of the links of a mechanism, and of any graph; and what groups tie together, directly or through
+//! others, as joints are by the contours and couplings that they share.
 
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
-use std::collections::VecDeque;
+use petgraph::unionfind::UnionFind;
+use std::collections::{BTreeMap, VecDeque};
 
 /// A node reached from one reached before; links through a joint, where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -127,8 +129,30 @@ pub fn forest(
     (roots, steps)
 }
 
+/// The sets that groups of things tie them into; each ascending, in the order of their first members.
+///
+/// # Complexity
+/// O(n log n) for groups of n things in all.
+pub(crate) fn tied<T: Ord + Copy>(groups: impl IntoIterator<Item = Vec<T>>) -> Vec<Vec<T>> {
+    let groups: Vec<Vec<T>> = groups.into_iter().collect();
+    let mut number: BTreeMap<T, usize> = groups.iter().flatten().map(|&t| (t, 0)).collect();
+    number.values_mut().zip(0..).for_each(|(n, i)| *n = i);
+    let mut sets = UnionFind::new(number.len());
+    for pair in groups.iter().flat_map(|g| g.windows(2)) {
+        sets.union(number[&pair[0]], number[&pair[1]]);
+    }
+    let mut out: BTreeMap<usize, Vec<T>> = BTreeMap::new();
+    for (&t, &n) in &number {
+        out.entry(sets.find(n)).or_default().push(t);
+    }
+    let mut out: Vec<Vec<T>> = out.into_values().collect();
+    out.sort_unstable();
+    out
+}
+
 #[cfg(test)]
 mod tests {
+    use super::tied;
     use super::*;
     use proptest::prelude::*;
 
@@ -156,5 +180,11 @@ mod tests {
         // 0-1 late, 0-2 and 2-1 early: 1 is reached the long way.
         let (_, steps) = forest(3, [[0, 1], [0, 2], [2, 1]], |e| e == 0, [0]);
         assert_eq!(steps.iter().map(|s| s.joint).collect::<Vec<_>>(), [1, 2]);
+    }
+
+    #[test]
+    fn groups_are_tied_through_others() {
+        let groups = [vec![5, 2], vec![9], vec![], vec![3, 4, 5], vec![7, 9]];
+        assert_eq!(tied(groups), [vec![2, 3, 4, 5], vec![7, 9]]);
     }
 }

@@ -1,9 +1,9 @@
 //! Half and third turns: whether joints that a file groups become each other when space is turned about one axis.
 
 use crate::closure::symmetry_image::{Carrier, Map, Spot};
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::exact_vector::{ExactVector, cross, sub};
-use crate::geom::scalars::Scalars;
 use crate::geom::vector::{self, Vector, dot, length, real};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism};

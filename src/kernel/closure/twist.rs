@@ -4,9 +4,9 @@
 //! passes through the global origin, in global axes. A wrench is (moment about the origin; force) written as (m; f), so
 //! that its power on a twist is the plain scalar product of the six numbers.
 
+use crate::geom::Scalars;
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
-use crate::geom::scalars::Scalars;
 use crate::geom::vector::length;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, Mode};

@@ -18,12 +18,12 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::One;
 
+use super::Scalars;
 use super::exact::ExactError;
 use super::exact::eval::{self, Target};
 use super::exact::plan::PrimePlan;
 use super::exact::radical::{Radical, factor};
 use super::expr::Expr;
-use super::scalars::Scalars;
 use crate::linalg::number_ring::{Element, NumberRing};
 use cosine::cosine_relation;
 

@@ -15,7 +15,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::linalg::common_denominator::common_denominator;
+use crate::linalg::common_denominator;
 use crate::linalg::modp::{Field, Residue};
 pub use element::Element;
 

@@ -1,6 +1,6 @@
 //! The directions of a scene that are written, parallel ones as one.
 
-use super::caution::WITHIN;
+use super::WITHIN;
 use super::consensus::{Refined, refined, square_to};
 use super::written::{Ray, pairs};
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale, unit};

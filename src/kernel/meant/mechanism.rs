@@ -1,8 +1,8 @@
 //! A mechanism as a scene, and the scene that is meant as a mechanism.
 
+use super::MeantScene;
 use super::number::{Rational3, is_same};
 use super::resolve::{Resolved, resolve};
-use super::scene::MeantScene;
 use super::written::{Ray, WrittenPoint, WrittenScene, WrittenSymmetry};
 use crate::closure::contour::contour_basis;
 use crate::geom::expr::Expr;

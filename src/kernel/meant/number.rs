@@ -1,7 +1,7 @@
 //! Rational numbers near doubles, and vectors of them.
 
 use crate::geom::vector::Vector;
-use crate::linalg::common_denominator::{common_denominator, whole};
+use crate::linalg::{common_denominator, whole};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};

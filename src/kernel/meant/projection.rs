@@ -2,7 +2,7 @@
 //! taken so far still hold with no coordinate moved by more than its digits allow.
 
 use super::relations::Relation;
-use super::row::PointEquation;
+use super::solve::PointEquation;
 use crate::geom::vector::{Vector, dot, sub};
 
 /// What became of a relation.

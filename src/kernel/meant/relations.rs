@@ -2,7 +2,7 @@
 
 use super::exact_directions::Exact;
 use super::number::{Rational3, axes, cross, scaled, to_f64};
-use super::row::PointEquation;
+use super::solve::PointEquation;
 use super::written::SPREAD;
 use crate::geom::vector::{self, Vector, add, dot, length, sub, unit};
 

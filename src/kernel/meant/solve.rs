@@ -1,14 +1,5 @@
 //! Linear relations solved exactly: free coordinates keep decimals, the others follow.
 
-use super::number::Rational3;
-use super::row::PointEquation;
-use crate::linalg::common_denominator::{common_denominator, common_multiple, whole};
-use num_bigint::BigInt;
-use num_integer::Integer;
-use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
-use std::collections::BTreeMap;
-
 /// A pivot is at least this part of the largest.
 const LARGE: f64 = 0.2;
 /// Operations on words after which it is given up: a second or two. Numbers grow long where many relations of no pattern lean on
@@ -237,3 +228,34 @@ pub(super) fn solve(
 
 #[cfg(test)]
 mod tests;
+
+use super::number::Rational3;
+use crate::linalg::{common_denominator, common_multiple, whole};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::collections::BTreeMap;
+
+/// Σ coefficient · normal · point = 0, the coefficients adding up to zero.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PointEquation {
+    /// Points with their coefficients.
+    pub(crate) terms: Vec<(usize, i32)>,
+    /// Which of the normals.
+    pub(crate) normal: usize,
+}
+
+impl PointEquation {
+    /// One with the coefficients of each point added up, and without those that cancel.
+    pub(crate) fn sum(terms: &[(usize, i32)], normal: usize) -> PointEquation {
+        let mut sum = BTreeMap::new();
+        for &(point, c) in terms {
+            *sum.entry(point).or_insert(0) += c;
+        }
+        PointEquation {
+            terms: sum.into_iter().filter(|t| t.1 != 0).collect(),
+            normal,
+        }
+    }
+}

@@ -5,7 +5,7 @@
 use super::directions::{Direction, Directions};
 use super::number::Rational3;
 use super::relations::{Normals, Relation, RelationKind};
-use super::row::PointEquation;
+use super::solve::PointEquation;
 use super::written::{SPREAD, WrittenSymmetry};
 use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, sub, unit};
 use num_bigint::BigInt;

@@ -1,8 +1,8 @@
 //! Drives: which freedom a driven joint moves, and the drives that a search follows.
 
-use crate::model::id::{JointId, LinkId};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, Mechanism};
+use crate::model::{JointId, LinkId};
 
 impl Joint {
     /// Returns the freedom that the drive moves: the one that the file names, else the thread, else the slide along the axis, else

@@ -1,6 +1,6 @@
 //! What a file says of a two-lever gripper and what it must hold. SI units, angles in radians.
 
-use crate::model::id::JointId;
+use crate::model::JointId;
 
 /// Where the levers' pivots are.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 use crate::geom::expr::Expr;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
-use crate::model::id::{JointId, LinkId, StateId};
+use crate::model::{JointId, LinkId, StateId};
 
 /// Inertia of a link about its mass centre `[kg·m²]`.
 #[derive(Debug, Clone, Copy, PartialEq)]

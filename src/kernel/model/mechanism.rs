@@ -2,13 +2,12 @@
 
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
-use crate::model::coupling::{CoupledFreedom, Coupling};
-use crate::model::joint_type::{Freedom, JointType};
+use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
 use crate::model::loads::{Loads, MassProperties};
 use crate::model::ranking::{Ranking, TypeOverride};
 use std::sync::Arc;
 
-pub use crate::model::id::{JointId, LinkId, StateId};
+pub use crate::model::{JointId, LinkId, StateId};
 
 /// What a link is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

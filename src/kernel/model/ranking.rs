@@ -1,6 +1,6 @@
 //! How a file wants variants ranked, and what it says of joint types.
 
-use crate::model::id::StateId;
+use crate::model::StateId;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 

@@ -5,21 +5,24 @@
 //! tilted, and constraints that are redundant in truth count as independent.
 
 mod class;
-mod long;
 pub mod ratio;
 mod source;
 mod uncertainty;
 
+pub use source::{Largest, Sources};
+pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
+
 use crate::geom::expr::{End, Expr, PI_DIGITS, WrittenNumber};
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{Frame, Mechanism, Mode};
+use class::is_rounded;
 use std::collections::BTreeMap;
 use std::fmt;
 
-use class::is_rounded;
-pub use long::{LONG_DIRECTION, LONG_LENGTH};
-pub use source::{Largest, Sources};
-pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
+/// Lengths with so many significant digits may have been rounded.
+pub const LONG_LENGTH: usize = 4;
+/// Components of directions with so many may.
+pub const LONG_DIRECTION: usize = 3;
 
 /// Decimals with at least this many significant digits count as measured or computed, not chosen.
 pub const DIGITS: usize = 9;

@@ -10,13 +10,12 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::spanning_tree;
 use crate::closure::twist::{FrameValues, MotionSpace, Twist, unit_twist};
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::extent::OwnScale;
 use crate::geom::rigid::{RigidMotion, halves};
-use crate::geom::scalars::Reals;
 use crate::geom::vector::{self, across, cross, dot, sub};
-use crate::model::coupling::{CoupledFreedom, Coupling};
-use crate::model::joint_type::Freedom;
+use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use itertools::Itertools;
 use ozols_dense::Matrix;

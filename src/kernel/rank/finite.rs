@@ -18,9 +18,9 @@ pub(in crate::rank) mod second_order;
 mod singular;
 pub(in crate::rank) mod tangent_cone;
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Reals;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;

@@ -6,8 +6,8 @@ pub mod scaling;
 pub(in crate::rank) mod values;
 
 use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
 pub use crate::rank::numeric::scaling::NumericRank;
 use crate::rank::numeric::scaling::{as_it_stands, rank_of_values, scaled};

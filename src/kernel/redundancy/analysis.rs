@@ -1,10 +1,8 @@
 //! The structure of a mechanism in each of its states.
 
-mod error;
-
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::geom::exact::ExactField;
-use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::exact::certificate::{self, Budget};
 pub use crate::rank::exact::field::exact_field;
@@ -17,6 +15,7 @@ pub use crate::rank::numeric::Elimination;
 use crate::rank::numeric::NumericRank;
 use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::rank::rounded::verdict::Meant;
+use crate::redundancy::AnalysisError;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::contour_shares::{coupling_shares, shares};
 use crate::redundancy::drives::{DriveFault, drive_faults};
@@ -24,10 +23,8 @@ pub use crate::redundancy::external::External;
 use crate::redundancy::external::{external, freedoms_of, int, present_links};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::measured::Measured;
-use crate::redundancy::motion::motions;
+use crate::redundancy::motion::{motions, outputs, span_of_links};
 use crate::redundancy::stress::{SelfStress, self_stresses};
-use crate::redundancy::working_mobility::{outputs, span_of_links};
-pub use error::AnalysisError;
 
 /// How the rank is found.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! How the redundant constraints are shared out among the contours.
 
+use crate::closure::Closure;
 use crate::closure::contour::Contour;
-use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;

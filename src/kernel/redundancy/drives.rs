@@ -1,6 +1,6 @@
 //! What a designer has to know of the drives of a mechanism: which are locked, which fight, and where the outputs stand still.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;

@@ -1,6 +1,6 @@
 //! The external constraints: what a clamped object, or any other state, adds to the free mechanism.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;

@@ -1,9 +1,9 @@
 //! What a self-stress puts on each joint, in any number system.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::Scalars;
 use crate::geom::exact::ExactError;
-use crate::geom::scalars::Scalars;
 use crate::model::mechanism::{JointId, Mechanism};
 
 /// A wrench about the global origin, (m; f) in global axes.

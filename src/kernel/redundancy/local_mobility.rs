@@ -1,8 +1,8 @@
 //! Local mobilities: links that move while every output rests, and about which lines.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
+use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::{Echelon, combination, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};

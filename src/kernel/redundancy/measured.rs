@@ -1,8 +1,8 @@
 //! The structure of a state by singular values, for measured geometry that exact arithmetic would take at its word.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled};
 use crate::redundancy::contour_shares::{ContourShare, CouplingShare, over_bases};

@@ -1,13 +1,14 @@
-//! What can move: the kernel of the closure matrix, and the motions of links it gives.
+//! What can move: the kernel of the closure matrix, the motions of links it gives, and the mobility that is at work, that of the output
+//! links.
 
 use crate::closure::drive::{rate, rate_row};
-use crate::closure::matrix::{Closure, Column};
 use crate::closure::twist::MotionSpace;
+use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::{self, Echelon};
 use crate::linalg::modp::Residue;
-use crate::model::coupling::CoupledFreedom;
-use crate::model::mechanism::{LinkId, Mechanism, StateId};
+use crate::model::joint_type::CoupledFreedom;
+use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
 
 /// A motion of the whole mechanism: a speed for each column of J.
 pub type Speeds = Vec<Residue>;
@@ -82,4 +83,47 @@ fn drive_rates(
         Ok(closure.columns.iter().map(of_column).collect())
     };
     mechanism.search.drives.iter().map(of_drive).collect()
+}
+
+/// Dimension of the output links' joint motion, alone.
+///
+/// # Errors
+/// Where a coordinate has no image in the field.
+///
+/// # Complexity
+/// O(f³) field operations for f freedoms.
+pub fn working_mobility(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<usize, ExactError> {
+    let closure = Closure::new(exact, mechanism, state)?;
+    let kernel = motions(exact, &closure);
+    let outputs = outputs(mechanism);
+    Ok(span_of_links(exact, mechanism, &closure, &kernel, &outputs))
+}
+
+/// The links whose motion is wanted.
+pub(crate) fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
+    mechanism
+        .link_ids()
+        .filter(|&l| mechanism.links[l].role == Role::Output)
+        .collect()
+}
+
+/// Dimension of the joint motion of some links over a basis of motions.
+pub(crate) fn span_of_links(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    kernel: &[Speeds],
+    links: &[LinkId],
+) -> usize {
+    let paths = closure.link_motions(exact, mechanism, links);
+    let mut span = Echelon::new(exact.field());
+    for speeds in kernel {
+        let all: Vec<Residue> = paths.iter().flat_map(|p| twist(exact, p, speeds)).collect();
+        span.insert(&all);
+    }
+    span.rank()
 }

@@ -1,7 +1,7 @@
 //! Whether what is redundant at the pose of the file is so over the motion: proven, followed, seen in further poses, or
 //! not known.
 
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;

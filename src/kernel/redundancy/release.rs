@@ -7,8 +7,8 @@
 //! the greedy choice finds it. The rows of joints that such a set lets go are what is redundant, in the joints' own words.
 
 use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::scalars::Reals;
 use crate::geom::vector::{Vector, cross, dot, length, real, sub, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism};

@@ -1,13 +1,19 @@
 //! Self-stresses: the wrenches that an over-constrained mechanism carries with no load at all, once a part is a little
 //! out of true. They are the left null vectors of the closure matrix; each row block is the wrench that a contour
 //! passes round, and the entry of a coupling's row the force or moment that it passes from one joint to the other.
+//!
+//! Self-stresses while drives hold their freedoms, in exact geometry: the singular values that reactions come from take what is
+//! nearly dependent for dependent.
 
-use crate::closure::matrix::Closure;
+use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::{Echelon, combination, relations, transpose};
 use crate::linalg::modp::Residue;
-use crate::model::joint_type::JointType;
-use crate::model::mechanism::{JointId, Mechanism};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
+use crate::model::rounded::looks_rounded;
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
 use crate::redundancy::joint_wrench::JointWrenches;
 use crate::redundancy::stress_loads::{Borne, Faces, Shares};
 use itertools::Itertools;
@@ -255,4 +261,35 @@ fn first_those_without(
     });
     let rest = with.into_iter().filter(|s| span.insert(s)).collect();
     (without, rest)
+}
+
+/// Self-stresses of a state in the pose of the file, with the freedoms that drives hold, by one prime; `None` for mechanisms of
+/// a plane, whose equations are others, and where coordinates look rounded, so that they do not say.
+///
+/// # Complexity
+/// That of [`modular::rank`].
+#[must_use]
+pub fn exact_self_stresses(
+    m: &Mechanism,
+    state: StateId,
+    drives: &[(JointId, Freedom)],
+) -> Option<usize> {
+    if matches!(m.mode, Mode::Planar { .. }) || looks_rounded(m).is_some() {
+        return None;
+    }
+    let exact = field_of(m, state, 0).ok()?;
+    let mut closure = Closure::new(&exact, m, state).ok()?;
+    let held = |c: &Column<Residue>| drives.contains(&(c.joint, c.freedom));
+    // Held freedoms stay where they are, as columns of nothing: the rows of couplings know them by their places.
+    for (i, column) in closure
+        .columns
+        .iter_mut()
+        .enumerate()
+        .filter(|(_, c)| held(c))
+    {
+        column.twist.fill(0);
+        let entries = closure.couplings.iter_mut().flat_map(|q| &mut q.entries);
+        entries.filter(|(c, _)| *c == i).for_each(|(_, x)| *x = 0);
+    }
+    Some(closure.rows() - modular::rank(&exact, &closure))
 }

@@ -4,9 +4,9 @@
 //! entries (and, of friction at the contacts, by what it does not do to the faces): the bases are in reduced form, so that no
 //! other self-stress has its zeros. Its real numbers are the one solution of the closure equations of those rows.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::scalars::Reals;
 use crate::geom::vector::{Vector, dot, scale, sub};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism};

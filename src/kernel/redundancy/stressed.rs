@@ -1,10 +1,10 @@
 //! The self-stresses of a mechanism, part by part: which constraints they load, and which releases remove them.
 
-use crate::closure::matrix::{Closure, Part};
 use crate::closure::twist::MotionSpace;
+use crate::closure::{Closure, Part};
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::perpendicular;
-use crate::geom::scalars::Reals;
 use crate::geom::vector::{Vector, across, cross, length, real, unit};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::finite::independent_parts::parts;

@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 use num_traits::One;
 
-use crate::linalg::common_denominator::common_multiple;
+use crate::linalg::common_multiple;
 use crate::linalg::number_ring::{Element, NumberRing};
 
 /// A sparse matrix over a number ring.

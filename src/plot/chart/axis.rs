@@ -2,7 +2,7 @@
 
 use super::data::Scale;
 use crate::chart::style::{self, TICK};
-use crate::format::number::minus;
+use crate::format::minus;
 use crate::svg::text;
 
 /// The range of an axis with its ticks; places are fractions of the axis from its low end.

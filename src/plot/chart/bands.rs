@@ -4,7 +4,7 @@ use super::axis::{AxisFit, Room, Ruler};
 use super::data::{Bands, Scale, VerdictKind};
 use super::frame::{self, Head};
 use crate::chart::style::{PAD, TICK, WIDTH};
-use crate::format::number::tooltip;
+use crate::format::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::Xml;

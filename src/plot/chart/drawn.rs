@@ -1,10 +1,9 @@
 //! The series of a chart on paper: lines, marks, names.
 
 use super::data::{Series, Style};
-use super::frame;
-use super::labels;
+use super::{frame, labels};
 use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
-use crate::format::number::tooltip;
+use crate::format::tooltip;
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::{Xml, number};

@@ -2,8 +2,7 @@
 
 use super::frame::{Head, begin, stroke};
 use crate::chart::style::{PAD, WIDTH};
-use crate::format::csv;
-use crate::format::number::significant;
+use crate::format::{csv, significant};
 
 /// Closed curves on one centre.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,7 @@
 
 use super::frame::{Head, begin, stroke};
 use crate::chart::style::{PAD, WIDTH};
-use crate::format::csv;
-use crate::format::number::significant;
+use crate::format::{csv, significant};
 use crate::svg::plane::{Point, Rect, add, norm, scale, sub, unit};
 
 /// A vector of a plan.

@@ -1,6 +1,6 @@
 //! A small XML writer: it closes what it opens, escapes what it is given and writes numbers in one way.
 
-use crate::format::number::decimals;
+use crate::format::decimals;
 use crate::format::plain::straight;
 
 /// A document being written.

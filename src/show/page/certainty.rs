@@ -1,7 +1,7 @@
 //! How sure the figures of a page are: the same words as those of `analyze` and `search`.
 
 use super::contents::{Page, Redesigns};
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::search::check::second_prime::{PrimeCheck, Verdict};
 use crate::view::analysis::{Analysis, LeftOut, State};
 use crate::view::search::stopped_early;

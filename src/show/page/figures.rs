@@ -1,6 +1,6 @@
 //! The figures of a variant in every state.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
 use crate::rank::exact::modular;

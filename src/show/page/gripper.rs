@@ -1,8 +1,7 @@
 //! A gripper of a catalogue as numbers, for the script that draws and moves it.
 
 use crate::geom::vector::{Vector, length, real, sides, turned, unit};
-use crate::model::coupling::Coupling;
-use crate::model::joint_type::{Freedom, JointType};
+use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role, StateId};
 use itertools::Itertools;
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use crate::draw::Moved;
 use crate::file::read::workload::motion::stroke;
-use crate::format::number::decimals;
+use crate::format::decimals;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::motion::drive_range::{SLIDE, Way, way as way_of};

@@ -2,7 +2,7 @@
 
 use super::symbols::Drawn;
 use super::verdict;
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::model::mechanism::{Mechanism, Mode};
 use crate::view::analysis::{Analysis, Contour, External, SelfStress, State};
 use maud::{Markup, PreEscaped, html};

@@ -5,7 +5,7 @@ use super::figures;
 use super::number::PageNumber;
 use super::workload::{WorkloadColumns, workload};
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::analysis::AnalysisError;
+use crate::redundancy::AnalysisError;
 use crate::score::outcome::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;

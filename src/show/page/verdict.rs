@@ -1,8 +1,7 @@
 //! The verdict in words.
 
 use super::contents::{Page, Redesigns};
-use crate::format::number::{cost, grouped};
-use crate::format::phrase::{list, plural};
+use crate::format::{cost, grouped, list, plural};
 use crate::model::mechanism::{Mechanism, Role};
 use crate::score::outcome::variant::Variant;
 use crate::search::answer::k_best::Assignment;

@@ -1,6 +1,6 @@
 //! How sure figures are that rest on what a reader took for granted: they are those of the file as read.
 
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::model::mechanism::Mechanism;
 
 /// Returns the words for how sure a figure is, with the number of assumptions where there are any.

@@ -1,6 +1,6 @@
 //! What publications say of the mechanism they show: confirmed, or what is right instead.
 
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::model::claim::{Claim, Topic};
 use crate::view::terminal::layout::table;
 

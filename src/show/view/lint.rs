@@ -11,7 +11,7 @@ pub use passed_over::PassedOver;
 use assembly::{count, then};
 use finding::LintWords;
 
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;

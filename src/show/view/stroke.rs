@@ -1,8 +1,7 @@
 //! A stroke as JSON, as a table and as a chart.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
-use crate::format::number::decimals;
-use crate::format::phrase::plural;
+use crate::format::{decimals, plural};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::stroke::analysis::StrokeFigures;
 use crate::rank::stroke::request::AskedStroke;

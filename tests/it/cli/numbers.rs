@@ -1,6 +1,6 @@
 //! Costs and times in words, by hand.
 
-use ozols_kernel::format::number::{cost, duration};
+use ozols_kernel::format::{cost, duration};
 
 #[test]
 fn costs_are_decimals_of_their_thousandths() {

@@ -3,8 +3,8 @@
 use crate::common::built_in;
 use itertools::Itertools;
 use ozols::builtin;
+use ozols::closure::Closure;
 use ozols::closure::contour::{Contour, closed_walk};
-use ozols::closure::matrix::Closure;
 use ozols::geom::exact::ExactField;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::field::field_of;

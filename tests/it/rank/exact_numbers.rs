@@ -1,9 +1,9 @@
 //! Numbers written with roots and angles are exactly what they are: modulo primes, and in number fields.
 
+use ozols::geom::Scalars;
 use ozols::geom::exact::ExactField;
 use ozols::geom::expr::Expr;
 use ozols::geom::number_field::NumberField;
-use ozols::geom::scalars::Scalars;
 
 /// Expressions that are nothing: regular polygons, half angles, Gauss sums and roots of roots, as textbooks have them.
 const NOTHING: [&str; 24] = [

@@ -7,7 +7,7 @@ mod beyond_doubles;
 
 use crate::common::{built_in, run_on};
 use ozols::builtin;
-use ozols::closure::matrix::Closure;
+use ozols::closure::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::field::field_of;

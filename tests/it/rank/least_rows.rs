@@ -3,7 +3,7 @@
 use crate::common::{built_in, json, out};
 use crate::search::twin;
 use ozols::builtin;
-use ozols::closure::matrix::Closure;
+use ozols::closure::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::modular;

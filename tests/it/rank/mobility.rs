@@ -167,7 +167,7 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
     for name in builtin::names() {
         let m = built_in(name);
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
-        let closure = ozols::closure::matrix::Closure::new(&exact, &m, StateId::FREE).unwrap();
+        let closure = ozols::closure::Closure::new(&exact, &m, StateId::FREE).unwrap();
         let rank = modular::rank(&exact, &closure);
         let found = finite(&exact, &m, &closure, rank).unwrap();
         if found.is_proven() && closure.columns.len() < 60 {
@@ -193,7 +193,7 @@ fn groups_need_no_more_rows_than_dimensions() {
     for name in builtin::names() {
         let m = built_in(name);
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
-        let closure = ozols::closure::matrix::Closure::new(&exact, &m, StateId::FREE).unwrap();
+        let closure = ozols::closure::Closure::new(&exact, &m, StateId::FREE).unwrap();
         let group = whole_group(&exact, &m, StateId::FREE).unwrap();
         if matches!(m.mode, Mode::Spatial) && group.dimension() < 6 {
             fewer += 1;

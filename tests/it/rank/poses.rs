@@ -1,12 +1,12 @@
 //! Poses of small mechanisms, by hand: screws, couplings, paths, ways and what a plane leaves out.
 
 use crate::common::{all_to_nine_digits, to_nine_digits};
-use ozols::closure::matrix::Closure;
+use ozols::closure::Closure;
 use ozols::file::text::mechanism_from_str;
+use ozols::geom::Reals;
 use ozols::geom::exact::ExactField;
 use ozols::geom::extent::Extent;
 use ozols::geom::rigid::RigidMotion;
-use ozols::geom::scalars::Reals;
 use ozols::geom::vector::real;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::motion::drive_range::Way;
@@ -154,7 +154,7 @@ fn a_mechanism_is_written_anew_where_it_has_gone() {
     );
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let there = pose.moved(&[TAU / 4.0, 0.1]);
-    let anew = ozols::redundancy::moved::moved(&m, &there).unwrap();
+    let anew = ozols::motion::moved(&m, &there).unwrap();
     let frame = &anew.joints[anew.joint("run").unwrap()].frame;
     let slid = 0.1 * pose.length;
     all_to_nine_digits(real(&frame.point), [0.0, 3000.0 + slid, 2000.0]);
@@ -180,7 +180,7 @@ fn a_pin_stays_on_its_link() {
             (_, false) => 0.0,
         })
         .collect();
-    let anew = ozols::redundancy::moved::moved(&m, &pose.moved(&q)).unwrap();
+    let anew = ozols::motion::moved(&m, &pose.moved(&q)).unwrap();
     let frame = &anew.joints[anew.joint("pin").unwrap()].frame;
     all_to_nine_digits(real(&frame.point), [0.0, 3000.0, 500.0]);
 }

@@ -6,7 +6,7 @@ use ozols::geom::expr::Expr;
 use ozols::geom::vector::{cross, real, unit};
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{Frame, Mechanism, StateId};
-use ozols::redundancy::figures::figures;
+use ozols::redundancy::figures;
 use ozols::redundancy::release::{Release, added};
 use ozols::redundancy::stressed::Stressed;
 

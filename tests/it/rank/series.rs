@@ -2,7 +2,7 @@
 
 use crate::common::built_in;
 use ozols::builtin;
-use ozols::closure::matrix::Closure;
+use ozols::closure::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::pose::Pose;

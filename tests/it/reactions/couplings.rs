@@ -10,7 +10,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::loads::{ExternalForce, ExternalMoment, Loads};
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::pose::Pose;
-use ozols::redundancy::with_drives_held::exact_self_stresses;
+use ozols::redundancy::stress::exact_self_stresses;
 use ozols::statics::reactions::drives::{Driven, driven};
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::Geometry;

@@ -4,7 +4,7 @@ use crate::chains::pairs::chain::MOST_LINKS;
 use crate::chains::pairs::classics::MadeAs;
 use crate::chains::pairs::structure::PairStructure;
 use crate::geom::exact::ExactError;
-use crate::model::id::LinkId;
+use crate::model::LinkId;
 use crate::model::mechanism::{Mechanism, Role};
 use itertools::Itertools;
 use thiserror::Error;

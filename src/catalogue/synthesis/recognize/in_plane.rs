@@ -3,9 +3,9 @@
 use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
 use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
-use crate::model::coupling::Coupling;
-use crate::model::id::{JointId, LinkId, StateId};
+use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Joint, Mechanism};
+use crate::model::{JointId, LinkId, StateId};
 use crate::synthesis::recognize::found::NoStructure;
 use crate::synthesis::recognize::motion_plane::MotionPlane;
 use itertools::Itertools;

@@ -2,11 +2,11 @@
 
 use crate::chains::pairs::kind::PairKind;
 use crate::closure::twist::FrameValues;
+use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::id::JointId;
+use crate::model::JointId;
 use crate::model::mechanism::{Joint, Mechanism, Mode};
 use crate::rank::exact::field::exact_field;
 use crate::synthesis::recognize::found::NoStructure;

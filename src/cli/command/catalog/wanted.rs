@@ -1,7 +1,7 @@
 //! What a designer wants of the grippers that are listed, as options of `ozols catalog query`.
 
 use crate::catalog::store::{Store, StoreError};
-use crate::format::number::significant;
+use crate::format::significant;
 use clap::Args as ClapArgs;
 use itertools::Itertools;
 use serde_json::Value;

@@ -5,8 +5,7 @@ use super::table;
 use crate::accuracy::pareto::front;
 use crate::accuracy::timing::Machine;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
-use crate::format::number::{duration, grouped};
-use crate::format::phrase::list;
+use crate::format::{duration, grouped, list};
 
 /// A way with its median time in seconds and how often it is right.
 type Point<'a> = (&'a Record, f64, Share);

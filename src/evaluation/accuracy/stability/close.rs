@@ -9,7 +9,7 @@ use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{RightTally, TallySweep};
 use crate::accuracy::Truth;
 use crate::file::text::mechanism_from_str;
-use crate::format::phrase::list;
+use crate::format::list;
 use rayon::prelude::*;
 
 /// What is made.

@@ -5,7 +5,7 @@ use super::change::{Noise, turned_and_rounded};
 use super::said::{AnswerCount, Counts, Said};
 use super::study::{Effort, Progress, Study};
 use crate::accuracy::survey::Case;
-use crate::format::phrase::list;
+use crate::format::list;
 use crate::model::mechanism::{JointOption, Mechanism, StateId};
 use crate::rank::method::auto::decide;
 use crate::score::outcome::Outcome;

@@ -6,7 +6,7 @@ use super::said::{AnswerCount, Counts, Said};
 use super::special::SpecialKind;
 use super::study::{Effort, Progress, Study};
 use crate::file::text::mechanism_from_str;
-use crate::format::phrase::list;
+use crate::format::list;
 use crate::model::mechanism::StateId;
 use crate::rank::method::auto::decide;
 use rayon::prelude::*;

@@ -1,8 +1,7 @@
 //! Right answers of several methods over a range of one quantity.
 
 use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind};
-use crate::format::csv;
-use crate::format::phrase::list;
+use crate::format::{csv, list};
 
 /// Right answers of how many, and whose were not.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

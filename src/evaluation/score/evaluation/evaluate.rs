@@ -4,7 +4,7 @@ use crate::geom::exact::ExactError;
 use crate::geom::vector::dot;
 use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::model::ranking::ClearanceSum;
-use crate::redundancy::working_mobility::working_mobility;
+use crate::redundancy::motion::working_mobility;
 use crate::score::evaluation::elimination::{Ended, Scratch};
 use crate::score::evaluation::floor::Floor;
 use crate::score::evaluation::load_cases::{CaseError, Cases, cases};

@@ -2,7 +2,7 @@
 
 use crate::closure::twist::unit_twist;
 use crate::closure::twist::{FrameValues, MotionSpace};
-use crate::geom::scalars::Reals;
+use crate::geom::Reals;
 use crate::geom::vector::{across, cross, unit};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, JointId, JointOption, LinkId, Mechanism, StateId};

@@ -1,6 +1,6 @@
 //! The order of a pool of variants, why it is what it is, and whether a variant outside of the pool could win.
 
-use crate::format::number::brief;
+use crate::format::brief;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::evaluation::elimination::Scratch;

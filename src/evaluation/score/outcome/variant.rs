@@ -1,6 +1,6 @@
 //! A variant: its place, figures, changes, opinions and scores, and the mechanism that it is.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::file::read::resolve::contains;
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::JointType;

@@ -1,7 +1,7 @@
 //! Why a redesign helps, and what it costs in stiffness: what each change lets go, what was redundant there, what is still
 //! held, what stays as it is, and what joints bear.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, cross, length, real, unit};
 use crate::model::joint_type::{Freedom, JointType};

@@ -4,7 +4,7 @@ use crate::file::findings::Findings;
 use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::MechanismFile;
-use crate::format::phrase::disjunction;
+use crate::format::disjunction;
 use crate::model::claim::{Claim, Topic};
 
 /// The claims of a file; one of an unknown topic is a problem.

@@ -7,12 +7,11 @@ use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;
 use crate::file::schema::MechanismFile;
+use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::Echelon;
-use crate::model::coupling::{CoupledFreedom, Coupling};
-use crate::model::joint_type::{Freedom, JointType};
+use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, JointOption, Mechanism};
 use itertools::Itertools;
 

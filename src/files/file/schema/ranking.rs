@@ -1,6 +1,6 @@
 //! `[ranking]` and `[joint_types]`.
 
-use crate::format::phrase::disjunction;
+use crate::format::disjunction;
 use crate::model::ranking::Term;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! Couplings of joints: mimic joints and equalities of joint values, as far as they are linear.
 
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::rounded::verdict::verdict;

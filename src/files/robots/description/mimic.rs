@@ -1,7 +1,7 @@
 //! Couplings as mimic joints: each joint follows one other at most, so that a tree of couplings can be said, and no more.
 
 use crate::closure::tree::forest;
-use crate::model::coupling::Coupling;
+use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 
 /// What a joint follows.

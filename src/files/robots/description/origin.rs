@@ -1,6 +1,6 @@
 //! Where in a description the parts of the mechanism stand.
 
-use crate::format::number::brief;
+use crate::format::brief;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::JointId;
 use crate::motion::pose::Pose;

@@ -3,7 +3,7 @@
 use crate::file::read::value::limits::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::coupling;

@@ -6,7 +6,7 @@
 //! ([`teeth`](super::teeth)), and the two bearings take up what they push; a belt, or what only says a ratio, is a moment about
 //! the axis or a force along it, which no bearing feels.
 
-use crate::model::coupling::{CoupledFreedom, Coupling};
+use crate::model::joint_type::{CoupledFreedom, Coupling};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::teeth::{Teeth, teeth};
 use crate::statics::reactions::wrench::{FreedomColumn, PosedFreedoms, Six, power, wrench};

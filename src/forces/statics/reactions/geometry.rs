@@ -7,9 +7,9 @@
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::{TreeStep, spanning_tree};
 use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::halves;
-use crate::geom::scalars::Reals;
 use crate::geom::vector::{add_scaled, sub, unit};
 pub use crate::geom::vector::{cross, dot};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};

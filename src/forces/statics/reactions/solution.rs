@@ -1,7 +1,6 @@
 //! What joints pass on, and what it is worth.
 
-use crate::model::coupling::CoupledFreedom;
-use crate::model::joint_type::Freedom;
+use crate::model::joint_type::{CoupledFreedom, Freedom};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::statics::reactions::contact::ContactForce;
 use crate::statics::reactions::couplings::CouplingEquation;

@@ -5,8 +5,7 @@
 //! pressure angle of their flanks, the file does not state, nor their friction: both are left out.
 
 use crate::geom::vector::{across, add_scaled, cross, dot, length, scale, sub};
-use crate::model::coupling::Coupling;
-use crate::model::joint_type::Freedom;
+use crate::model::joint_type::{Coupling, Freedom};
 use crate::model::mechanism::{LinkId, Mechanism};
 use crate::statics::reactions::wrench::{FreedomColumn, PosedFreedoms, Six, within, wrench};
 

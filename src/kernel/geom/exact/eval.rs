@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use num_rational::BigRational;
 
-use super::error::ExactError;
+use super::ExactError;
 use super::quadratic::denested;
 use super::radical::{Radical, radical};
 use crate::geom::expr::{Expr, Function, NodeKind, PI};

@@ -7,7 +7,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use sha2::{Digest as _, Sha256};
 
-use super::error::ExactError;
+use super::ExactError;
 use super::field::ExactField;
 use super::quadratic::denested;
 use super::radical::{Radical, TRIAL_LIMIT, factor, radical};

@@ -5,7 +5,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::error::ExactError;
+use super::ExactError;
 use crate::geom::expr::Expr;
 use crate::linalg::modp::is_prime;
 

@@ -1,7 +1,7 @@
 //! Elements of number rings: coordinates in the basis of monomials.
 
-use crate::linalg::common_denominator::{common_denominator, whole};
 use crate::linalg::modp::{Field, Residue};
+use crate::linalg::{common_denominator, whole};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};

@@ -1,6 +1,6 @@
 //! What the decimals of one kind, lengths or directions, say together of how they were written.
 
-use super::long::{LONG_DIRECTION, LONG_LENGTH};
+use super::{LONG_DIRECTION, LONG_LENGTH};
 use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
 use num_traits::One;
 use std::collections::BTreeMap;

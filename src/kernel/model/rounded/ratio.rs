@@ -1,7 +1,7 @@
 //! Ratios that are written as decimals, and the fractions that are meant.
 
 use crate::geom::expr::{End, Expr, WrittenNumber};
-use crate::model::coupling::Coupling;
+use crate::model::joint_type::Coupling;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;

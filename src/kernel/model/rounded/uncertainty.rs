@@ -4,7 +4,7 @@ use super::class::{NumberClass, NumberKind};
 use super::ratio::doubt_of;
 use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::geom::vector::{self, real};
-use crate::model::coupling::Coupling;
+use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Mode};
 use std::collections::BTreeMap;
 

@@ -17,8 +17,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use crate::closure::Closure;
 use crate::closure::coupling::coefficients;
-use crate::closure::matrix::Closure;
 use crate::geom::exact::ExactError;
 use crate::geom::number_field::{NumberField, NumberFieldError};
 use crate::model::mechanism::{Mechanism, StateId};

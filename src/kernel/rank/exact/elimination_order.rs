@@ -1,6 +1,6 @@
 //! The order in which contours are eliminated, fewest neighbours first, and what each one's front is made of.
 
-use crate::closure::matrix::{Closure, Column};
+use crate::closure::{Closure, Column};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::JointId;
 use std::cmp::Reverse;

@@ -14,7 +14,7 @@
 //! Duff & Reid, "The multifrontal solution of indefinite sparse symmetric linear equations", ACM TOMS 9 (1983), applied
 //! to rank; Tinney & Walker's minimum-degree order, Proc. IEEE 55 (1967).
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon;
 use crate::linalg::modp::{Field, Residue};

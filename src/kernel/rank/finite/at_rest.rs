@@ -5,7 +5,7 @@
 //! more than instantaneously. So the finite mobility of a pose is proven where it is that of the mechanism with such freedoms
 //! locked: the spatial slider of a planar linkage that could turn about its guide, and does not.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;

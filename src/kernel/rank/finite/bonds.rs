@@ -12,7 +12,7 @@
 //! group than a subgroup, it is held to that: legs of a robot that turns about z alone may be able to turn otherwise, and do not.
 //! What then moves is a lower bound.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::{Echelon, relations};
 use crate::linalg::modp::Residue;

@@ -4,7 +4,7 @@
 //! coordinates, one of as many dimensions fewer as the contour's rank. Manifolds whose ranks add up to that of J meet
 //! transversally, so that the poses that close all contours are a manifold, too, of dimension f - rank J.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::Mechanism;

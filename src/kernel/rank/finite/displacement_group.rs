@@ -8,10 +8,10 @@
 //! are linear maps of the joints' coordinates besides, and add the rank of their own rows to the product.
 
 use crate::closure::contour::Contour;
-use crate::closure::matrix::{Closure, Column};
 use crate::closure::twist::FrameValues;
+use crate::closure::{Closure, Column};
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::{Echelon, rank, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};

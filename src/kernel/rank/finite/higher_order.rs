@@ -15,10 +15,10 @@ mod line;
 
 pub use line::Line;
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Scalars;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
 use crate::motion::pose::Pose;

@@ -8,8 +8,8 @@
 //! does: H acts freely on the closed poses, which are H times those with as many freedoms locked at one of the joints
 //! [Hervé 1978]. So the spin of a rod between two balls is a finite motion, proven.
 
-use crate::closure::connected::tied;
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
+use crate::closure::tree::tied;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;

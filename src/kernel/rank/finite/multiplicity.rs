@@ -16,8 +16,8 @@
 mod intersection;
 mod rods;
 
+use crate::closure::Closure;
 use crate::closure::contour::Contour;
-use crate::closure::matrix::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;

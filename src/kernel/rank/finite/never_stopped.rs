@@ -1,6 +1,6 @@
 //! One motion expanded as far as something could stop it.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::Mechanism;

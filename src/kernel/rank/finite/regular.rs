@@ -1,6 +1,6 @@
 //! Poses that are regular ones of their motion, proven by ranks and groups: nothing is followed.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::Mechanism;

@@ -6,8 +6,8 @@
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::extent::Extent;
-use crate::geom::scalars::{Reals, Scalars};
 use crate::geom::vector::{across, length, sub, unit};
+use crate::geom::{Reals, Scalars};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};

@@ -6,7 +6,7 @@
 //! a unit of each coordinate bounds what rounding can have made of the work.
 
 use crate::closure::twist::{FrameValues, MotionSpace};
-use crate::geom::scalars::Reals;
+use crate::geom::Reals;
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{JointId, Mechanism, Mode};
 use crate::model::rounded::Uncertainties;

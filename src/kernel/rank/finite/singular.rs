@@ -7,7 +7,7 @@
 //! as soon as it changes its sign, as it does along a line on which it begins with an odd power: that finds cusps. What
 //! stops motions of more freedoms are power series in a random subspace (`higher_order`).
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::{combination, relations};
 use crate::linalg::modp::{Field, Residue};

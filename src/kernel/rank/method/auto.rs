@@ -1,7 +1,7 @@
 //! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
 //! why, and what was left out.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::field_of;
 use crate::rank::finite::second_order::Roundings;

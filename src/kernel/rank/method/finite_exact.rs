@@ -1,6 +1,6 @@
 //! Exact rank at the pose and the finite mobility, as a method.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::field_of;
 use crate::rank::finite::finite;

@@ -1,6 +1,6 @@
 //! Counting formulas: links, joints and freedoms, no geometry.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::field_of;
 use crate::rank::finite::displacement_group::{GroupKind, whole_group};

@@ -1,6 +1,6 @@
 //! Sum over independent contours of the dimension of each one's twist space.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::linalg::echelon;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::field_of;

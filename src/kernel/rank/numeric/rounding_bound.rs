@@ -1,6 +1,6 @@
 //! What rounding can do to singular values.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{length as norm, real};
 use crate::model::joint_type::Freedom;

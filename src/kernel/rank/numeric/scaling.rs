@@ -1,7 +1,7 @@
 //! J as floating-point numbers, as it stands or scaled so that the unit of length and the length of axes do not matter.
 
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use ozols_dense::Matrix;
 
 /// J as it stands: 6k × f, lengths in the file's unit, about the global origin.

@@ -1,6 +1,6 @@
 //! Singular values of J, and the gaps among them that tell what is left over from zero.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::NumericError;
 use crate::rank::numeric::scaling::{NumericRank, scaled};

@@ -1,7 +1,7 @@
 //! Names of directions in exact geometry.
 
+use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
-use crate::geom::scalars::Scalars;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::exact::reconstruct::rational;

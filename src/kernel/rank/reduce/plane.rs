@@ -4,8 +4,8 @@
 //! The two parts: Hunt, "Kinematic Geometry of Mechanisms" (1978), planar and out-of-plane freedoms of planar linkages.
 
 use crate::closure::twist::FrameValues;
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism};

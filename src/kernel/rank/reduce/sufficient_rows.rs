@@ -9,8 +9,8 @@
 //!
 //! This is of the pose and the geometry it is asked for: rows in which nothing moves here may be those of a motion in another.
 
-use crate::closure::matrix::{Closure, Column, CouplingRow};
-use crate::format::phrase::plural;
+use crate::closure::{Closure, Column, CouplingRow};
+use crate::format::plural;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;

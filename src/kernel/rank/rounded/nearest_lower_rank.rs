@@ -4,10 +4,10 @@
 //! that rank (Golub & Van Loan, "Matrix Computations", 2013, 8.6). Newton's method takes the smallest change of coordinates, counted
 //! in units of their last digit, that makes it vanish.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::geom::Reals;
 use crate::geom::expr::Expr;
-use crate::geom::scalars::Reals;
 use crate::geom::vector::{length, real};
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 use crate::model::rounded::Uncertainties;

@@ -4,8 +4,8 @@
 //! exact rank holds. If not, those below the bound may be zero, and are taken for it only if a gap says so and there is such a
 //! geometry within the digits: the scene that is meant, exactly, or else by Newton's method.
 
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::rounded::{Rounded, Uncertainties, looks_rounded, uncertainties};

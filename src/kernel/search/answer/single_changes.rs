@@ -5,7 +5,7 @@
 //! constraints, lets nothing loose, and leaves every motion as it was. The gain is read off the self-stresses: it is the
 //! rank of the powers of the wrenches that the joint carries on the new freedoms, a matrix of six rows at most.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;

@@ -1,6 +1,6 @@
 //! Where a question has no answer: which of its conditions, eased alone, would leave some variants.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, StateId};
 use crate::redundancy::motion::motions;

@@ -1,6 +1,6 @@
 //! The twin of the diagram: look at every variant. Kept for checking and for the comparison of speed.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::ExactError;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::JointId;

@@ -1,9 +1,9 @@
 //! Brute force in floating point: every variant's ranks within a tolerance, to be compared with exact ones.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::scalars::Reals;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::numeric::Elimination;
 use crate::rank::numeric::scaling::Scaling;

@@ -2,7 +2,7 @@
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::path_from_frame;
-use crate::geom::scalars::Scalars;
+use crate::geom::Scalars;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::search::question::Question;

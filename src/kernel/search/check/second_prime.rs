@@ -6,7 +6,7 @@
 //! nodes in the order in which they are met, so agreement is equality edge by edge, and then every count, every list
 //! and every sample drawn from them is equal too.
 
-use crate::format::phrase::plural;
+use crate::format::plural;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::counts::counts;
 use crate::search::answer::variants_in_order::cheapest;

@@ -4,10 +4,10 @@
 //! Only the options' frames and the contour basis are shared.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::closure::matrix::{Closure, CouplingRow};
+use crate::closure::{Closure, CouplingRow};
+use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::scalars::Reals;
-use crate::model::coupling::CoupledFreedom;
+use crate::model::joint_type::CoupledFreedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::modular;
 use crate::rank::numeric::{self, NumericRank};

@@ -306,9 +306,9 @@ impl LinkImages<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::model::coupling::{CoupledFreedom, Coupling};
     use crate::model::drawn::{drawn, hinges};
     use crate::model::joint_type::Freedom;
+    use crate::model::joint_type::{CoupledFreedom, Coupling};
     use crate::model::mechanism::{JointId, Mechanism};
     use crate::rank::exact::field::exact_field;
     use crate::search::question::Question;

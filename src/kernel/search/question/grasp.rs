@@ -5,7 +5,7 @@
 //! behind. The body is held, then, exactly where it moves with one and the same link in every motion; between the pads of
 //! two unloading joints it turns about the line through their centres, with neither jaw.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::redundancy::motion::{motions, twist};

@@ -6,8 +6,7 @@
 use crate::closure::coupling::in_plane;
 use crate::closure::drive::driven_in;
 use crate::linalg::modp::Residue;
-use crate::model::coupling::CoupledFreedom;
-use crate::model::joint_type::Freedom;
+use crate::model::joint_type::{CoupledFreedom, Freedom};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 pub use crate::search::question::conditions::Drives;
 use crate::search::question::conditions::{Conditions, SearchError};

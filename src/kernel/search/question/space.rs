@@ -3,8 +3,8 @@
 use crate::closure::coupling::{coefficient, length_ratio};
 use crate::closure::drive::{rate, rate_row};
 use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::scalars::Scalars;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::{Freedom, JointType};

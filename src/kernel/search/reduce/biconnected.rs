@@ -8,8 +8,8 @@
 //! # Sources
 //! Blocks and cut vertices: Harary, "Graph Theory" (1969), chapter 3.
 
-use crate::closure::connected::tied;
 use crate::closure::contour::Contour;
+use crate::closure::tree::tied;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::search::question::space::Space;
 use std::collections::{BTreeMap, BTreeSet};

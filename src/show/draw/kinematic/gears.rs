@@ -3,8 +3,7 @@
 use crate::draw::kinematic::Kinematic;
 use crate::draw::place::projection::{self, JointInSpace, add, cross, dot, norm, scale, sub};
 use crate::geom::vector::Vector;
-use crate::model::coupling::Coupling;
-use crate::model::joint_type::Freedom;
+use crate::model::joint_type::{Coupling, Freedom};
 use crate::svg::plane::Point;
 use std::f64::consts::TAU;
 

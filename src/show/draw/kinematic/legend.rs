@@ -5,7 +5,7 @@ use crate::draw::sheet::{Sheet, Swatch};
 use crate::draw::symbol::drive;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::symbols;
-use crate::format::number::decimals;
+use crate::format::decimals;
 use crate::model::joint_type::JointType;
 use crate::svg::plane::{Point, add, polyline};
 use std::fmt::Write as _;

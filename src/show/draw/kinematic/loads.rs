@@ -5,7 +5,7 @@ use super::arrow::{Arrow, shapes};
 use crate::draw::place::projection::{Vector, add as add3, along_z, norm as norm3, scale as times};
 use crate::draw::place::projection::{bounds, sub as sub3};
 use crate::draw::sheet::{Shape, Sheet, Swatch};
-use crate::format::number::decimals;
+use crate::format::decimals;
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect};
 

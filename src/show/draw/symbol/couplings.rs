@@ -2,7 +2,7 @@
 
 use crate::draw::sheet::{Sheet, Swatch};
 use crate::draw::subject::Subject;
-use crate::model::coupling::Coupling;
+use crate::model::joint_type::Coupling;
 use crate::model::mechanism::JointId;
 use crate::svg::plane::{Point, add};
 use std::fmt::Write as _;

@@ -4,7 +4,7 @@ use crate::accuracy::searching::pictures::{ranking, wrong};
 use crate::accuracy::searching::record::{Record, Share, Trial};
 use crate::accuracy::searching::table::{TrialRow, rows};
 use crate::accuracy::timing::{Machine, Timing};
-use crate::format::number::{duration, grouped};
+use crate::format::{duration, grouped};
 use crate::view::terminal::layout::{fit, table};
 use serde::Serialize;
 use std::fmt::Write;

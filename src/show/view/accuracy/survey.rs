@@ -4,7 +4,7 @@ use crate::accuracy::AnswerVerdict;
 use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::Machine;
-use crate::format::number::{duration, signed};
+use crate::format::{duration, signed};
 use crate::rank::method::registry;
 use crate::view::terminal::layout::{fit, table};
 use std::cmp::Reverse;

@@ -1,6 +1,6 @@
 //! Faults of the drives, in words.
 
-use crate::format::phrase::{plural, plural_of};
+use crate::format::{plural, plural_of};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::drives;
 use serde::Serialize;

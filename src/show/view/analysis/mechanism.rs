@@ -1,7 +1,6 @@
 //! What a mechanism file describes, in a few lines and without any analysis.
 
-use crate::format::number::{grouped, significant};
-use crate::format::phrase::plural;
+use crate::format::{grouped, plural, significant};
 use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
 use crate::view::analysis::mobility::StructureSize;
 use itertools::Itertools;

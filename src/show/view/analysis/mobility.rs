@@ -1,7 +1,7 @@
 //! A mobility by one method, where that is all there is, as JSON and as text.
 
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
 use serde::Serialize;

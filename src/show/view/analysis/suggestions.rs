@@ -1,6 +1,6 @@
 //! Single changes in words and as data, and what to do after an analysis.
 
-use crate::format::number::cost;
+use crate::format::cost;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::Certainty;

@@ -1,7 +1,7 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
 use super::{Analysis, AsWritten, Contour, Coupling, External, LeftOut, SelfStress, State, Wrench};
-use crate::format::phrase::{list, plural, plural_of};
+use crate::format::{list, plural, plural_of};
 use crate::view::analysis::idle;
 use crate::view::claims;
 use crate::view::terminal::layout::{fit, table};

@@ -4,7 +4,7 @@ use crate::chains::census::Census;
 use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::roles::Subject;
-use crate::format::number::grouped;
+use crate::format::grouped;
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! What of a catalogue is next to a mechanism's structure, and what it does better.
 
 use crate::catalog::neighbours::{FIGURES, Figures, Nearness, Neighbour, Neighbours};
-use crate::format::number::significant;
+use crate::format::significant;
 use itertools::Itertools;
 use serde::Serialize;
 

@@ -2,7 +2,7 @@
 
 use crate::chains::pairs::census::{DriveKind, Kinds, PairCensus, PairGrippers};
 use crate::chains::pairs::symmetric_census::SymmetricKind;
-use crate::format::number::grouped;
+use crate::format::grouped;
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use serde::Serialize;

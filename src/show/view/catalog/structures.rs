@@ -1,10 +1,8 @@
 //! Structures of a catalogue for people, and as data: the keys are the columns of the database.
 
 use crate::catalog::store::{Store, StoreError};
-use crate::format::csv;
-use crate::format::number::{grouped, significant};
-use crate::format::phrase::plural_of;
 use crate::format::plain::plain;
+use crate::format::{csv, grouped, plural_of, significant};
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};

@@ -2,8 +2,7 @@
 
 use crate::drive::programme::PATIENCE;
 use crate::drive::tolerance_samples::RunShares;
-use crate::format::number::significant;
-use crate::format::phrase::plural;
+use crate::format::{plural, significant};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -1,7 +1,7 @@
 //! Charts of a gripper: its arms and its drive moments over its diameters, and its arms over each figure of its levers.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
-use crate::format::number::significant;
+use crate::format::significant;
 use crate::grip::arm_curves::{Varied, arm_curve};
 use crate::grip::lever_arm::Arms;
 use crate::view::grip::{Diameter, GripReport};

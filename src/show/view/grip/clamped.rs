@@ -1,7 +1,7 @@
 //! What a grip loads its mechanism with: one value from which text and JSON are made. Forces in N on the part, in the
 //! grip's own axes.
 
-use crate::format::number::significant;
+use crate::format::significant;
 use crate::grip::clamped;
 use crate::grip::clamping::{DiameterRow, Hardest, HoldVerdict};
 use crate::grip::holding::ContactForce;

@@ -1,8 +1,7 @@
 //! How firmly contacts hold a part: one value from which text and JSON are made. Loads are by the sum of the normal forces;
 //! moments count by the part's size. The keys are a stable contract.
 
-use crate::format::number::significant;
-use crate::format::phrase::plural;
+use crate::format::{plural, significant};
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
 use crate::grip::faces::PressureArea;

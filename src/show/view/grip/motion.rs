@@ -1,8 +1,7 @@
 //! The clamping force along a motion: one value from which text, JSON and a chart are made. SI units.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
-use crate::format::number::significant;
-use crate::format::phrase::plural;
+use crate::format::{plural, significant};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken as Found;
 use crate::model::mechanism::LengthUnit;

@@ -1,7 +1,6 @@
 //! A gripper for people: whether it holds, with what drive, and why.
 
-use crate::format::number::significant;
-use crate::format::phrase::plural;
+use crate::format::{plural, significant};
 use crate::model::grip::{LeverDrive, PartMass, Pivots, Toward};
 use crate::view::claims;
 use crate::view::grip::{Diameter, GripReport, PartContact};

@@ -1,7 +1,7 @@
 //! A redundant constraint of a robot description in words.
 
 use super::assembly::{Misfit, TypeChange};
-use crate::format::number::{brief, cost};
+use crate::format::{brief, cost};
 use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::duplicate_constraints::HeldTwice;

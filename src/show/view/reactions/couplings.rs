@@ -1,7 +1,6 @@
 //! What couplings pass from joint to joint, beside the reactions of the joints.
 
-use crate::format::number::figure;
-use crate::format::phrase::list;
+use crate::format::{figure, list};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{CouplingReaction, ToothForce};
@@ -56,7 +55,7 @@ pub(crate) fn couplings<'a>(
     found: &[CouplingReaction],
 ) -> Vec<CouplingForces<'a>> {
     let all = m.couplings_in(state).zip(found);
-    let one = |(coupling, r): (&crate::model::coupling::Coupling, &CouplingReaction)| {
+    let one = |(coupling, r): (&crate::model::joint_type::Coupling, &CouplingReaction)| {
         let end = |n: usize| CoupledEnd {
             joint: &m.joints[r.ends[n].joint].id,
             freedom: r.ends[n].freedom.name(),

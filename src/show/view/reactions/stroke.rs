@@ -1,8 +1,7 @@
 //! Joint reactions over a stroke.
 
 use crate::format::csv::table;
-use crate::format::number::figure;
-use crate::format::phrase::plural;
+use crate::format::{figure, plural};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};

@@ -1,7 +1,6 @@
 //! Joint reactions in one pose for people.
 
-use crate::format::number::{figure, significant};
-use crate::format::phrase::{list, plural};
+use crate::format::{figure, list, plural, significant};
 use crate::statics::reactions::NEARLY_SINGULAR;
 use crate::view::reactions::{JointForces, ObjectContact, Reactions, couplings};
 use crate::view::terminal::layout::{fit, table};

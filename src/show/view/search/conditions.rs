@@ -1,6 +1,6 @@
 //! What is asked of variants in a state besides the free one, in words.
 
-use crate::format::phrase::list;
+use crate::format::list;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::search::Search;
 use crate::search::answer::why_none::Hopeless;

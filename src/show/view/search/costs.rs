@@ -1,6 +1,6 @@
 //! The table of costs, as a file that a search takes.
 
-use crate::format::number::cost;
+use crate::format::cost;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::CostSpec;
 use crate::search::question::cost::CostTable;

@@ -1,7 +1,6 @@
 //! The head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
-use crate::format::number::grouped;
-use crate::format::phrase::{plural, plural_of};
+use crate::format::{grouped, plural, plural_of};
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
 use crate::search::check::second_prime::Verdict;

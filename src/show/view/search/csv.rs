@@ -1,7 +1,7 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
+use crate::format::cost;
 use crate::format::csv::encoded;
-use crate::format::number::cost;
 use crate::model::mechanism::JointId;
 use crate::model::ranking::Term;
 use crate::score::outcome::Outcome;

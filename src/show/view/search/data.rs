@@ -1,6 +1,6 @@
 //! A search as data: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
 
-use crate::format::number::cost;
+use crate::format::cost;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::rounded::verdict::RankVerdict;
 use crate::score::outcome::Outcome;

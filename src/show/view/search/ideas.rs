@@ -1,6 +1,6 @@
 //! Ideas in words: how many variants are minimal, and what a list of ideas is.
 
-use crate::format::number::grouped;
+use crate::format::grouped;
 use crate::score::outcome::Outcome;
 use num_traits::Zero;
 

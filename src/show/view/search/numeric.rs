@@ -1,6 +1,6 @@
 //! A search by singular values: counts between what is sure and what may be, as text and as data.
 
-use crate::format::number::grouped;
+use crate::format::grouped;
 use crate::score::outcome::Outcome;
 use crate::search::answer::counts::Counts;
 use crate::search::numeric::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
@@ -104,7 +104,7 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
     out.push(match s.all_below {
         Some(milli) => format!(
             "The list is of the {in_order} cheapest variants, which are all of a cost below {}",
-            crate::format::number::cost(milli)
+            crate::format::cost(milli)
         ),
         None => {
             "Costs differ too finely to look at variants in their order: none is listed".to_owned()

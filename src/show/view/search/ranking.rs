@@ -1,7 +1,6 @@
 //! A ranking in words and as data.
 
-use crate::format::number::{cost, grouped, significant};
-use crate::format::phrase::plural;
+use crate::format::{cost, grouped, plural, significant};
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::evaluation::load_cases::Gripped;

@@ -1,6 +1,6 @@
 //! What singular values of the coordinates in a file say of the counts of a search, as text and as data.
 
-use crate::format::number::grouped;
+use crate::format::grouped;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;

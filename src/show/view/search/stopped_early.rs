@@ -1,6 +1,6 @@
 //! A search that ended before everything was looked at: what is known all the same.
 
-use crate::format::number::grouped;
+use crate::format::grouped;
 use crate::score::outcome::Outcome;
 use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::singular_values::Summary;

@@ -1,6 +1,6 @@
 //! Variants as a table for people, and σ of their contours.
 
-use crate::format::number::{cost, grouped};
+use crate::format::{cost, grouped};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{Variant, in_words};
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Opinion, Second};

@@ -1,7 +1,6 @@
 //! A search for people.
 
-use crate::format::number::grouped;
-use crate::format::phrase::{plural, plural_of};
+use crate::format::{grouped, plural, plural_of};
 use crate::robots::is_description;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;

@@ -1,6 +1,6 @@
 //! Why ideas help, in words of the shop, and as data.
 
-use crate::format::number::brief;
+use crate::format::brief;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::Outcome;

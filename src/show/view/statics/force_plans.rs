@@ -1,7 +1,7 @@
 //! Force plans of the four-link groups, drawn where forces from outside load them most.
 
 use crate::chart::{Panel, PanelPair, PlanArrow, Polygons};
-use crate::format::number::figure;
+use crate::format::figure;
 use crate::statics::contour_group::force_plan::{
     Plan, PlanForce, PlanKind, force_plans, group_loads,
 };

@@ -1,7 +1,6 @@
 //! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
 
-use crate::format::number::figure;
-use crate::format::phrase::plural;
+use crate::format::{figure, plural};
 use crate::statics::assur_class::roman;
 use crate::statics::contour_group::letters::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;

@@ -3,9 +3,9 @@
 use super::search_numeric::{plain, turned};
 use crate::common::near;
 use ozols::accuracy::stability::change::Noise;
-use ozols::closure::matrix::Closure;
+use ozols::closure::Closure;
+use ozols::geom::Reals;
 use ozols::geom::expr::Expr;
-use ozols::geom::scalars::Reals;
 use ozols::geom::vector::real;
 use ozols::meant::mechanism::{Meant, meant};
 use ozols::model::joint_type::JointType;

@@ -1,7 +1,7 @@
 //! Equal bars side by side on parallel hinges: what they carry slides on a circle.
 
 use super::{BondPart, Bonds, Chain, Twist};
-use crate::geom::scalars::Scalars;
+use crate::geom::Scalars;
 use crate::linalg::echelon::rank;
 
 impl Bonds<'_> {

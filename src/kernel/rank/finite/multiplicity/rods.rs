@@ -3,7 +3,7 @@
 //! Its displacements are the points of Study's quadric in seven dimensions, and each rod keeps it on another quadric [Husty 1996]:
 //! so the poses that 6 - n of them allow meet n - 1 hyperplanes and one quadric more in 2^(8 - n) points at most.
 
-use crate::closure::matrix::Closure;
+use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::rank;
 use crate::linalg::modp::Residue;

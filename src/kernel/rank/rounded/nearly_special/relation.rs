@@ -1,6 +1,6 @@
 //! How far a joint may be from what it nearly is, and what that is.
 
-use crate::format::number::significant;
+use crate::format::significant;
 use crate::model::mechanism::{JointId, Mechanism};
 use itertools::Itertools;
 

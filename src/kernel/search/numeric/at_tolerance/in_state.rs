@@ -2,8 +2,8 @@
 //! bodies are held.
 
 use super::answer::Answer;
-use crate::closure::matrix::Closure;
-use crate::geom::scalars::Reals;
+use crate::closure::Closure;
+use crate::geom::Reals;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::numeric::scaling::{Scaling, scaled};

@@ -1,8 +1,7 @@
 //! What the joints of a scene leave free, and what couples them, for a program that moves its links.
 
 use crate::draw::kinematic::Kinematic;
-use crate::model::coupling::Coupling;
-use crate::model::joint_type::{Freedom, JointType};
+use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::mechanism::JointId;
 use serde::Serialize;
 
