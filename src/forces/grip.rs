@@ -1,8 +1,8 @@
 //! What a two-lever gripper can hold: its arms, contacts and drive moments, what a grip does to its mechanism, and how firmly the
 //! contacts of any clamped mechanism hold the part.
 //!
-//! [`gripping::grip`] studies a gripper over its diameters; [`clamped::clamped`] solves for the joints of a mechanism round
-//! a part; [`force_closure::closure`] asks what its contacts resist.
+//! [`grip`] studies a gripper over its diameters with its drive: what it holds, and what that asks of the one drive of both levers;
+//! [`clamped::clamped`] solves for the joints of a mechanism round a part; [`force_closure::closure`] asks what its contacts resist.
 
 pub mod arm_curves;
 pub mod clamped;
@@ -11,10 +11,112 @@ pub mod clamping;
 pub mod contact;
 pub mod faces;
 pub mod force_closure;
-pub mod gripping;
 pub mod holding;
 pub mod jaw_loads;
 pub mod lever_arm;
 pub mod motion;
 mod resisted_load;
-pub mod tolerance_samples;
+
+use crate::geom::exact::ExactError;
+use crate::grip::clamping::{DiameterRow, Study, study};
+use crate::grip::holding::Holding;
+use crate::grip::jaw_loads::{Gripping, JawError};
+use crate::grip::lever_arm::LeverError;
+use crate::model::grip::{GripSpec, LeverDrive, Transmission};
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::motion::pose::Pose;
+use crate::statics::transmission::{Rates, TransmissionError, rates};
+use thiserror::Error;
+
+/// Why a gripper cannot be studied.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum GripError {
+    /// Its lever.
+    #[error(transparent)]
+    Lever(#[from] LeverError),
+    /// Its mechanism round the part.
+    #[error(transparent)]
+    Jaw(#[from] JawError),
+    /// The way from its drive to the levers.
+    #[error(transparent)]
+    Transmission(#[from] TransmissionError),
+    /// The geometry of its mechanism.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+}
+
+/// A gripper over its diameters.
+#[derive(Debug, Clone)]
+pub struct Grip {
+    /// What it holds.
+    pub study: Study,
+    /// How the drive works on the levers, by row of the study; empty where that is not known.
+    pub transmission: Vec<Rates>,
+}
+
+/// Force `[N]`, or moment `[N·m]` of a turning drive, that one drive of both levers takes; `None` where each has its own.
+#[must_use]
+pub fn effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f64> {
+    let each = h.moments.iter().zip(&drive.rates);
+    let sum: f64 = each.map(|(moment, rate)| moment * rate).sum();
+    (levers != LeverDrive::Independent).then_some(sum.max(0.0))
+}
+
+/// Studies a gripper, with the mechanism it is part of where there is one.
+///
+/// # Units
+/// SI, radians.
+///
+/// # Guarantee
+/// As [`study`].
+///
+/// # Errors
+/// Figures out of range, or a mechanism that does not agree with them.
+///
+/// # Examples
+/// ```
+/// let text = ozols::builtin::text("lever-gripper").expect("it is built in");
+/// let file = ozols::file::read::workload::grip_from_bytes("lever-gripper.toml", text.as_bytes())?;
+/// let found = ozols::grip::grip(&file.spec, file.mechanism.as_ref())?;
+/// assert!(found.study.holds());
+/// let hardest = found.study.hardest().expect("a load is stated");
+/// assert!((hardest.diameter - 0.050).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, GripError> {
+    let study = study(spec)?;
+    let transmission = match (spec.transmission, mechanism) {
+        (Transmission::Arm(arm), _) => {
+            let rates = Rates {
+                slides: true,
+                rates: vec![1.0 / arm; 2],
+            };
+            vec![rates; study.rows.len()]
+        }
+        (Transmission::Joints(joints), Some(m)) => {
+            let at_home = rates(m, &Pose::of_file(m, StateId::FREE)?, &joints)?;
+            let states = spec.contacts.and_then(|c| m.joints[c[0]].states.as_ref());
+            let state = states.and_then(|s| s.first());
+            let gripping = match state.map(|&s| Gripping::of_study(m, s, study.clone())) {
+                // Without contacts nobody knows which way the levers turn.
+                None | Some(Ok(None) | Err(JawError::Nominal(_))) => None,
+                Some(other) => other?,
+            };
+            let there = |row: &DiameterRow| match &gripping {
+                Some(g) if row.holds() => Ok(rates(m, &g.fit(row)?.pose, &joints)?),
+                _ => Ok(at_home.clone()),
+            };
+            study
+                .rows
+                .iter()
+                .map(there)
+                .collect::<Result<_, GripError>>()?
+        }
+        (Transmission::Joints(_), None) | (Transmission::Unknown, _) => Vec::new(),
+    };
+    Ok(Grip {
+        study,
+        transmission,
+    })
+}

@@ -8,7 +8,7 @@ use crate::cli::option::named::File;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
 use crate::drive::driving::drive;
-use crate::drive::tolerance_samples::shares;
+use crate::drive::shares;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
 use crate::view::drive::{charts::cam, charts::charts, charts::motion, samples::Samples, text};

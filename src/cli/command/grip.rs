@@ -13,7 +13,7 @@ use crate::cli::terminal::output;
 use crate::file::bounded;
 use crate::file::read::workload::trajectory::trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
-use crate::grip::gripping::grip;
+use crate::grip::grip;
 use crate::grip::motion::along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use crate::view;

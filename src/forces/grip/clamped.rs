@@ -2,7 +2,7 @@
 
 use crate::geom::exact::ExactError;
 use crate::grip::clamping::{DiameterRow, HoldVerdict};
-use crate::grip::gripping::effort;
+use crate::grip::effort;
 use crate::grip::jaw_loads::{Fit, Gripping, JawError};
 use crate::model::grip::Transmission;
 use crate::model::mechanism::Mechanism;

@@ -5,6 +5,8 @@
 //! have without the contacts: what jaws cannot bear counts as little as what faces cannot give. With normal forces of 1 in all,
 //! the loads resisted are a convex set. The part is held against every small load, *force closure*, where the origin is inside;
 //! the *margin* is the radius of the greatest ball about the origin in the set. *Form closure* is the same without friction.
+//!
+//! Shares of parts out of true that contacts hold.
 
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
@@ -13,6 +15,8 @@ use crate::grip::resisted_load::{Forces, Resisted};
 use crate::statics::cone_programme::SolverEffort;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::geometry::Six;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 
 /// Loads above this, by the normal forces, count as resisted without limit.
 const LIMIT: f64 = 1e3;
@@ -187,4 +191,52 @@ pub fn is_closed(part: &ClampedPart, faces: &[JawFace]) -> Result<Option<bool>, 
     }
     let margin = 1.0 / f64::sqrt(inverse);
     Ok((margin > NOTHING && left <= LEFT * margin).then_some(true))
+}
+
+/// How many samples have closure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosureShares {
+    /// How many there were.
+    pub samples: usize,
+    /// By how much points and rims are out at most `[m]`.
+    pub tolerance: f64,
+    /// With force closure.
+    pub force_closed: usize,
+    /// With form closure.
+    pub form_closed: usize,
+    /// Of which force closure is within the accuracy of the programmes.
+    pub force_undecided: usize,
+    /// Of which form closure is.
+    pub form_undecided: usize,
+}
+
+/// Closure of a part with its contacts out by up to `tolerance` `[m]`, `samples` times; the same seed gives the same answer.
+///
+/// # Errors
+/// Where the solver refuses a programme; one that it stalls at leaves a sample undecided.
+pub fn shares(
+    part: &ClampedPart,
+    tolerance: f64,
+    samples: usize,
+    seed: u64,
+) -> Result<ClosureShares, Unsolved> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut out = ClosureShares {
+        samples,
+        tolerance,
+        force_closed: 0,
+        form_closed: 0,
+        force_undecided: 0,
+        form_undecided: 0,
+    };
+    for _ in 0..samples {
+        let sample = part.out_of_true(tolerance / part.geometry.size, &mut random);
+        let force = is_closed(&sample, &sample.faces)?;
+        let form = is_closed(&sample, &sample.smooth())?;
+        out.force_closed += usize::from(force == Some(true));
+        out.form_closed += usize::from(form == Some(true));
+        out.force_undecided += usize::from(force.is_none());
+        out.form_undecided += usize::from(form.is_none());
+    }
+    Ok(out)
 }

@@ -4,8 +4,8 @@
 //! marks soft parts; one whose force follows the motion closes harder only where it must.
 
 use crate::grip::clamping::{DiameterRow, HoldVerdict, verdict};
-use crate::grip::gripping::{Grip, effort};
 use crate::grip::holding::PartWrench;
+use crate::grip::{Grip, effort};
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use thiserror::Error;
 

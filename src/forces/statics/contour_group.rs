@@ -8,8 +8,79 @@
 pub mod delta_point;
 pub mod equilibrium;
 pub mod force_plan;
-pub mod letters;
 pub mod pose;
 pub mod projective;
 pub mod solutions;
 pub mod stability;
+
+use crate::statics::assur::Group;
+use crate::statics::assur_class::Kind;
+use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
+
+/// Places of the letters in a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ContourGroup {
+    /// Link 4, with three turning pairs.
+    pub ternary: BodyId,
+    /// Links 6 and 7.
+    pub rods: [BodyId; 2],
+    /// Link 10, with the guide.
+    pub slider: BodyId,
+    /// D, the outer turning pair of link 4.
+    pub d: PairId,
+    /// F, between 4 and 6.
+    pub f: PairId,
+    /// K, between 4 and 7.
+    pub k: PairId,
+    /// M, between 6 and 10.
+    pub m: PairId,
+    /// L, between 7 and 10.
+    pub l: PairId,
+    /// The outer sliding pair of link 10.
+    pub guide: PairId,
+}
+
+/// Finds the letters in a group; `None` for groups of another kind, and those with a drive inside.
+#[must_use]
+pub(crate) fn recognise(m: &PlanarMechanism, group: &Group) -> Option<ContourGroup> {
+    if group.class.kind != Kind::FourLinkContour || !group.locked.is_empty() {
+        return None;
+    }
+    let turns = |p: &PairId| m.pairs[*p].kind == PairKind::Turning;
+    let (d, guide) = match group.outer[..] {
+        [a, b] if turns(&a) && m.pairs[b].kind == PairKind::Sliding => (a, b),
+        [a, b] if turns(&b) && m.pairs[a].kind == PairKind::Sliding => (b, a),
+        _ => return None,
+    };
+    if !group.inner.iter().all(turns) {
+        return None;
+    }
+    let mine = |p: PairId| {
+        m.pairs[p]
+            .bodies
+            .into_iter()
+            .find(|b| group.bodies.contains(b))
+    };
+    let (ternary, slider) = (mine(d)?, mine(guide)?);
+    let at = |b: BodyId| {
+        group
+            .inner
+            .iter()
+            .copied()
+            .filter(move |&p| m.pairs[p].bodies.contains(&b))
+    };
+    let (f, k) = (at(ternary).next()?, at(ternary).nth(1)?);
+    let rods = [m.pairs[f].other(ternary)?, m.pairs[k].other(ternary)?];
+    let foot = |rod: BodyId| at(rod).find(|&p| m.pairs[p].other(rod) == Some(slider));
+    Some(ContourGroup {
+        ternary,
+        rods,
+        slider,
+        d,
+        f,
+        k,
+        m: foot(rods[0])?,
+        l: foot(rods[1])?,
+        guide,
+    })
+}

@@ -3,9 +3,9 @@
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::assur::{AssurError, Decomposition, alternatives, decompose};
-use crate::statics::contour_group::letters::{ContourGroup, recognise};
 use crate::statics::contour_group::pose::GroupPose;
 use crate::statics::contour_group::solutions::GroupSolutions;
+use crate::statics::contour_group::{ContourGroup, recognise};
 use crate::statics::kinetostatics::{
     Equilibrium, Load, LoadSource, PlanarLoads, by_groups, power, whole,
 };

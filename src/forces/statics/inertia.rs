@@ -3,7 +3,7 @@
 use crate::statics::planar::BodyId;
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, length};
-use crate::statics::rounding::{rounding, without};
+use crate::statics::{rounding, without};
 use serde::Serialize;
 
 /// Mass data of a body in the plane: mass `[kg]`, centre at the pose of the file `[m]`, inertia `[kg·m²]`.

@@ -6,14 +6,13 @@
 use crate::geom::{Reals, Scalars};
 use crate::model::loads::{Inertia, acts_at};
 use crate::model::mechanism::{Mechanism, StateId};
+pub use crate::statics::Reaction;
 use crate::statics::assur::Decomposition;
-use crate::statics::dense::System;
 use crate::statics::inertia::{BodyMass, link_inertias};
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::planar_motion::Instant;
 use crate::statics::pose::{Linkage, Pose, cross, dot, minus, plus, quarter};
-pub use crate::statics::reaction::Reaction;
-use crate::statics::rounding::{greatest, over_load, rounding};
+use crate::statics::{DenseSystem, greatest, over_load, rounding};
 
 /// Where a load comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -268,7 +267,7 @@ pub(crate) fn equilibrium(
     }
     let rows = left_sides(linkage, &now.pose, bodies, &unknowns);
     let right = right_sides(linkage, &now.pose, bodies, loads);
-    let system = System::new(&rows);
+    let system = DenseSystem::new(&rows);
     let x = system.solve(&right)?;
     let load = greatest(&right);
     let left_over = system.residual(&x, &right);

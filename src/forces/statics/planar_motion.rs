@@ -4,8 +4,8 @@
 //! the drive are halved until the solution follows its tangent and no group's determinant changes sign, so that the
 //! assembly of the file is kept; where that fails the group is at a dead point.
 
+use crate::statics::DenseSystem;
 use crate::statics::assur::Decomposition;
-use crate::statics::dense::System;
 use crate::statics::planar::{BodyId, PairId, PairKind};
 use crate::statics::pose::{Linkage, Pose, Row};
 
@@ -112,7 +112,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The matrix of a unit, angles and angular equations made lengths by the mechanism's size, all in units of it.
-    fn system(&self, pose: &Pose, unit: &Unit) -> System {
+    fn system(&self, pose: &Pose, unit: &Unit) -> DenseSystem {
         let (n, size) = (3 * unit.bodies.len(), self.linkage.size);
         let mut rows = Vec::new();
         for &(p, drive) in &unit.pairs {
@@ -137,7 +137,7 @@ impl<'a> Motion<'a> {
                 rows.push(out);
             }
         }
-        System::new(&rows)
+        DenseSystem::new(&rows)
     }
 
     /// 1 for equations of lengths, the size for those of angles.

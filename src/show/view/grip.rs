@@ -9,9 +9,9 @@ pub mod text;
 
 use crate::file::read::workload::WorkloadFile;
 use crate::grip::clamping::{self, Hardest, HoldVerdict};
-use crate::grip::gripping::{self, effort};
 use crate::grip::holding::{ContactForce, Slip};
 use crate::grip::lever_arm::{Arms, Lever};
+use crate::grip::{Grip, effort};
 use crate::model::claim::{Claim, Topic};
 use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
@@ -142,7 +142,7 @@ impl PartContact {
 impl<'a> GripReport<'a> {
     /// A gripper of a file and what was found of it.
     #[must_use]
-    pub fn new(file: &'a WorkloadFile<GripSpec>, found: &'a gripping::Grip) -> Self {
+    pub fn new(file: &'a WorkloadFile<GripSpec>, found: &'a Grip) -> Self {
         let study = &found.study;
         let diameters: Vec<Diameter> = (0..study.rows.len())
             .map(|at| Diameter::new(file, &study.rows[at], found.transmission.get(at)))

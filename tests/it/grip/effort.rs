@@ -1,6 +1,6 @@
 //! What a drive must do for two levers, by virtual work.
 
-use ozols::grip::gripping::effort;
+use ozols::grip::effort;
 use ozols::grip::holding::{ContactForce, Holding};
 use ozols::model::grip::LeverDrive;
 use ozols::statics::transmission::Rates;

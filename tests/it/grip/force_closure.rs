@@ -4,8 +4,7 @@ mod programme;
 
 use crate::common::{built_in, json, near, run_on};
 use ozols::grip::clamped_part::{ClampedPart, PartError};
-use ozols::grip::force_closure::{ForceClosure, closure};
-use ozols::grip::tolerance_samples::{ClosureShares, shares};
+use ozols::grip::force_closure::{ClosureShares, ForceClosure, closure, shares};
 use ozols::model::mechanism::StateId;
 use serde_json::Value;
 use std::fmt::Write;

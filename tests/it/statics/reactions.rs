@@ -4,7 +4,7 @@ use super::{J, Mass, file_with, mechanism, p, r, shears};
 use itertools::Itertools;
 use ozols::model::loads::Stroke;
 use ozols::model::mechanism::StateId;
-use ozols::statics::contour_group::letters::ContourGroup;
+use ozols::statics::contour_group::ContourGroup;
 use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
 use ozols::statics::cycle::{Moment, Statics, statics};
 use ozols::statics::kinetostatics::{Equilibrium, LoadSource};

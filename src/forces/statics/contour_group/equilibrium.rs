@@ -1,7 +1,7 @@
 //! The twelve equilibrium equations of the four-link group with a closed contour: by LU in double precision, and exactly.
 
+use crate::statics::DenseSystem;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
-use crate::statics::dense::System;
 use crate::statics::pose::{length, minus};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -100,7 +100,7 @@ pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
         }
     }
     let right: Vec<f64> = rows.iter_mut().filter_map(Vec::pop).collect();
-    let system = System::new(&rows);
+    let system = DenseSystem::new(&rows);
     let mut x = system.solve(&right)?;
     let greatest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let residual = system.residual(&x, &right);

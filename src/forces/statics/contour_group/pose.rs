@@ -1,10 +1,10 @@
 //! The group in one pose: points, guide and loads, and the reactions found there.
 
-use crate::statics::contour_group::letters::ContourGroup;
+use crate::statics::contour_group::ContourGroup;
 use crate::statics::kinetostatics::{Load, LoadSource};
 use crate::statics::planar::{BodyId, PairId};
 use crate::statics::pose::{Linkage, Pose, cross, dot, length, minus, quarter};
-use crate::statics::rounding::{greatest, rounding, without};
+use crate::statics::{greatest, rounding, without};
 use serde::Serialize;
 
 /// A group in one pose: what the methods start from.

@@ -8,7 +8,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use crate::statics::reactions::geometry::{Geometry, Six, about};
 use crate::statics::reactions::unsolved::Unsolved;
-use crate::statics::rounding::without;
+use crate::statics::without;
 use serde::Serialize;
 
 /// How contacts are solved.

@@ -13,7 +13,7 @@ use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, power, wrench};
 use crate::statics::reactions::unsolved::Unsolved;
-use crate::statics::rounding::{greatest, rounding, without};
+use crate::statics::{greatest, rounding, without};
 use ozols_dense::{Matrix, svd};
 
 /// Contours may stay open by this fraction of the speeds (or rates) in them.

@@ -6,7 +6,7 @@ use crate::statics::reactions::contact::ContactForce;
 use crate::statics::reactions::couplings::CouplingEquation;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
-use crate::statics::rounding::{greatest, without};
+use crate::statics::{greatest, without};
 use serde::{Serialize, Serializer};
 
 /// What a joint passes from its first link to its second, without what couplings pass there.

@@ -3,11 +3,9 @@
 use crate::model::loads::Loads;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::applied::link_loads;
 use crate::statics::reactions::contact::{Contacts, contacts};
 use crate::statics::reactions::drives::{Driven, driven, period};
 use crate::statics::reactions::equations::System;
-use crate::statics::reactions::family;
 use crate::statics::reactions::geometry::{Geometry, Six, power};
 use crate::statics::reactions::inertia::inertia_loads;
 use crate::statics::reactions::solution::{
@@ -16,7 +14,8 @@ use crate::statics::reactions::solution::{
 use crate::statics::reactions::transmitted::Transmitted;
 use crate::statics::reactions::unilateral::{TOLERANCE, pushing};
 use crate::statics::reactions::unsolved::Unsolved;
-use crate::statics::rounding::{greatest, over_load, rounding};
+use crate::statics::reactions::{family, link_loads};
+use crate::statics::{greatest, over_load, rounding};
 
 /// Work on undriven motions below this fraction of the loads is none.
 const NO_WORK: f64 = 1e-8;

@@ -1,7 +1,7 @@
 //! What became of drives out of true: one value from which text and JSON are made.
 
+use crate::drive::RunShares;
 use crate::drive::programme::PATIENCE;
-use crate::drive::tolerance_samples::RunShares;
 use crate::format::{plural, significant};
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -6,7 +6,6 @@ use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
 use crate::grip::faces::PressureArea;
 use crate::grip::force_closure::{self, NOTHING};
-use crate::grip::tolerance_samples;
 use crate::model::mechanism::Mechanism;
 use crate::view::terminal::layout::{fit, table};
 use serde::Serialize;
@@ -191,7 +190,7 @@ impl<'a> ClosureData<'a> {
         m: &'a Mechanism,
         part: &ClampedPart,
         [force, form]: [&force_closure::ForceClosure; 2],
-        samples: Option<&tolerance_samples::ClosureShares>,
+        samples: Option<&force_closure::ClosureShares>,
     ) -> Self {
         let g = &part.geometry;
         let contact = |f: &crate::grip::faces::JawFace| ClosureContact {

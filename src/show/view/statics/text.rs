@@ -2,7 +2,7 @@
 
 use crate::format::{figure, plural};
 use crate::statics::assur_class::roman;
-use crate::statics::contour_group::letters::ContourGroup;
+use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::Moment;

@@ -4,8 +4,8 @@ use super::drive;
 use super::repeated::latched;
 use crate::common::{json, near, out, ozols, run_on, text};
 use ozols::drive::programme::{Endurance, Module};
+use ozols::drive::shares;
 use ozols::drive::swing::Feed;
-use ozols::drive::tolerance_samples::shares;
 use ozols::model::drive::ProgrammeStep;
 use serde_json::Value;
 
