@@ -3,7 +3,7 @@
 
 use crate::builtin;
 use crate::draw::{self, Subject};
-use crate::file::bounded;
+use crate::file::disk;
 use crate::file::problem::ImportError;
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes, mechanism_from_str};
 use crate::model::mechanism::{Mechanism, StateId};
@@ -93,7 +93,7 @@ pub fn from_json(text: &str) -> Result<Mechanism, Error> {
 
 /// The bytes of a file, one more than `limit` at most: the reader of them says that there are too many.
 pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
-    bounded::bytes(path, limit).map_err(|why| Error::Read {
+    disk::bytes(path, limit).map_err(|why| Error::Read {
         path: path.to_owned(),
         why,
     })
@@ -152,7 +152,7 @@ fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>
             } else {
                 path
             };
-            bounded::bytes(&path, MAX_DESCRIPTION_BYTES)
+            disk::bytes(&path, MAX_DESCRIPTION_BYTES)
         });
         match found {
             Ok(bytes) => return Ok(bytes),

@@ -6,27 +6,135 @@ mod cad;
 mod description;
 mod edit;
 mod fcstd;
-mod fix;
 mod foreign;
 pub mod formats;
 mod graph;
 mod import;
 mod mechanism;
 mod mjcf;
-mod options;
 mod problem;
-mod releases;
 mod sdf;
 mod urdf;
 mod warning;
 mod xml;
 
 pub use description::origin::{ElementPlace, Origin};
-pub use fix::fix;
 pub use foreign::refuse as refuse_foreign;
 pub use formats::{begins_description, is_description};
-pub use import::{Imported, import};
-pub use options::{Options, Reader};
+pub use import::{Imported, Options, Reader, import};
 pub use problem::ExportError;
-pub use releases::releases;
 pub use warning::{CadCount, Kept, Note, Report};
+
+use crate::file::problem::ImportError;
+use crate::geom::vector::Vector;
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::redundancy::release::{Release, added};
+use crate::robots::cad::retype;
+use crate::robots::description::Part;
+use crate::robots::edit::{Edits, Freeing};
+use crate::robots::mechanism::series_of_single_joints::comment;
+use crate::robots::problem::RobotProblem;
+use std::collections::BTreeMap;
+
+/// The freedoms that a redesign adds to the joints of a mechanism.
+///
+/// # Errors
+/// Why these are not freedoms of the joints that are there, in words that follow the redesign's name.
+pub fn releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, String> {
+    if after.joints.len() != before.joints.len() {
+        return Err("puts in joints that are not of one joint's kind; choose another".to_owned());
+    }
+    let mut out = Vec::new();
+    for (i, (old, new)) in before.joints.iter().zip(&after.joints).enumerate() {
+        let all = added((&old.frame, &old.joint_type), (&new.frame, &new.joint_type))
+            .map_err(|e| e.to_string())?;
+        if old.joint_type.freedoms().len() + all.len() != new.joint_type.freedoms().len() {
+            return Err(format!(
+                "puts a joint in the place of \"{}\" that has not all of its freedoms; choose another",
+                old.id
+            ));
+        }
+        out.extend(all.into_iter().map(|(slides, direction)| Release::Freedom {
+            joint: JointId::new(i),
+            slides,
+            direction,
+        }));
+    }
+    Ok(out)
+}
+
+/// The description with releases made: joints added in series, and couplings left out. All else stays as it is,
+/// byte for byte; comments say why. In an assembly of a CAD program joints get another type, one that the program has; all other
+/// members of an archive stay as they are.
+///
+/// # Errors
+/// Where the format cannot say a release at the place it is asked for.
+pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<Vec<u8>, ImportError> {
+    if imported.origin.is_assembly() {
+        return retype::retype(imported, releases);
+    }
+    Ok(in_series(imported, releases)?.into_bytes())
+}
+
+/// The text of the description with joints added in series.
+fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<String, ImportError> {
+    let origin = &imported.origin;
+    let mut edits = Edits::new(origin);
+    let mut freed: BTreeMap<usize, Vec<(bool, Vector, String)>> = BTreeMap::new();
+    let mut uncoupled = Vec::new();
+    for (release, why) in releases {
+        let why = comment(&format!("ozols fix: {why}"));
+        match *release {
+            Release::Coupling(q) => uncoupled.push((origin.couplings[q], why)),
+            Release::Freedom {
+                joint,
+                slides,
+                direction,
+            } => {
+                let part = origin.joints[joint.index()];
+                let all = freed.entry(part).or_default();
+                all.push((slides, direction, why));
+            }
+        }
+    }
+    let (free, uncouple): (Free, Uncouple) = match imported.format.word {
+        "mjcf" => (mjcf::fix::free, mjcf::fix::uncouple),
+        "urdf" => (urdf::fix::free, urdf::fix::uncouple),
+        _ => (sdf::fix::free, urdf::fix::uncouple),
+    };
+    let mut all: Vec<Freeing<'_>> = Vec::new();
+    for (&part, list) in &freed {
+        let part = &origin.robot.joints[part];
+        let e = part.element.ok_or_else(|| beside(origin, part))?;
+        let e = origin.element(e);
+        if e.node().copy {
+            return Err(e.unsupported(
+                "it is a copy made by <replicate>",
+                "choose another joint (--at), or write the copies out",
+            ));
+        }
+        all.push((part, e, list));
+    }
+    free(origin, &all, &mut edits)?;
+    for (element, why) in uncoupled {
+        uncouple(origin, element, &why, &mut edits)?;
+    }
+    edits.apply()
+}
+
+type Free = fn(&Origin, &[Freeing<'_>], &mut Edits<'_>) -> Result<(), ImportError>;
+type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
+
+/// Where a file beside the description says that the joint is there.
+fn beside(origin: &Origin, part: &Part) -> ImportError {
+    let root = origin.element(origin.root);
+    let element = format!("loop \"{}\"", part.id);
+    let why = "the file of loop closures says that it is there".to_owned();
+    let remedy = "choose a joint of the description (--at)".to_owned();
+    let problem = RobotProblem::Unsupported {
+        element,
+        why,
+        remedy,
+    };
+    root.fail(None, problem)
+}

@@ -2,7 +2,7 @@
 
 use crate::api::MAX_DESCRIPTION_BYTES;
 use crate::builtin;
-use crate::file::{bounded, template};
+use crate::file::{disk, template};
 use crate::robots;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -86,7 +86,7 @@ impl OpenFile {
 
     /// What is in it now; nothing where it is not there.
     pub(super) fn now(&self) -> io::Result<Option<Arc<[u8]>>> {
-        match bounded::bytes(&self.path, MAX_DESCRIPTION_BYTES) {
+        match disk::bytes(&self.path, MAX_DESCRIPTION_BYTES) {
             Ok(bytes) => Ok(Some(bytes.into())),
             Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(e) => Err(e),
@@ -160,7 +160,7 @@ impl OpenFile {
         let found = all.filter(|p| p.is_file()).find_map(|path| {
             let file = File::open(&path).ok()?;
             file.try_lock().ok()?;
-            let bytes = bounded::bytes(&path, MAX_DESCRIPTION_BYTES).ok()?;
+            let bytes = disk::bytes(&path, MAX_DESCRIPTION_BYTES).ok()?;
             Some((path, Arc::<[u8]>::from(bytes)))
         });
         let (path, bytes) = found?;

@@ -10,7 +10,7 @@ use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::terminal::charts;
 use crate::cli::terminal::output;
-use crate::file::bounded;
+use crate::file::disk;
 use crate::file::read::workload::trajectory::trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
 use crate::grip::grip;
@@ -88,7 +88,7 @@ fn add_accelerations(file: &mut WorkloadFile<GripSpec>, a: &Grip) -> anyhow::Res
 
 /// Reads a motion, whose parts are studied along with the others.
 fn steps_of(path: &Path, file: &mut WorkloadFile<GripSpec>) -> anyhow::Result<Vec<MotionStep>> {
-    let bytes = bounded::at_most(path, MAX_DESCRIPTION_BYTES)
+    let bytes = disk::at_most(path, MAX_DESCRIPTION_BYTES)
         .with_context(|| format!("cannot read {}", path.display()))?;
     let steps = trajectory(&path.display().to_string(), &bytes, file.length_unit.metres)?;
     let parts = steps

@@ -5,7 +5,7 @@ use crate::cli::option::global::Global;
 use crate::cli::option::load;
 use crate::cli::option::named::File;
 use crate::cli::terminal::output;
-use crate::file::bounded;
+use crate::file::disk;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::certificate::{certify, matrix, number_field};
 use crate::redundancy::analysis::StateAnalysis;
@@ -86,7 +86,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
     }
     let name = a.certificates.display();
     let bytes =
-        bounded::at_most(&a.certificates, MOST).with_context(|| format!("cannot read {name}"))?;
+        disk::at_most(&a.certificates, MOST).with_context(|| format!("cannot read {name}"))?;
     let file = CertificateFile::read(&bytes).with_context(|| format!("cannot read {name}"))?;
     let mut lines = Vec::new();
     let mut done = if file.certificates.is_empty() {

@@ -1,11 +1,13 @@
-//! A file of costs beside a mechanism's: names and numbers, as under `[search.costs]`.
+//! Costs by name: of joint types, of options, of a change itself; in a mechanism's file under `[search.costs]`, or in a file beside it.
 
-use crate::file::findings::Findings;
-use crate::file::locate::Document;
+use crate::file::Findings;
+use crate::file::locate::{Document, DocumentStep, key};
 use crate::file::problem::{ImportError, Problem, ProblemKind};
-use crate::file::read::search::costs::costs;
-use crate::model::mechanism::{CostSpec, Mechanism};
-use std::collections::BTreeMap;
+use crate::file::read::resolve::cost;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{CostSpec, Joint, Mechanism};
+use itertools::Itertools;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Reads the costs of a mechanism's redesigns from TOML.
 ///
@@ -48,4 +50,46 @@ pub fn costs_from_str(
         problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
         fail(problems)
     })
+}
+
+/// What costs that are no joint's are called.
+const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
+
+pub(crate) fn costs(
+    stated: &BTreeMap<String, f64>,
+    mechanism: &Mechanism,
+    at: &[DocumentStep],
+    out: &mut Findings,
+) -> CostSpec {
+    let mut spec = CostSpec::default();
+    let offered = mechanism.joints.iter().flat_map(Joint::offered);
+    let offered: BTreeSet<String> = offered.map(|o| o.name.clone()).collect();
+    for (name, &value) in stated {
+        let path = key(at, name);
+        let Some(milli) = cost(value, &path, out) else {
+            continue;
+        };
+        match name.as_str() {
+            "change" => spec.change_milli = Some(milli),
+            "driven" => spec.driven_milli = Some(milli),
+            "link" => spec.link_milli = Some(milli),
+            "harmful" => spec.harmful_milli = Some(milli),
+            n if JointType::from_name(n).is_some() || offered.contains(n) => {
+                spec.by_type_milli.push((name.clone(), milli));
+            }
+            _ => {
+                let types = JointType::NAMED.iter().map(JointType::name);
+                let words = OTHERS.into_iter().chain(types).map(str::to_owned);
+                out.add(
+                    &path,
+                    ProblemKind::UnknownWord {
+                        what: "cost",
+                        word: name.clone(),
+                        known: words.chain(offered.iter().cloned()).unique().join(", "),
+                    },
+                );
+            }
+        }
+    }
+    spec
 }

@@ -1,12 +1,15 @@
-//! Ratios and pitches that are written as decimals and are all but fractions.
+//! What is doubted of a file: ratios and pitches that are written as decimals and are all but fractions, and directions of options that
+//! nobody stated, and that are taken from the joint's own, where they mean something else.
 
 use crate::file::locate::{DocumentStep, index, key};
-use crate::file::schema::MechanismFile;
+use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
 use crate::file::warning::WarningKind;
 use crate::format::significant;
 use crate::geom::expr::Expr;
-use crate::model::mechanism::Mechanism;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::rounded::ratio::{doubt, doubt_of};
+use itertools::Itertools;
 
 /// What is doubted of the couplings and screws of a mechanism.
 pub(super) fn doubted(
@@ -40,4 +43,106 @@ pub(super) fn doubted(
         Some((key(&index(&root("joint"), i), "pitch"), kind))
     });
     couplings.chain(screws).collect()
+}
+
+/// Joints named of a list.
+const SHOWN: usize = 8;
+
+/// What is guessed of an option at a joint: the direction, what it is taken along, and the key that would state it.
+type Guess = (&'static str, &'static str, &'static str);
+
+/// Each option with guessed directions, told once with the joints where it has them.
+pub(crate) fn guessed(
+    file: &MechanismFile,
+    m: &Mechanism,
+) -> Vec<(Vec<DocumentStep>, WarningKind)> {
+    let mut found: Vec<(Vec<DocumentStep>, String, Guess, Vec<&str>)> = Vec::new();
+    for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
+        let (list, at) = match &entry.options {
+            Some(list) => (list, index(&[DocumentStep::Key("joint".to_owned())], i)),
+            None => (
+                &file.search.options,
+                vec![DocumentStep::Key("search".to_owned())],
+            ),
+        };
+        for (n, item) in list.iter().enumerate() {
+            let path = index(&key(&at, "options"), n);
+            let Some((name, guess)) = of_option(&item.table(), entry, joint) else {
+                continue;
+            };
+            let same = found.iter_mut().find(|f| f.0 == path && f.2 == guess);
+            match same {
+                Some(same) => same.3.push(&joint.id),
+                None => found.push((path, name, guess, vec![&joint.id])),
+            }
+        }
+    }
+    let told = found.into_iter().map(|(path, option, guess, joints)| {
+        let (what, along, key) = guess;
+        let more = match joints.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let joints = format!("{}{more}", joints.iter().take(SHOWN).join(", "));
+        let kind = WarningKind::Guessed {
+            option,
+            what,
+            along,
+            key,
+            joints,
+        };
+        (path, kind)
+    });
+    told.collect()
+}
+
+/// The name of an option that is offered at a joint, and what is guessed of it there.
+fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(String, Guess)> {
+    let kind = table.kind.as_deref()?;
+    let option = JointType::from_name(kind)?;
+    let name = table.name.as_deref().unwrap_or(kind);
+    if !joint.options.iter().skip(1).any(|o| o.name == name) {
+        return None;
+    }
+    let present = &joint.joint_type;
+    let line = match present {
+        JointType::Slotted => "the pin",
+        JointType::Spherical => "z",
+        JointType::Universal => "the first pin",
+        _ => "the joint's own axis",
+    };
+    let ball = *present == JointType::Spherical && entry.axis.is_none();
+    let guess = match option {
+        JointType::CylinderOnPlane | JointType::SphereOnPlane
+            if table.axis.is_none() && !faces(present) =>
+        {
+            ("normal of the plane", line, "axis")
+        }
+        JointType::SphereInCylinder if table.axis.is_none() && ball => ("tube", line, "axis"),
+        JointType::Slotted | JointType::CylinderOnPlane
+            if table.reference.is_none() && entry.reference.is_none() =>
+        {
+            let what = if option == JointType::Slotted {
+                "slot"
+            } else {
+                "axis of the roller"
+            };
+            let line = if table.axis.is_some() {
+                "the reference of the joint"
+            } else {
+                "the first of the axes x, y, z that is across"
+            };
+            (what, line, "reference")
+        }
+        _ => return None,
+    };
+    Some((name.to_owned(), guess))
+}
+
+/// Whether the axis of a type is the normal of a plane.
+fn faces(of: &JointType) -> bool {
+    matches!(
+        of,
+        JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane
+    )
 }

@@ -2,10 +2,10 @@
 //!
 //! The deserializer of TOML ignores the values that a list has too many, and that of JSON calls them "trailing characters".
 
-use crate::file::findings::{Finding, Findings};
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::schema::json_schema;
+use crate::file::{Finding, Findings};
 use serde_json::{Map, Value};
 use std::sync::LazyLock;
 

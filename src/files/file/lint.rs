@@ -1,8 +1,7 @@
 //! What is doubtful in a file that can be used: likely slips, and what has no effect.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::file::doubted::doubted;
-use crate::file::guessed_directions::guessed;
+use crate::file::doubted::{doubted, guessed};
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ImportError;
 use crate::file::read::build;

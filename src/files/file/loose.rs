@@ -1,7 +1,7 @@
 //! What can be told of a file that is not whole yet: where its items are, and the part of it that hangs on the frame.
 
+use crate::file::read::value::knowing;
 use crate::file::read::value::number::vector;
-use crate::file::read::value::parameters::knowing;
 use crate::file::schema::{Coordinate, MechanismFile};
 use std::collections::BTreeSet;
 

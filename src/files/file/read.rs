@@ -1,46 +1,37 @@
 //! Validation: from the file's entries to a mechanism, or every problem with them.
 
-mod claims;
 mod connected;
-mod contours;
 pub mod coupling;
-mod expected;
 mod joints;
 mod links;
-mod mode;
-mod points;
 #[doc(hidden)]
 pub mod resolve;
 pub(crate) mod search;
-mod size;
 pub mod value;
 pub mod workload;
 
-use crate::file::findings::Finding;
-use crate::file::locate::DocumentStep;
+use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::coupling::couplings;
 use crate::file::read::search::ranking::{joint_types, ranking};
-use crate::file::read::value::parameters::{knowing, unused};
-use crate::file::read::value::unit::length_unit;
+use crate::file::read::value::names::{check_id, link_by_id};
+use crate::file::read::value::number::{direction, vector};
+use crate::file::read::value::{ENTRIES, knowing, length_unit, unused};
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
 use crate::file::read::workload::loads::loads;
 use crate::file::schema::MechanismFile;
+use crate::file::{Finding, Findings};
+use crate::geom::expr::Expr;
 use crate::model::loads::Loads;
-use crate::model::mechanism::{Mechanism, SearchSpec};
-use claims::claims;
-use connected::connected;
-use contours::contours;
-use expected::expected;
+use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, SearchSpec};
+use connected::{connected, contours};
 use joints::{joints, states};
 use links::links;
-use mode::mode;
-use points::points;
 use search::search;
-use size::size;
-use value::limits::LIMITS;
+use value::LIMITS;
 use value::tolerance::tolerance;
+use workload::claims;
 
 /// Refuses a file of too many entries before any of them is read.
 fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
@@ -122,4 +113,130 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         unused(&mut out);
     }
     out.unless(mechanism)
+}
+
+pub(crate) fn points(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> Vec<PointOfInterest> {
+    let mut points = Vec::with_capacity(file.point.len());
+    for (i, entry) in file.point.iter().enumerate() {
+        let at = index(&[DocumentStep::Key("point".to_owned())], i);
+        let twice = file.point[..i].iter().any(|p| p.id == entry.id);
+        check_id("point", &entry.id, twice, &key(&at, "id"), out);
+        let place = vector(&entry.point, &key(&at, "point"), out);
+        if let Some(link) = link_by_id(&mechanism.links, &entry.link, &key(&at, "link"), out) {
+            points.push(PointOfInterest {
+                id: entry.id.clone(),
+                link,
+                point: place,
+            });
+        }
+    }
+    points
+}
+
+pub(crate) fn mode(file: &MechanismFile, out: &mut Findings) -> Mode {
+    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
+    match file.mode.as_deref().unwrap_or("spatial") {
+        "planar" => {
+            let at = root("plane_normal");
+            let given = file.plane_normal.as_ref().map(|v| direction(v, &at, out));
+            let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
+            if normal.iter().all(|c| c.to_f64() == 0.0) {
+                out.add(
+                    &at,
+                    ProblemKind::ZeroVector {
+                        joint: "of the plane".to_owned(),
+                        what: "normal",
+                    },
+                );
+            }
+            Mode::Planar { normal }
+        }
+        other => {
+            if other != "spatial" {
+                let known = "spatial, planar".to_owned();
+                out.add(
+                    &root("mode"),
+                    ProblemKind::UnknownWord {
+                        what: "mode",
+                        word: other.to_owned(),
+                        known,
+                    },
+                );
+            }
+            Mode::Spatial
+        }
+    }
+}
+
+pub(crate) fn expected(
+    file: &MechanismFile,
+    mechanism: &Mechanism,
+    out: &mut Findings,
+) -> Vec<Expected> {
+    let mut list = Vec::new();
+    for (i, e) in file.expected.iter().enumerate() {
+        let state = e.state.clone().unwrap_or_else(|| "free".to_owned());
+        if !mechanism.states.contains(&state) {
+            let path = [
+                DocumentStep::Key("expected".to_owned()),
+                DocumentStep::Index(i),
+                DocumentStep::Key("state".to_owned()),
+            ];
+            let known = mechanism.states.join(", ");
+            out.add(
+                &path,
+                ProblemKind::UnknownWord {
+                    what: "state",
+                    word: state.clone(),
+                    known,
+                },
+            );
+        }
+        list.push(Expected {
+            state,
+            mobility: e.mobility,
+            finite_mobility: e.finite_mobility,
+            working_mobility: e.working_mobility,
+            local_mobility: e.local_mobility,
+            redundant: e.redundant,
+            external_redundant: e.external_redundant,
+            source: e.source.clone(),
+        });
+    }
+    list
+}
+
+/// Whether no state's closure matrix is too large: a row for each constraint of a contour, a column for each freedom.
+pub(crate) fn size(m: &Mechanism, out: &mut Findings) -> bool {
+    let mut fits = true;
+    let dim = match m.mode {
+        Mode::Spatial => 6,
+        Mode::Planar { .. } => 3,
+    };
+    for (state, name) in m.states_with_ids() {
+        let joints = || m.joints_in(state).map(|j| &m.joints[j]);
+        let mut touched: Vec<_> = joints().flat_map(|j| j.links).collect();
+        touched.sort_unstable();
+        touched.dedup();
+        // The links of a state hang together.
+        let contours = (joints().count() + 1).saturating_sub(touched.len());
+        let columns: usize = joints().map(|j| j.joint_type.freedoms().len()).sum();
+        if dim * contours * columns > ENTRIES {
+            fits = false;
+            out.add(
+                &[],
+                ProblemKind::TooEntangled {
+                    state: name.clone(),
+                    rows: dim * contours,
+                    columns,
+                    limit: ENTRIES,
+                },
+            );
+        }
+    }
+    fits
 }

@@ -4,22 +4,20 @@ mod drive;
 mod grip;
 mod number;
 mod ranking;
-mod tolerance;
-mod words;
 mod workload;
 
 use crate::format::disjunction;
 use crate::model::joint_type::JointType;
 pub use drive::DriveEntry;
 pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};
+pub use number::ToleranceEntry;
+pub use number::Words;
 pub use number::{Coordinate, Quantities, Quantity};
 pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-pub use tolerance::ToleranceEntry;
-pub use words::Words;
 pub use workload::{
     ContactEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry,
     StrokeEntry, WorkloadEntry,

@@ -1,11 +1,9 @@
 //! A mechanism as the entries of its file, exactly.
 
-mod drive;
-mod grip;
 mod number;
 mod quantity;
-mod ranking;
 mod tolerance;
+mod workload;
 
 use crate::file::read::resolve::motion_name;
 use crate::file::schema::{
@@ -82,8 +80,8 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .collect(),
         search: search(m),
         workload: workload(m),
-        ranking: m.ranking.as_ref().map(|r| ranking::ranking(m, r)),
-        joint_types: ranking::joint_types(m),
+        ranking: m.ranking.as_ref().map(|r| workload::ranking(m, r)),
+        joint_types: workload::joint_types(m),
         expected: m.expected.iter().map(expected).collect(),
         claim: m.claims.iter().map(claim).collect(),
     }
@@ -404,11 +402,11 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
             to: Quantity::Number(s.to),
             steps: i64::try_from(s.steps).unwrap_or(i64::MAX),
         }),
-        grip: loads.grip.as_ref().map(|g| grip::grip(m, g)),
+        grip: loads.grip.as_ref().map(|g| workload::grip(m, g)),
         drive: loads
             .drive
             .as_ref()
-            .map(|d| drive::drive(d, m.length_unit.metres)),
+            .map(|d| workload::drive(d, m.length_unit.metres)),
     }
 }
 

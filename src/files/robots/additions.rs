@@ -4,7 +4,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
-use crate::robots::description::parts::{Part, Ratio, Robot};
+use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::sdf::scene::{SdfScene, absolute, moves_with};
 use crate::robots::xml::Element;

@@ -1,3 +1,251 @@
-//! OndselSolver's assemblies: `.asmt`.
+//! OndselSolver's assemblies, `.asmt`: parts with markers, and joints between two markers each.
 
-pub(crate) mod read;
+use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::length;
+use crate::robots::cad::holds::Holds;
+use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
+use crate::robots::description::{Robot, Unit};
+use crate::robots::import::{Options, Reader};
+use crate::robots::problem::{RobotProblem, known};
+use crate::robots::xml::{Document, Element};
+use std::collections::BTreeMap;
+
+/// What the first line of a file begins with: that of OndselSolver, whose files are in millimetres, and the old one.
+const HEADS: [(&str, Unit); 2] = [
+    ("OndselSolver", Unit::Millimetre),
+    ("freeCAD: 3D CAD", Unit::Metre),
+];
+/// Rows of results, behind all that is read.
+const RESULTS: &str = "TimeSeries";
+/// Labels of joints that contacts have, which hold nothing until parts touch.
+const CONTACT: &str = "Contact";
+
+/// Whether a text is an assembly of OndselSolver, by its first line.
+pub(crate) fn is_one(text: &[u8]) -> bool {
+    HEADS
+        .iter()
+        .any(|(head, _)| text.starts_with(head.as_bytes()))
+}
+
+/// Reads the lines of a file into the arena.
+pub(crate) fn document(
+    document: &mut Document,
+    name: &str,
+    text: String,
+) -> Result<usize, ImportError> {
+    document.read_outline(name, text, 1, RESULTS)
+}
+
+/// The robot that an assembly is.
+///
+/// # Errors
+/// The first problem found, with its place.
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    _: Reader<'_>,
+    options: &Options,
+) -> Result<Robot, ImportError> {
+    let text = document.sources[0].text.as_str();
+    let unit = HEADS.iter().find(|(head, _)| text.starts_with(head));
+    let unit = unit.map_or(Unit::Millimetre, |(_, unit)| *unit);
+    let root = document.element(root);
+    let name = name(root)?;
+    let mut robot = Robot::new(name);
+    let ground = pose(root)?;
+    let mut parts = vec![("ground".to_owned(), ground)];
+    let mut markers = BTreeMap::new();
+    collect(root, 0, &ground, name, &mut markers)?;
+    for part in root.child("Parts").iter().flat_map(|p| p.named("Part")) {
+        part.room("parts", parts.len())?;
+        let (own, place) = (self::name(part)?, ground.then(&pose(part)?));
+        let path = format!("{name}/{own}");
+        collect(part, parts.len(), &place, &path, &mut markers)?;
+        parts.push((own.to_owned(), place));
+    }
+    let sets = root.child("ConstraintSets");
+    let mut connections = Vec::new();
+    let joints = sets.and_then(|s| s.child("Joints"));
+    for joint in joints.iter().flat_map(|j| j.children()) {
+        joint.room("joints", connections.len())?;
+        if joint.name().contains(CONTACT) {
+            robot
+                .report
+                .drop("contact", joint.child("Name").map(|n| n.text()));
+            continue;
+        }
+        connections.push(connection(joint, &markers)?);
+    }
+    for set in ["Motions", "GeneralConstraintSets"] {
+        let found = sets.and_then(|s| s.child(set));
+        for e in found.iter().flat_map(|s| s.children()) {
+            let name = e.child("Name").map(|n| n.text());
+            robot.report.drop(e.name(), name);
+        }
+    }
+    let limits = sets.and_then(|s| s.child("Limits"));
+    for limit in limits.iter().flat_map(|s| s.children()) {
+        robot.report.approximate(&called(limit), NO_LIMITS);
+    }
+    let assembly = Assembly {
+        name: name.to_owned(),
+        unit,
+        parts,
+        connections,
+    };
+    Ok(assembly.robot(robot, options))
+}
+
+/// What a label has, or where it is missing.
+fn has<'a>(e: Element<'a>, label: &str) -> Result<Element<'a>, ImportError> {
+    e.child(label).ok_or_else(|| {
+        let (element, what) = (called(e), label.to_owned());
+        e.fail(None, RobotProblem::Missing { element, what })
+    })
+}
+
+fn name(e: Element<'_>) -> Result<&str, ImportError> {
+    Ok(has(e, "Name")?.text())
+}
+
+/// How an element is called in messages: by its label, and by its name where it has one.
+fn called(e: Element<'_>) -> String {
+    match e.child("Name").map(Element::text) {
+        Some(name) if !name.is_empty() => format!("{} \"{name}\"", e.name()),
+        _ => e.name().to_owned(),
+    }
+}
+
+/// The place that a label has within what it stands in.
+fn pose(e: Element<'_>) -> Result<RigidMotion, ImportError> {
+    let translation = has(e, "Position3D")?.text_numbers::<3>()?;
+    let matrix = has(e, "RotationMatrix")?;
+    let all = matrix.text_numbers::<9>()?;
+    let rotation = [0, 3, 6].map(|i| [all[i], all[i + 1], all[i + 2]]);
+    let m = RigidMotion {
+        rotation,
+        translation,
+    };
+    // Digits may be few, but it is to be a turn.
+    let product = m.inverse().then(&m);
+    let off = (0..3).flat_map(|i| (0..3).map(move |k| (i, k)));
+    let off = off.map(|(i, k)| (product.rotation[i][k] - f64::from(u8::from(i == k))).abs());
+    let turned = length(rotation[2]) > 0.5 && determinant(&rotation) > 0.0;
+    if off.fold(0.0, f64::max) > 1e-3 || !turned {
+        let (element, what) = (called(e), "RotationMatrix".to_owned());
+        let found = matrix.text().replace(['\n', '\t'], " ");
+        let found = found.chars().take(60).collect();
+        let want = "write the rows of a rotation".to_owned();
+        let problem = RobotProblem::BadValue {
+            element,
+            what,
+            found,
+            want,
+        };
+        return Err(matrix.fail(None, problem));
+    }
+    Ok(m)
+}
+
+fn determinant([a, b, c]: &[[f64; 3]; 3]) -> f64 {
+    use crate::geom::vector::{cross, dot};
+    dot(*a, cross(*b, *c))
+}
+
+/// The part and the place of each marker, by its path.
+type Markers = BTreeMap<String, (usize, RigidMotion)>;
+
+fn collect(
+    e: Element<'_>,
+    part: usize,
+    place: &RigidMotion,
+    path: &str,
+    out: &mut Markers,
+) -> Result<(), ImportError> {
+    let points = e.child("RefPoints");
+    for point in points.iter().flat_map(|p| p.named("RefPoint")) {
+        let at = place.then(&pose(point)?);
+        let markers = point.child("Markers");
+        for marker in markers.iter().flat_map(|m| m.named("Marker")) {
+            marker.room("markers", out.len())?;
+            let path = format!("/{path}/{}", name(marker)?);
+            out.insert(path, (part, at.then(&pose(marker)?)));
+        }
+    }
+    Ok(())
+}
+
+fn connection(e: Element<'_>, markers: &Markers) -> Result<Connection, ImportError> {
+    let end = |label: &str| {
+        let said = has(e, label)?;
+        let path = said.text();
+        markers.get(path).copied().ok_or_else(|| {
+            let problem = RobotProblem::UnknownName {
+                element: called(e),
+                what: "marker",
+                name: path.to_owned(),
+                known: known("markers", markers.keys().map(String::as_str)),
+            };
+            said.fail(None, problem)
+        })
+    };
+    let ((i, near), (j, far)) = (end("MarkerI")?, end("MarkerJ")?);
+    Ok(Connection {
+        id: name(e)?.to_owned(),
+        parts: [i, j],
+        frames: [near, far],
+        holds: holds(e)?.settled(),
+        element: e.id,
+    })
+}
+
+fn figure(e: Element<'_>, label: &str) -> Result<f64, ImportError> {
+    let [x] = has(e, label)?.text_numbers::<1>()?;
+    Ok(x)
+}
+
+/// The distance that a plane is off; 0 where the file says none.
+fn offset(e: Element<'_>) -> Result<f64, ImportError> {
+    e.child("offset").map_or(Ok(0.0), |_| figure(e, "offset"))
+}
+
+fn holds(e: Element<'_>) -> Result<Holds, ImportError> {
+    let word = e.name().strip_suffix("Joint").unwrap_or(e.name());
+    Ok(match word {
+        "Fixed" => Holds::Fixed,
+        "Revolute" => Holds::Revolute,
+        "Translational" => Holds::Translational,
+        "Cylindrical" => Holds::Cylindrical,
+        "Spherical" => Holds::Spherical,
+        "Universal" => Holds::Universal,
+        "ConstantVelocity" => Holds::ConstantVelocity,
+        "Planar" => Holds::Planar(offset(e)?),
+        "PointInPlane" | "InPlane" => Holds::PointInPlane(offset(e)?),
+        "LineInPlane" => Holds::LineInPlane(offset(e)?),
+        "PointInLine" | "InLine" => Holds::PointInLine,
+        "ParallelAxes" => Holds::ParallelAxes,
+        "NoRotation" => Holds::NoRotation,
+        "Perpendicular" => Holds::Angle(0.0),
+        "Angle" => Holds::Angle(figure(e, "theIzJz")?.cos()),
+        "SphSph" | "SphericalSpherical" => Holds::PointPoint(figure(e, "distanceIJ")?),
+        "CylSph" => Holds::PointLine(figure(e, "distanceIJ")?),
+        "RevCyl" => Holds::LineLine(figure(e, "distanceIJ")?),
+        "RevRev" => Holds::Hinges(figure(e, "distanceIJ")?),
+        "Gear" => Holds::Gear([figure(e, "radiusI")?, figure(e, "radiusJ")?]),
+        "RackPinion" => Holds::RackPinion(figure(e, "pitchRadius")?),
+        "Screw" => Holds::Screw(figure(e, "pitch")?),
+        other => {
+            let problem = RobotProblem::UnknownWord {
+                element: called(e),
+                what: "type",
+                word: other.to_owned(),
+                known: KNOWN.to_owned(),
+            };
+            return Err(e.fail(None, problem));
+        }
+    })
+}
+
+/// The joints that are read, for messages.
+const KNOWN: &str = "Fixed, Revolute, Translational, Cylindrical, Spherical, Universal, ConstantVelocity, Planar, PointInPlane, LineInPlane, PointInLine, ParallelAxes, NoRotation, Perpendicular, Angle, SphSph, CylSph, RevCyl, RevRev, Gear, RackPinion, Screw";

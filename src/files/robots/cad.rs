@@ -1,9 +1,273 @@
 //! Assemblies of CAD programs: parts placed by the file, and joints that say what of two frames must meet.
+//!
+//! An assembly as read, and the robot that it is: parts where they stand, joints where their frames are.
 
 pub(crate) mod archive;
-pub(crate) mod assembly;
 mod coupled;
 pub(crate) mod holds;
 mod meet;
 pub(crate) mod outline;
 pub(crate) mod retype;
+
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::length;
+use crate::model::joint_type::JointType;
+use crate::robots::cad::coupled::coupling;
+use crate::robots::cad::holds::Holds;
+use crate::robots::cad::meet::{Meeting, meeting};
+use crate::robots::description::{Part, Robot, Unit, free};
+use crate::robots::import::Options;
+use crate::robots::warning::CadCount;
+
+/// Frames that are apart by less than this, as a share of the assembly's size and in radians, meet: solvers leave so much.
+const MEET: f64 = 1e-4;
+/// Less than this is rounding of the last digits.
+const ROUNDED: f64 = 1e-9;
+/// What a search may put in place of a joint: what CAD programs have joints for.
+const OPTIONS: [JointType; 3] = [
+    JointType::Revolute,
+    JointType::Cylindrical,
+    JointType::Spherical,
+];
+
+/// What is said of limits, which no reader gives.
+pub(crate) const NO_LIMITS: &str = "limits are left out: poses beyond them are looked at, too";
+
+/// A joint as read.
+#[derive(Debug, Clone)]
+pub(crate) struct Connection {
+    pub(crate) id: String,
+    /// The parts of I and J.
+    pub(crate) parts: [usize; 2],
+    /// I and J in the assembly.
+    pub(crate) frames: [RigidMotion; 2],
+    pub(crate) holds: Holds,
+    /// The element that says so.
+    pub(crate) element: usize,
+}
+
+/// Parts and joints; part 0 is what stands still.
+#[derive(Debug, Clone)]
+pub(crate) struct Assembly {
+    pub(crate) name: String,
+    pub(crate) unit: Unit,
+    /// Names and places.
+    pub(crate) parts: Vec<(String, RigidMotion)>,
+    pub(crate) connections: Vec<Connection>,
+}
+
+impl Assembly {
+    /// The robot that it is. Notes already in its report stay.
+    pub(crate) fn robot(&self, mut robot: Robot, options: &Options) -> Robot {
+        robot.name.clone_from(&self.name);
+        robot.unit = self.unit;
+        robot.assembly = true;
+        robot.options = &OPTIONS;
+        let tied = self.tied(&mut robot);
+        // Parts that float are no links.
+        let mut link = vec![None; self.parts.len()];
+        for (p, (name, place)) in self.parts.iter().enumerate().filter(|(p, _)| tied[*p]) {
+            link[p] = Some(robot.link(name, *place));
+        }
+        robot.world = link[0];
+        let known: Vec<(&Connection, [usize; 2])> = (self.connections.iter())
+            .filter_map(|c| Some((c, [link[c.parts[0]]?, link[c.parts[1]]?])))
+            .collect();
+        let (couplers, ties): (Vec<_>, Vec<_>) =
+            known.into_iter().partition(|(c, _)| c.holds.couples());
+        let mut rows = 0;
+        for (c, links) in &ties {
+            rows += c.holds.rows();
+            self.tie(c, *links, options, &mut robot);
+        }
+        for (c, links) in &couplers {
+            rows += c.holds.rows();
+            couple(c, *links, &mut robot);
+        }
+        let moving = tied.iter().filter(|t| **t).count() - 1;
+        robot.report.count = Some(CadCount {
+            parts: moving,
+            constraints: rows,
+        });
+        robot.known_to = Some(self.known_to(&robot));
+        robot
+    }
+
+    /// Which parts a chain of joints ties to the ground; the others are told.
+    fn tied(&self, robot: &mut Robot) -> Vec<bool> {
+        let mut tied = vec![false; self.parts.len()];
+        tied[0] = true;
+        let ties = || self.connections.iter().filter(|c| !c.holds.couples());
+        let mut more = true;
+        while std::mem::take(&mut more) {
+            for c in ties() {
+                let [a, b] = c.parts;
+                if tied[a] != tied[b] {
+                    (tied[a], tied[b], more) = (true, true, true);
+                }
+            }
+        }
+        let loose = self.parts.iter().zip(&tied).filter(|(_, t)| !**t);
+        for ((name, _), _) in loose {
+            robot
+                .report
+                .drop("part that nothing ties to the ground", Some(name));
+        }
+        for c in self
+            .connections
+            .iter()
+            .filter(|c| !tied[c.parts[0]] || !tied[c.parts[1]])
+        {
+            robot.report.drop("joint of parts that float", Some(&c.id));
+        }
+        tied
+    }
+
+    fn tie(&self, c: &Connection, links: [usize; 2], options: &Options, robot: &mut Robot) {
+        if links[0] == links[1] {
+            let what = "both ends are on one part, which holds all of it; left out";
+            robot
+                .report
+                .approximate(&format!("joint \"{}\"", c.id), what);
+            return;
+        }
+        let m = match meeting(c.holds, &c.frames[0], &c.frames[1]) {
+            Ok(m) => m,
+            Err(why) => {
+                left_out(c, why, robot);
+                // A joint all the same, which holds nothing: its parts do not fall off.
+                let there = c.frames[0];
+                Meeting::new(free(), there, there)
+            }
+        };
+        let part = part(c, links, &m, &robot.places, options);
+        self.tell(c, &part, &m, options, robot);
+        robot.report.map(c.holds.word());
+        robot.joints.push(part);
+    }
+
+    /// Says where frames do not meet, and what is right at this pose only.
+    fn tell(&self, c: &Connection, part: &Part, m: &Meeting, options: &Options, robot: &mut Robot) {
+        let element = format!("joint \"{}\"", c.id);
+        if let Some(apart) = part.misfit.filter(|a| self.is_open(*a)) {
+            let apart = words(apart, self.unit);
+            if options.assemble {
+                let what = format!("{element}: its two frames are {apart} apart in the file");
+                robot.report.moved(what);
+            } else {
+                let what = format!(
+                    "its two frames are {apart} apart; the figures are those of the file's pose, the joint where its first frame is (--assemble closes joints)"
+                );
+                robot.report.assume(&element, what);
+                robot.here_only = true;
+            }
+        }
+        if m.here_only {
+            let what = format!(
+                "{}: it has the freedoms that it has at this pose, and nothing is said of others",
+                c.holds.word()
+            );
+            robot.report.approximate(&element, what);
+            robot.here_only = true;
+        }
+    }
+
+    /// The largest way between frames of a joint: what lengths are measured against.
+    fn size(&self) -> f64 {
+        let places = self.parts.iter().map(|(_, p)| length(p.translation));
+        let frames = self.connections.iter();
+        let frames = frames.flat_map(|c| c.frames.map(|f| length(f.translation)));
+        places.chain(frames).fold(1e-3, f64::max)
+    }
+
+    fn is_open(&self, [shift, turn]: [f64; 2]) -> bool {
+        shift > MEET * self.size() || turn > MEET
+    }
+
+    /// How well places are known: as well as frames meet that are to meet.
+    fn known_to(&self, robot: &Robot) -> [f64; 2] {
+        let closed = robot.joints.iter().filter_map(|p| p.misfit);
+        let closed = closed.filter(|m| !self.is_open(*m));
+        let most = closed.fold([0.0_f64; 2], |[a, b], [shift, turn]| {
+            [a.max(shift), b.max(turn)]
+        });
+        let size = self.size();
+        // A turn moves what is as far away as the assembly is large.
+        let shift = most[0].max(most[1] * size).max(1e-12 * size);
+        [shift, (shift / size).max(most[1])]
+    }
+}
+
+fn part(
+    c: &Connection,
+    links: [usize; 2],
+    m: &Meeting,
+    places: &[RigidMotion],
+    options: &Options,
+) -> Part {
+    let apart = m.near.inverse().then(&m.far);
+    let turn = match m.kind {
+        JointType::Spherical => 0.0,
+        _ => apart.angle(),
+    };
+    // As the file has it a joint stands at one place; closed, each part keeps its own frame.
+    let far = if options.assemble { &m.far } else { &m.near };
+    let sides = [
+        places[links[0]].inverse().then(&m.near),
+        places[links[1]].inverse().then(far),
+    ];
+    let mut part = Part::new(&c.id, links, sides, m.kind.clone());
+    part.pitch = m.pitch;
+    part.element = Some(c.element);
+    part.misfit = Some([length(apart.translation), turn]);
+    part
+}
+
+fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
+    let m = match meeting(c.holds, &c.frames[0], &c.frames[1]) {
+        Ok(m) => m,
+        Err(why) => return left_out(c, why, robot),
+    };
+    robot.report.map(c.holds.word());
+    let element = format!("joint \"{}\"", c.id);
+    let said = (element.as_str(), c.element);
+    if let Some(found) = coupling(&m, links, &robot.joints, &robot.places, said) {
+        robot.couplings.push(found);
+        return;
+    }
+    let what = format!(
+        "{}: its parts do not both hang on one part by a hinge or a slider; here it holds what it holds at this pose, and nothing is said of others",
+        c.holds.word()
+    );
+    robot.report.approximate(&element, what);
+    robot.here_only = true;
+    let mut held = part(c, links, &m, &robot.places, &Options::default());
+    held.closes = true;
+    robot.joints.push(held);
+}
+
+fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
+    let what = format!("{} is left out: {why}", c.holds.word());
+    let element = format!("joint \"{}\"", c.id);
+    robot.report.leave_out_joint(&element, c.holds.rows(), what);
+}
+
+/// A misfit in words: "0.02 mm and 1.2 degrees".
+pub(crate) fn words([shift, turn]: [f64; 2], unit: Unit) -> String {
+    let number = |x: f64| match x {
+        x if x >= 0.095 => format!("{x:.1}"),
+        x => format!("{x:.1e}"),
+    };
+    let degrees = turn.to_degrees();
+    match (shift > ROUNDED, degrees > ROUNDED) {
+        (true, true) => format!(
+            "{} {} and {} degrees",
+            number(shift),
+            unit.symbol(),
+            number(degrees)
+        ),
+        (false, true) => format!("{} degrees", number(degrees)),
+        (true, false) => format!("{} {}", number(shift), unit.symbol()),
+        (false, false) => format!("0 {}", unit.symbol()),
+    }
+}

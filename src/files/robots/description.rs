@@ -1,4 +1,6 @@
 //! A robot as a description has it: links, joints, loops, couplings, and where they stand in the text.
+//!
+//! What the formats have in common: links, joints with a place on either side, named frames.
 
 pub(in crate::robots) mod coupling;
 pub(in crate::robots) mod digits;
@@ -7,5 +9,249 @@ pub(in crate::robots) mod loops;
 pub(in crate::robots) mod massless;
 pub(in crate::robots) mod mimic;
 pub(in crate::robots) mod origin;
-pub(in crate::robots) mod parts;
 pub(in crate::robots) mod physical;
+
+use crate::geom::rigid::{RigidMotion, perpendicular};
+use crate::geom::vector::{Vector, X, Z, cross};
+use crate::model::joint_type::{Freedom, JointType};
+use crate::robots::warning::Report;
+use crate::robots::xml::Element;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A joint between two links, or a constraint that closes a loop.
+#[derive(Debug, Clone)]
+pub(crate) struct Part {
+    /// Its name; made unique before it is written.
+    pub(in crate::robots) id: String,
+    /// Parent and child.
+    pub(in crate::robots) links: [usize; 2],
+    /// The joint's place on the parent and on the child.
+    pub(in crate::robots) sides: [RigidMotion; 2],
+    pub(in crate::robots) joint_type: JointType,
+    /// Direction of z in the joint's own frame, of any length.
+    pub(in crate::robots) axis: Vector,
+    /// Direction of x in the joint's own frame.
+    pub(in crate::robots) second: Vector,
+    /// Translation per radian of a screw, in metres.
+    pub(in crate::robots) pitch: f64,
+    pub(in crate::robots) drive: bool,
+    /// Whether an actuator moves it by a tendon, which others may share.
+    pub(in crate::robots) pulled: bool,
+    /// Whether it closes a loop by what the file says; such joints join the tree last.
+    pub(in crate::robots) closes: bool,
+    /// Value of the one freedom in the pose drawn, subtracted from values given from outside.
+    pub(in crate::robots) zero: f64,
+    /// Displacement of each freedom.
+    pub(in crate::robots) values: Vec<f64>,
+    /// Limits of a joint of one freedom.
+    pub(in crate::robots) limits: Option<(f64, f64)>,
+    /// What was approximated, for the file.
+    pub(in crate::robots) comment: Option<String>,
+    /// The element that says so; none where a file beside the description does.
+    pub(in crate::robots) element: Option<usize>,
+    /// How far its two sides are apart in what it holds, where the file places both: a length in the robot's unit, and radians.
+    pub(in crate::robots) misfit: Option<[f64; 2]>,
+}
+
+impl Part {
+    /// Returns the value and the limits of a joint of one freedom that is outside them after it moved so far; `None` if it is
+    /// within them or has no limits.
+    pub(in crate::robots) fn exceeded(&self, moved: f64) -> Option<[f64; 3]> {
+        let (Some((low, high)), [value]) = (self.limits, &self.values[..]) else {
+            return None;
+        };
+        // Limits are often where the joint stands.
+        let (at, slack) = (value + moved, 1e-6 * (high - low).max(1e-3));
+        (!(low - slack..=high + slack).contains(&at)).then_some([at, low, high])
+    }
+
+    /// A joint at rest, its axis z.
+    pub(crate) fn new(
+        id: &str,
+        links: [usize; 2],
+        sides: [RigidMotion; 2],
+        joint_type: JointType,
+    ) -> Part {
+        Part {
+            id: id.to_owned(),
+            links,
+            sides,
+            values: vec![0.0; joint_type.freedoms().len()],
+            joint_type,
+            axis: Z,
+            second: X,
+            pitch: 0.0,
+            zero: 0.0,
+            drive: false,
+            pulled: false,
+            closes: false,
+            limits: None,
+            comment: None,
+            element: None,
+            misfit: None,
+        }
+    }
+
+    /// The joint as an element says.
+    pub(crate) fn said_by(mut self, e: Element<'_>) -> Part {
+        self.element = Some(e.id);
+        self
+    }
+
+    /// The joint about or along another axis of its frame.
+    pub(crate) fn about(mut self, axis: Vector) -> Part {
+        self.axis = axis;
+        self.second = perpendicular(axis);
+        self
+    }
+
+    /// The direction of a freedom in the joint's own frame.
+    pub(crate) fn direction(&self, freedom: Freedom) -> Vector {
+        match freedom {
+            Freedom::Rz | Freedom::Tz | Freedom::Screw => self.axis,
+            Freedom::Rx | Freedom::Tx => self.second,
+            Freedom::Ry | Freedom::Ty => cross(self.axis, self.second),
+        }
+    }
+}
+
+/// A joint of all six freedoms.
+pub(crate) fn free() -> JointType {
+    use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
+    JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
+}
+
+/// Rate of one joint over that of another.
+#[derive(Debug, Clone)]
+pub(crate) struct Ratio {
+    /// Names of the joint that leads and the one that follows.
+    pub(in crate::robots) joints: [String; 2],
+    /// Rate of the follower over that of the leader, in radians and metres, where the leader is at its reference.
+    pub(in crate::robots) ratio: f64,
+    /// Coefficients of the second to fourth power of the leader's value, where the follower's is a polynomial of it.
+    pub(in crate::robots) higher: [f64; 3],
+    /// The element that says so, in words.
+    pub(in crate::robots) element: String,
+    /// That element.
+    pub(in crate::robots) said_by: usize,
+    /// Whether it says that gears make it.
+    pub(in crate::robots) gear: bool,
+}
+
+impl Ratio {
+    /// The rate where the leader has a value: the derivative of the polynomial.
+    pub(in crate::robots) fn at(&self, value: f64) -> f64 {
+        let [two, three, four] = self.higher;
+        self.ratio + value * (2.0 * two + value * (3.0 * three + value * 4.0 * four))
+    }
+}
+
+/// A robot as read.
+#[derive(Debug, Clone)]
+pub(crate) struct Robot {
+    pub(in crate::robots) name: String,
+    /// Names of the links.
+    pub(in crate::robots) links: Vec<String>,
+    pub(in crate::robots) joints: Vec<Part>,
+    /// Joints that move in a fixed ratio.
+    pub(in crate::robots) couplings: Vec<Ratio>,
+    /// The link that is the world, where the format has one.
+    pub(in crate::robots) world: Option<usize>,
+    /// Whether parts that no joint holds float in the world.
+    pub(in crate::robots) floats: bool,
+    /// Links with a shape or a site: parts that are more than kinematics.
+    pub(in crate::robots) shown: BTreeSet<usize>,
+    /// Named frames: the link they are fixed to and their place on it.
+    pub(in crate::robots) frames: BTreeMap<String, (usize, RigidMotion)>,
+    /// Places of links in the file, for those that nothing else places.
+    pub(in crate::robots) places: Vec<RigidMotion>,
+    /// The unit of its lengths.
+    pub(in crate::robots) unit: Unit,
+    /// How well places are known, in its unit and in radians, where that is known better than by the digits of its numbers.
+    pub(in crate::robots) known_to: Option<[f64; 2]>,
+    /// Whether a joint has freedoms that are right at this pose only.
+    pub(in crate::robots) here_only: bool,
+    /// Whether it is an assembly of a CAD program: joints have one of a few types, and fixed joints of a loop are joints like
+    /// others; else what is fixed is one body.
+    pub(in crate::robots) assembly: bool,
+    /// What a search may put in place of a joint.
+    pub(in crate::robots) options: &'static [JointType],
+    /// The links that elements are.
+    pub(in crate::robots) said: BTreeMap<usize, usize>,
+    pub(in crate::robots) report: Report,
+}
+
+/// A unit of lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Unit {
+    Metre,
+    Millimetre,
+}
+
+impl Unit {
+    /// As mechanism files write it.
+    pub(crate) fn symbol(self) -> &'static str {
+        match self {
+            Unit::Metre => "m",
+            Unit::Millimetre => "mm",
+        }
+    }
+
+    pub(crate) fn metres(self) -> f64 {
+        match self {
+            Unit::Metre => 1.0,
+            Unit::Millimetre => 1e-3,
+        }
+    }
+}
+
+/// What a search may put in place of a joint where a format has no list of its own.
+const OPTIONS: [JointType; 4] = [
+    JointType::Revolute,
+    JointType::Cylindrical,
+    JointType::Universal,
+    JointType::Spherical,
+];
+
+impl Robot {
+    pub(crate) fn new(name: &str) -> Robot {
+        Robot {
+            name: name.to_owned(),
+            links: Vec::new(),
+            joints: Vec::new(),
+            couplings: Vec::new(),
+            world: None,
+            floats: false,
+            shown: BTreeSet::new(),
+            frames: BTreeMap::new(),
+            places: Vec::new(),
+            unit: Unit::Metre,
+            known_to: None,
+            here_only: false,
+            assembly: false,
+            options: &OPTIONS,
+            said: BTreeMap::new(),
+            report: Report::default(),
+        }
+    }
+
+    /// Adds a link; its frame gets its name.
+    pub(crate) fn link(&mut self, name: &str, place: RigidMotion) -> usize {
+        let l = self.links.len();
+        self.links.push(name.to_owned());
+        self.places.push(place);
+        self.frames
+            .insert(name.to_owned(), (l, RigidMotion::IDENTITY));
+        l
+    }
+
+    /// Notes the element that a link is; those of links in between are none.
+    pub(crate) fn said_by(&mut self, link: usize, e: Element<'_>) {
+        self.said.insert(e.id, link);
+    }
+
+    /// The link or frame of a name.
+    pub(crate) fn frame(&self, name: &str) -> Option<(usize, RigidMotion)> {
+        self.frames.get(name).copied()
+    }
+}

@@ -2,8 +2,8 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
+use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::parts::Part;
 use crate::robots::problem::RobotProblem;
 use crate::robots::xml::Element;
 use std::collections::{BTreeMap, BTreeSet};

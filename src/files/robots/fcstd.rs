@@ -1,11 +1,358 @@
-//! FreeCAD documents with assemblies: `.FCStd`.
+//! FreeCAD documents with assemblies, `.FCStd`: the parts of an assembly where they stand, and its joints.
 
 mod brep;
 mod distance;
 mod joint;
 mod objects;
-pub(crate) mod read;
 mod reference;
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
+use crate::robots::cad::archive::Archive;
+use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
+use crate::robots::description::{Robot, Unit};
+use crate::robots::fcstd::joint::{Held, Shapes, Slide, frames, held};
+use crate::robots::fcstd::objects::{Object, Objects};
+use crate::robots::fcstd::reference::{Documents, Reference, reference};
+use crate::robots::import::{Options, Reader};
+use crate::robots::problem::{RobotProblem, known};
+use crate::robots::xml::{self, Document, Element};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The member of the archive that says what objects there are.
 pub(crate) const DOCUMENT: &str = "Document.xml";
+
+/// Most documents that one may link to, with those that these link to.
+const MAX_LINKED: usize = 100;
+/// Rows of a joint of a type that is not known: as many as a joint can hold that lets anything move.
+const UNKNOWN_ROWS: usize = 5;
+
+/// Properties that say that a joint has limits.
+const LIMITS: [&str; 4] = [
+    "EnableLengthMin",
+    "EnableLengthMax",
+    "EnableAngleMin",
+    "EnableAngleMax",
+];
+
+/// The robot that the assembly of a document is.
+///
+/// # Errors
+/// The first problem found, with its place.
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    read: Reader<'_>,
+    options: &Options,
+) -> Result<Robot, ImportError> {
+    let mut robot = Robot::new("");
+    let roots = linked(document, root, read, &mut robot)?;
+    let mut documents = Documents {
+        main: Objects::of(document.element(root))?,
+        linked: BTreeMap::new(),
+    };
+    for (file, root) in &roots {
+        let objects = Objects::of(document.element(*root))?;
+        documents.linked.insert(file.clone(), objects);
+    }
+    let assembly = chosen(document, root, &documents.main, options, &mut robot)?;
+    let shapes = |member: &str| String::from_utf8(read(member).ok()?).ok();
+    let reading = Assembling {
+        documents: &documents,
+        assembly,
+        joints: joints(&documents.main, &assembly),
+        shapes: &shapes,
+    };
+    let assembly = reading.assembly(document, root, &mut robot)?;
+    Ok(assembly.robot(robot, options))
+}
+
+/// Reads the documents that links lead to, with those that these lead to; their root elements by the names of their files.
+fn linked(
+    document: &mut Document,
+    root: usize,
+    read: Reader<'_>,
+    robot: &mut Robot,
+) -> Result<BTreeMap<String, usize>, ImportError> {
+    let mut out = BTreeMap::new();
+    let mut wanted = files(document, root)?;
+    let mut seen: BTreeSet<String> = wanted.iter().cloned().collect();
+    while let Some(file) = wanted.pop() {
+        if out.len() >= MAX_LINKED {
+            let (what, limit) = ("linked documents", MAX_LINKED);
+            return Err(document
+                .element(root)
+                .fail(None, RobotProblem::TooMany { what, limit }));
+        }
+        let bytes = match read(&file) {
+            Ok(bytes) => bytes,
+            Err(why) => {
+                robot.report.drop(
+                    &format!("linked document that cannot be read ({why})"),
+                    Some(&file),
+                );
+                continue;
+            }
+        };
+        let archive = Archive::of(&file, &bytes);
+        let member = archive.map(|a| a.member(DOCUMENT)).transpose()?.flatten();
+        let Some(member) = member else {
+            robot
+                .report
+                .drop("linked document that is none of FreeCAD's", Some(&file));
+            continue;
+        };
+        let name = format!("{file}/{DOCUMENT}");
+        let inner = document.read(&name, xml::utf8(&name, &member)?)?;
+        out.insert(file, inner);
+        for more in files(document, inner)? {
+            if seen.insert(more.clone()) {
+                wanted.push(more);
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// The files that links of a document lead to.
+fn files(document: &Document, root: usize) -> Result<Vec<String>, ImportError> {
+    let objects = Objects::of(document.element(root))?;
+    let files = objects.all().filter_map(|o| Some(o.linked()?.0.to_owned()));
+    let files: BTreeSet<String> = files.filter(|f| !f.is_empty()).collect();
+    Ok(files.into_iter().collect())
+}
+
+/// Objects of the groups of another, groups within groups and parts of assemblies that move by themselves, too.
+fn below<'a>(objects: &Objects<'a>, of: &Object<'a>, out: &mut Vec<Object<'a>>) {
+    for name in of.links("Group") {
+        let Some(&child) = objects.get(name) else {
+            continue;
+        };
+        if out.iter().any(|o| o.name == child.name) {
+            continue;
+        }
+        out.push(child);
+        if child.is_group() || child.kind == "Assembly::JointGroup" {
+            below(objects, &child, out);
+        }
+    }
+}
+
+/// The joints of an assembly, in the order of its groups.
+fn joints<'a>(objects: &Objects<'a>, assembly: &Object<'a>) -> Vec<Object<'a>> {
+    let mut all = Vec::new();
+    below(objects, assembly, &mut all);
+    all.retain(|o| o.property("JointType").is_some() || o.property("ObjectToGround").is_some());
+    all
+}
+
+/// The assembly that is meant: the one that is named, or else the one with most joints.
+fn chosen<'a>(
+    document: &'a Document,
+    root: usize,
+    objects: &Objects<'a>,
+    options: &Options,
+    robot: &mut Robot,
+) -> Result<Object<'a>, ImportError> {
+    let all: Vec<Object<'a>> = (objects.all())
+        .filter(|o| o.kind == "Assembly::AssemblyObject")
+        .copied()
+        .collect();
+    let root = document.element(root);
+    if let Some(wanted) = &options.assembly {
+        let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;
+        return all.iter().find(named).copied().ok_or_else(|| {
+            let problem = RobotProblem::UnknownName {
+                element: "--assembly".to_owned(),
+                what: "assembly",
+                name: wanted.clone(),
+                known: known("assemblies", all.iter().map(Object::label)),
+            };
+            root.fail(None, problem)
+        });
+    }
+    let count = |o: &&Object<'a>| joints(objects, o).len();
+    // Of as many joints the first.
+    let Some(&most) = all.iter().rev().max_by_key(count) else {
+        let message =
+            "there is no assembly in the document; make one with FreeCAD's Assembly workbench"
+                .to_owned();
+        return Err(root.fail(None, RobotProblem::Whole { message }));
+    };
+    for other in all.iter().filter(|o| o.name != most.name) {
+        let what = format!(
+            "another assembly of the document, left alone (--assembly reads it; this is of \"{}\")",
+            most.label()
+        );
+        robot.report.drop(&what, Some(other.label()));
+    }
+    Ok(most)
+}
+
+/// What is put together.
+struct Assembling<'a, 'd> {
+    documents: &'d Documents<'a>,
+    assembly: Object<'a>,
+    joints: Vec<Object<'a>>,
+    shapes: Shapes<'d>,
+}
+
+/// Two ends of a joint, and its place among the joints.
+type Ended<'a> = (Object<'a>, &'a str, [Reference<'a>; 2]);
+
+/// The parts of an assembly.
+struct Parts<'a> {
+    /// Labels and places; the first is what stands still.
+    parts: Vec<(String, RigidMotion)>,
+    /// Which of them an object is, by its name.
+    place: BTreeMap<&'a str, usize>,
+}
+
+impl<'a> Assembling<'a, '_> {
+    fn assembly(
+        &self,
+        document: &'a Document,
+        root: usize,
+        robot: &mut Robot,
+    ) -> Result<Assembly, ImportError> {
+        let ended = self.ended(robot)?;
+        let grounded = self.grounded(&ended, robot);
+        let Parts { parts, place } = self.parts(&ended, &grounded, document.element(root))?;
+        let slides = slides(&ended)?;
+        let of = |end: &Reference<'_>| end.part.map_or(0, |p| place.get(p).copied().unwrap_or(0));
+        let mut connections = Vec::new();
+        let mut labels = BTreeSet::new();
+        for (joint, word, ends) in &ended {
+            let label = joint.label();
+            let id = if labels.insert(label) {
+                label.to_owned()
+            } else {
+                format!("{label} ({})", joint.name)
+            };
+            let Some(found) = held(word, joint, ends, &slides, self.shapes)? else {
+                let what = format!("left out: it is of the type {word}, which is not known");
+                let element = format!("joint \"{id}\"");
+                robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
+                continue;
+            };
+            let Held {
+                holds,
+                frames,
+                swap,
+                doubt,
+            } = found;
+            let doubts = ends.iter().filter_map(|e| e.doubt.clone());
+            for doubt in doubts.chain(doubt.map(str::to_owned)) {
+                robot.report.assume(&format!("joint \"{id}\""), doubt);
+            }
+            if LIMITS.iter().any(|l| joint.is_true(l) == Some(true)) {
+                let element = format!("joint \"{id}\"");
+                robot.report.approximate(&element, NO_LIMITS);
+            }
+            let [a, b] = [of(&ends[0]), of(&ends[1])];
+            connections.push(Connection {
+                id,
+                parts: if swap { [b, a] } else { [a, b] },
+                frames,
+                holds,
+                element: joint
+                    .property("JointType")
+                    .map_or(joint.listed.id, |p| p.id),
+            });
+        }
+        Ok(Assembly {
+            name: self.assembly.label().to_owned(),
+            unit: Unit::Millimetre,
+            parts,
+            connections,
+        })
+    }
+
+    /// The parts that joints hold; what is grounded is one with what stands still, and gives it its name.
+    fn parts(
+        &self,
+        ended: &[Ended<'a>],
+        grounded: &BTreeSet<&'a str>,
+        root: Element<'_>,
+    ) -> Result<Parts<'a>, ImportError> {
+        let mut parts: Vec<(String, RigidMotion)> =
+            vec![(self.assembly.label().to_owned(), RigidMotion::IDENTITY)];
+        let mut place: BTreeMap<&str, usize> = BTreeMap::new();
+        let ends = ended.iter().flat_map(|(_, _, ends)| ends);
+        for (end, part) in ends.filter_map(|e| Some((e, e.part?))) {
+            if place.contains_key(part) {
+                continue;
+            }
+            root.room("parts", parts.len())?;
+            let label = self.documents.main.get(part).map_or(part, Object::label);
+            if grounded.contains(part) {
+                if place.values().all(|p| *p != 0) {
+                    label.clone_into(&mut parts[0].0);
+                }
+                place.insert(part, 0);
+            } else {
+                place.insert(part, parts.len());
+                parts.push((label.to_owned(), end.place));
+            }
+        }
+        Ok(Parts { parts, place })
+    }
+
+    /// The joints whose two ends are known; the others are told.
+    fn ended(&self, robot: &mut Robot) -> Result<Vec<Ended<'a>>, ImportError> {
+        let mut out = Vec::new();
+        for joint in &self.joints {
+            let Some(word) = joint.word("JointType")? else {
+                continue;
+            };
+            let off = joint.is_true("Suppressed") == Some(true)
+                || joint.is_true("Activated") == Some(false);
+            if off {
+                robot.report.drop("suppressed joint", Some(joint.label()));
+                continue;
+            }
+            let end = |which: &str| reference(joint, which, &self.assembly, self.documents);
+            match (end("Reference1")?, end("Reference2")?) {
+                (Ok(a), Ok(b)) => out.push((*joint, word, [a, b])),
+                (Err(why), _) | (_, Err(why)) => {
+                    let what = format!("left out, as FreeCAD does: {why}");
+                    let element = format!("joint \"{}\"", joint.label());
+                    robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    /// What stands still; where nothing is grounded, the first part of the first joint.
+    fn grounded(&self, ended: &[Ended<'a>], robot: &mut Robot) -> BTreeSet<&'a str> {
+        let mut grounded: BTreeSet<&str> = (self.joints.iter())
+            .flat_map(|j| j.links("ObjectToGround"))
+            .collect();
+        let mut ends = ended.iter().flat_map(|(_, _, ends)| ends);
+        let still = |e: &Reference<'_>| e.part.is_none_or(|p| grounded.contains(p));
+        let first = ended.first().and_then(|(_, _, ends)| ends[0].part);
+        if let (false, Some(part)) = (ends.any(still), first) {
+            grounded.insert(part);
+            let label = self.documents.main.get(part).map_or(part, Object::label);
+            let what = format!(
+                "nothing that joints hold is grounded: {label} is taken as what stands still"
+            );
+            robot.report.moved(what);
+        }
+        grounded
+    }
+}
+
+/// The directions that sliders slide along, by the parts they join.
+fn slides<'a>(ended: &[Ended<'a>]) -> Result<Vec<Slide<'a>>, ImportError> {
+    let mut out = Vec::new();
+    for (joint, word, ends) in ended {
+        if *word == "Slider" {
+            let [frame, _] = frames(joint, ends)?;
+            let direction = frame.rotation.map(|row| row[2]);
+            out.extend(ends.iter().map(|e| (e.part, direction)));
+        }
+    }
+    Ok(out)
+}

@@ -4,8 +4,8 @@ use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
 use crate::model::mechanism::Mechanism;
 use crate::robots::cad::archive::Archive;
-use crate::robots::description::parts::Robot;
-use crate::robots::options::{Options, Reader};
+use crate::robots::description::Robot;
+use crate::robots::import::{Options, Reader};
 use crate::robots::problem::ExportError;
 use crate::robots::xml::Document;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
@@ -81,7 +81,7 @@ static FORMATS: [Format; 9] = [
         name: "URDF",
         about: "A spanning tree, loops as <loop_joint>",
         endings: &["urdf", "xacro", "xml"],
-        read: Some(("robot", urdf::read::read)),
+        read: Some(("robot", urdf::read)),
         write: Some(FormatWriter::Mechanism(urdf::write::urdf)),
     },
     Format {
@@ -89,7 +89,7 @@ static FORMATS: [Format; 9] = [
         name: "MJCF",
         about: "Bodies; loops as connect and weld",
         endings: &["mjcf", "xml"],
-        read: Some(("mujoco", mjcf::read::read)),
+        read: Some(("mujoco", mjcf::read)),
         write: Some(FormatWriter::Mechanism(mjcf::write::mjcf)),
     },
     Format {
@@ -97,7 +97,7 @@ static FORMATS: [Format; 9] = [
         name: "SDF",
         about: "Loops closed by joints",
         endings: &["sdf", "world", "xml"],
-        read: Some(("sdf", sdf::read::read)),
+        read: Some(("sdf", sdf::read)),
         write: Some(FormatWriter::Mechanism(|m| Ok(sdf::write::sdf(m)))),
     },
     Format {
@@ -105,7 +105,7 @@ static FORMATS: [Format; 9] = [
         name: "FreeCAD",
         about: "FILE, a FreeCAD document, with joints of other types",
         endings: &["fcstd"],
-        read: Some(("Document", fcstd::read::read)),
+        read: Some(("Document", fcstd::read)),
         write: Some(FormatWriter::Own),
     },
     Format {
@@ -113,7 +113,7 @@ static FORMATS: [Format; 9] = [
         name: "OndselSolver",
         about: "FILE, an assembly of FreeCAD's solver, with joints of other types",
         endings: &["asmt"],
-        read: Some(("Assembly", asmt::read::read)),
+        read: Some(("Assembly", asmt::read)),
         write: Some(FormatWriter::Own),
     },
     Format {
@@ -191,7 +191,7 @@ pub fn is_description(name: &str) -> bool {
 pub fn begins_description(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     Archive::of("", bytes).is_some()
-        || asmt::read::is_one(text)
+        || asmt::is_one(text)
         || text.trim_ascii_start().starts_with(b"<")
 }
 

@@ -1,8 +1,337 @@
-//! From a robot to a mechanism file.
+//! From a robot as read to a mechanism file: pose, frame, loops, bodies, outputs.
 
-pub(in crate::robots) mod build;
 pub(in crate::robots) mod entries;
 pub(in crate::robots) mod loop_closing;
 pub(in crate::robots) mod loop_options;
 pub(in crate::robots) mod outputs;
 pub(in crate::robots) mod series_of_single_joints;
+
+use crate::file::read::value::LIMITS;
+use crate::file::schema::MechanismFile;
+use crate::file::write::Comment;
+use crate::format::plural;
+use crate::geom::rigid::RigidMotion;
+use crate::model::joint_type::JointType;
+use crate::robots::description::kinematics::{Tree, places, spanning_tree};
+use crate::robots::description::{Part, Robot, coupling, free};
+use crate::robots::import::Options;
+use crate::robots::mechanism::entries::{Bodies, Content};
+use crate::robots::mechanism::loop_closing::{CLOSED, ROUNDED, close, gaps, size, worst};
+use crate::robots::mechanism::outputs::link_of;
+use crate::robots::problem::{RobotProblem, known};
+use std::collections::BTreeSet;
+
+pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), RobotProblem> {
+    for (id, values) in &options.pose {
+        let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
+            return Err(RobotProblem::UnknownName {
+                element: "the pose".to_owned(),
+                what: "joint",
+                name: id.clone(),
+                known: known("joints", robot.joints.iter().map(|j| j.id.as_str())),
+            });
+        };
+        if values.len() != joint.values.len() || !values.iter().all(|v| v.abs() <= 1e9) {
+            return Err(RobotProblem::BadValue {
+                element: format!("joint \"{id}\""),
+                what: "the pose".to_owned(),
+                found: values
+                    .iter()
+                    .map(f64::to_string)
+                    .collect::<Vec<_>>()
+                    .join(","),
+                want: format!("give {} finite numbers", joint.values.len()),
+            });
+        }
+        joint.values = values.iter().map(|v| v - joint.zero).collect();
+    }
+    Ok(())
+}
+
+/// The frame: the world where something hangs on it, else the link that is no joint's child.
+pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, RobotProblem> {
+    if let Some(name) = &options.frame {
+        return link_of(robot, name);
+    }
+    let child: BTreeSet<usize> = robot
+        .joints
+        .iter()
+        .filter(|j| !j.closes)
+        .map(|j| j.links[1])
+        .collect();
+    let held = |w: &usize| {
+        robot
+            .joints
+            .iter()
+            .any(|j| !j.closes && j.links.contains(w))
+    };
+    let root = robot
+        .world
+        .filter(held)
+        .or_else(|| (0..robot.links.len()).find(|l| !child.contains(l) && robot.world != Some(*l)))
+        .unwrap_or(0);
+    // A model that nothing holds to the world falls, as far as engines are concerned.
+    let falls = robot.world.is_none_or(|w| !held(&w));
+    let parts = loose(robot, &spanning_tree(robot, root)).len();
+    let apart = robot.floats && (falls || parts > 0);
+    if !options.floating && !apart {
+        return Ok(root);
+    }
+    let world = match robot.world {
+        Some(w) => w,
+        None => robot.link("world", RigidMotion::IDENTITY),
+    };
+    robot.world = Some(world);
+    // Every tree of links that the world does not hold floats by itself.
+    let tree = spanning_tree(robot, world);
+    for &r in tree.roots.iter().skip(1) {
+        let sides = [robot.places[r], RigidMotion::IDENTITY];
+        let id = format!("floating-{}", robot.links[r]);
+        robot.joints.push(Part::new(&id, [world, r], sides, free()));
+        robot.report.map("floating base");
+    }
+    if apart && !options.floating {
+        let what = if parts == 0 {
+            "nothing holds the model to the world: it floats with 6 freedoms (--frame LINK holds a link)"
+        } else {
+            "parts that no joint holds float in the world, each by itself"
+        };
+        robot.report.moved(what.to_owned());
+    }
+    Ok(world)
+}
+
+/// The roots beside the frame, but for a world that holds nothing.
+fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
+    let jointless =
+        |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
+    let others = tree.roots.iter().skip(1).copied();
+    others.filter(|&l| !jointless(l)).collect()
+}
+
+/// Every link must hang on the frame.
+pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), RobotProblem> {
+    let loose = loose(robot, tree);
+    let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
+    if loose.is_empty() {
+        return Ok(());
+    }
+    Err(RobotProblem::Whole {
+        message: format!(
+            "no joint connects {} with {}; add one, or use --floating to let every such part float",
+            loose
+                .iter()
+                .take(5)
+                .map(|l| format!("link \"{l}\""))
+                .collect::<Vec<_>>()
+                .join(", "),
+            robot.links[tree.roots[0]],
+        ),
+    })
+}
+
+/// Closes the loops of a robot: as they stand, by moving joints, or not at all where the options say so.
+pub(crate) fn close_loops(
+    robot: &mut Robot,
+    tree: &Tree,
+    options: &Options,
+) -> Result<(), RobotProblem> {
+    if tree.loops.is_empty() {
+        return Ok(());
+    }
+    let size = size(robot);
+    let unit = robot.unit.symbol();
+    let first = worst(&gaps(robot, tree), size);
+    let loops = plural(tree.loops.len(), "loop");
+    if first <= CLOSED * size {
+        robot.report.pose.push(format!(
+            "{loops} closed in the pose of the file, to {first:.1e} {unit}"
+        ));
+        return Ok(());
+    }
+    if options.open {
+        let widest = widest(robot, tree, size);
+        let note = format!("loops open, the widest {widest}; the figures are those of that pose");
+        robot.report.moved(note);
+        return Ok(());
+    }
+    let before: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();
+    let (left, outside) = close(robot, tree);
+    if left > ROUNDED * size {
+        let widest = widest(robot, tree, size);
+        return Err(RobotProblem::Whole {
+            message: format!(
+                "the loops do not close, the widest is {widest}; give a pose nearby with --pose joint=value, or take it as it is with --open"
+            ),
+        });
+    }
+    if left > CLOSED * size {
+        let what = format!(
+            "open by {left:.1e} {unit} wherever the joints are, as rounded coordinates leave it; taken as closed"
+        );
+        robot.report.approximate(&loops, what);
+    }
+    let moved = moved_most(robot, tree, &before);
+    let limits = match outside {
+        0 => String::new(),
+        n => format!("; {n} outside their limits"),
+    };
+    robot.report.moved(format!(
+        "{loops} open by {first:.1e} {unit} in the pose of the file, closed to {left:.1e} {unit} by moving joints{moved}{limits}"
+    ));
+    Ok(())
+}
+
+/// Which joint of the tree moved most from the values before, in words; nothing where none has a value.
+fn moved_most(robot: &Robot, tree: &Tree, before: &[Vec<f64>]) -> String {
+    let joints = robot.joints.iter().zip(before).enumerate();
+    let in_tree = joints.filter(|(j, _)| !tree.loops.contains(j));
+    let by = in_tree.flat_map(|(_, (j, before))| {
+        let values = j.values.iter().zip(before);
+        values.map(move |(v, b)| ((v - b).abs(), &j.id))
+    });
+    let largest = by.max_by(|a, b| a.0.total_cmp(&b.0));
+    largest.map_or(String::new(), |(v, id)| {
+        format!("; {id} moved most, by {v:.3}")
+    })
+}
+
+/// The loop that is open widest, in words.
+fn widest(robot: &Robot, tree: &Tree, size: f64) -> String {
+    let unit = robot.unit.symbol();
+    let by = |g: &loop_closing::Gap| g.shift.max(g.turn * size);
+    let gaps = gaps(robot, tree);
+    let most = gaps.iter().max_by(|a, b| by(a).total_cmp(&by(b)));
+    most.map_or(String::new(), |g| {
+        let p = &robot.joints[g.joint];
+        let [a, b] = p.links.map(|l| robot.links[l].as_str());
+        format!(
+            "\"{}\" between {a} and {b} by {:.2e} {unit} and {:.2e} rad",
+            p.id, g.shift, g.turn
+        )
+    })
+}
+
+/// The joints of the tree that loops go through, and those that close them.
+fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
+    let mut out: BTreeSet<usize> = tree.loops.iter().copied().collect();
+    for &j in &tree.loops {
+        let way = |link: usize| {
+            std::iter::successors(tree.into[link], |&s| tree.into[tree.steps[s].from])
+                .map(|s| tree.steps[s].joint)
+                .collect::<BTreeSet<usize>>()
+        };
+        let [a, b] = robot.joints[j].links.map(way);
+        out.extend(a.symmetric_difference(&b));
+    }
+    out
+}
+
+/// A mechanism file and what its parts are of the robot.
+#[derive(Debug)]
+pub(crate) struct Entries {
+    pub(in crate::robots) file: MechanismFile,
+    /// What is to be said above its entries.
+    pub(in crate::robots) comments: Vec<Comment>,
+    /// Places of the links in the pose found.
+    pub(in crate::robots) places: Vec<RigidMotion>,
+    /// The robot's joints that its joints are.
+    pub(in crate::robots) joints: Vec<usize>,
+    /// The elements that its couplings are.
+    pub(in crate::robots) couplings: Vec<usize>,
+}
+
+/// The entries of the file called `file` of a `format`.
+pub(crate) fn entries(
+    robot: &mut Robot,
+    tree: &Tree,
+    file: &str,
+    format: &'static str,
+    options: &Options,
+) -> Result<Entries, RobotProblem> {
+    let places = places(robot, tree);
+    let (bodies, joints) = rigid_bodies(robot, tree)?;
+    let couplings = coupling::usable(robot, &joints);
+    let frame = bodies.of[tree.roots[0]];
+    let outputs = outputs::of(robot, &bodies, &joints, frame, options)?;
+    let mut report = std::mem::take(&mut robot.report);
+    report.outputs = (
+        outputs.iter().map(|&b| robot.links[b].clone()).collect(),
+        !options.outputs.is_empty(),
+    );
+    let used: BTreeSet<usize> = joints
+        .iter()
+        .flat_map(|&j| robot.joints[j].links.map(|l| bodies.of[l]))
+        .collect();
+    report.size = (used.len(), joints.len());
+    within_limits(used.len(), joints.len())?;
+    let limited = robot.joints.iter().filter(|j| j.limits.is_some());
+    limited.for_each(|j| report.drop("limit of a joint", Some(&j.id)));
+    robot.report = report;
+    let file = std::path::Path::new(file).file_name();
+    let (file, comments) = entries::entries(&Content {
+        robot,
+        file: &file.unwrap_or_default().to_string_lossy(),
+        format,
+        places: &places,
+        bodies: &bodies,
+        frame,
+        outputs: &outputs,
+        joints: &joints,
+        couplings: &couplings,
+    });
+    Ok(Entries {
+        file,
+        comments,
+        places,
+        joints,
+        couplings: couplings.iter().map(|u| u.said_by).collect(),
+    })
+}
+
+/// What is rigidly joined as one body, and the joints between these; those within a body are told and left out.
+fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), RobotProblem> {
+    let kept = if robot.assembly {
+        in_loops(robot, tree)
+    } else {
+        BTreeSet::new()
+    };
+    let fixed = |j: usize| robot.joints[j].joint_type == JointType::Fixed && !kept.contains(&j);
+    let rigid = tree.steps.iter().filter(|s| fixed(s.joint));
+    let bodies = Bodies::new(robot.links.len(), rigid.map(|s| (s.from, s.link)));
+    let in_tree: BTreeSet<usize> = tree.steps.iter().map(|s| s.joint).collect();
+    let mut joints = Vec::new();
+    let mut within = Vec::new();
+    for (j, p) in robot.joints.iter().enumerate() {
+        let [a, b] = p.links.map(|l| bodies.of[l]);
+        if a == b && !(in_tree.contains(&j) && fixed(j)) {
+            within.push(p.id.clone());
+        } else if a != b {
+            joints.push(j);
+        }
+    }
+    for id in within {
+        let what = "both ends are on one rigid body; left out, with all its rows redundant";
+        robot.report.approximate(&format!("joint \"{id}\""), what);
+    }
+    if joints.is_empty() {
+        Err(RobotProblem::Rigid {
+            links: robot.links.len(),
+        })
+    } else {
+        Ok((bodies, joints))
+    }
+}
+
+/// No more links and joints than a mechanism file may have.
+fn within_limits(links: usize, joints: usize) -> Result<(), RobotProblem> {
+    let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
+    match all.iter().find(|(_, count, limit)| count > limit) {
+        None => Ok(()),
+        Some((what, count, limit)) => Err(RobotProblem::Whole {
+            message: format!(
+                "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
+            ),
+        }),
+    }
+}

@@ -1,11 +1,397 @@
-//! MJCF, read, mended and written.
+//! MJCF, read, mended and written: bodies with joints in series, sites, equality constraints, default classes and includes.
 
 mod context;
 mod defaults;
 mod equality;
 pub(super) mod fix;
 mod include;
-pub(super) mod read;
 mod replicate;
 mod weights;
 pub(super) mod write;
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::{Vector, Z, length};
+use crate::model::joint_type::JointType;
+use crate::robots::additions::leave_out;
+use crate::robots::description::{Part, Robot, free};
+use crate::robots::import::{Options, Reader};
+use crate::robots::mjcf::context::{Context, compiler};
+use crate::robots::mjcf::defaults::{Defaults, Lookup};
+use crate::robots::problem::RobotProblem;
+use crate::robots::xml::{Document, Element};
+use std::collections::BTreeMap;
+
+/// Sections that hold nothing together: what equalities take of them is looked up there.
+const SECTIONS: [&str; 11] = [
+    "asset",
+    "contact",
+    "custom",
+    "extension",
+    "keyframe",
+    "option",
+    "sensor",
+    "size",
+    "statistic",
+    "tendon",
+    "visual",
+];
+
+/// What a joint says of how it resists motion, which is no kinematics.
+const RESISTANCE: [&str; 5] = [
+    "damping",
+    "stiffness",
+    "springdamper",
+    "armature",
+    "frictionloss",
+];
+
+/// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
+struct Waiting<'a> {
+    element: Element<'a>,
+    link: usize,
+    place: RigidMotion,
+    class: Option<&'a str>,
+}
+
+/// Reads a `<mujoco>` and the files it includes.
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    inner: Reader<'_>,
+    options: &Options,
+) -> Result<Robot, ImportError> {
+    include::expand(document, root, inner, !options.models.is_empty())?;
+    replicate::expand(document, root)?;
+    let root = document.element(root);
+    let name = root.attribute("model").unwrap_or("robot");
+    let mut robot = Robot::new(name);
+    let mut context = Context {
+        compiler: compiler(root)?,
+        defaults: Defaults::read(root)?,
+        sites: BTreeMap::new(),
+    };
+    let world = robot.link("world", RigidMotion::IDENTITY);
+    robot.world = Some(world);
+    for w in root.named("worldbody") {
+        robot.said_by(world, w);
+        let start = Waiting {
+            element: w,
+            link: world,
+            place: RigidMotion::IDENTITY,
+            class: w.attribute("childclass"),
+        };
+        bodies(start, &mut context, &mut robot)?;
+    }
+    for section in root.children() {
+        match section.name() {
+            "worldbody" | "compiler" | "default" => {}
+            "equality" => equality::read(section, root, &context, &mut robot)?,
+            "actuator" => {
+                for a in section.children() {
+                    actuator(a, root, &mut robot);
+                }
+            }
+            "deformable" => {
+                let what = "deformable bodies are no links; left out";
+                robot.report.approximate(&section.label(), what);
+            }
+            other if SECTIONS.contains(&other) => robot.report.drop(other, None),
+            _ => leave_out(section, None, &mut robot),
+        }
+    }
+    Ok(robot)
+}
+
+/// Marks the joint that an actuator drives, or those that it pulls by a tendon.
+fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
+    let name = a.attribute("name");
+    // Whichever frame it acts in.
+    let joint = a.attribute("joint").or(a.attribute("jointinparent"));
+    let mut joints = robot.joints.iter_mut();
+    if let Some(j) = joints.find(|j| Some(j.id.as_str()) == joint) {
+        j.drive = true;
+        robot.report.drop("data of an actuator", name);
+        return;
+    }
+    let pulled = of_tendon(root, a);
+    let pulled = |j: &&mut Part| pulled.contains(&j.id.as_str());
+    robot
+        .joints
+        .iter_mut()
+        .filter(pulled)
+        .for_each(|j| j.pulled = true);
+    robot.report.drop("actuator", name);
+}
+
+/// Names of the joints that an actuator moves by a fixed tendon.
+fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
+    let Some(name) = actuator.attribute("tendon") else {
+        return Vec::new();
+    };
+    let mut out = Vec::new();
+    for section in root.named("tendon") {
+        for fixed in section
+            .named("fixed")
+            .filter(|f| f.attribute("name") == Some(name))
+        {
+            out.extend(fixed.named("joint").filter_map(|j| j.attribute("joint")));
+        }
+    }
+    out
+}
+
+fn bodies<'a>(
+    start: Waiting<'a>,
+    context: &mut Context<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let mut stack = vec![start];
+    while let Some(w) = stack.pop() {
+        let mut here = Vec::new();
+        for e in w.element.children() {
+            let inner = |link, place| Waiting {
+                element: e,
+                link,
+                place,
+                class: e.attribute("childclass").or(w.class),
+            };
+            match e.name() {
+                "body" => {
+                    let place = w.place.then(&context.compiler.place(e)?);
+                    let link = body(e, w.link, place, inner(0, place).class, context, robot)?;
+                    robot.said_by(link, e);
+                    here.push(inner(link, RigidMotion::IDENTITY));
+                }
+                "frame" => {
+                    here.push(inner(w.link, w.place.then(&context.compiler.place(e)?)));
+                }
+                "site" => site(e, &w, context, robot)?,
+                "joint" | "freejoint" if w.link != 0 => {}
+                "joint" | "freejoint" => {
+                    return Err(e.unsupported("the world cannot move", "put the joint into a body"));
+                }
+                "flexcomp" | "attach" => {
+                    let what = "what it makes when the model is compiled is left out; save the compiled model from MuJoCo as XML to have that, too";
+                    match e.name() {
+                        "attach" => robot.report.leave_out_joint(&e.label(), 6, what),
+                        _ => robot.report.approximate(&e.label(), what),
+                    }
+                }
+                "composite" => {
+                    let remedy = "save the compiled model from MuJoCo as XML and import that";
+                    return Err(e.unsupported("it makes bodies when the model is compiled", remedy));
+                }
+                other => {
+                    if other == "geom" {
+                        robot.shown.insert(w.link);
+                    }
+                    robot.report.drop(other, e.attribute("name"));
+                }
+            }
+        }
+        stack.extend(here.into_iter().rev());
+    }
+    Ok(())
+}
+
+fn site(
+    e: Element<'_>,
+    w: &Waiting<'_>,
+    context: &mut Context<'_>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let place = w.place.then(&context.compiler.place(e)?);
+    let Some(name) = e.attribute("name") else {
+        robot.report.drop("site", None);
+        return Ok(());
+    };
+    if context
+        .sites
+        .insert(name.to_owned(), (w.link, place))
+        .is_some()
+    {
+        return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+    }
+    robot
+        .frames
+        .entry(name.to_owned())
+        .or_insert((w.link, place));
+    robot.shown.insert(w.link);
+    robot.report.map("site");
+    Ok(())
+}
+
+/// A body and its joints, in series through links of its own where there are several.
+fn body<'a>(
+    e: Element<'a>,
+    parent: usize,
+    place: RigidMotion,
+    class: Option<&'a str>,
+    context: &Context<'a>,
+    robot: &mut Robot,
+) -> Result<usize, ImportError> {
+    let name = match e.attribute("name") {
+        Some(n) if robot.frame(n).is_some() && robot.links.iter().any(|l| l == n) => {
+            return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+        }
+        Some(n) => n.to_owned(),
+        None => format!("body-{}", robot.links.len()),
+    };
+    e.room("bodies", robot.links.len())?;
+    e.room("joints", robot.joints.len())?;
+    let world = robot.places[parent].then(&place);
+    let mut joints = Vec::new();
+    own_joints(e, RigidMotion::IDENTITY, class, context, &mut joints)?;
+    robot.report.map("body");
+    if joints.is_empty() {
+        let link = robot.link(&name, world);
+        // What a hand or a recording moves in all six ways: a drive, and no part of the frame.
+        let mocap = e.attribute("mocap") == Some("true");
+        let kind = if mocap { free() } else { JointType::Fixed };
+        let sides = [place, RigidMotion::IDENTITY];
+        let mut part = Part::new(&name, [parent, link], sides, kind).said_by(e);
+        if mocap {
+            part.drive = true;
+            robot.report.map("mocap body, as a drive");
+        }
+        robot.joints.push(part);
+        return Ok(link);
+    }
+    let (mut from, mut at) = (parent, place);
+    for (i, j) in joints.iter().enumerate() {
+        let link = if i + 1 == joints.len() {
+            robot.link(&name, world)
+        } else {
+            let between = format!("{name}~{}", i + 1);
+            robot.link(&between, world)
+        };
+        let part = joint(j, &name, [from, link], at, context, robot)?;
+        robot.joints.push(part);
+        (from, at) = (link, RigidMotion::IDENTITY);
+    }
+    if joints.len() > 1 {
+        robot.report.map("body on joints in series");
+    }
+    Ok(from)
+}
+
+/// A joint of a body.
+struct OwnJoint<'a> {
+    element: Element<'a>,
+    /// The place of the frames around it in the body.
+    inner: RigidMotion,
+    /// The class of those frames.
+    class: Option<&'a str>,
+}
+
+/// The joints of a body, those in frames in it among them.
+fn own_joints<'a>(
+    e: Element<'a>,
+    place: RigidMotion,
+    class: Option<&'a str>,
+    context: &Context<'a>,
+    out: &mut Vec<OwnJoint<'a>>,
+) -> Result<(), ImportError> {
+    for c in e.children() {
+        match c.name() {
+            "joint" | "freejoint" => out.push(OwnJoint {
+                element: c,
+                inner: place,
+                class,
+            }),
+            "frame" => {
+                let inner = place.then(&context.compiler.place(c)?);
+                let class = c.attribute("childclass").or(class);
+                own_joints(c, inner, class, context, out)?;
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// The name of a joint: its own, or one made of its body's and its type.
+fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Result<String, ImportError> {
+    match e.attribute("name") {
+        Some(n) if robot.joints.iter().any(|j| j.id == n) => {
+            Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }))
+        }
+        Some(n) => Ok(n.to_owned()),
+        None => Ok(format!("{body}.{word}")),
+    }
+}
+
+fn joint<'a>(
+    own: &OwnJoint<'a>,
+    body: &str,
+    links: [usize; 2],
+    place: RigidMotion,
+    context: &Context<'a>,
+    robot: &mut Robot,
+) -> Result<Part, ImportError> {
+    let &OwnJoint {
+        element: e,
+        inner,
+        class,
+    } = own;
+    let tag = if e.name() == "freejoint" { "" } else { "joint" };
+    let look = context.defaults.of(e, tag, class)?;
+    let word = if tag.is_empty() {
+        "free"
+    } else {
+        look.attribute("type").map_or("hinge", |(_, t)| t)
+    };
+    let joint_type = match word {
+        "hinge" => JointType::Revolute,
+        "slide" => JointType::Prismatic,
+        "ball" => JointType::Spherical,
+        "free" => free(),
+        _ => return Err(e.unknown_word("type", word, "hinge, slide, ball, free")),
+    };
+    let id = joint_id(e, body, word, robot)?;
+    let pos = look.vector("pos", [0.0; 3])?;
+    let at = if word == "free" {
+        RigidMotion::IDENTITY
+    } else {
+        RigidMotion::shift(inner.point(pos))
+    };
+    let mut part = Part::new(&id, links, [place.then(&at), at], joint_type).said_by(e);
+    if matches!(word, "hinge" | "slide") {
+        let axis = axis(e, &look)?;
+        part = part.about(inner.direction(axis));
+        let unit = if word == "hinge" {
+            context.compiler.angle
+        } else {
+            1.0
+        };
+        part.zero = look.numbers::<1>("ref")?.map_or(0.0, |[x]| x * unit);
+        if let Some([low, high]) = look.numbers::<2>("range")? {
+            part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
+        }
+    }
+    for key in RESISTANCE {
+        if look.attribute(key).is_some() {
+            robot.report.drop(key, Some(&id));
+        }
+    }
+    robot.report.map(word);
+    Ok(part)
+}
+
+/// The direction of a hinge or a slide.
+fn axis(e: Element<'_>, look: &Lookup<'_>) -> Result<Vector, ImportError> {
+    let axis = look.vector("axis", Z)?;
+    if length(axis) >= 1e-9 {
+        return Ok(axis);
+    }
+    Err(e.fail(
+        Some("axis"),
+        RobotProblem::BadValue {
+            element: e.label(),
+            what: "axis".to_owned(),
+            found: look.attribute("axis").map_or("", |(_, v)| v).to_owned(),
+            want: "give a direction such as 0 0 1".to_owned(),
+        },
+    ))
+}

@@ -1,9 +1,330 @@
-//! SDF, read, mended and written.
+//! SDF, read, mended and written: models with links, frames and joints, places relative to each other, loops closed by joints as they
+//! stand.
 
 pub(super) mod fix;
 mod gearbox;
 mod include;
 pub(super) mod joints;
-pub(super) mod read;
 pub(super) mod scene;
 pub(super) mod write;
+
+use crate::file::problem::ImportError;
+use crate::geom::rigid::RigidMotion;
+use crate::geom::vector::{length, scale};
+use crate::model::joint_type::JointType;
+use crate::robots::additions::{ball_constraint, leave_out, plugin};
+use crate::robots::description::{Part, Robot};
+use crate::robots::import::{Options, Reader};
+use crate::robots::problem::RobotProblem;
+use crate::robots::sdf::gearbox::gearbox;
+use crate::robots::sdf::include::Expanded;
+use crate::robots::sdf::joints::{joint, weld};
+use crate::robots::sdf::scene::{
+    BESIDE, Placed, SdfScene, absolute, end, insert, moves_with, resolve,
+};
+use crate::robots::xml::{Document, Element};
+
+/// Reads an `<sdf>`.
+pub(crate) fn read(
+    document: &mut Document,
+    root: usize,
+    inner: Reader<'_>,
+    options: &Options,
+) -> Result<Robot, ImportError> {
+    let Expanded { old, scenery } = include::expand(document, root, inner)?;
+    let root = document.element(root);
+    let mut robot = Robot::new("robot");
+    for uri in &scenery {
+        robot.report.drop("include of a light or floor", Some(uri));
+    }
+    robot.world = Some(robot.link("world", RigidMotion::IDENTITY));
+    robot.floats = true;
+    let mut scene = SdfScene {
+        old_axes: old,
+        assemble: options.assemble,
+        ..SdfScene::default()
+    };
+    let among = of_worlds(root, &mut scene);
+    models(root, among.is_empty(), &mut scene, &mut robot)?;
+    // Those of the world name what is in its models by the models' names.
+    for e in among {
+        named_place(e, "", "world", false, &mut scene)?;
+    }
+    resolve(&mut scene)?;
+    place_links(&scene, &mut robot);
+    // What else is in worlds is judged by the names that are known by now.
+    let others = root
+        .named("world")
+        .flat_map(|w| w.children().collect::<Vec<_>>());
+    let others: Vec<Element<'_>> = others.filter(|e| !IN_WORLDS.contains(&e.name())).collect();
+    joints(scene, &mut robot)?;
+    for e in others {
+        leave_out(e, None, &mut robot);
+    }
+    Ok(robot)
+}
+
+/// What is read of worlds.
+const IN_WORLDS: [&str; 4] = ["model", "joint", "frame", "plugin"];
+
+/// Joints and frames that stand in worlds, beside their models; plugins there wait in the scene.
+fn of_worlds<'a>(root: Element<'a>, scene: &mut SdfScene<'a>) -> Vec<Element<'a>> {
+    let mut among = Vec::new();
+    for e in root.named("world").flat_map(|w| w.children()) {
+        match e.name() {
+            "joint" | "frame" => among.push(e),
+            "plugin" => scene.plugins.push((e, String::new())),
+            _ => {}
+        }
+    }
+    among
+}
+
+/// Takes in all models, those within others after them.
+fn models<'a>(
+    root: Element<'a>,
+    nothing_else: bool,
+    scene: &mut SdfScene<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let of_worlds = root.named("world").flat_map(|w| w.named("model"));
+    let models: Vec<Element<'_>> = root.named("model").chain(of_worlds).collect();
+    let Some(first) = models.first() else {
+        let (element, what) = (root.label(), "<model>".to_owned());
+        return Err(root.fail(None, RobotProblem::Missing { element, what }));
+    };
+    let name = first.attribute("name").unwrap_or("robot");
+    name.clone_into(&mut robot.name);
+    let alone = models.len() == 1 && nothing_else;
+    let outermost = models.into_iter().rev();
+    let mut stack: Vec<(Element<'_>, String, bool)> =
+        outermost.map(|m| (m, String::new(), false)).collect();
+    while let Some((m, outer, inner)) = stack.pop() {
+        let own = m.required("name")?;
+        // The one model's names stand as they are; others are prefixed, as SDF does it for nested models.
+        let scope = if inner || !alone {
+            format!("{outer}{own}::")
+        } else {
+            String::new()
+        };
+        model(m, &outer, &scope, scene, robot)?;
+        let nested: Vec<_> = m.named("model").map(|n| (n, scope.clone(), true)).collect();
+        stack.extend(nested.into_iter().rev());
+    }
+    Ok(())
+}
+
+/// Places of links and frames in the world, and a fixed joint for each link of a static model.
+fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
+    for p in scene.placed.values() {
+        if let (Some(l), Some(w)) = (p.link, p.world) {
+            robot.places[l] = w;
+        }
+    }
+    for &link in &scene.fixed {
+        let id = format!("static-{}", robot.links[link]);
+        let sides = [robot.places[link], RigidMotion::IDENTITY];
+        let fixed = Part::new(&id, [0, link], sides, JointType::Fixed);
+        robot.joints.push(fixed);
+    }
+    for name in scene.placed.keys() {
+        if let Ok((link, world)) = moves_with(scene, name) {
+            let on = robot.places[link].inverse().then(&world);
+            robot.frames.insert(name.clone(), (link, on));
+        }
+    }
+}
+
+/// All joints, what couples them, and Drake's constraints.
+fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let far = |p: &Placed<'_>| length(p.raw.translation);
+    let size = scene.placed.values().map(far).fold(1e-3, f64::max);
+    let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
+    let all = std::mem::take(&mut scene.joints).into_iter();
+    let (gearboxes, joints): (Vec<_>, Vec<_>) = all.partition(|(e, _)| is_gearbox(e));
+    for (e, scope) in joints {
+        joint(e, &scope, &scene, size, robot)?;
+    }
+    // These couple joints that are read by now.
+    for (e, scope) in gearboxes {
+        gearbox(e, &scope, &scene, robot)?;
+    }
+    for (e, scope) in std::mem::take(&mut scene.constraints) {
+        match e.name() {
+            "drake:weld_constraint" => weld(e, &scope, &scene, robot)?,
+            _ => ball_constraint(e, robot)?,
+        }
+    }
+    for (e, scope) in std::mem::take(&mut scene.plugins) {
+        plugin(e, &scope, &scene, robot)?;
+    }
+    for e in std::mem::take(&mut scene.unknown) {
+        leave_out(e, None, robot);
+    }
+    Ok(())
+}
+
+/// The pose child: numbers, what it is relative to, and in which unit.
+pub(crate) fn pose(e: Element<'_>) -> Result<(RigidMotion, Option<&str>), ImportError> {
+    let Some(p) = e.child("pose") else {
+        return Ok((RigidMotion::IDENTITY, None));
+    };
+    let relative = p
+        .attribute("relative_to")
+        .or(p.attribute("frame"))
+        .filter(|r| !r.is_empty());
+    if p.text().is_empty() {
+        return Ok((RigidMotion::IDENTITY, relative));
+    }
+    if p.attribute("rotation_format") == Some("quat_xyzw") {
+        let [a, b, c, x, y, z, w] = p.text_numbers::<7>()?;
+        return Ok((RigidMotion::quaternion([a, b, c], [w, x, y, z]), relative));
+    }
+    let [x, y, z, roll, pitch, yaw] = p.text_numbers::<6>()?;
+    let degrees = p
+        .attribute("degrees")
+        .is_some_and(|d| ["true", "1"].contains(&d));
+    let turn = scale(
+        [roll, pitch, yaw],
+        if degrees {
+            std::f64::consts::PI / 180.0
+        } else {
+            1.0
+        },
+    );
+    Ok((RigidMotion::roll_pitch_yaw([x, y, z], turn), relative))
+}
+
+/// Takes in what a model holds; places are worked out afterwards.
+fn model<'a>(
+    m: Element<'a>,
+    outer: &str,
+    scope: &str,
+    scene: &mut SdfScene<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    let own = own_frame(m, outer, scope, scene)?;
+    let is_static = m.child("static");
+    let is_static = is_static.is_some_and(|s| ["true", "1"].contains(&s.text()));
+    for e in m.children() {
+        match e.name() {
+            "link" => link(e, scope, &own, is_static, scene, robot)?,
+            "frame" => named_place(e, scope, &own, false, scene)?,
+            "joint" => {
+                let wanted = e.attribute("name");
+                let others = ["link", "frame", "model"].into_iter();
+                let shared = others
+                    .flat_map(|tag| m.named(tag).collect::<Vec<_>>())
+                    .any(|o| o.attribute("name") == wanted);
+                named_place(e, scope, &own, shared, scene)?;
+            }
+            "drake:joint" => {
+                let what = "a joint of Drake's own, which is not read: what it holds is loose here";
+                robot.report.leave_out_joint(&e.label(), 6, what);
+            }
+            "drake:weld_constraint" | "drake:ball_constraint" => {
+                e.room("constraints", scene.constraints.len())?;
+                scene.constraints.push((e, scope.to_owned()));
+            }
+            "plugin" => scene.plugins.push((e, scope.to_owned())),
+            "model" | "pose" | "static" => {}
+            "gripper" => robot.report.drop("gripper", e.attribute("name")),
+            _ => scene.unknown.push(e),
+        }
+    }
+    Ok(())
+}
+
+/// The model's own frame, which is called `__model__` within it; nested models are also known by name.
+fn own_frame<'a>(
+    m: Element<'a>,
+    outer: &str,
+    scope: &str,
+    scene: &mut SdfScene<'a>,
+) -> Result<String, ImportError> {
+    let (raw, relative) = pose(m)?;
+    let own = format!("{scope}__model__");
+    let relative_to = match relative {
+        Some(r) => format!("{outer}{r}"),
+        None if outer.is_empty() => "world".to_owned(),
+        None => format!("{outer}__model__"),
+    };
+    let canonical = m
+        .attribute("canonical_link")
+        .or_else(|| m.child("link").and_then(|l| l.attribute("name")));
+    let attached_to = canonical.map_or_else(|| "world".to_owned(), |c| format!("{scope}{c}"));
+    let frame = Placed::new(m, relative_to, raw, attached_to);
+    insert(scene, own.clone(), frame)?;
+    if !scope.is_empty() {
+        let alias = scope.trim_end_matches("::").to_owned();
+        let frame = Placed::new(m, own.clone(), RigidMotion::IDENTITY, own.clone());
+        insert(scene, alias, frame)?;
+    }
+    Ok(own)
+}
+
+/// A link of a model whose own frame is `own`.
+fn link<'a>(
+    e: Element<'a>,
+    scope: &str,
+    own: &str,
+    is_static: bool,
+    scene: &mut SdfScene<'a>,
+    robot: &mut Robot,
+) -> Result<(), ImportError> {
+    e.room("links", robot.links.len())?;
+    let name = format!("{scope}{}", e.required("name")?);
+    let (raw, relative) = pose(e)?;
+    if name == "world" {
+        // Joints that name it mean the world.
+        if raw != RigidMotion::IDENTITY {
+            let why = "a link that is the world is not in its place";
+            return Err(e.unsupported(why, "remove its pose, or give it another name"));
+        }
+        robot.report.map("link that is the world");
+        robot.said_by(0, e);
+        return Ok(());
+    }
+    let link = robot.link(&name, RigidMotion::IDENTITY);
+    robot.said_by(link, e);
+    let to = relative.map_or_else(|| own.to_owned(), |r| absolute(scope, r));
+    let mut placed = Placed::new(e, to, raw, name.clone());
+    placed.link = Some(link);
+    insert(scene, name, placed)?;
+    for c in e.children().filter(|c| c.name() != "pose") {
+        if ["visual", "collision"].contains(&c.name()) {
+            robot.shown.insert(link);
+        }
+        robot.report.drop(c.name(), None);
+    }
+    if is_static {
+        scene.fixed.push(link);
+    }
+    Ok(())
+}
+
+/// Takes in a frame or joint, whose place is relative to `own` where nothing is said; a joint that shares its name has its
+/// frame beside it.
+pub(crate) fn named_place<'a>(
+    e: Element<'a>,
+    scope: &str,
+    own: &str,
+    shared: bool,
+    scene: &mut SdfScene<'a>,
+) -> Result<(), ImportError> {
+    let mut name = format!("{scope}{}", e.required("name")?);
+    let (raw, relative) = pose(e)?;
+    let attached_to = if e.name() == "joint" {
+        e.room("joints", scene.joints.len())?;
+        scene.joints.push((e, scope.to_owned()));
+        if shared {
+            name += BESIDE;
+        }
+        absolute(scope, end(e, "child")?.1)
+    } else {
+        let to = e.attribute("attached_to").filter(|a| !a.is_empty());
+        to.map_or_else(|| own.to_owned(), |a| absolute(scope, a))
+    };
+    let relative_to = relative.map_or_else(|| attached_to.clone(), |r| absolute(scope, r));
+    insert(scene, name, Placed::new(e, relative_to, raw, attached_to))
+}

@@ -9,7 +9,7 @@ use crate::cli::done::Done;
 use crate::cli::option::global::Global;
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::progress::Bar;
-use crate::file::bounded;
+use crate::file::disk;
 use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
 use anyhow::{Context, ensure};
@@ -140,7 +140,7 @@ impl Build {
     fn spec(&self, seed: u64) -> anyhow::Result<Spec> {
         let text = match &self.spec {
             None => String::new(),
-            Some(path) => bounded::text(path, MAX_BYTES)
+            Some(path) => disk::text(path, MAX_BYTES)
                 .with_context(|| format!("cannot read {}", path.display()))?,
         };
         let file = self.spec.as_deref().map(Path::display);

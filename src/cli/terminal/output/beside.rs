@@ -1,6 +1,6 @@
 //! Files that are written beside the ones they are to become, so that these are whole or not there at all.
 
-use crate::file::leftover;
+use crate::file::disk;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::io;
@@ -40,7 +40,7 @@ pub(in crate::cli) fn abandon() {
 pub(super) fn begin(folder: &Path) -> io::Result<NamedTempFile> {
     let mut beside = beside();
     if beside.1.insert(folder.to_owned()) {
-        leftover::clean(folder, |name| {
+        disk::clean_leftovers(folder, |name| {
             name.as_encoded_bytes().starts_with(PREFIX.as_bytes())
         });
     }

@@ -1,6 +1,6 @@
 //! Outputs that take the place of an input or of another output are refused.
 
-use crate::file::identity;
+use crate::file::disk;
 use anyhow::ensure;
 use itertools::Itertools;
 use std::fs::{self, File, Metadata};
@@ -19,13 +19,13 @@ fn written() -> MutexGuard<'static, Vec<PathBuf>> {
 
 /// Forgets what was read and written: a command begins.
 pub(in crate::cli) fn begin() {
-    identity::forget();
+    disk::forget();
     written().clear();
 }
 
 /// Keeps a file that is read by others than this program's own reader.
 pub(in crate::cli) fn keep(path: &Path) {
-    identity::note(path);
+    disk::note(path);
 }
 
 /// Keeps standard input if it is a file.
@@ -34,14 +34,14 @@ pub(in crate::cli) fn keep(path: &Path) {
 /// Returns an error if standard output is the same file.
 pub(in crate::cli) fn keep_standard_input() -> anyhow::Result<()> {
     if let Some(file) = standard(std::io::stdin()) {
-        identity::note_open(&file);
+        disk::note_open(&file);
     }
     apart_from_standard_output()
 }
 
 /// Whether a file is kept, by whatever name.
 pub(in crate::cli) fn is_kept(path: &Path) -> bool {
-    identity::was_read(path)
+    disk::was_read(path)
 }
 
 /// Refuses outputs, each with the name of its option, of which one would take the place of another.
@@ -51,7 +51,7 @@ pub(in crate::cli) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()
         let shown = path.display();
         let same = to_standard
             .as_ref()
-            .is_some_and(|file| identity::is_at(file, path));
+            .is_some_and(|file| disk::is_at(file, path));
         ensure!(
             !same,
             "--{option} {shown} is also standard output, and one would take the place of the other; name another file"
@@ -106,7 +106,7 @@ pub(super) fn note_written(path: &Path) {
 
 /// Refuses to write to standard output where it is a file that is read.
 pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
-    let same = standard(std::io::stdout()).is_some_and(|file| identity::open_was_read(&file));
+    let same = standard(std::io::stdout()).is_some_and(|file| disk::open_was_read(&file));
     ensure!(
         !same,
         "standard output is the file that is read; send it to another file"

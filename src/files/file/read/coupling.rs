@@ -2,7 +2,7 @@
 
 use crate::closure::coupling::{coefficient, in_plane, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;

@@ -1,6 +1,6 @@
 //! The links.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::names::check_id;

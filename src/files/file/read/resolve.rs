@@ -1,6 +1,6 @@
 //! Joint frames and options from their entries.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::{direction, pitch, vector};

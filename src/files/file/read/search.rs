@@ -1,14 +1,13 @@
 //! What the search may change and what it costs.
 
-pub(crate) mod costs;
 pub(in crate::file::read) mod options;
 pub(crate) mod ranking;
 
 use crate::closure::mirror::Plane;
-use crate::file::findings::Findings;
+use crate::file::Findings;
+use crate::file::costs::costs;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::search::costs::costs;
 use crate::file::read::value::names::{joint_by_id, link_by_id};
 use crate::file::schema::MechanismFile;
 use crate::geom::extent::diagonal;

@@ -1,9 +1,105 @@
-//! Names, numbers and quantities, with what is allowed of each.
+//! Names, numbers and quantities, with what is allowed of each; how large a file may be, its unit of length, and `[parameter]`: numbers
+//! that expressions know by their names.
 
-pub(crate) mod limits;
 pub(in crate::file::read) mod names;
 pub(crate) mod number;
-pub(crate) mod parameters;
 pub(crate) mod quantity;
 pub(in crate::file::read) mod tolerance;
-pub(in crate::file::read) mod unit;
+
+use crate::file::Findings;
+use crate::file::locate::{DocumentStep, key};
+use crate::file::problem::ProblemKind;
+use crate::file::read::value::number::number;
+use crate::file::schema::MechanismFile;
+use crate::geom::expr::{Expr, WORDS};
+use crate::model::mechanism::LengthUnit;
+use itertools::Itertools;
+use std::collections::BTreeMap;
+
+/// Most links, joints (and as many contours), and options of one joint in a file.
+pub(crate) const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
+
+/// Most entries of the closure matrix written out: 256 MB, and an elimination of some minutes.
+pub(crate) const ENTRIES: usize = 1 << 25;
+
+const UNITS: [LengthUnit; 5] = [
+    LengthUnit {
+        symbol: "m",
+        metres: 1.0,
+    },
+    LengthUnit {
+        symbol: "mm",
+        metres: 1e-3,
+    },
+    LengthUnit {
+        symbol: "cm",
+        metres: 1e-2,
+    },
+    LengthUnit {
+        symbol: "um",
+        metres: 1e-6,
+    },
+    LengthUnit {
+        symbol: "in",
+        metres: 0.0254,
+    },
+];
+
+/// The file's unit of length.
+pub(crate) fn length_unit(file: &MechanismFile, out: &mut Findings) -> LengthUnit {
+    let symbol = file.length_unit.as_deref().unwrap_or("m");
+    let found = UNITS.into_iter().find(|u| u.symbol == symbol);
+    found.unwrap_or_else(|| {
+        let known = UNITS.iter().map(|u| u.symbol).join(", ");
+        out.add(
+            &[DocumentStep::Key("length_unit".to_owned())],
+            ProblemKind::UnknownWord {
+                what: "length unit",
+                word: symbol.to_owned(),
+                known,
+            },
+        );
+        UNITS[0]
+    })
+}
+
+/// Most parameters.
+const MOST: usize = 64;
+
+/// Returns the parameters of a file by name.
+fn parameters(file: &MechanismFile, out: &mut Findings) -> BTreeMap<String, Expr> {
+    let at = [DocumentStep::Key("parameter".to_owned())];
+    if file.parameter.len() > MOST {
+        let (what, count, limit) = ("parameters", file.parameter.len(), MOST);
+        out.add(&at, ProblemKind::TooMany { what, count, limit });
+        return BTreeMap::new();
+    }
+    let mut all = BTreeMap::new();
+    for (name, value) in &file.parameter {
+        let path = key(&at, name);
+        let first = name.starts_with(|c: char| c.is_ascii_alphabetic());
+        let rest = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if !first || !rest || WORDS.contains(&name.as_str()) {
+            let name = name.clone();
+            out.add(&path, ProblemKind::BadParameter { name });
+        }
+        all.insert(name.clone(), number(value, &path, out));
+    }
+    all
+}
+
+/// Returns findings that know the parameters of a file.
+pub(crate) fn knowing(file: &MechanismFile) -> Findings {
+    let mut out = Findings::default();
+    let all = parameters(file, &mut out);
+    out.know(all);
+    out
+}
+
+/// Tells of parameters that nothing depends on.
+pub(crate) fn unused(out: &mut Findings) {
+    for name in out.unused() {
+        let path = key(&[DocumentStep::Key("parameter".to_owned())], &name);
+        out.add(&path, ProblemKind::UnusedParameter { name });
+    }
+}

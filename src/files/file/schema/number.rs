@@ -1,4 +1,4 @@
-//! Numbers as files write them.
+//! Numbers and words as files write them, and `[tolerance]`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,4 +39,26 @@ pub enum Quantities {
     One(Quantity),
     /// Several.
     Many(Vec<Quantity>),
+}
+
+/// How well the numbers of the file are known, in place of half a unit of their last digit; expressions are exact all the same.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToleranceEntry {
+    /// Points, pitches and leads are within so much of what is meant, in the file's unit of length; 0 where they are exact.
+    #[serde(default)]
+    pub length: Option<Coordinate>,
+    /// Axes and references are, in radians; 0 where they are exact.
+    #[serde(default)]
+    pub direction: Option<Coordinate>,
+}
+
+/// One word or several.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a word in quotes or a list of them")]
+pub enum Words {
+    /// One.
+    One(String),
+    /// Several.
+    Many(Vec<String>),
 }

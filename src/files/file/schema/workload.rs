@@ -2,8 +2,7 @@
 
 use super::drive::DriveEntry;
 use super::grip::GripEntry;
-use super::number::{Coordinate, Quantities, Quantity};
-use super::words::Words;
+use super::number::{Coordinate, Quantities, Quantity, Words};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

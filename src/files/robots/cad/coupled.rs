@@ -5,7 +5,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, cross, dot, sub};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::cad::meet::Meeting;
-use crate::robots::description::parts::{Part, Ratio};
+use crate::robots::description::{Part, Ratio};
 
 /// Rates below this share of the other are none.
 const NONE: f64 = 1e-9;

@@ -5,7 +5,7 @@ use crate::geom::Reals;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::rounded::verdict::verdict;
-use crate::robots::description::parts::Robot;
+use crate::robots::description::Robot;
 use crate::robots::warning::Kept;
 
 /// Work of singular values, rows · columns · the lesser of them, up to which the figures are told.

@@ -4,7 +4,7 @@ use crate::closure::tree::{TreeStep, forest};
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, scale};
 use crate::model::joint_type::Freedom;
-use crate::robots::description::parts::{Part, Robot};
+use crate::robots::description::{Part, Robot};
 
 /// A spanning tree, or forest, of the links.
 #[derive(Debug)]

@@ -10,8 +10,8 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
-use crate::robots::description::parts::{Part, Robot};
-use crate::robots::options::Reader;
+use crate::robots::description::{Part, Robot};
+use crate::robots::import::Reader;
 use crate::robots::problem::{RobotProblem, known};
 use serde_json::{Map, Value};
 

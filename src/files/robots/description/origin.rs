@@ -4,9 +4,9 @@ use crate::format::brief;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::JointId;
 use crate::motion::pose::Pose;
+use crate::robots::cad;
 use crate::robots::cad::archive::Archive;
-use crate::robots::cad::assembly;
-use crate::robots::description::parts::{Part, Robot};
+use crate::robots::description::{Part, Robot};
 use crate::robots::xml::{Document, Element};
 
 /// The description that a mechanism was read from, and which of its elements the mechanism's parts are.
@@ -127,7 +127,7 @@ impl Origin {
     pub fn open_by(&self, joint: JointId) -> Option<String> {
         let misfit = self.misfit(joint)?;
         let told = misfit.iter().any(|x| *x > 1e-6);
-        told.then(|| assembly::words(misfit, self.robot.unit))
+        told.then(|| cad::words(misfit, self.robot.unit))
     }
 
     /// Whether a joint can be given more joints in series where it stands.

@@ -10,7 +10,7 @@ use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
-use crate::robots::description::parts::{Part, Robot};
+use crate::robots::description::{Part, Robot};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest name in a mechanism file, in characters.

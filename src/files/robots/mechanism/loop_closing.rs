@@ -4,7 +4,7 @@ use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
 use crate::model::joint_type::Freedom;
 use crate::robots::description::kinematics::{Tree, displacement, places, world_axes};
-use crate::robots::description::parts::{Part, Robot};
+use crate::robots::description::{Part, Robot};
 use ozols_dense::{Matrix, solve_positive};
 
 /// A loop that is open by less than this fraction of the robot's size counts as closed: coordinates are rounded.

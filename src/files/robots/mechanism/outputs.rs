@@ -1,9 +1,9 @@
 //! Which links are outputs where nobody says so: those that a user of the robot means.
 
 use crate::closure::tree::forest;
-use crate::robots::description::parts::Robot;
+use crate::robots::description::Robot;
+use crate::robots::import::Options;
 use crate::robots::mechanism::entries::Bodies;
-use crate::robots::options::Options;
 use crate::robots::problem::{RobotProblem, known};
 use std::collections::BTreeSet;
 

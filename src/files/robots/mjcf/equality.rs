@@ -5,7 +5,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::additions::same_link;
 use crate::robots::description::kinematics::displacement;
-use crate::robots::description::parts::{Part, Ratio, Robot};
+use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
 use crate::robots::problem::{RobotProblem, known};
 use crate::robots::xml::Element;

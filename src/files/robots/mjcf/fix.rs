@@ -4,9 +4,9 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
+use crate::robots::description::Part;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
-use crate::robots::description::parts::Part;
 use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::mjcf::context::compiler;

@@ -8,7 +8,7 @@ pub(super) use weight::Weight;
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::description::parts::Robot;
+use crate::robots::description::Robot;
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::xml::Element;
@@ -121,8 +121,8 @@ fn inertial(e: Element<'_>, compiler: &Compiler) -> Result<Weight, ImportError> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robots::import::Options;
     use crate::robots::import::import;
-    use crate::robots::options::Options;
 
     /// Returns what the one body of a model weighs.
     fn weighed(compiler: &str, body: &str) -> Weight {

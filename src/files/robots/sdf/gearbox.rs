@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{cross, dot, length};
 use crate::model::joint_type::JointType;
-use crate::robots::description::parts::{Ratio, Robot};
+use crate::robots::description::{Ratio, Robot};
 use crate::robots::sdf::joints::axis;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::Element;

@@ -5,7 +5,7 @@ use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::same_link;
-use crate::robots::description::parts::{Part, Ratio, Robot, free};
+use crate::robots::description::{Part, Ratio, Robot, free};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::Element;

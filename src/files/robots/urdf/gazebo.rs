@@ -4,10 +4,10 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::robots::additions::{leave_out, plugin};
+use crate::robots::description::Robot;
 use crate::robots::description::kinematics::{places, spanning_tree};
-use crate::robots::description::parts::Robot;
 use crate::robots::sdf::joints::joint;
-use crate::robots::sdf::read::named_place;
+use crate::robots::sdf::named_place;
 use crate::robots::sdf::scene::{Placed, SdfScene, end, insert, resolve};
 use crate::robots::xml::Element;
 

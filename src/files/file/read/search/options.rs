@@ -1,10 +1,10 @@
 //! What a joint may become.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{contains, option};
-use crate::file::read::value::limits::LIMITS;
+use crate::file::read::value::LIMITS;
 use crate::file::schema::{JointEntry, MechanismFile, OptionEntry};
 use crate::model::mechanism::{Frame, JointOption};
 

@@ -1,6 +1,6 @@
 //! `[ranking]` and `[joint_types]`.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::cost;

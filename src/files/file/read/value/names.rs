@@ -1,6 +1,6 @@
 //! Names of links and joints: as they are declared, and as others refer to them.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Words;

@@ -1,6 +1,6 @@
 //! Numbers from their entries: lengths, directions, pitches.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Coordinate;

@@ -1,6 +1,6 @@
 //! Numbers with a meaning: angles, and values that must lie in a range.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;

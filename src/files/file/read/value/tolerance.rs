@@ -1,6 +1,6 @@
 //! How well numbers are known, where the file states it.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::number::number;

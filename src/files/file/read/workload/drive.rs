@@ -4,7 +4,7 @@ mod inertias;
 mod programme;
 mod push;
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::DocumentStep as Place;
 use crate::file::locate::{index, key};
 use crate::file::read::value::quantity::{Bound, ValueTable};

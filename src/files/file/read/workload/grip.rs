@@ -1,6 +1,6 @@
 //! The `[workload.grip]` table.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::read::value::names::joint_by_id;
 use crate::file::read::value::quantity::{Bound, ValueTable, word};

@@ -1,6 +1,6 @@
 //! What `[workload]` says of moments, of the stiffness of joints, and of joints made askew.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::names::{joint_by_id, link_by_id, states_by_name};

@@ -1,6 +1,6 @@
 //! Masses of links and the `[workload]` table.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::value::names::{link_by_id, states_by_name};

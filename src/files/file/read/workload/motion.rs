@@ -1,6 +1,6 @@
 //! Positions and speeds of drives, with the units that files may write.
 
-use crate::file::findings::Findings;
+use crate::file::Findings;
 use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Quantity;

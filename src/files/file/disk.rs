@@ -1,0 +1,175 @@
+//! Files on the disk, read no further than a bound: the one way that files of any size are read by. Each is noted as read.
+//!
+//! Which file a name stands for, and which files were read: what a command reads is not written over by it.
+//!
+//! Files that a killed run left half written: whoever writes a file beside the one it is to become holds its lock; where nobody does,
+//! whoever began it is gone.
+
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, ErrorKind, Read};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The bytes of a file, one more than `limit` at most: the reader of them says that there are too many.
+///
+/// # Errors
+/// Where it is no regular file, or cannot be read.
+pub fn bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    regular(path)?
+        .take(limit as u64 + 1)
+        .read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The same where nobody else says that there are too many.
+///
+/// # Errors
+/// Where it is no regular file, is longer, or cannot be read.
+pub fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
+    let all = bytes(path, limit)?;
+    if all.len() > limit {
+        Err(too_long(limit))
+    } else {
+        Ok(all)
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// As [`at_most`], and where it is no UTF-8.
+pub fn text(path: &Path, limit: usize) -> io::Result<String> {
+    let text = String::from_utf8(at_most(path, limit)?);
+    text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
+}
+
+/// An open file that is none of those that never end, or wait for ever to be opened.
+///
+/// # Errors
+/// Where it is none, or cannot be opened.
+pub fn regular(path: &Path) -> io::Result<File> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is not a file"));
+    }
+    note(path);
+    File::open(path)
+}
+
+fn too_long(limit: usize) -> io::Error {
+    io::Error::new(
+        ErrorKind::InvalidData,
+        format!("it has more than the {limit} bytes that are read"),
+    )
+}
+
+/// A file, by whatever name.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum FileId {
+    /// Its device and its number there, which systems that are no Unix do not tell.
+    Number(u64, u64),
+    /// Its whole path, without links.
+    Path(PathBuf),
+}
+
+/// The files that were read since [`forget`].
+static READ: Mutex<BTreeSet<FileId>> = Mutex::new(BTreeSet::new());
+
+fn read() -> MutexGuard<'static, BTreeSet<FileId>> {
+    READ.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Returns what a file is known by: a name may be given to another file while the first is still read.
+fn ids(path: &Path) -> impl Iterator<Item = FileId> {
+    let number = fs::metadata(path).ok().and_then(|m| number(&m));
+    let path = fs::canonicalize(path).ok().map(FileId::Path);
+    number.into_iter().chain(path)
+}
+
+#[cfg(unix)]
+fn number(of: &Metadata) -> Option<FileId> {
+    use std::os::unix::fs::MetadataExt;
+    of.is_file().then(|| FileId::Number(of.dev(), of.ino()))
+}
+
+#[cfg(not(unix))]
+fn number(_: &Metadata) -> Option<FileId> {
+    None
+}
+
+/// Forgets what was read.
+pub fn forget() {
+    read().clear();
+}
+
+/// Adds a file to those that were read.
+pub fn note(path: &Path) {
+    read().extend(ids(path));
+}
+
+/// Adds an open file to those that were read.
+pub fn note_open(file: &Metadata) {
+    read().extend(number(file));
+}
+
+/// Returns whether a file was read, by whatever name.
+#[must_use]
+pub fn was_read(path: &Path) -> bool {
+    let read = read();
+    ids(path).any(|id| read.contains(&id))
+}
+
+/// Returns whether an open file was read.
+#[must_use]
+pub fn open_was_read(file: &Metadata) -> bool {
+    number(file).is_some_and(|id| read().contains(&id))
+}
+
+/// Returns whether an open file is the one that a path leads to.
+#[must_use]
+pub fn is_at(file: &Metadata, path: &Path) -> bool {
+    let id = number(file);
+    id.is_some() && id == fs::metadata(path).ok().and_then(|m| number(&m))
+}
+
+/// Removes the files of a folder whose names `are_ours` says are such files, and that nobody holds.
+pub fn clean_leftovers(folder: &Path, are_ours: impl Fn(&OsStr) -> bool) {
+    let Ok(all) = fs::read_dir(folder) else {
+        return;
+    };
+    let ours = all.flatten().filter(|f| are_ours(&f.file_name()));
+    for file in ours.filter(|f| f.file_type().is_ok_and(|t| t.is_file())) {
+        let path = file.path();
+        // A file system without locks keeps them: nobody can tell whose they are.
+        let held = OpenOptions::new().write(true).open(&path);
+        if held.is_ok_and(|f| f.try_lock().is_ok()) {
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clean_leftovers;
+    use std::fs::{self, File};
+
+    #[test]
+    fn what_is_held_or_somebody_elses_stays() {
+        let folder = std::env::temp_dir().join(format!("ozols-leftover-{}", std::process::id()));
+        fs::create_dir_all(folder.join("x.folder")).unwrap();
+        let make = |name: &str| File::create(folder.join(name)).unwrap();
+        let held = make("x.held");
+        held.lock().unwrap();
+        drop((make("x.left"), make("y.other")));
+        clean_leftovers(&folder, |name| name.to_string_lossy().starts_with("x."));
+        let mut there: Vec<_> = fs::read_dir(&folder)
+            .unwrap()
+            .map(|f| f.unwrap().file_name().into_string().unwrap())
+            .collect();
+        there.sort();
+        assert_eq!(there, ["x.folder", "x.held", "y.other"]);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,198 @@
+//! The tables `[workload.grip]`, `[workload.drive]`, `[ranking]` and `[joint_types]`.
+
+use crate::file::read::workload::drive::regular;
+use crate::file::schema::{
+    Coordinate, Diameters, DriveEntry, Gravity, GripEntry, JointTypeEntry, LimitEntry,
+    RankingEntry, TermEntry,
+};
+use crate::file::write::quantity::{angle, number, numbers};
+use crate::model::drive::{DriveSpec, ProgrammeStep, Push};
+use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
+use crate::model::mechanism::Mechanism;
+use crate::model::ranking::{ClearanceSum, Ranking};
+use std::collections::BTreeMap;
+
+/// The entry of a gripper, lengths in the mechanism's unit.
+pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
+    let length = |x: f64| number(x, m.length_unit.metres);
+    let mut entry = GripEntry {
+        lever_length: length(spec.lever_length),
+        prism_angle: angle(spec.prism_angle),
+        mounting_angle: angle(spec.mounting_angle),
+        diameter: length(spec.diameter),
+        diameters: Some(Diameters::List(
+            spec.diameters.iter().map(|d| length(*d)).collect(),
+        )),
+        pivots: (spec.pivots == Pivots::Nominal).then(|| "nominal".to_owned()),
+        pivot_distance: match spec.pivots {
+            Pivots::Fixed(a) => Some(length(a.abs())),
+            Pivots::Nominal | Pivots::FixedForDiameter => None,
+        },
+        face_length: spec.face_length.map(length),
+        lever_width: Some(length(spec.lever_width)),
+        levers_cross: spec.may_cross,
+        mass: None,
+        density: None,
+        part_length: None,
+        centre_of_mass: None,
+        gravity: None,
+        accelerations: Vec::new(),
+        any_acceleration: None,
+        friction: None,
+        safety: None,
+        levers: None,
+        drive_arm: None,
+        lever_joints: None,
+        contacts: spec.contacts.map(|c| c.map(|j| m.joints[j].id.clone())),
+    };
+    match spec.transmission {
+        Transmission::Unknown => {}
+        Transmission::Arm(arm) => entry.drive_arm = Some(length(arm)),
+        Transmission::Joints(joints) => {
+            entry.lever_joints = Some(joints.map(|j| m.joints[j].id.clone()));
+        }
+    }
+    if let Some(load) = &spec.load {
+        write_load(&mut entry, load, m.length_unit.metres);
+    }
+    entry
+}
+
+/// What the gripper must hold, lengths in units of so many metres.
+fn write_load(entry: &mut GripEntry, load: &GripLoad, metres: f64) {
+    let plain = |x: f64| -> Coordinate { number(x, 1.0) };
+    match load.mass {
+        PartMass::Constant(mass) => entry.mass = Some(plain(mass)),
+        PartMass::Cylinder { density, length } => {
+            entry.density = Some(plain(density));
+            entry.part_length = Some(number(length, metres));
+        }
+    }
+    entry.centre_of_mass = Some(numbers(load.centre_of_mass, metres));
+    entry.gravity = Some(match load.gravity {
+        Toward::Fixed(v) => Gravity::Vector(numbers(v, 1.0)),
+        Toward::Any(_) => Gravity::Word("any".to_owned()),
+    });
+    for a in &load.accelerations {
+        match *a {
+            Toward::Fixed(v) => entry.accelerations.push(numbers(v, 1.0)),
+            Toward::Any(size) => entry.any_acceleration = Some(plain(size)),
+        }
+    }
+    entry.friction = Some(plain(load.friction));
+    entry.safety = Some(plain(load.safety));
+    entry.levers = match load.levers {
+        LeverDrive::Coupled => None,
+        LeverDrive::Equal => Some("equal".to_owned()),
+        LeverDrive::Independent => Some("independent".to_owned()),
+    };
+}
+
+/// The entry of a torsional drive, lengths in a unit of so many metres.
+pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
+    let length = |x: f64| number(x, metres);
+    let plain = |x: f64| -> Coordinate { number(x, 1.0) };
+    let [first, second] = spec.inertias;
+    let (feed_energy, feed_from, feed_moments) = match &spec.push {
+        Push::Even { energy, from } => (energy.map(plain), Some(angle(*from)), None),
+        Push::Pieces(pieces) => {
+            let piece = |p: &(f64, f64)| [angle(p.0), plain(p.1)];
+            (None, None, Some(pieces.iter().map(piece).collect()))
+        }
+    };
+    let mut entry = DriveEntry {
+        swing_angle: angle(2.0 * spec.twist),
+        period: Some(plain(spec.period)),
+        swing_time: None,
+        // The whole, of which a payload beside it is a part.
+        inertia: Some(plain(first)),
+        disc_inertia: None,
+        disc_link: None,
+        // A payload of no mass tells a radius alone.
+        payload_mass: spec.payload.filter(|p| p.mass > 0.0).map(|p| plain(p.mass)),
+        payload_radius: spec.payload.map(|p| length(p.radius)),
+        second_inertia: (second.to_bits() != first.to_bits()).then(|| plain(second)),
+        shear_modulus: plain(spec.shear_modulus),
+        allowable_stress: plain(spec.allowable_stress),
+        torsion_length: spec.length.map(length),
+        max_length: spec.max_length.map(length),
+        diameters: spec.diameters.iter().map(|d| length(*d)).collect(),
+        missing_angle: spec.missing.map(angle),
+        viscous_damping: spec.damping.map(|d| plain(d.viscous)),
+        friction_moment: spec.damping.map(|d| plain(d.coulomb)),
+        spring_stroke: spec.cam.map(|c| length(c.stroke)),
+        mounting_coefficient: spec.cam.map(|c| plain(c.mounting)),
+        cam_efficiency: spec.cam.map(|c| plain(c.efficiency)),
+        cam_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.0)),
+        roller_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.1)),
+        feed_energy,
+        feed_from,
+        feed_moments,
+        latch_capture: Some(angle(spec.capture)),
+        motion: None,
+        swings: None,
+        dwell: None,
+        programme: None,
+    };
+    programme(&mut entry, &spec.programme);
+    entry
+}
+
+/// The programme: as a number of swings where it is regular, else step by step.
+fn programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
+    let swings = steps
+        .iter()
+        .filter(|s| matches!(s, ProgrammeStep::Swing(_)))
+        .count();
+    let dwell = match steps {
+        [ProgrammeStep::Swing(_), ProgrammeStep::Dwell(time), ..] if *time > 0.0 => Some(*time),
+        _ => None,
+    };
+    for (stepwise, word) in [(true, "stepwise"), (false, "reversing")] {
+        if regular(stepwise, swings, dwell) == steps {
+            entry.motion = Some(word.to_owned());
+            entry.swings = i64::try_from(swings).ok();
+            entry.dwell = dwell.map(|d| number(d, 1.0));
+            return;
+        }
+    }
+    let word = |s: &ProgrammeStep| match s {
+        ProgrammeStep::Swing(disc) => (disc + 1).to_string(),
+        ProgrammeStep::Dwell(time) => format!("wait {time}"),
+    };
+    entry.programme = Some(steps.iter().map(word).collect());
+}
+
+/// The entry of a ranking.
+pub(crate) fn ranking(m: &Mechanism, r: &Ranking) -> RankingEntry {
+    let term = |&(term, weight): &(crate::model::ranking::Term, f64)| TermEntry {
+        term: term.name().to_owned(),
+        weight: Some(weight),
+    };
+    let limits = r.limits.iter().map(|l| LimitEntry {
+        term: l.term.name().to_owned(),
+        min: l.min,
+        max: l.max,
+    });
+    RankingEntry {
+        order: Some(r.order.name().to_owned()),
+        terms: r.terms.iter().map(term).collect(),
+        limits: limits.collect(),
+        clearance: (r.clearance == ClearanceSum::Rms).then(|| "rms".to_owned()),
+        states: r.states.iter().map(|&s| m.states[s].clone()).collect(),
+    }
+}
+
+/// What the mechanism says its joint types bear; what they cost stands under `[search.costs]`.
+pub(crate) fn joint_types(m: &Mechanism) -> BTreeMap<String, JointTypeEntry> {
+    let each = m.joint_types.iter().map(|t| {
+        let entry = JointTypeEntry {
+            cost: None,
+            capacity_force: t.capacity_force,
+            capacity_moment: t.capacity_moment,
+            clearance: t.clearance,
+        };
+        (t.name.clone(), entry)
+    });
+    each.collect()
+}
