@@ -18,7 +18,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::catalog::general::{General, InputPair};
 use ozols::catalog::row::row_of_pair;
 use ozols::catalog::spec::{Spec, range};
-use ozols::chains::chain::Chain;
+use ozols::chains::Chain;
 use ozols::chains::enumerate::chains;
 use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::Subject;

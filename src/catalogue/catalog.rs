@@ -1,4 +1,5 @@
-//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database that people can query.
+//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database that people can query. Structures as
+//! mechanisms, and the searches that a catalogue makes of them, stand here.
 
 pub mod build;
 pub mod drawn;
@@ -12,10 +13,82 @@ mod insert;
 #[cfg(feature = "store")]
 pub mod neighbours;
 pub(crate) mod paired_row;
-#[cfg(feature = "store")]
-mod prices;
 pub mod row;
-mod searched;
 pub mod spec;
 #[cfg(feature = "store")]
 pub mod store;
+
+use crate::catalog::spec::{Spec, SpecError};
+use crate::file::read::build;
+use crate::file::schema::MechanismFile;
+use crate::geom::exact::ExactError;
+use crate::model::mechanism::Mechanism;
+use crate::redundancy::AnalysisError;
+use crate::redundancy::analysis::exact_field;
+use crate::score::request::{Check, List, Request};
+use crate::score::run::RunError;
+use crate::search::Search;
+use itertools::Itertools;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Why there is no row, through no fault of the structure.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RowError {
+    /// The specification is wrong.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// A coordinate has no value.
+    #[error(transparent)]
+    Exact(#[from] ExactError),
+    /// The mechanism cannot be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// The mechanism cannot be searched.
+    #[error(transparent)]
+    Search(#[from] RunError),
+    /// The file of the layout is refused: a fault of the program.
+    #[error("{structure}: its own file is refused: {why}")]
+    File {
+        /// The structure.
+        structure: String,
+        /// Why.
+        why: String,
+    },
+}
+
+/// The search that a catalogue makes of each mechanism. Variants of W = 1 move as the mechanism does, so that nothing more need
+/// be asked of their outputs.
+#[must_use]
+pub fn request(spec: &Spec) -> Request {
+    Request {
+        max_mobility: Some(1),
+        allow_output_change: true,
+        list: List::Top(spec.ideas.max(1)),
+        check: Check::Prime,
+        nodes: spec.nodes,
+        ..Request::default()
+    }
+}
+
+/// The mechanism of a file that the program made of a structure of this name.
+pub(crate) fn mechanism(name: &str, file: &MechanismFile) -> Result<Mechanism, RowError> {
+    build(file).map_err(|found| RowError::File {
+        structure: name.to_owned(),
+        why: found.iter().map(|(_, kind)| kind.to_string()).join("; "),
+    })
+}
+
+/// The search of a mechanism over the prime field of a number, ready to be made.
+pub(crate) fn search(mechanism: Mechanism, spec: &Spec, prime: usize) -> Result<Search, RowError> {
+    let request = request(spec);
+    let prepared = request.prepare(mechanism, &mut |_| {});
+    let prepared = prepared.map_err(RunError::from)?;
+    let (conditions, _) = request
+        .conditions(&prepared, &mut |_| {})
+        .map_err(RunError::from)?;
+    let mechanism = Arc::new(prepared.mechanism);
+    let field = exact_field(&mechanism, prime)?;
+    Ok(Search::new(field, mechanism, conditions).map_err(RunError::from)?)
+}

@@ -3,7 +3,7 @@
 //! A structure is a chain with its roles, the way its driver moves, and the symmetry it is to have. A layout gives its
 //! pins places in the plane: symmetric exactly, regular, moving as a gripper does, and as well proportioned as a search
 //! finds. Places are whole millimetres, thousandths beside them where those are special by chance, or what a third of a turn makes
-//! of whole ones.
+//! of whole ones. The random numbers that a search for places takes stand here.
 
 mod annealing;
 pub(crate) mod beside;
@@ -13,13 +13,9 @@ pub(crate) mod elimination;
 pub mod figures;
 pub mod layout;
 pub mod layout_quality;
-pub mod limits;
-mod link_side;
 pub mod mechanism;
 pub mod paired;
-pub(crate) mod place;
-pub mod point;
-mod random;
+pub mod place;
 pub mod recognize;
 pub mod rules;
 pub(crate) mod seen_sides;
@@ -28,6 +24,39 @@ pub mod sketch;
 pub mod stroke;
 pub mod structure;
 pub mod task;
-mod tips;
 pub(crate) mod velocities;
 pub mod workload;
+
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use sha2::{Digest, Sha256};
+
+/// Random numbers of a start, the same for the same name and seed.
+pub(crate) fn random(name: &str, seed: u64, start: u32) -> ChaCha8Rng {
+    let name = format!("{name} {seed} {start}");
+    let digest = Sha256::digest(name);
+    let mut key = [0; 32];
+    key.copy_from_slice(&digest);
+    ChaCha8Rng::from_seed(key)
+}
+
+/// From 0 to 1.
+#[allow(clippy::cast_precision_loss, reason = "53 bits")]
+pub(crate) fn unit(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Roughly normal, of variance 1: the sum of four even ones of 16 bits, each of variance 1/12.
+pub(crate) fn bell(random: &mut ChaCha8Rng) -> f64 {
+    let bits = random.next_u64();
+    let sum: u64 = [0, 16, 32, 48].map(|at| bits >> at & 0xffff).iter().sum();
+    #[allow(clippy::cast_precision_loss, reason = "18 bits")]
+    let even = sum as f64 / f64::from(1 << 16);
+    (even - 2.0) * 3.0_f64.sqrt()
+}
+
+/// A number below another.
+#[allow(clippy::cast_possible_truncation, reason = "the remainder is an index")]
+pub(crate) fn below(n: usize, random: &mut ChaCha8Rng) -> usize {
+    (random.next_u64() % n as u64) as usize
+}

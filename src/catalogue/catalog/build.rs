@@ -1,16 +1,17 @@
 //! Every structure of a specification, in parallel, each given when it is done.
 
+use crate::catalog::RowError;
 use crate::catalog::general::{General, InputPair};
 use crate::catalog::paired_row::{PairedRow, ThreefoldRow, row_of_paired, row_of_three};
-use crate::catalog::row::{RowError, StructureRow, row_of_pair};
+use crate::catalog::row::{StructureRow, row_of_pair};
 use crate::catalog::spec::{MOST_PAIRED, Spec};
-use crate::chains::chain::Chain;
+use crate::chains::Chain;
 use crate::chains::enumerate::{ChainsError, chains};
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
-use crate::synthesis::paired::known::known_schemes;
+use crate::synthesis::paired::known_schemes;
 use crate::synthesis::paired::structure::{PairedStructure, generic_structures, paired_structures};
 use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::structure::{Structure, structures};

@@ -1,6 +1,7 @@
 //! A mechanism that somebody drew, as a row beside the structures.
 
-use crate::catalog::row::{IdeaRow, RowError, Symmetric, ideas_of};
+use crate::catalog::RowError;
+use crate::catalog::row::{IdeaRow, Symmetric, ideas_of};
 use crate::closure::contour::contour_basis;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Mechanism, Mode, StateId};

@@ -9,12 +9,12 @@ use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use crate::synthesis::layout::Layout;
 use crate::synthesis::layout_quality::Looks;
-use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::paired::threefold::ThreefoldStructure;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::structure::Structure;
+use crate::synthesis::task::Limits;
 
 /// What the tables say of a structure.
 #[derive(Debug, Clone)]

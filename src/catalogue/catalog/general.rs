@@ -6,12 +6,11 @@
 //! over one prime: modulo a prime, too, a rank is never more than it is. A minimal diagram is the only one of its variants in an order of
 //! variables, so that diagrams are compared edge by edge.
 
-use crate::catalog::searched::{RowError, mechanism, search};
 use crate::catalog::spec::Spec;
-use crate::chains::chain::Chain;
-use crate::chains::graph6;
+use crate::catalog::{RowError, mechanism, search};
 use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::roles::Roles;
+use crate::chains::{Chain, graph6};
 use crate::model::mechanism::Mechanism;
 use crate::search::Search;
 use crate::search::answer::ideas::{Idea, IdeaBasis};

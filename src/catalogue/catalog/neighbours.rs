@@ -3,8 +3,8 @@
 use crate::catalog::find::{Entry, read};
 use crate::catalog::store::{Store, StoreError};
 use crate::chains::canonical::Weighted;
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::PairChain;
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::structure::PairStructure;
 use itertools::Itertools;
 use std::collections::HashSet;

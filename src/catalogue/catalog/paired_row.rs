@@ -1,13 +1,12 @@
 //! Rows of structures with slides, gears and slots.
 
 use crate::catalog::row::{Laid, LaidFile, StructureRow, of_its_own, regular};
-use crate::catalog::searched::{RowError, mechanism};
 use crate::catalog::spec::Spec;
+use crate::catalog::{RowError, mechanism};
 use crate::file::schema::MechanismFile;
 use crate::synthesis::figures::LayoutFigures;
 use crate::synthesis::layout::NoLayout;
-use crate::synthesis::paired::figures::{figures, of_three};
-use crate::synthesis::paired::layout::{PairLayout, layout, layout_of_three};
+use crate::synthesis::paired::layout::{PairLayout, figures, layout, layout_of_three, of_three};
 use crate::synthesis::paired::mechanism::mechanism_file;
 use crate::synthesis::paired::mechanism_of_three::mechanism_file_of_three;
 use crate::synthesis::paired::structure::PairedStructure;

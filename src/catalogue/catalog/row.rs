@@ -1,9 +1,8 @@
 //! One structure of a catalogue: where its links are, what it does, and how it is made determinate.
 
 use crate::catalog::general::General;
-use crate::catalog::searched::mechanism;
-pub use crate::catalog::searched::{RowError, request};
 use crate::catalog::spec::Spec;
+use crate::catalog::{RowError, mechanism, request};
 use crate::chains::roles::Subject;
 use crate::file::schema::MechanismFile;
 use crate::file::write;

@@ -6,13 +6,12 @@ pub use error::SpecError;
 pub(crate) use error::{MOST_LINKS, MOST_PAIRED};
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use crate::file::schema::{OptionEntry, OptionTable};
-use crate::synthesis::limits::Limits;
 use crate::synthesis::mechanism::Menu;
 use crate::synthesis::paired::structure::PairedForm;
 use crate::synthesis::structure::{Form, suits};
-use crate::synthesis::task::Task;
+use crate::synthesis::task::{Limits, Task};
 use crate::synthesis::workload::Workload;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};

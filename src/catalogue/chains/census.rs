@@ -1,6 +1,6 @@
 //! How many chains there are, and in how many ways their links make grippers.
 
-use crate::chains::chain::Chain;
+use crate::chains::Chain;
 use crate::chains::enumerate::{ChainsError, visit_chains};
 use crate::chains::layout_symmetry::{Input, Symmetry, working_swap};
 use crate::chains::roles::Subject;

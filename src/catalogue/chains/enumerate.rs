@@ -3,10 +3,9 @@
 //! A chain is a contracted graph whose edges are strings of joints. Of each contracted graph the ways to share out the
 //! joints are found once up to its symmetries, so that no two chains are isomorphic and none needs to be compared.
 
-use crate::chains::chain::Chain;
 use crate::chains::contracted::contracted_graphs;
-use crate::chains::graph6;
 use crate::chains::strings::Strings;
+use crate::chains::{Chain, graph6};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};

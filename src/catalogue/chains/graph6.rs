@@ -1,7 +1,7 @@
 //! Chains in graph6, the usual text of small graphs: the number of vertices and the columns of the upper half of the
 //! adjacency matrix, six bits a character.
 
-use crate::chains::chain::{Chain, MOST_LINKS};
+use crate::chains::{Chain, MOST_LINKS};
 use thiserror::Error;
 
 /// Characters stand for their code less this.

@@ -1,6 +1,6 @@
 //! What links of a chain do in a gripper: frame, driver and jaws, each choice once up to the chain's automorphisms.
 
-use crate::chains::chain::Chain;
+use crate::chains::Chain;
 use itertools::Itertools;
 use std::cell::OnceCell;
 

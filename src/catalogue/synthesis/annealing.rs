@@ -1,13 +1,13 @@
 //! A place for every joint, found by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
 use crate::synthesis::layout_quality::Looks;
-use crate::synthesis::random::{below, random, unit};
 use crate::synthesis::seen_sides::SeenSides;
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::stroke::judge::{Judge, PlacesOf};
 use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::task::Aim;
+use crate::synthesis::{below, random, unit};
 use chacha20::ChaCha8Rng;
 use std::cmp::Ordering;
 

@@ -3,8 +3,7 @@
 use crate::chains::layout_symmetry::Input;
 use crate::synthesis::figures::figures;
 use crate::synthesis::layout::Layout;
-use crate::synthesis::place::{FINE, Place};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::{FINE, Place, Point};
 use crate::synthesis::rules::Rules;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;

@@ -3,8 +3,8 @@
 use crate::chains::pairs::chain::ordered;
 use crate::closure::tree::forest;
 use crate::geom::vector::{add_scaled, sub, unit};
-use crate::synthesis::point::{Point, middle};
-use crate::synthesis::random::bell;
+use crate::synthesis::bell;
+use crate::synthesis::place::{Point, middle};
 use chacha20::ChaCha8Rng;
 use itertools::Itertools;
 

@@ -1,7 +1,7 @@
 //! What a laid-out gripper does over its stroke: how far it opens, with what force it closes, how the jaws move.
 
 use crate::synthesis::layout::Layout;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;

@@ -2,10 +2,9 @@
 
 use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::limits::{Limits, beyond};
-use crate::synthesis::link_side::LinkSide;
-use crate::synthesis::point::Point;
-use crate::synthesis::seen_sides::SeenSides;
+use crate::synthesis::place::Point;
+use crate::synthesis::seen_sides::{LinkSide, SeenSides};
+use crate::synthesis::task::{Limits, beyond};
 use crate::synthesis::velocities::Velocity;
 
 /// What a limit costs that is broken, where nothing but limits and one figure count.

@@ -8,10 +8,9 @@ use crate::file::schema::{
 use crate::geom::vector::{Vector, X};
 use crate::synthesis::coordinate::{Pivot, number, point};
 use crate::synthesis::layout::Layout;
-use crate::synthesis::place::Place;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::{Place, Point};
 use crate::synthesis::structure::Structure;
-use crate::synthesis::tips;
+use crate::synthesis::task;
 use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
 
@@ -26,7 +25,7 @@ pub(crate) fn link_names(structure: &Structure) -> Vec<String> {
             Input::Turn => "crank".to_owned(),
         },
         l => match r.jaws.iter().position(|&j| j == l) {
-            Some(n) => tips::NAMES[n].to_owned(),
+            Some(n) => task::JAW_NAMES[n].to_owned(),
             None => format!("link-{l}"),
         },
     };
@@ -255,7 +254,7 @@ pub fn mechanism_file(
         jaws: &r.jaws,
         held: HeldPart {
             tips: &layout.tips,
-            outward: &tips::outward(r.jaws.len(), 1),
+            outward: &task::outward(r.jaws.len(), 1),
             grip: layout.limits.task.grip.sign(),
             pivot: Pivot::Normal,
         },

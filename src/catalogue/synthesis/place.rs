@@ -1,5 +1,7 @@
 //! Places that are exact: whole millimetres, thousandths beside them, or whole ones after a third of a turn, whose coordinates
-//! have a √3 in them.
+//! have a √3 in them; and points of the plane in double precision.
+
+use crate::geom::vector::add_scaled;
 
 /// Thousandths of a millimetre in one.
 pub(super) const FINE: i32 = 1000;
@@ -44,4 +46,17 @@ impl Place {
 pub(crate) fn third([x, y]: [f64; 2]) -> [f64; 2] {
     let half_root = 3.0_f64.sqrt() / 2.0;
     [-0.5 * x - half_root * y, half_root * x - 0.5 * y]
+}
+
+/// A point of the plane, in millimetres.
+pub type Point = [f64; 2];
+
+/// The middle of points.
+#[must_use]
+pub(crate) fn middle<const N: usize>(points: &[[f64; N]]) -> [f64; N] {
+    #[allow(clippy::cast_precision_loss, reason = "a few")]
+    let n = points.len().max(1) as f64;
+    points
+        .iter()
+        .fold([0.0; N], |m, p| add_scaled(m, 1.0 / n, *p))
 }

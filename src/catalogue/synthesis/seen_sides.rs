@@ -1,10 +1,51 @@
-//! Crossings of links, and pins on links that they are no part of, while places are tried: only what has moved is looked at again.
+//! Sides of links, and what lies on them or crosses them. Crossings of links, and pins on links that they are no part of, while places are
+//! tried: only what has moved is looked at again.
 
-use crate::geom::vector::{cross_plane, dot, sub};
+use crate::geom::vector::{cross_plane, dot, length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::limits::beyond;
-use crate::synthesis::link_side::{LinkSide, ON, distance};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
+use crate::synthesis::task::beyond;
+use itertools::Itertools;
+
+/// A pin nearer than this to a link that it is no part of lies on it.
+pub(crate) const ON: f64 = 6.0;
+
+pub(crate) fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    let side = |p: Point, q: Point, r: Point| cross_plane(sub(q, p), sub(r, p)) > 0.0;
+    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
+}
+
+pub(crate) fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let (along, to) = (sub(b, a), sub(p, a));
+    let t = (dot(to, along) / dot(along, along).max(1e-9)).clamp(0.0, 1.0);
+    length(sub(to, along.map(|x| x * t)))
+}
+
+/// A side of a link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LinkSide {
+    pub(crate) link: usize,
+    /// The points at its ends.
+    pub(crate) ends: [usize; 2],
+}
+
+impl LinkSide {
+    /// Where its ends are.
+    pub(crate) fn of(&self, at: &[Point]) -> [Point; 2] {
+        self.ends.map(|i| at[i])
+    }
+}
+
+/// Whether a link of these sides, a bar or a plate, lies over a point.
+pub(crate) fn lies_over(sides: &[LinkSide], at: &[Point], point: Point) -> bool {
+    let near = |side: &LinkSide| distance(point, side.of(at)) < ON;
+    let left = |side: &LinkSide| {
+        let [a, b] = side.of(at);
+        cross_plane(sub(b, a), sub(point, a)) > 0.0
+    };
+    let within = sides.len() > 2 && sides.iter().map(left).all_equal();
+    within || sides.iter().any(near)
+}
 
 /// A side as the points lie about it, a bit for each.
 #[derive(Debug, Clone, Copy)]
@@ -178,8 +219,8 @@ fn bits(mut set: u32) -> impl Iterator<Item = usize> {
 mod tests {
     use super::SeenSides;
     use crate::synthesis::paired::sketch::each_classic;
-    use crate::synthesis::random::{below, random};
     use crate::synthesis::sketch::LayoutSketch;
+    use crate::synthesis::{below, random};
 
     /// Tries that are taken and refused in any order: what is looked at again is what has moved, and all else is known still.
     #[test]

@@ -2,11 +2,10 @@
 
 use crate::chains::layout_symmetry::Input;
 use crate::synthesis::bones::{BonePlan, Bones};
-use crate::synthesis::limits::Limits;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::stroke::closure::Closure;
 use crate::synthesis::structure::Structure;
-use crate::synthesis::tips::round;
+use crate::synthesis::task::{Limits, room_round_part};
 use crate::synthesis::velocities::Contours;
 
 /// A structure with the rules of its pins.
@@ -46,7 +45,7 @@ impl<'a> Skeleton<'a> {
             tips: tips.iter().map(|t| t.real()).collect(),
             turns: structure.form.input == Input::Turn,
             hinged: (r.jaws.iter().map(|&j| structure.chain.joined(r.frame, j))).collect(),
-            round: round(r.jaws.len(), structure.form.symmetry),
+            round: room_round_part(r.jaws.len(), structure.form.symmetry),
             wished: limits.task.distances(),
             cylinder: None,
             together: Vec::new(),

@@ -2,9 +2,9 @@
 
 use crate::synthesis::bones::Bones;
 use crate::synthesis::layout_quality::{LayoutMotion, Looks};
-use crate::synthesis::limits::{Limits, beyond};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::seen_sides::SeenSides;
+use crate::synthesis::task::{Limits, beyond};
 use crate::synthesis::velocities::Velocity;
 use chacha20::ChaCha8Rng;
 use std::borrow::Cow;

@@ -4,7 +4,6 @@
 //! force of the jaws: work in is work out.
 
 pub mod closure;
-mod cost;
 pub mod forces;
 mod gathered;
 pub mod judge;
@@ -13,3 +12,104 @@ pub mod planes;
 pub mod pose;
 pub mod shortfall;
 pub mod walk;
+
+use crate::synthesis::layout_quality::DEAR;
+use crate::synthesis::stroke::judge::StrokeFigures;
+use crate::synthesis::stroke::shortfall::NOISE;
+use crate::synthesis::task::{AskedMotion, Limits, PARALLEL, Task, beyond};
+
+impl Task {
+    /// Distances that are asked for at least, each with that of a stroke, in millimetres.
+    fn least_distances(&self, f: &StrokeFigures) -> impl Iterator<Item = (f64, f64)> {
+        let side = if self.own_sides {
+            0.5 * self.distances()[0]
+        } else {
+            0.0
+        };
+        let all = [
+            (self.pin_distance, f.pin_distance),
+            (self.reach, f.reach),
+            (side, f.on_side),
+        ];
+        all.into_iter().filter(|(least, _)| *least > 0.0)
+    }
+}
+
+impl Limits {
+    /// What a stroke costs, 0 at best. First that both ends are reached, then what the task and the limits ask.
+    #[must_use]
+    pub fn stroke_cost(&self, f: &StrokeFigures) -> f64 {
+        let task = &self.task;
+        let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
+        let mut cost = 0.0;
+        for m in missing.into_iter().filter(|m| *m > 0.0) {
+            cost += 6.0 + 40.0 * m / task.span();
+        }
+        let ratio = f.force_ratio().ln();
+        let asked = (0.9 * task.force_ratio).max(1.0).ln();
+        cost += 3.0 * beyond(ratio - asked, 0.2).min(10.0);
+        if task.least_force > 0.0 {
+            let lacks = (1.1 * task.least_force / f.force.max(1e-12)).ln();
+            cost += 3.0 * beyond(lacks, 0.2).min(10.0);
+        }
+        cost += beyond(30.0 - f.transmission, 15.0);
+        cost += 2.0 * beyond(0.6 - f.straightness, 0.5);
+        cost += beyond(20.0 - f.forces.transmission, 10.0);
+        cost += 2.0 * beyond((f.forces.peak / 6.0).max(1e-12).ln(), 0.7).min(10.0);
+        cost += beyond(0.8 - f.forces.efficiency, 0.2);
+        let turn = f.turn;
+        cost += match task.motion {
+            AskedMotion::Parallel => 2.0 * beyond(turn - 0.5 * PARALLEL, 0.5).min(10.0),
+            AskedMotion::Any | AskedMotion::Swinging => beyond(turn - 40.0, 20.0).min(20.0),
+        };
+        for (size, most) in f.size.into_iter().zip(task.room) {
+            if most > 0.0 {
+                cost += beyond(size - most + 2.0, 4.0).min(10.0);
+            }
+        }
+        for (least, is) in task.least_distances(f) {
+            cost += beyond(least - is + 1.0, 3.0).min(10.0);
+        }
+        if task.pulled_out > 0.0 {
+            cost += beyond((f.pulled_out / (0.95 * task.pulled_out)).ln(), 0.1).min(10.0);
+        }
+        cost
+    }
+
+    /// What a stroke costs where the force alone counts: less than nothing for a great one, and much for each limit that is broken, by so
+    /// many times the usual width.
+    #[must_use]
+    pub fn force_cost(&self, f: &StrokeFigures, slack: f64) -> f64 {
+        let task = &self.task;
+        let missing = [f.reached[0] - task.narrowest, task.widest - f.reached[1]];
+        let missing = missing.into_iter().filter(|m| *m > 0.0);
+        let unreached: f64 = missing.map(|m| 1.0 + 10.0 * m / task.span()).sum();
+        let over = |value: f64, most: f64| (value / most).max(1e-12).ln();
+        let mut broken = 0.0;
+        // However little a limit is broken, it is.
+        let mut limit = |over: f64, width: f64| {
+            if over > NOISE {
+                broken += 0.02 + beyond(over, slack * width);
+            }
+        };
+        limit(over(f.force_ratio(), task.force_ratio), 0.1);
+        limit(self.transmission - f.transmission, 2.0);
+        limit(self.transmission - f.forces.transmission, 2.0);
+        limit(0.05 - f.straightness, 0.05);
+        if task.motion == AskedMotion::Parallel {
+            limit(f.turn - PARALLEL, 0.2);
+        }
+        for (size, most) in f.size.into_iter().zip(task.room) {
+            if most > 0.0 {
+                limit(size - most, 1.0);
+            }
+        }
+        for (least, is) in task.least_distances(f) {
+            limit(least - is, 1.0);
+        }
+        if task.pulled_out > 0.0 {
+            limit(over(f.pulled_out, task.pulled_out), 0.02);
+        }
+        DEAR * (unreached + broken) - 20.0 * f.force.max(1e-12).ln()
+    }
+}

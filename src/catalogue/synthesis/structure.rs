@@ -1,12 +1,11 @@
 //! Structures: a chain, what its links do in a gripper, how its driver moves, and the symmetry it is to have.
 
-use crate::chains::chain::Chain;
-use crate::chains::graph6;
 use crate::chains::layout_symmetry::{Input, Symmetry};
 use crate::chains::roles::{Roles, Subject};
+use crate::chains::{Chain, graph6};
 use crate::synthesis::place::Place;
+use crate::synthesis::task;
 use crate::synthesis::task::Task;
-use crate::synthesis::tips;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -151,7 +150,7 @@ impl Structure {
     /// Where the tips of the jaws are drawn for a task, in millimetres.
     #[must_use]
     pub fn tips(&self, task: &Task) -> Vec<Place> {
-        tips::tips(self.roles.jaws.len(), self.form.symmetry, task)
+        task::draw_tips(self.roles.jaws.len(), self.form.symmetry, task)
     }
 
     /// A ring for each jaw, or `None` where one has none. The first by numbers, base before rods.

@@ -3,8 +3,7 @@
 use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{Vector, add_scaled, length, sub};
 use crate::synthesis::coordinate::{Pivot, number};
-use crate::synthesis::place::Place;
-use crate::synthesis::point::middle;
+use crate::synthesis::place::{Place, middle};
 use crate::synthesis::task::exactly;
 use serde::{Deserialize, Serialize};
 

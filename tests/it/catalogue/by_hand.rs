@@ -6,7 +6,6 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::{Layout, NoLayout, layout};
 use ozols::synthesis::layout_quality::Looks;
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::rules::Rules;
 use ozols::synthesis::skeleton::Skeleton;
@@ -15,7 +14,7 @@ use ozols::synthesis::stroke::forces::ForceFigures;
 use ozols::synthesis::stroke::judge::StrokeFigures;
 use ozols::synthesis::stroke::shortfall::Shortfall;
 use ozols::synthesis::structure::{Form, Structure};
-use ozols::synthesis::task::{AskedMotion, Task};
+use ozols::synthesis::task::{AskedMotion, Limits, Task};
 use ozols::synthesis::workload::Workload;
 
 /// The slider-crank of four links: driver, jaw, jaw that is hinged in the frame.

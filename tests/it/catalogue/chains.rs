@@ -3,8 +3,8 @@
 
 use crate::common::{built_in, json, ozols, text};
 use itertools::Itertools;
+use ozols::chains::Chain;
 use ozols::chains::census::{Census, Grippers, census};
-use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::{chains, count_chains};
 use ozols::chains::graph6::{self, Graph6Error};
 use ozols::chains::layout_symmetry::{Input, Symmetry, working_swap};

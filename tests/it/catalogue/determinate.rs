@@ -4,15 +4,14 @@ use super::{each, form, generic, out_of_plane};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use ozols::Request;
-use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
-use ozols::chains::graph6;
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
+use ozols::chains::{Chain, graph6};
 use ozols::score::request::{Check, List};
 use ozols::synthesis::layout;
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::structures;
+use ozols::synthesis::task::Limits;
 
 /// Determinate variants of W = 1 with the input joint unchanged, of each chain and input joint of so many links. They do not
 /// depend on the jaws, so that the chain's first layout serves every input, those of no essential gripper among them.

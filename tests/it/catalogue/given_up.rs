@@ -3,11 +3,11 @@
 use super::{each, form};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::layout::layout;
-use ozols::synthesis::limits::Limits;
-use ozols::synthesis::point::Point;
+use ozols::synthesis::place::Point;
 use ozols::synthesis::rules::Rules;
 use ozols::synthesis::skeleton::Skeleton;
 use ozols::synthesis::stroke::judge::Judge;
+use ozols::synthesis::task::Limits;
 
 #[test]
 fn a_stroke_is_given_up_only_where_it_costs_too_much() {

@@ -4,8 +4,8 @@ use super::{each, form, moved, moved_points};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::Structure;
+use ozols::synthesis::task::Limits;
 
 fn step(s: &Structure) -> f64 {
     match s.form.input {

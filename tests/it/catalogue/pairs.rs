@@ -8,10 +8,10 @@ mod two_slots;
 
 use crate::common::data;
 use itertools::Itertools;
-use ozols::chains::chain::Chain;
+use ozols::chains::Chain;
 use ozols::chains::enumerate::chains;
+use ozols::chains::pairs::PairKind;
 use ozols::chains::pairs::census::{DriveKind, Kinds, PairCensus, pair_census};
-use ozols::chains::pairs::kind::PairKind;
 use ozols::chains::pairs::sharing::Menu;
 use ozols::chains::pairs::symmetric_census::{SymmetricKind, symmetric_census};
 use std::collections::BTreeMap;

@@ -7,9 +7,9 @@ use itertools::Itertools;
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::stroke::planes::Stacking;
 use ozols::synthesis::structure::Structure;
+use ozols::synthesis::task::Limits;
 
 type Point = [f64; 2];
 

@@ -5,10 +5,9 @@ use super::{each, each_of, form};
 use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
 use ozols::synthesis::layout::{Layout, layout};
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::stroke::walk::StrokeEnd;
 use ozols::synthesis::structure::Structure;
-use ozols::synthesis::task::{AskedMotion, Friction, Task};
+use ozols::synthesis::task::{AskedMotion, Friction, Limits, Task};
 
 /// Poses at which a stroke is looked at.
 const POSES: usize = 60;

@@ -9,8 +9,8 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
 use ozols::geom::vector::real;
 use ozols::synthesis::layout::layout;
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::structure::Structure;
+use ozols::synthesis::task::Limits;
 use std::collections::BTreeMap;
 
 pub(super) fn third([x, y]: [f64; 2]) -> [f64; 2] {

@@ -8,8 +8,8 @@ use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::file::write;
 use ozols::geom::vector::real;
 use ozols::synthesis::layout::layout;
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::mechanism::mechanism_file;
+use ozols::synthesis::task::Limits;
 use ozols::synthesis::workload::Workload;
 use tempfile::tempdir;
 

@@ -1,6 +1,6 @@
 //! An open catalogue: what it holds, and what is added.
 
-use super::error::{LARGEST_ANSWER, StoreError};
+use super::{LARGEST_ANSWER, StoreError};
 use crate::catalog::build::CatalogueRow;
 use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;

@@ -1,6 +1,6 @@
 //! Parts put together, and what is missing of the whole.
 
-use super::error::StoreError;
+use super::StoreError;
 use super::held::{Store, Stored};
 use super::open::plain_name;
 use crate::catalog::spec::Spec;

@@ -1,6 +1,8 @@
-//! The version of the tables: every catalogue bears it, and one of another version is refused.
+//! The version of the tables: every catalogue bears it, and one of another version is refused; and what the parts of a gripper cost, in
+//! revolute joints, by what is bought and what has to be fitted for it.
 
-use crate::catalog::prices::prices;
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::CostSpec;
 use itertools::Itertools;
 use rusqlite::Connection;
 
@@ -47,4 +49,21 @@ pub(super) fn make(db: &Connection) -> rusqlite::Result<()> {
         "PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {VERSION}; {TABLES} INSERT INTO prices VALUES {};",
         price_rows()
     ))
+}
+
+/// A gear pair, or a rack and its pinion, in thousandths: two parts with teeth, and their distance is to be kept.
+const TEETH_MILLI: i64 = 3000;
+
+/// The price of each part by its name.
+fn prices() -> [(&'static str, f64); 5] {
+    #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
+    let whole = |milli: i64| milli as f64 / 1000.0;
+    let joint = |of: JointType| whole(of.default_cost_milli());
+    [
+        ("hinge", joint(JointType::Revolute)),
+        ("slide", joint(JointType::Prismatic)),
+        ("gear", whole(TEETH_MILLI)),
+        ("slot", joint(JointType::Slotted)),
+        ("link", whole(CostSpec::LINK_MILLI)),
+    ]
 }

@@ -1,8 +1,8 @@
 //! How many chains of pairs there are, and in how many ways their links make grippers of two jaws.
 
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{MOST_LINKS, PairChain};
 use crate::chains::pairs::graphs::biconnected_graphs;
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairSubject;
 use crate::chains::pairs::sharing::{Menu, Sharing};
 use rayon::prelude::*;

@@ -1,8 +1,8 @@
 //! A chain whose joints are of several kinds.
 
+use crate::chains::Chain;
 use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::chain::Chain;
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use petgraph::unionfind::UnionFind;
 
 /// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.

@@ -1,8 +1,8 @@
 //! Gripper schemes that are well known, as structures.
 
 use crate::chains::canonical::Weighted;
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, ordered};
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use itertools::Itertools;

@@ -7,8 +7,8 @@
 //! of action; two slots are two such rows, and so two at the point where these lines meet. Where a symmetry carries a joint to itself, its place is special: a hinge lies on the mirror line, a slide goes
 //! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it. Two slots are never their own image.
 
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
-use crate::chains::pairs::kind::PairKind;
 use crate::linalg::echelon::relations;
 use crate::linalg::modp::{Field, Residue};
 use chacha20::ChaCha8Rng;

@@ -1,7 +1,7 @@
 //! What links of a chain of pairs do in a gripper: frame, input joint and jaws, each choice once up to the chain's automorphisms.
 
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, Velocity, motion, symmetric_motions};
 use crate::chains::roles::{carries_round, jaws_carried};
 use itertools::Itertools;

@@ -4,8 +4,8 @@
 //! nothing is to change places.
 
 use crate::chains::canonical::Weighted;
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, carried};
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use itertools::Itertools;
 use std::cmp::Ordering;

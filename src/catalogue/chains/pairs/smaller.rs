@@ -1,7 +1,7 @@
 //! What is left of a gripper without two of its links.
 
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{PairChain, ordered};
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use itertools::Itertools;

@@ -1,8 +1,8 @@
 //! A gripper as a structure: a chain of pairs with its roles, under a name that does not depend on numbers.
 
 use crate::chains::canonical::{Weighted, canonical};
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, ordered};
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use crate::chains::pairs::roles::{PairRoles, PairSubject};
 use itertools::Itertools;

@@ -1,7 +1,6 @@
 //! Directions in the plane whose coordinates and length are whole numbers.
 
-use crate::synthesis::place::{Place, third};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::{Place, Point, third};
 
 /// Of the first quarter, from along x to nearly along y, evenly about its middle.
 const QUARTER: [[i32; 3]; 15] = [

@@ -2,10 +2,10 @@
 
 use crate::geom::vector::{dot, sub};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::paired::places::PairPlaces;
+use crate::synthesis::paired::PairPlaces;
 use crate::synthesis::paired::rows::{PoseRows, TeethSeen, Term};
 use crate::synthesis::paired::sketch::PairSketch;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
 use crate::synthesis::velocities::Velocity;

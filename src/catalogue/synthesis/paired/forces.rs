@@ -1,14 +1,14 @@
 //! Forces in the joints of a paired gripper at a pose of the stroke, the jaws each holding the part with a newton, without
 //! friction, and what they say of it.
 
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use crate::geom::vector::{add_scaled, dot, length, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::paired::PairPlaces;
 use crate::synthesis::paired::equations::{PairEquations, place_of};
-use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rows::{PoseRows, TeethSeen, Term};
 use crate::synthesis::paired::sketch::PairSketch;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::stroke::forces::ForceFigures;
 use crate::synthesis::stroke::motion::StrokeMotion;
 use crate::synthesis::stroke::pose::LinkPose;

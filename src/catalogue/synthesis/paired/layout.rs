@@ -1,17 +1,19 @@
-//! A place for every joint of a paired structure, looked for from seeds that follow from its name.
+//! A place for every joint of a paired structure, looked for from seeds that follow from its name; and what a laid-out gripper does over
+//! its stroke.
 
 use crate::synthesis::annealing::{FoundPlaces, STARTS, best_of_starts};
+use crate::synthesis::figures::{LayoutFigures, of_stroke};
 use crate::synthesis::layout::NoLayout;
 use crate::synthesis::layout_quality::Looks;
-use crate::synthesis::limits::Limits;
+use crate::synthesis::paired::PairPlaces;
 use crate::synthesis::paired::forces::PairMotion;
-use crate::synthesis::paired::places::PairPlaces;
 use crate::synthesis::paired::rules::{NoRules, PairRules};
 use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
 use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
 use crate::synthesis::place::third;
 use crate::synthesis::stroke::judge::Judge;
+use crate::synthesis::task::Limits;
 
 /// A paired structure with a place for every joint.
 #[derive(Debug, Clone)]
@@ -116,4 +118,40 @@ pub(crate) fn layout_of_three(
         vec![tip, third(tip), third(third(tip))]
     };
     Ok(out)
+}
+
+/// Figures of a laid-out gripper; `None` where it is drawn in a singular pose.
+///
+/// # Complexity
+/// Some dozen poses, each of O(n³) for n links.
+#[must_use]
+pub fn figures(paired: &PairedStructure, layout: &PairLayout) -> Option<LayoutFigures> {
+    of_sides(paired, None, layout)
+}
+
+/// Those of a gripper of three jaws.
+///
+/// # Complexity
+/// As [`figures`].
+#[must_use]
+pub(crate) fn of_three(
+    structure: &ThreefoldStructure,
+    layout: &PairLayout,
+) -> Option<LayoutFigures> {
+    let two = of_sides(&structure.two, Some(structure), layout)?;
+    Some(LayoutFigures {
+        jaws: vec![two.jaws[0]; SIDES],
+        turns: vec![two.turns[0]; SIDES],
+        ..two
+    })
+}
+
+fn of_sides(
+    paired: &PairedStructure,
+    threefold: Option<&ThreefoldStructure>,
+    layout: &PairLayout,
+) -> Option<LayoutFigures> {
+    let rules = layout.rules.clone();
+    let sketch = PairSketch::thrice(paired, threefold, rules, layout.limits);
+    of_stroke(&mut Judge::of(PairMotion::new(&sketch)), &layout.at)
 }

@@ -1,20 +1,19 @@
 //! A paired layout as a mechanism file: hinges square to the plane, guides and slots in it, gears as couplings.
 
 use crate::chains::layout_symmetry::Symmetry;
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, MechanismFile, OptionEntry, OptionTable,
     SearchEntry, Unloading,
 };
 use crate::synthesis::coordinate::{Pivot, point};
 use crate::synthesis::mechanism::{FileHead, Menu, in_space, joint_name};
+use crate::synthesis::paired::Teeth;
 use crate::synthesis::paired::layout::PairLayout;
-use crate::synthesis::paired::places::Teeth;
 use crate::synthesis::paired::rules::{Mesh, PairRules};
 use crate::synthesis::paired::structure::PairedStructure;
-use crate::synthesis::place::Place;
-use crate::synthesis::point::Point;
-use crate::synthesis::tips;
+use crate::synthesis::place::{Place, Point};
+use crate::synthesis::task;
 use crate::synthesis::workload::{HeldPart, Workload};
 
 /// What each link is called: frame, the jaws, slider or crank, of a cylinder between two links cylinder and piston, and the rest by
@@ -34,7 +33,7 @@ pub(crate) fn link_names(paired: &PairedStructure) -> Vec<String> {
         l if l == base && slides => "cylinder".to_owned(),
         l => format!("link-{l}"),
     };
-    let of = |l: usize| jaw(l).map_or_else(|| name(l), |n| tips::NAMES[n].to_owned());
+    let of = |l: usize| jaw(l).map_or_else(|| name(l), |n| task::JAW_NAMES[n].to_owned());
     (0..paired.structure.chain.links()).map(of).collect()
 }
 
@@ -267,7 +266,7 @@ pub(crate) fn mechanism_file(
         jaws: &roles.jaws,
         held: HeldPart {
             tips: &paired.tips(&layout.limits.task),
-            outward: &tips::outward(roles.jaws.len(), 1),
+            outward: &task::outward(roles.jaws.len(), 1),
             grip: layout.limits.task.grip.sign(),
             pivot: Pivot::Normal,
         },

@@ -1,6 +1,6 @@
 //! A layout with three jaws as a mechanism file: what stands on one side stands on the others after thirds of a turn.
 
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use crate::file::schema::{
     Coordinate, CouplingEntry, JointEntry, MechanismFile, OptionEntry, SearchEntry, Unloading,
 };

@@ -1,19 +1,18 @@
 //! Places of a paired structure to begin with, others beside them, and what they cost.
 
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::direction::{self, WholeDirection};
 use crate::synthesis::paired::equations::velocities;
-use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::rules::PairRule;
 use crate::synthesis::paired::sketch::PairSketch;
-use crate::synthesis::point::Point;
-use crate::synthesis::random::{bell, below, unit};
+use crate::synthesis::paired::{PairPlaces, Teeth};
+use crate::synthesis::place::Point;
 use crate::synthesis::sketch::LayoutSketch;
-use crate::synthesis::tips::outward;
+use crate::synthesis::task::{Limits, outward};
 use crate::synthesis::velocities::Velocity;
+use crate::synthesis::{bell, below, unit};
 use chacha20::ChaCha8Rng;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
@@ -205,7 +204,7 @@ impl LayoutSketch for PairSketch<'_> {
 mod tests {
     use super::*;
     use crate::synthesis::paired::sketch::each_classic;
-    use crate::synthesis::random::random;
+    use crate::synthesis::random;
     use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::pitch_penalty;
 

@@ -3,11 +3,11 @@
 //! A row adds up forces times the velocities of points, and moments times turnings; the same numbers are the forces by which the
 //! joint acts. A hinge has two, a slide two, a slot and a gear pair one, and the drive one.
 
-use crate::chains::pairs::kind::PairKind;
+use crate::chains::pairs::PairKind;
 use crate::geom::vector::{cross_plane, dot, quarter, scale, sub, unit};
-use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::rules::{Mesh, PairRules};
-use crate::synthesis::point::Point;
+use crate::synthesis::paired::{PairPlaces, Teeth};
+use crate::synthesis::place::Point;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::RADIAN;
 

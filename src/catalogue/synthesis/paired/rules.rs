@@ -1,13 +1,13 @@
 //! Which places of a paired gripper are free, and which follow from them.
 
 use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, carried, ordered};
-use crate::chains::pairs::kind::PairKind;
 use crate::geom::vector::{add_scaled, sub};
 use crate::synthesis::paired::direction::WholeDirection;
-use crate::synthesis::paired::places::{PairPlaces, Teeth};
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
-use crate::synthesis::point::Point;
+use crate::synthesis::paired::{PairPlaces, Teeth};
+use crate::synthesis::place::Point;
 use itertools::Itertools;
 use thiserror::Error;
 

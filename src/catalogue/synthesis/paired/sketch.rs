@@ -1,16 +1,15 @@
 //! What of a paired structure does not depend on where its joints are, gathered once for the many places that are tried.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::Joint;
-use crate::chains::pairs::kind::PairKind;
 use crate::synthesis::bones::{BonePlan, Bones};
-use crate::synthesis::limits::Limits;
 use crate::synthesis::paired::rules::{PairRule, PairRules};
 use crate::synthesis::paired::structure::PairedStructure;
 use crate::synthesis::paired::threefold::{Around, SIDES, ThreefoldStructure};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::stroke::pose::LinkPose;
-use crate::synthesis::tips::round;
+use crate::synthesis::task::{Limits, room_round_part};
 
 /// A paired structure with the rules of its joints.
 #[derive(Debug)]
@@ -80,7 +79,7 @@ impl<'a> PairSketch<'a> {
             tips: (paired.tips(&limits.task).iter().map(|t| t.real())).collect(),
             turns: paired.input() == Input::Turn,
             hinged: roles.jaws.iter().map(hinged).collect(),
-            round: round(roles.jaws.len(), paired.form.symmetry),
+            round: room_round_part(roles.jaws.len(), paired.form.symmetry),
             wished: limits.task.distances(),
             together: shared.chain((central > 0).then_some(central)).collect(),
             cylinder: (paired.structure.slides() && drive[0] != roles.frame).then_some(drive),
@@ -110,7 +109,7 @@ impl<'a> PairSketch<'a> {
 #[cfg(test)]
 pub(in crate::synthesis) fn each_classic(mut take: impl FnMut(&str, &PairSketch<'_>)) {
     use crate::chains::pairs::classics::classics;
-    use crate::synthesis::paired::known::most_symmetric;
+    use crate::synthesis::paired::most_symmetric;
     for classic in classics() {
         let paired = most_symmetric(&classic.structure).unwrap();
         let lay = paired.lays().swap_remove(0);

@@ -1,10 +1,10 @@
 //! Structures of pairs with the symmetry they are to have.
 
 use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::census::visit_pair_chains;
 use crate::chains::pairs::chain::{Joint, carried, ordered};
 use crate::chains::pairs::classics::MadeAs;
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::{Image, Swap, motion, symmetric_ways};
 use crate::chains::pairs::roles::PairSubject;
 use crate::chains::pairs::sharing::Menu;
@@ -12,8 +12,8 @@ use crate::chains::pairs::structure::PairStructure;
 use crate::chains::pairs::symmetric_census::symmetric_grippers;
 use crate::synthesis::place::Place;
 use crate::synthesis::structure::short_id;
+use crate::synthesis::task;
 use crate::synthesis::task::Task;
-use crate::synthesis::tips;
 use itertools::Itertools;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
@@ -170,7 +170,7 @@ impl PairedStructure {
     /// Where the tips of the jaws are drawn for a task, in millimetres.
     #[must_use]
     pub fn tips(&self, task: &Task) -> Vec<Place> {
-        tips::tips(self.structure.roles.jaws.len(), self.form.symmetry, task)
+        task::draw_tips(self.structure.roles.jaws.len(), self.form.symmetry, task)
     }
 
     /// How it is driven.

@@ -6,14 +6,13 @@
 //! which their driver slides, each side in a plane of its own through it, as in a wedge chuck: half a turn about it is the mirror.
 
 use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, ordered};
-use crate::chains::pairs::kind::PairKind;
 use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::coordinate::Pivot;
 use crate::synthesis::paired::rules::PairRules;
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
-use crate::synthesis::place::third;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::{Point, third};
 use crate::synthesis::structure::short_id;
 use petgraph::unionfind::UnionFind;
 

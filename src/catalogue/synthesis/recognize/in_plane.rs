@@ -1,7 +1,7 @@
 //! What joints make in their plane: links that are one there, and pairs between them.
 
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Joint, Mechanism};

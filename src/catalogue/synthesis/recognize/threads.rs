@@ -1,8 +1,8 @@
 //! A screw with nuts that jaws are, which moves out of any plane: in one a pinion with its racks does the same.
 
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint as PairJoint, PairChain};
 use crate::chains::pairs::classics::MadeAs;
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::roles::PairRoles;
 use crate::chains::pairs::structure::PairStructure;
 use crate::closure::twist::FrameValues;

@@ -6,7 +6,7 @@
 use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{dot, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
 use crate::synthesis::velocities::{Contours, Side};

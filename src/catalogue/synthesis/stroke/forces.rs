@@ -5,7 +5,7 @@ use super::pose::LinkPose;
 use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{add_scaled, cross_plane, dot, length, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::task::Friction;
 use crate::synthesis::velocities::Side;

@@ -2,7 +2,7 @@
 
 use super::forces::ForceFigures;
 use crate::geom::vector::{dot, sub};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 
 /// Least and greatest of figures.
 #[derive(Debug, Clone, Copy)]

@@ -8,10 +8,10 @@ use super::pose::LinkPose;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
 use crate::synthesis::layout_quality::{angle, transmission};
-use crate::synthesis::limits::Limits;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::task::Limits;
 
 /// Poses of a stroke while places are tried, as many as rank them as fifty do, and how near to its end it is followed: a fraction of
 /// the stroke.

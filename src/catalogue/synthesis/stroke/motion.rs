@@ -6,7 +6,7 @@ use super::pose::LinkPose;
 use super::walk::{FitEquations, Walk};
 use crate::chains::layout_symmetry::Input;
 use crate::geom::vector::{add_scaled, quarter, sub};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::skeleton::Skeleton;
 use crate::synthesis::sketch::LayoutSketch;
 use crate::synthesis::velocities::Velocity;

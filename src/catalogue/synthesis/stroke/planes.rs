@@ -7,8 +7,8 @@
 
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::link_side::{LinkSide, ON, crosses, lies_over};
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
+use crate::synthesis::seen_sides::{LinkSide, ON, crosses, lies_over};
 use itertools::Itertools;
 use std::cmp::{Reverse, max, min};
 use std::fmt;

@@ -1,7 +1,7 @@
 //! Where a link is on the way of a stroke.
 
 use crate::geom::vector::add;
-use crate::synthesis::point::Point;
+use crate::synthesis::place::Point;
 use crate::synthesis::velocities::Velocity;
 
 /// Where a link is on the way, and how it moves for a millimetre of the width.

@@ -2,8 +2,7 @@
 
 use super::judge::StrokeFigures;
 use super::walk::StrokeEnd;
-use crate::synthesis::limits::Limits;
-use crate::synthesis::task::{AskedMotion, PARALLEL};
+use crate::synthesis::task::{AskedMotion, Limits, PARALLEL};
 use thiserror::Error;
 
 /// What is not done, from what matters most on.

@@ -1,7 +1,7 @@
 //! `ozols catalog count --pairs`.
 
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::census::pair_census;
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::pairs::symmetric_census::symmetric_census;
 use crate::cli::done::Done;

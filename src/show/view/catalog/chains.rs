@@ -1,9 +1,8 @@
 //! Counts and lists of chains for people, and as data.
 
 use crate::chains::census::Census;
-use crate::chains::chain::Chain;
-use crate::chains::graph6;
 use crate::chains::roles::Subject;
+use crate::chains::{Chain, graph6};
 use crate::format::grouped;
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;

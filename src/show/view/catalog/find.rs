@@ -2,9 +2,9 @@
 
 use crate::catalog::find::Entry;
 use crate::catalog::neighbours::Neighbours;
+use crate::chains::pairs::PairKind;
 use crate::chains::pairs::census::Kinds;
 use crate::chains::pairs::classics::classics_of;
-use crate::chains::pairs::kind::PairKind;
 use crate::chains::pairs::motion::moves_throughout;
 use crate::chains::pairs::roles::{PairRoles, PairSubject, Symmetries};
 use crate::chains::pairs::structure::PairStructure;

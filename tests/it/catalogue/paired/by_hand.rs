@@ -4,17 +4,14 @@ use super::number;
 use crate::common::data;
 use ozols::chains::pairs::classics::classics;
 use ozols::synthesis::figures::LayoutFigures;
-use ozols::synthesis::limits::Limits;
 use ozols::synthesis::paired::direction::WholeDirection;
-use ozols::synthesis::paired::figures::figures;
-use ozols::synthesis::paired::known::most_symmetric;
-use ozols::synthesis::paired::layout::PairLayout;
-use ozols::synthesis::paired::places::{PairPlaces, Teeth};
+use ozols::synthesis::paired::layout::{PairLayout, figures};
 use ozols::synthesis::paired::rules::PairRules;
 use ozols::synthesis::paired::sketch::PairSketch;
 use ozols::synthesis::paired::structure::PairedStructure;
+use ozols::synthesis::paired::{PairPlaces, Teeth, most_symmetric};
 use ozols::synthesis::sketch::LayoutSketch;
-use ozols::synthesis::task::Task;
+use ozols::synthesis::task::{Limits, Task};
 use serde_json::Value;
 
 /// The task of `forces.json`: tips 30 mm apart when closed, each opens by 10 mm. They are drawn closed.

@@ -4,13 +4,11 @@
 use super::number;
 use crate::common::data;
 use itertools::Itertools;
+use ozols::chains::pairs::PairKind;
 use ozols::chains::pairs::classics::classics;
-use ozols::chains::pairs::kind::PairKind;
-use ozols::synthesis::limits::Limits;
-use ozols::synthesis::paired::figures::figures;
-use ozols::synthesis::paired::known::most_symmetric;
-use ozols::synthesis::paired::layout::layout;
-use ozols::synthesis::task::{Aim, Task};
+use ozols::synthesis::paired::layout::{figures, layout};
+use ozols::synthesis::paired::most_symmetric;
+use ozols::synthesis::task::{Aim, Limits, Task};
 use serde_json::Value;
 
 /// The limits of `forces.json`: pins at 3 mm to 40 mm from the middle, tips 20 mm ahead of hinges and 30 mm apart when closed, each opening by

@@ -7,7 +7,7 @@ use super::super::command::{at, fails, ok, whole};
 use super::{Built, LAID, built, pulls_as_its_file_says, rows};
 use crate::common::json;
 use ozols::chains::pairs::sharing::Menu;
-use ozols::chains::pairs::{kind::PairKind, structure::PairStructure};
+use ozols::chains::pairs::{PairKind, structure::PairStructure};
 use ozols::geom::vector::real;
 use ozols::model::joint_type::Freedom;
 use ozols::synthesis::paired::structure::generic_structures;

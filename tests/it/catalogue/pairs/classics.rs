@@ -3,10 +3,10 @@
 use super::menu;
 use crate::common::data;
 use itertools::Itertools;
+use ozols::chains::pairs::PairKind;
 use ozols::chains::pairs::census::visit_pair_chains;
 use ozols::chains::pairs::chain::PairChain;
 use ozols::chains::pairs::classics::classics;
-use ozols::chains::pairs::kind::PairKind;
 use ozols::chains::pairs::motion::moves_throughout;
 use ozols::chains::pairs::roles::PairSubject;
 use std::sync::atomic::{AtomicUsize, Ordering};

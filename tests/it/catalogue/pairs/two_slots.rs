@@ -3,8 +3,8 @@
 
 use super::super::carried_on::scattered;
 use itertools::Itertools;
+use ozols::chains::pairs::PairKind;
 use ozols::chains::pairs::census::{Kinds, pair_census};
-use ozols::chains::pairs::kind::PairKind;
 use ozols::chains::pairs::sharing::Menu;
 use std::collections::{BTreeMap, BTreeSet};
 

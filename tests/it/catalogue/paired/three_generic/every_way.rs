@@ -2,7 +2,7 @@
 //! Motions are counted in floating point at scattered places. Nothing of it is code that counts structures.
 
 use itertools::Itertools;
-use ozols::chains::pairs::kind::PairKind;
+use ozols::chains::pairs::PairKind;
 use ozols::chains::pairs::structure::PairStructure;
 use std::collections::BTreeSet;
 
