@@ -55,7 +55,7 @@ pub(in crate::cli) struct Search {
     #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank", "distinct"])]
     sample: Option<usize>,
     /// Counts only.
-    #[arg(long, conflicts_with = "rank")]
+    #[arg(long, conflicts_with_all = ["rank", "generic_only"])]
     count: bool,
     /// Find the best without counting all: as fast as a search for a cost, however many variants there are.
     #[arg(long, conflicts_with_all = ["all", "sample", "count"])]

@@ -93,6 +93,16 @@ fn which_link_has_which_pin_matters() {
     assert_eq!(lucky("3-0"), 0);
 }
 
+/// Counts have the lucky variants in them, so that they are not given as if they had not.
+#[test]
+fn generic_only_is_refused_with_counts() {
+    let o = ozols(&["search", "watt-six-bar", "--count", "--generic-only"])
+        .output()
+        .unwrap();
+    assert_eq!(o.status.code(), Some(2));
+    assert!(o.stdout.is_empty());
+}
+
 #[test]
 fn generic_only_leaves_the_lucky_out_and_makes_room() {
     let v = json(&[&BALANCE[..], &["--generic-only"]].concat());
