@@ -21,9 +21,9 @@ mod xml;
 pub use description::origin::{ElementPlace, Origin};
 pub use foreign::refuse as refuse_foreign;
 pub use formats::{begins_description, is_description};
-pub use import::{Imported, Options, Reader, import};
+pub use import::{Imported, import};
 pub use problem::ExportError;
-pub use warning::{CadCount, Kept, Note, Report};
+pub use warning::{CadCount, Kept, Note, Options, Reader, Report};
 
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;

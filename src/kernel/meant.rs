@@ -47,18 +47,6 @@ pub struct MeantScene {
     pub moved: f64,
 }
 
-/// A direction that moves its components by this many halves of their last digits is within them: it is fitted, not solved for.
-pub(crate) const WITHIN: f64 = 1.1;
-
-/// How bold relations are taken.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Caution {
-    /// Moves may be larger by this.
-    pub(crate) bold: f64,
-    /// Whether relations count that may be there by chance.
-    pub(crate) weak: bool,
-}
-
 /// 2^61 - 1.
 const PRIME: u128 = (1 << 61) - 1;
 

@@ -11,7 +11,7 @@ use crate::chains::pairs::PairKind;
 use crate::chains::pairs::sharing::Menu;
 use crate::chains::roles::Subject;
 use crate::shard::Shard;
-use crate::synthesis::paired::known_schemes;
+use crate::synthesis::paired::layout::known_schemes;
 use crate::synthesis::paired::structure::{PairedStructure, generic_structures, paired_structures};
 use crate::synthesis::paired::threefold::ThreefoldStructure;
 use crate::synthesis::structure::{Structure, structures};

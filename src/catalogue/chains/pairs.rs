@@ -1,6 +1,6 @@
 //! Planar chains of hinges, slides, gear pairs and slots, and the grippers that their links make.
 //!
-//! A [`kind::PairKind`] leaves one freedom (hinge, slide) or two (gear pair or rack; pin in a slot, cam, wedge), so that a chain of
+//! A [`PairKind`] leaves one freedom (hinge, slide) or two (gear pair or rack; pin in a slot, cam, wedge), so that a chain of
 //! n links has the mobility W = 3(n - 1) - 2(R + P) - (G + S). A chain counts where in nearly all places of its joints W is 1
 //! in truth and every two links move against each other. Between hinges and pairs of two freedoms a count of every part tells
 //! that; with slides the rank decides (loops of slides alone, hinges locked by slides), see [`motion`].

@@ -2,8 +2,7 @@
 //!
 //! Here every link has a pose of its own, and a joint is the rows that hold between two of them, whatever its kind: what hinges
 //! alone allow, turns as the only unknown, does not go on with slots. Points are whole millimetres, directions have whole
-//! lengths (3, 4 and 5), radii are whole, so that layouts are exact as they stand. Well-known schemes have the forms that they are laid out
-//! in.
+//! lengths (3, 4 and 5), radii are whole, so that layouts are exact as they stand.
 
 pub mod direction;
 pub(crate) mod equations;
@@ -18,15 +17,9 @@ pub mod sketch;
 pub mod structure;
 pub(crate) mod threefold;
 
-use crate::chains::layout_symmetry::Symmetry;
-use crate::chains::pairs::classics::{Classic, classics};
-use crate::chains::pairs::structure::PairStructure;
 use crate::geom::vector::{add_scaled, quarter, sub};
 use crate::synthesis::paired::direction::WholeDirection;
-use crate::synthesis::paired::rules::PairRules;
-use crate::synthesis::paired::structure::{PairedForm, PairedStructure};
 use crate::synthesis::place::Point;
-use itertools::Itertools;
 use std::f64::consts::TAU;
 
 /// Where all joints are, by their places in the chain's list.
@@ -73,43 +66,4 @@ impl Teeth {
             Teeth::Thread(_) => a,
         }
     }
-}
-
-/// The well-known schemes that are structures, each once.
-#[must_use]
-pub(crate) fn known_schemes() -> Vec<PairedStructure> {
-    let all = classics().iter();
-    let all = all.unique_by(|c| (c.structure.key(), c.made_as));
-    let made = |c: &Classic| {
-        let plain = most_symmetric(&c.structure)?;
-        let others = plain.with_flat_faces().into_iter();
-        let others = others.chain(plain.with_threads());
-        let mut all = plain.clone().with_one_pins().chain(others);
-        all.find(|p| p.made_as() == c.made_as)
-    };
-    all.filter_map(made).collect()
-}
-
-/// A structure in the most symmetric form in which it lies somewhere; `None` where it does so in none.
-///
-/// # Complexity
-/// As [`PairedStructure::lays`], for each form.
-#[must_use]
-pub fn most_symmetric(structure: &PairStructure) -> Option<PairedStructure> {
-    let symmetric = [Symmetry::Mirror, Symmetry::HalfTurn];
-    let forms = [false, true].into_iter().cartesian_product(symmetric);
-    let forms = forms.map(|(one_sided, symmetry)| PairedForm {
-        one_sided,
-        ..PairedForm::of(symmetry)
-    });
-    let structure = PairStructure::of_key(&structure.key());
-    let mut all = forms.chain([PairedForm::of(Symmetry::Generic)]);
-    let found = all.find_map(|form| {
-        let structure = structure.clone();
-        let paired = PairedStructure { structure, form };
-        let mut lays = paired.lays().into_iter();
-        lays.any(|lay| PairRules::new(&paired, &lay).is_ok())
-            .then_some(paired)
-    });
-    found.map(PairedStructure::on_parallelograms_if_any)
 }

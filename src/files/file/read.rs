@@ -22,7 +22,9 @@ use crate::file::read::workload::grip::grip;
 use crate::file::read::workload::loads::loads;
 use crate::file::schema::MechanismFile;
 use crate::file::{Finding, Findings};
+use crate::format::disjunction;
 use crate::geom::expr::Expr;
+use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, SearchSpec};
 use connected::{connected, contours};
@@ -31,7 +33,30 @@ use links::links;
 use search::search;
 use value::LIMITS;
 use value::tolerance::tolerance;
-use workload::claims;
+
+/// The claims of a file; one of an unknown topic is a problem.
+pub(crate) fn claims(file: &MechanismFile, out: &mut Findings) -> Vec<Claim> {
+    let mut list = Vec::new();
+    for (i, c) in file.claim.iter().enumerate() {
+        let Some(topic) = Topic::ALL.into_iter().find(|t| t.word() == c.topic) else {
+            let key = |k: &str| DocumentStep::Key(k.to_owned());
+            let path = [key("claim"), DocumentStep::Index(i), key("topic")];
+            let known = disjunction(Topic::ALL.map(Topic::word));
+            let (what, word) = ("topic", c.topic.clone());
+            out.add(&path, ProblemKind::UnknownWord { what, word, known });
+            continue;
+        };
+        list.push(Claim {
+            topic,
+            source: c.source.clone(),
+            says: c.says.clone(),
+            right: c.right.clone(),
+            scan: c.scan.clone(),
+            evidence: c.evidence.clone(),
+        });
+    }
+    list
+}
 
 /// Refuses a file of too many entries before any of them is read.
 fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {

@@ -6,8 +6,8 @@ use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
-use crate::robots::import::{Options, Reader};
 use crate::robots::problem::{RobotProblem, known};
+use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
 

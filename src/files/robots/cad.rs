@@ -16,8 +16,7 @@ use crate::robots::cad::coupled::coupling;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::meet::{Meeting, meeting};
 use crate::robots::description::{Part, Robot, Unit, free};
-use crate::robots::import::Options;
-use crate::robots::warning::CadCount;
+use crate::robots::warning::{CadCount, Options};
 
 /// Frames that are apart by less than this, as a share of the assembly's size and in radians, meet: solvers leave so much.
 const MEET: f64 = 1e-4;

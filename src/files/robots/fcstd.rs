@@ -14,8 +14,8 @@ use crate::robots::description::{Robot, Unit};
 use crate::robots::fcstd::joint::{Held, Shapes, Slide, frames, held};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
-use crate::robots::import::{Options, Reader};
 use crate::robots::problem::{RobotProblem, known};
+use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{self, Document, Element};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -5,8 +5,8 @@ use crate::file::write::{self, mechanism_file};
 use crate::model::mechanism::Mechanism;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::Robot;
-use crate::robots::import::{Options, Reader};
 use crate::robots::problem::ExportError;
+use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::Document;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
 

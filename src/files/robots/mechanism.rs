@@ -14,11 +14,11 @@ use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::{Tree, places, spanning_tree};
 use crate::robots::description::{Part, Robot, coupling, free};
-use crate::robots::import::Options;
 use crate::robots::mechanism::entries::{Bodies, Content};
 use crate::robots::mechanism::loop_closing::{CLOSED, ROUNDED, close, gaps, size, worst};
 use crate::robots::mechanism::outputs::link_of;
 use crate::robots::problem::{RobotProblem, known};
+use crate::robots::warning::Options;
 use std::collections::BTreeSet;
 
 pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), RobotProblem> {

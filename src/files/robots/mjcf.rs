@@ -15,10 +15,10 @@ use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
 use crate::robots::description::{Part, Robot, free};
-use crate::robots::import::{Options, Reader};
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
 use crate::robots::problem::RobotProblem;
+use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
 

@@ -14,7 +14,6 @@ use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, plugin};
 use crate::robots::description::{Part, Robot};
-use crate::robots::import::{Options, Reader};
 use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::gearbox::gearbox;
 use crate::robots::sdf::include::Expanded;
@@ -22,6 +21,7 @@ use crate::robots::sdf::joints::{joint, weld};
 use crate::robots::sdf::scene::{
     BESIDE, Placed, SdfScene, absolute, end, insert, moves_with, resolve,
 };
+use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 
 /// Reads an `<sdf>`.

@@ -10,8 +10,8 @@ use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, couple, leave_out, named, same_link};
 use crate::robots::description::{Part, Ratio, Robot, free};
-use crate::robots::import::{Options, Reader};
 use crate::robots::problem::{RobotProblem, known};
+use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 
 /// What is read of a joint.

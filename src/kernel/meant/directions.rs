@@ -1,9 +1,20 @@
 //! The directions of a scene that are written, parallel ones as one.
 
-use super::WITHIN;
 use super::consensus::{Refined, refined, square_to};
 use super::written::{Ray, pairs};
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale, unit};
+
+/// A direction that moves its components by this many halves of their last digits is within them: it is fitted, not solved for.
+pub(crate) const WITHIN: f64 = 1.1;
+
+/// How bold relations are taken.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Caution {
+    /// Moves may be larger by this.
+    pub(crate) bold: f64,
+    /// Whether relations count that may be there by chance.
+    pub(crate) weak: bool,
+}
 
 /// A direction of a scene.
 #[derive(Debug, Clone)]

@@ -1,11 +1,12 @@
 //! The scene that is meant, and others that the digits do not rule out.
 
+use super::directions::Caution;
 use super::exact_directions::{Exact, placed};
 use super::projection::{Projection, Taken};
 use super::relations::{Finder, Normals, Relation, Use};
 use super::stage::{Stage, StageMark};
 use super::written::WrittenScene;
-use super::{Caution, Images, MeantScene, of_points};
+use super::{Images, MeantScene, of_points};
 use crate::geom::vector::Vector;
 use num_bigint::BigInt;
 use num_rational::BigRational;

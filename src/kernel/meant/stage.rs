@@ -1,6 +1,7 @@
 //! A scene between its two frames: what is known before points are moved, and the exact scene that comes of it.
 
-use super::directions::{Directions, of_rays};
+use super::MeantScene;
+use super::directions::{Caution, Directions, WITHIN, of_rays};
 use super::exact_directions::{Exact, exact};
 use super::frame::SceneFrame;
 use super::number::{self, Rational3, decimal, to_f64};
@@ -9,7 +10,6 @@ use super::relations::{Normals, Relation, Use};
 use super::solve::{PointEquation, solve};
 use super::together::together;
 use super::written::{Ray, WrittenScene};
-use super::{Caution, MeantScene, WITHIN};
 use crate::geom::vector::{Vector, sub};
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -9,6 +9,7 @@ pub mod ratio;
 mod source;
 mod uncertainty;
 
+pub use class::{LONG_DIRECTION, LONG_LENGTH};
 pub use source::{Largest, Sources};
 pub use uncertainty::{FrameNumbers, FrameUncertainty, Uncertainties, uncertainties};
 
@@ -18,11 +19,6 @@ use crate::model::mechanism::{Frame, Mechanism, Mode};
 use class::is_rounded;
 use std::collections::BTreeMap;
 use std::fmt;
-
-/// Lengths with so many significant digits may have been rounded.
-pub const LONG_LENGTH: usize = 4;
-/// Components of directions with so many may.
-pub const LONG_DIRECTION: usize = 3;
 
 /// Decimals with at least this many significant digits count as measured or computed, not chosen.
 pub const DIGITS: usize = 9;

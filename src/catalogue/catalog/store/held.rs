@@ -1,9 +1,9 @@
 //! An open catalogue: what it holds, and what is added.
 
-use super::{LARGEST_ANSWER, StoreError};
 use crate::catalog::build::CatalogueRow;
 use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;
+use crate::catalog::store::version::{LARGEST_ANSWER, StoreError};
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, ErrorCode, OptionalExtension, TransactionBehavior, params};
 use serde_json::Value;

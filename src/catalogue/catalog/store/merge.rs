@@ -1,9 +1,9 @@
 //! Parts put together, and what is missing of the whole.
 
-use super::StoreError;
 use super::held::{Store, Stored};
 use super::open::plain_name;
 use crate::catalog::spec::Spec;
+use crate::catalog::store::version::StoreError;
 use crate::shard::Shard;
 use num_integer::Integer;
 use std::path::{Path, PathBuf};

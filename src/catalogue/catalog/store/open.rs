@@ -4,10 +4,10 @@
 //! back: so a catalogue that was never finished being made is as good as none, and of several commands that make one file the
 //! first does, and the others find it made.
 
-use super::StoreError;
 use super::held::{Store, Stored};
 use super::version::{self, FileKind, VERSION};
 use crate::catalog::spec::Spec;
+use crate::catalog::store::version::StoreError;
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::{Connection, ErrorCode, OpenFlags, ffi};
 use std::collections::BTreeSet;

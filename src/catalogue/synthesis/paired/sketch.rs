@@ -109,7 +109,7 @@ impl<'a> PairSketch<'a> {
 #[cfg(test)]
 pub(in crate::synthesis) fn each_classic(mut take: impl FnMut(&str, &PairSketch<'_>)) {
     use crate::chains::pairs::classics::classics;
-    use crate::synthesis::paired::most_symmetric;
+    use crate::synthesis::paired::layout::most_symmetric;
     for classic in classics() {
         let paired = most_symmetric(&classic.structure).unwrap();
         let lay = paired.lays().swap_remove(0);

@@ -13,9 +13,10 @@ use crate::score::evaluation::terms::axis_of;
 use crate::score::joint_types::JointTypes;
 use crate::search::Search;
 use crate::search::question::space::Choice;
+use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::{Driven, period};
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, about, power, wrench};
-use crate::statics::reactions::{Unsolved, link_loads};
+use crate::statics::reactions::solve::link_loads;
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]

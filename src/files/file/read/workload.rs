@@ -10,14 +10,14 @@ pub mod trajectory;
 use crate::file::locate::DocumentStep;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
+use crate::file::read::claims;
 use crate::file::read::value::{knowing, length_unit};
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read, text_of};
 use crate::file::{Finding, Findings};
-use crate::format::disjunction;
-use crate::model::claim::{Claim, Topic};
+use crate::model::claim::Claim;
 use crate::model::drive::DriveSpec;
 use crate::model::grip::GripSpec;
 use crate::model::mechanism::{LengthUnit, Mechanism};
@@ -126,28 +126,4 @@ fn workload<T>(
         }),
         _ => Err(out.told()),
     }
-}
-
-/// The claims of a file; one of an unknown topic is a problem.
-pub(crate) fn claims(file: &MechanismFile, out: &mut Findings) -> Vec<Claim> {
-    let mut list = Vec::new();
-    for (i, c) in file.claim.iter().enumerate() {
-        let Some(topic) = Topic::ALL.into_iter().find(|t| t.word() == c.topic) else {
-            let key = |k: &str| DocumentStep::Key(k.to_owned());
-            let path = [key("claim"), DocumentStep::Index(i), key("topic")];
-            let known = disjunction(Topic::ALL.map(Topic::word));
-            let (what, word) = ("topic", c.topic.clone());
-            out.add(&path, ProblemKind::UnknownWord { what, word, known });
-            continue;
-        };
-        list.push(Claim {
-            topic,
-            source: c.source.clone(),
-            says: c.says.clone(),
-            right: c.right.clone(),
-            scan: c.scan.clone(),
-            evidence: c.evidence.clone(),
-        });
-    }
-    list
 }

@@ -11,8 +11,8 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
-use crate::robots::import::Reader;
 use crate::robots::problem::{RobotProblem, known};
+use crate::robots::warning::Reader;
 use serde_json::{Map, Value};
 
 /// Largest file, in bytes.

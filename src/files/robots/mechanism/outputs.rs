@@ -2,9 +2,9 @@
 
 use crate::closure::tree::forest;
 use crate::robots::description::Robot;
-use crate::robots::import::Options;
 use crate::robots::mechanism::entries::Bodies;
 use crate::robots::problem::{RobotProblem, known};
+use crate::robots::warning::Options;
 use std::collections::BTreeSet;
 
 /// Last words of the names of end effectors.

@@ -1,8 +1,8 @@
 //! Includes: the children of another file's root in place of an element.
 
 use crate::file::problem::ImportError;
-use crate::robots::import::Reader;
 use crate::robots::problem::RobotProblem;
+use crate::robots::warning::Reader;
 use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 use std::path::{Component, Path};
 

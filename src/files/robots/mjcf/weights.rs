@@ -121,8 +121,8 @@ fn inertial(e: Element<'_>, compiler: &Compiler) -> Result<Weight, ImportError> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robots::import::Options;
     use crate::robots::import::import;
+    use crate::robots::warning::Options;
 
     /// Returns what the one body of a model weighs.
     fn weighed(compiler: &str, body: &str) -> Weight {

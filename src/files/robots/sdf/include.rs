@@ -1,8 +1,8 @@
 //! `<include>`: the model of another file in place of the element, under the name and at the place that it gives.
 
 use crate::file::problem::ImportError;
-use crate::robots::import::Reader;
 use crate::robots::problem::RobotProblem;
+use crate::robots::warning::Reader;
 use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 
 /// Deepest nesting of files, and most includes in all.

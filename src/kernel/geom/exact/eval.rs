@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use num_rational::BigRational;
 
-use super::ExactError;
 use super::quadratic::denested;
+use super::radical::ExactError;
 use super::radical::{Radical, radical};
 use crate::geom::expr::{Expr, Function, NodeKind, PI};
 

@@ -7,9 +7,9 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use sha2::{Digest as _, Sha256};
 
-use super::ExactError;
 use super::field::ExactField;
 use super::quadratic::denested;
+use super::radical::ExactError;
 use super::radical::{Radical, TRIAL_LIMIT, factor, radical};
 use crate::geom::expr::{Expr, MAX_ANGLE_DENOMINATOR, NodeKind};
 use crate::linalg::modp::{Field, is_prime};

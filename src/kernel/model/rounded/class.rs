@@ -1,9 +1,13 @@
 //! What the decimals of one kind, lengths or directions, say together of how they were written.
 
-use super::{LONG_DIRECTION, LONG_LENGTH};
 use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
 use num_traits::One;
 use std::collections::BTreeMap;
+
+/// Lengths with so many significant digits may have been rounded.
+pub const LONG_LENGTH: usize = 4;
+/// Components of directions with so many may.
+pub const LONG_DIRECTION: usize = 3;
 
 /// So many long decimals without a trailing zero are no chance.
 const MANY: usize = 10;

@@ -6,8 +6,7 @@ use crate::common::data;
 use itertools::Itertools;
 use ozols::chains::pairs::PairKind;
 use ozols::chains::pairs::classics::classics;
-use ozols::synthesis::paired::layout::{figures, layout};
-use ozols::synthesis::paired::most_symmetric;
+use ozols::synthesis::paired::layout::{figures, layout, most_symmetric};
 use ozols::synthesis::task::{Aim, Limits, Task};
 use serde_json::Value;
 
