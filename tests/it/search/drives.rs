@@ -173,6 +173,28 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
     assert_eq!((found.len(), search.mobility(found[0].key)), (1, 1));
 }
 
+/// Where no variant has as many motions as drives, that is an answer and no error.
+#[test]
+fn nothing_found_with_independent_drives_is_an_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("gantry.toml");
+    std::fs::write(
+        &file,
+        GANTRY.replace("\"fixed\", \"slotted\", {", "\"fixed\", {"),
+    )
+    .unwrap();
+    let words = ["search", file.to_str().unwrap(), "--drives", "independent"];
+    let o = crate::common::ozols(&words).output().unwrap();
+    assert_eq!(o.status.code(), Some(1), "{o:?}");
+    let count = [&words[..], &["--count", "--format", "json", "-q"]].concat();
+    let o = crate::common::ozols(&count).output().unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    assert_eq!(
+        (o.status.code(), crate::common::count(&found["admissible"])),
+        (Some(1), 0)
+    );
+}
+
 #[test]
 fn independent_drives_are_refused_where_they_cannot_be() {
     let gantry = mechanism_from_str("gantry.toml", GANTRY).unwrap();
