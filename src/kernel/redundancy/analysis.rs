@@ -379,7 +379,8 @@ fn exactly(
     let mut idle = idle_motions(exact, mechanism, &closure, &kernel, &outputs);
     // What a drive moves at a dead point moves the outputs elsewhere.
     if drives.contains(&DriveFault::DeadPoint) {
-        idle.retain(|i| !i.through.iter().any(|&j| mechanism.joints[j].drive));
+        let driven = || mechanism.joints.iter().filter(|j| j.drive);
+        idle.retain(|i| !driven().any(|j| j.links.iter().any(|l| i.links.contains(l))));
     }
     let freedoms = closure.columns.len();
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
