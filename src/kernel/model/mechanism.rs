@@ -83,6 +83,20 @@ pub struct JointOption {
     pub state: Option<StateId>,
 }
 
+impl JointOption {
+    /// Returns a type in the frame of a joint, by the name of the type, for any search.
+    #[must_use]
+    pub fn in_frame_of(joint: &Joint, joint_type: &JointType) -> JointOption {
+        JointOption {
+            name: joint_type.name().to_owned(),
+            joint_type: joint_type.clone(),
+            frame: joint.frame.clone(),
+            cost_milli: None,
+            state: None,
+        }
+    }
+}
+
 /// A joint between two links. Its twist is the motion of `links[1]` relative to `links[0]`.
 #[derive(Debug, Clone)]
 pub struct Joint {

@@ -4,7 +4,7 @@ use crate::closure::Closure;
 use crate::geom::exact::ExactField;
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
 use crate::rank::finite::Finite;
 use crate::redundancy::motion::Speeds;
 
@@ -29,7 +29,7 @@ pub enum DriveFault {
     },
     /// A drive cannot move in this pose.
     Locked(JointId),
-    /// The outputs stand still to first order while something else moves.
+    /// The outputs stand still to first order while a drive moves.
     DeadPoint,
 }
 
@@ -54,16 +54,16 @@ pub(super) fn drive_faults(
     if driven.is_empty() || closure.state != StateId::FREE {
         return Vec::new();
     }
+    let (drives, mobility) = (driven.len(), finite.at_most());
+    if mobility == 0 {
+        return vec![DriveFault::Immobile];
+    }
     let moves = |&&(column, _): &&(usize, JointId)| motions.iter().any(|x| x[column] != 0);
     let moving = driven.iter().filter(moves).count();
     let mut speeds = Echelon::new(exact.field());
     for x in motions {
         let of_drives: Vec<Residue> = driven.iter().map(|&(column, _)| x[column]).collect();
         speeds.insert(&of_drives);
-    }
-    let (drives, mobility) = (driven.len(), finite.at_most());
-    if mobility == 0 {
-        return vec![DriveFault::Immobile];
     }
     let mut out = Vec::new();
     if drives > mobility {
@@ -76,7 +76,8 @@ pub(super) fn drive_faults(
     }
     let locked = driven.iter().filter(|one| !moves(one));
     out.extend(locked.map(|&(_, joint)| DriveFault::Locked(joint)));
-    if working == 0 && moving > 0 {
+    let has_outputs = mechanism.links.iter().any(|l| l.role == Role::Output);
+    if has_outputs && working == 0 && moving > 0 {
         out.push(DriveFault::DeadPoint);
     }
     out

@@ -26,13 +26,7 @@ const VARIANTS: [u32; 2] = [1000, 81];
 fn plain(mut m: Mechanism) -> Mechanism {
     for joint in &mut m.joints {
         joint.unloading.clear();
-        joint.options = vec![JointOption {
-            name: joint.joint_type.name().to_owned(),
-            joint_type: joint.joint_type.clone(),
-            frame: joint.frame.clone(),
-            cost_milli: None,
-            state: None,
-        }];
+        joint.options = vec![JointOption::in_frame_of(joint, &joint.joint_type)];
     }
     m
 }

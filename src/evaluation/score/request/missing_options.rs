@@ -1,4 +1,4 @@
-//! Where no choice of the options can do: joint types with which one could.
+//! Where nothing is found: joint types with which something would be.
 
 use crate::geom::vector::{Vector, across, cross, dot, length, real, scale, sub, unit};
 use crate::model::joint_type::{Freedom, JointType};
@@ -6,10 +6,9 @@ use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::redundancy::duplicate_constraints::held_twice;
 use crate::redundancy::release::Release;
 use crate::score::outcome::Outcome;
-use crate::score::request::unlisted::{fits, is_changeable, types};
+use crate::score::request::unlisted::{fits, types};
 use crate::score::request::{Check, JointOptions, List, Request};
 use crate::score::run::run;
-use crate::search::check::variant_mechanism::realize;
 use itertools::Itertools;
 
 /// Nodes that the look at whether they help may take.
@@ -19,14 +18,11 @@ const OUTSIDE: f64 = 1e-6;
 
 impl Outcome {
     /// Returns the request with more joint types at some joints, where nothing was found and a search with these finds something:
-    /// the cheapest freedoms that remove what is redundant and let nothing move, each in the cheapest type that has it. Where these
-    /// find nothing, the cheapest type that does when it is offered at all joints, at the joints where the best variant has it.
+    /// the cheapest freedoms that remove what is redundant and let nothing move, each in the cheapest type that has it.
     #[must_use]
     pub fn would_help(&self) -> Option<Request> {
-        let freed = self.cheapest_freedoms().map(|allow| self.widened(allow));
-        freed
-            .filter(|wider| self.best_of(wider).is_some())
-            .or_else(|| self.one_more_type())
+        let wider = self.widened(self.cheapest_freedoms()?);
+        self.finds(&wider).then_some(wider)
     }
 
     /// Returns the joint types that free the cheapest duplicate constraints.
@@ -64,32 +60,6 @@ impl Outcome {
             .collect()
     }
 
-    /// Returns the request with one more type at the joints where the best variant has it, the cheapest type with which there is one.
-    fn one_more_type(&self) -> Option<Request> {
-        let m = &self.search.mechanism;
-        by_cost().find_map(|t| {
-            let changeable = m.joints_with_ids().filter(|(_, j)| is_changeable(j));
-            let new = changeable.filter(|(id, j)| {
-                let offered = j.joint_type == *t || j.options.iter().any(|o| o.joint_type == *t);
-                !offered && fits(m, *id, t)
-            });
-            let at = |id: JointId| JointOptions {
-                joint: m.joints[id].id.clone(),
-                names: vec![t.name().to_owned()],
-            };
-            let joints: Vec<JointId> = new.map(|(id, _)| id).collect();
-            if joints.is_empty() {
-                return None;
-            }
-            let everywhere = self.widened(joints.iter().map(|&id| at(id)).collect());
-            let best = self.best_of(&everywhere)?;
-            let used = joints
-                .into_iter()
-                .filter(|&id| best.joints[id].joint_type == *t);
-            Some(self.widened(used.map(at).collect()))
-        })
-    }
-
     /// Returns the request with more joint types at some joints.
     fn widened(&self, allow: Vec<JointOptions>) -> Request {
         let mut wider = self.request.clone();
@@ -101,8 +71,8 @@ impl Outcome {
         wider
     }
 
-    /// Returns the cheapest variant of a wider request, where there is one.
-    fn best_of(&self, wider: &Request) -> Option<Mechanism> {
+    /// Returns whether a wider request finds a variant.
+    fn finds(&self, wider: &Request) -> bool {
         // What is prepared already is not prepared again.
         let trial = Request {
             hold: Vec::new(),
@@ -119,9 +89,8 @@ impl Outcome {
         };
         let mut unranked = Mechanism::clone(&self.search.mechanism);
         unranked.ranking = None;
-        let found = run(unranked, &trial, &|| false, &mut |_| {}).ok()?;
-        let best = found.variants().next()?;
-        Some(realize(&found.search, &best.assignment().choices))
+        run(unranked, &trial, &|| false, &mut |_| {})
+            .is_ok_and(|found| found.variants().next().is_some())
     }
 }
 
@@ -135,20 +104,15 @@ struct FreedMotion {
 /// The cheapest type that has what a joint is to be given.
 fn one(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOptions> {
     let here = &m.joints[joint];
-    let mut fits =
-        by_cost().filter(|t| freed.iter().all(|&f| has(here, t, f)) && fits(m, joint, t));
+    // A contact at a point or a line has to be pressed together.
+    let pressed =
+        |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
+    let cheap = types().sorted_by_key(|t| (pressed(t), t.default_cost_milli()));
+    let mut fits = cheap.filter(|t| freed.iter().all(|&f| has(here, t, f)) && fits(m, joint, t));
     Some(JointOptions {
         joint: here.id.clone(),
         names: vec![fits.next()?.name().to_owned()],
     })
-}
-
-/// Returns the types that need no more than a joint's own frame, the cheapest first. Contacts at a point or a line come last: they
-/// have to be pressed together.
-fn by_cost() -> impl Iterator<Item = &'static JointType> {
-    let pressed =
-        |t: &JointType| matches!(t, JointType::SphereOnPlane | JointType::CylinderOnPlane);
-    types().sorted_by_key(move |t| (pressed(t), t.default_cost_milli()))
 }
 
 /// Whether a type in a joint's frame turns about, or slides along, a direction.

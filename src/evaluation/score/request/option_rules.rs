@@ -188,7 +188,7 @@ fn offer(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), Reque
         known.state = None;
         return Ok(());
     }
-    let Some(joint_type) = types().find(|t| t.name() == name).cloned() else {
+    let Some(joint_type) = types().find(|t| t.name() == name) else {
         let named = joint.unloading.iter().map(|u| u.name.clone());
         return Err(RequestError::NoUnloading {
             joint: joint.id.clone(),
@@ -196,12 +196,8 @@ fn offer(mechanism: &mut Mechanism, at: JointId, name: &str) -> Result<(), Reque
             known: named.chain(types().map(|t| t.name().to_owned())).collect(),
         });
     };
-    joint.unloading.push(JointOption {
-        name: name.to_owned(),
-        joint_type,
-        frame: joint.frame.clone(),
-        cost_milli: None,
-        state: None,
-    });
+    joint
+        .unloading
+        .push(JointOption::in_frame_of(joint, joint_type));
     Ok(())
 }

@@ -31,10 +31,12 @@ impl Request {
             let joint = &mut mechanism.joints[id];
             if is_changeable(joint) {
                 for t in USUAL {
-                    offer(mechanism, id, t.name(), &t);
+                    offer(mechanism, id, &t);
                 }
             } else if !joint.is_in(StateId::FREE) {
-                joint.unloading.push(option(joint, &USUAL_UNLOADING));
+                joint
+                    .unloading
+                    .push(JointOption::in_frame_of(joint, &USUAL_UNLOADING));
             }
         }
         if mechanism.joints.iter().any(offers) {
@@ -87,7 +89,7 @@ impl Request {
         for (flag, name, joint_type, at) in wanted {
             let mut taken = false;
             for id in at {
-                taken |= offer(mechanism, id, &name, &joint_type);
+                taken |= offer(mechanism, id, &joint_type);
             }
             if !taken {
                 return Err(RequestError::LosesMotion {
@@ -107,37 +109,28 @@ impl Request {
 }
 
 /// Returns whether a list of options for all joints is offered at this one.
-pub(in crate::score) fn is_changeable(joint: &Joint) -> bool {
+fn is_changeable(joint: &Joint) -> bool {
     joint.is_in(StateId::FREE) && !joint.drive && joint.joint_type != JointType::Fixed
 }
 
-/// Returns a type as an option in the frame of a joint.
-fn option(joint: &Joint, of: &JointType) -> JointOption {
-    JointOption {
-        name: of.name().to_owned(),
-        joint_type: of.clone(),
-        frame: joint.frame.clone(),
-        cost_milli: None,
-        state: None,
-    }
-}
-
 /// Offers a type at a joint, if it fits there, and returns whether it is offered.
-fn offer(mechanism: &mut Mechanism, id: JointId, name: &str, joint_type: &JointType) -> bool {
+fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool {
     let joint = &mechanism.joints[id];
-    if joint.joint_type == *joint_type || joint.options.iter().any(|o| o.name == name) {
+    if joint.joint_type == *joint_type || joint.options.iter().any(|o| o.name == joint_type.name())
+    {
         return true;
     }
     let fits = fits(mechanism, id, joint_type);
     if fits {
         let joint = &mut mechanism.joints[id];
         if joint.options.is_empty() {
-            joint.options.push(option(joint, &joint.joint_type));
+            joint
+                .options
+                .push(JointOption::in_frame_of(joint, &joint.joint_type));
         }
-        joint.options.push(JointOption {
-            name: name.to_owned(),
-            ..option(joint, joint_type)
-        });
+        joint
+            .options
+            .push(JointOption::in_frame_of(joint, joint_type));
     }
     fits
 }
@@ -145,7 +138,8 @@ fn offer(mechanism: &mut Mechanism, id: JointId, name: &str, joint_type: &JointT
 /// Returns whether a type in a joint's frame allows what the joint does now and keeps the freedoms that are coupled there.
 pub(in crate::score) fn fits(mechanism: &Mechanism, id: JointId, joint_type: &JointType) -> bool {
     let joint = &mechanism.joints[id];
-    let [new, present] = [joint_type, &joint.joint_type].map(|t| option(joint, t));
+    let [new, present] =
+        [joint_type, &joint.joint_type].map(|t| JointOption::in_frame_of(joint, t));
     contains(&new, &present) == Some(true)
         && keeps_coupled(&new, &present, &coupled_freedoms(mechanism, id))
 }

@@ -130,17 +130,8 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
 
 /// The joint as it is.
 fn present(joint: &Joint) -> JointOption {
-    joint
-        .options
-        .first()
-        .cloned()
-        .unwrap_or_else(|| JointOption {
-            name: joint.joint_type.name().to_owned(),
-            joint_type: joint.joint_type.clone(),
-            frame: joint.frame.clone(),
-            cost_milli: None,
-            state: None,
-        })
+    let own = || JointOption::in_frame_of(joint, &joint.joint_type);
+    joint.options.first().cloned().unwrap_or_else(own)
 }
 
 type Change = (Option<JointOption>, Option<JointOption>);
@@ -148,13 +139,7 @@ type Change = (Option<JointOption>, Option<JointOption>);
 /// What may be done at a joint: another in its place, an unloading joint, or both.
 fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) -> Vec<Change> {
     if usual {
-        let option = |t: &JointType| JointOption {
-            name: t.name().to_owned(),
-            joint_type: t.clone(),
-            frame: joint.frame.clone(),
-            cost_milli: None,
-            state: None,
-        };
+        let option = |t: &JointType| JointOption::in_frame_of(joint, t);
         return match (state, joint.drive, &joint.joint_type) {
             (StateId::FREE, true, _) | (StateId::FREE, _, JointType::Fixed) => Vec::new(),
             (StateId::FREE, ..) => {
