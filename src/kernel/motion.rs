@@ -1,6 +1,7 @@
 //! Poses of closed mechanisms, mechanisms in another of their poses, and mechanisms followed along a drive.
 
 pub mod close;
+pub(crate) mod displacement_series;
 pub mod drive_range;
 pub mod follow;
 pub mod jaws;

@@ -155,9 +155,6 @@ fn list_options(mechanism: &Mechanism, a: &Report, request: &Request) -> String 
     if request.poses > 0 {
         more.push(format!("--poses {}", request.poses));
     }
-    if request.generic_only {
-        more.push("--generic-only".to_owned());
-    }
     more.push(format!("--top {}", a.top));
     more.iter().filter(|m| !m.is_empty()).join(" ")
 }
@@ -169,10 +166,6 @@ fn of_one(
     request: &Request,
     name: &str,
 ) -> Vec<(String, String)> {
-    // `draw` and `export` count the lucky variants, too.
-    if request.generic_only {
-        return Vec::new();
-    }
     // `--idea` says that ideas are meant.
     let plain = Request {
         distinct: false,

@@ -55,7 +55,7 @@ pub(in crate::cli) struct Search {
     #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank", "distinct"])]
     sample: Option<usize>,
     /// Counts only.
-    #[arg(long, conflicts_with_all = ["rank", "generic_only"])]
+    #[arg(long, conflicts_with = "rank")]
     count: bool,
     /// Find the best without counting all: as fast as a search for a cost, however many variants there are.
     #[arg(long, conflicts_with_all = ["all", "sample", "count"])]
@@ -107,7 +107,7 @@ impl Search {
     fn tells_ideas(&self, outcome: &Outcome) -> bool {
         let short = matches!(outcome.request.list, List::Top(1..=SHORT));
         let text = matches!(self.format, SearchFormat::Text);
-        let one_pose = outcome.request.poses == 0 && !outcome.request.generic_only;
+        let one_pose = outcome.request.poses == 0;
         let counted = outcome.is_counted() || outcome.is_numeric_whole();
         let plain = outcome.ranking.is_none() && one_pose && counted;
         text && short && plain && !self.no_distinct
@@ -158,7 +158,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
                 }
             }
         }
-        let none = outcome.admissible.total.is_zero() && !outcome.admissible_may_be_more();
+        let none = outcome.listed_counts().total.is_zero() && !outcome.admissible_may_be_more();
         Ok(if none { Done::Nothing } else { Done::Found })
     })?;
     // The output itself is the same every time.
@@ -174,7 +174,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
 
 /// How many there are, and whether that is good news.
 fn verdict(outcome: &Outcome) -> (String, Tone) {
-    let total = &outcome.admissible.total;
+    let total = &outcome.listed_counts().total;
     if outcome.numeric.is_some() {
         ("numeric".to_owned(), Tone::Bad)
     } else if !outcome.is_confirmed() {

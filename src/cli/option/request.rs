@@ -97,6 +97,9 @@ pub(in crate::cli) struct Which {
     /// Of the variants that give the same freedoms to the same joints in series, only the first.
     #[arg(long)]
     distinct: bool,
+    /// Count and list the variants that keep the motion in the drawn pose, without following them along the motion.
+    #[arg(long)]
+    pose_only: bool,
     /// Search a file whose coordinates are rounded exactly as it is written, though something else is meant.
     #[arg(long)]
     as_written: bool,
@@ -122,9 +125,6 @@ pub(in crate::cli) struct Checked {
     /// output motion is not right there.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(in crate::cli) poses: usize,
-    /// Leave out the variants that further poses (3 unless --poses says otherwise) show to be lucky.
-    #[arg(long)]
-    pub(in crate::cli) generic_only: bool,
     /// How the search is checked.
     #[arg(long, value_enum, default_value = "full")]
     check: Check,
@@ -180,6 +180,7 @@ impl Which {
                 _ => Symmetry::All,
             },
             as_written: self.as_written,
+            pose_only: self.pose_only,
             nodes: self.nodes,
             memory: self.memory.unwrap_or_else(memory::quarter),
             rank: self
@@ -215,7 +216,6 @@ impl Checked {
                 Check::Full => request::Check::Full,
             },
             poses: self.poses,
-            generic_only: self.generic_only,
             seed,
             ..self.which.request(self.state.as_deref())?
         })

@@ -66,7 +66,7 @@ pub fn trial(
         check: Check::None,
         method: Method::Diagram,
         poses: 0,
-        generic_only: false,
+        pose_only: true,
         pool: Some(request.cheapest_scored()),
         ..request.clone()
     };

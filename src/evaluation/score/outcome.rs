@@ -13,7 +13,7 @@ use crate::score::request::Request;
 use crate::score::request::prepare::LooksRounded;
 use crate::search::Search;
 use crate::search::answer::counts;
-use crate::search::answer::counts::Counts;
+use crate::search::answer::counts::{Counts, SearchCounts};
 use crate::search::answer::estimate::Estimate;
 use crate::search::answer::why_none;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
@@ -24,6 +24,7 @@ use crate::search::check::second_prime::PrimeCheck;
 use crate::search::diagram::Stop;
 use crate::search::numeric::at_tolerance::AtTolerance;
 use crate::search::question::conditions::{SearchError, Symmetry};
+use crate::search::question::throughout::PoseOnly;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
@@ -40,6 +41,9 @@ pub struct Outcome {
     pub determinate: Counts,
     /// Counts by every condition.
     pub admissible: Counts,
+    /// Counts of the admissible variants that keep the motion throughout the motion of the mechanism as built, or why only the drawn pose
+    /// is known.
+    pub lasting: Result<Counts, PoseOnly>,
     /// The diagrams; `None` for brute force.
     pub diagrams: Option<Diagrams>,
     /// Why the search ended.
@@ -75,15 +79,22 @@ impl Outcome {
     pub(super) fn of_counts(
         search: Search,
         request: Request,
-        determinate: Counts,
-        admissible: Counts,
+        counts: SearchCounts,
         measured: Option<LooksRounded>,
     ) -> Outcome {
+        let SearchCounts {
+            determinate,
+            admissible,
+            lasting,
+        } = counts;
+        let lasting =
+            lasting.ok_or_else(|| search.pose_only().cloned().unwrap_or(PoseOnly::Budget));
         Outcome {
             search,
             request,
             determinate,
             admissible,
+            lasting,
             diagrams: None,
             stop: Stop::Exhausted,
             determinate_stop: Stop::Exhausted,
@@ -103,14 +114,24 @@ impl Outcome {
         found: AtTolerance,
         measured: Option<LooksRounded>,
     ) -> Outcome {
-        let determinate = found.determinate.sure.clone();
-        let admissible = found.admissible.sure.clone();
+        let counts = SearchCounts {
+            determinate: found.determinate.sure.clone(),
+            admissible: found.admissible.sure.clone(),
+            lasting: None,
+        };
         Outcome {
             stop: found.stop,
             determinate_stop: found.stop,
             numeric: Some(found),
-            ..Outcome::of_counts(search, request, determinate, admissible, measured)
+            ..Outcome::of_counts(search, request, counts, measured)
         }
+    }
+
+    /// Returns the counts of the variants that are listed: those that keep the motion throughout, where that is known, or else the
+    /// admissible ones.
+    #[must_use]
+    pub fn listed_counts(&self) -> &Counts {
+        self.lasting.as_ref().unwrap_or(&self.admissible)
     }
 
     /// Whether everything was looked at in exact arithmetic, and singular values do not contradict it where coordinates look
@@ -199,6 +220,16 @@ impl Outcome {
             }
             _ => Some(BTreeMap::new()),
         }
+    }
+
+    /// Returns the counts by cost of those of them that keep the motion throughout; `None` where these are not known, or as
+    /// [`Outcome::admissible_by_cost`].
+    #[must_use]
+    pub fn lasting_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
+        let diagrams = self.diagrams.as_ref();
+        let lasting = diagrams.and_then(|d| d.lasting.as_ref().ok());
+        let lasting = lasting.filter(|_| self.request.symmetry != Symmetry::OnePerOrbit);
+        counts::counts_by_cost(&self.search, lasting?)
     }
 
     /// What easing one condition would leave, where nothing was found; of those for which there was time until `cancelled` said to end.

@@ -174,8 +174,8 @@ pub struct Request {
     pub method: Method,
     /// Further poses of the present motion that variants are looked at in.
     pub poses: usize,
-    /// Leave out the variants whose figures are others in further poses.
-    pub generic_only: bool,
+    /// Whether only the drawn pose is asked about, and not which variants keep the motion throughout.
+    pub pose_only: bool,
     /// Seed of samples and poses.
     pub seed: u64,
 }
@@ -210,7 +210,7 @@ impl Default for Request {
             check: Check::Full,
             method: Method::Diagram,
             poses: 0,
-            generic_only: false,
+            pose_only: false,
             seed: 1,
         }
     }
@@ -345,6 +345,7 @@ impl Request {
             keep_output: !self.allow_output_change,
             drives: self.drives,
             symmetry: self.symmetry,
+            throughout: !self.pose_only,
             counted: self.counted,
             cheapest: self.cheapest(&prepared.mechanism)?,
             estimate: (self.symmetry != Symmetry::OnePerOrbit).then_some(self.seed),

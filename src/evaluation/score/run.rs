@@ -13,7 +13,7 @@ use crate::score::request::prepare::LooksRounded;
 use crate::score::request::{Check, List, Method, Request, RequestError};
 use crate::score::run::opinions::{opinion_on_diagrams, other_scenes};
 use crate::search::Search;
-use crate::search::answer::counts::Counts;
+use crate::search::answer::counts::SearchCounts;
 use crate::search::answer::orbit_counts;
 use crate::search::build::Diagrams;
 use crate::search::check::brute;
@@ -25,12 +25,11 @@ use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, Symmetry};
 use crate::search::question::rounded_rank::Digits;
+use crate::search::question::throughout::PoseOnly;
 use std::sync::Arc;
 
 pub use error::RunError;
 
-/// Poses looked at where only generic variants are wanted and the number of poses is not given.
-const POSES: usize = 3;
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;
 /// How many of the best both primes must agree on where no number of them is asked for.
@@ -124,10 +123,10 @@ pub fn answer(
     tell(Event::Built);
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
     let mut counts = counted(&search, &diagrams);
-    if counts.0.only_total || counts.1.only_total {
+    if counts.determinate.only_total || counts.admissible.only_total {
         tell(Event::Note(ONLY_TOTALS.to_owned()));
     }
-    let of_all = counts.0.clone();
+    let of_all = counts.determinate.clone();
     if request.symmetry == Symmetry::OnePerOrbit {
         (counts, stops) = orbits(&search, twin.as_ref(), counts, stops, should_cancel)?;
     }
@@ -147,15 +146,21 @@ pub fn answer(
             return Ok(Outcome { second, ..found });
         }
     }
+    let lasting = match (counts.lasting.take(), &diagrams.lasting) {
+        (Some(lasting), _) => Ok(lasting),
+        (None, Err(why)) => Err(why.clone()),
+        (None, Ok(_)) => Err(PoseOnly::Budget),
+    };
     Ok(Outcome {
         second,
+        lasting,
         diagrams: Some(diagrams),
         stop: stops[0].or(stops[1]),
         determinate_stop: stops[0],
         check,
         stroke,
         ranking,
-        ..Outcome::of_counts(search, request.clone(), counts.0, counts.1, measured)
+        ..Outcome::of_counts(search, request.clone(), counts, measured)
     })
 }
 
@@ -195,7 +200,7 @@ fn by_brute_force(
     if search.size() > BRUTE_LIMIT.into() {
         return Err(RunError::TooMany(search.size()));
     }
-    let (determinate, admissible) = brute::brute(&search)?;
+    let counts = brute::every_variant(&search)?;
     let written = search.conditions.written.as_ref();
     let second = written.map(|w| {
         second_opinion::second_opinion(
@@ -203,12 +208,12 @@ fn by_brute_force(
             w,
             Vec::new(),
             Vec::new(),
-            &determinate,
+            &counts.determinate,
             request.seed,
         )
     });
     let second = second.transpose()?;
-    let found = Outcome::of_counts(search, request.clone(), determinate, admissible, measured);
+    let found = Outcome::of_counts(search, request.clone(), counts, measured);
     Ok(Outcome { second, ..found })
 }
 
@@ -236,15 +241,12 @@ fn built(
 }
 
 /// How many variants are determinate, and how many admissible.
-fn counted(search: &Search, diagrams: &Diagrams) -> (Counts, Counts) {
-    let mut counts = rayon::join(
-        || search.counts(&diagrams.determinate, false),
-        || search.counts(&diagrams.admissible, true),
-    );
+fn counted(search: &Search, diagrams: &Diagrams) -> SearchCounts {
+    let mut counts = SearchCounts::of(search, diagrams);
     // What is cut down elsewhere may have none of the cheapest.
     if let Some(best) = &diagrams.cheapest {
         let known = search.counts(&best.diagram, true);
-        for few in [&mut counts.0, &mut counts.1] {
+        for few in [&mut counts.determinate, &mut counts.admissible] {
             if few.total < known.total {
                 few.clone_from(&known);
             }
@@ -252,8 +254,7 @@ fn counted(search: &Search, diagrams: &Diagrams) -> (Counts, Counts) {
     }
     // Each is cut down by itself, and every admissible variant is determinate.
     if diagrams.determinate.stop != Stop::Exhausted {
-        let (determinate, admissible) = &mut counts;
-        determinate.raise(admissible);
+        counts.determinate.raise(&counts.admissible);
     }
     counts
 }
@@ -265,10 +266,7 @@ fn in_other_poses(
     should_cancel: ShouldCancel<'_>,
     tell: Tell<'_>,
 ) -> Result<Option<other_poses::Stroke>, RunError> {
-    let poses = match request.poses {
-        0 if request.generic_only => POSES,
-        n => n,
-    };
+    let poses = request.poses;
     let stroke = (poses > 0)
         .then(|| other_poses::stroke(search, poses, request.seed, should_cancel))
         .transpose()?;
@@ -335,10 +333,7 @@ fn numeric(
     }
     let left_out = [
         (request.ranking(&search.mechanism)?.is_some(), "ranked"),
-        (
-            request.poses > 0 || request.generic_only,
-            "looked at in other poses",
-        ),
+        (request.poses > 0, "looked at in other poses"),
     ];
     for (_, what) in left_out.iter().filter(|(asked, _)| *asked) {
         tell(Event::Note(format!(
@@ -364,10 +359,10 @@ fn numeric(
 fn orbits(
     search: &Search,
     twin: Option<&Search>,
-    all: (Counts, Counts),
+    all: SearchCounts,
     stops: [Stop; 2],
     should_cancel: ShouldCancel<'_>,
-) -> Result<((Counts, Counts), [Stop; 2]), RunError> {
+) -> Result<(SearchCounts, [Stop; 2]), RunError> {
     let of = |s: &Search| orbit_counts::orbit_counts(s, all.clone(), should_cancel);
     let (first, second) = rayon::join(|| of(search), || twin.map(of).transpose());
     let (first, second) = (first?, second?);

@@ -79,7 +79,7 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
     }
 
     /// Returns the components of a twist that stays in this space.
-    fn along_axes<S: Scalars<Number = N>>(&self, s: &S, t: &Twist<N>) -> Vec<N> {
+    pub(crate) fn along_axes<S: Scalars<Number = N>>(&self, s: &S, t: &Twist<N>) -> Vec<N> {
         match self {
             MotionSpace::Spatial => t.to_vec(),
             MotionSpace::Planar { axes: [n, e1, e2] } => {
@@ -190,6 +190,20 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
         rest.into_iter()
             .map(|(f, m)| (f, at_origin(m.twist)))
             .collect()
+    }
+
+    /// Returns [`FrameValues::motions`] in the order in which they are passed from the first link of the joint to the second:
+    /// slides before turns, and of a pin in a slot the turn first, because the slot belongs to the second link.
+    pub fn motions_in_series<S: Scalars<Number = N>>(
+        &self,
+        s: &S,
+        space: &MotionSpace<N>,
+        freedoms: &[Freedom],
+    ) -> Vec<(Freedom, Twist<N>)> {
+        let mut all = self.motions(s, space, freedoms);
+        let slot = freedoms.contains(&Freedom::Tx) && !freedoms.contains(&Freedom::Ty);
+        all.sort_by_key(|(f, _)| f.slides() == slot);
+        all
     }
 
     /// Returns [`FrameValues::motions`] in the components of the motion space.

@@ -356,17 +356,13 @@ impl JointColumns {
     }
 }
 
-/// Returns the motions of a joint as the columns of a pose have them: unit twists, of a pin in a slot the pin first, as in
-/// `workload::planar`.
+/// Returns the motions of a joint as the columns of a pose have them: unit twists, in series.
 fn motions(
     frame: &FrameValues<f64>,
     space: &MotionSpace<f64>,
     freedoms: &[Freedom],
 ) -> Vec<(Freedom, Twist<f64>)> {
-    let mut all = frame.motions(&Reals, space, freedoms);
-    let has = |f| freedoms.contains(&f);
-    let slot = has(Freedom::Tx) && !has(Freedom::Ty);
-    all.sort_by_key(|(f, _)| f.slides() == slot);
+    let all = frame.motions_in_series(&Reals, space, freedoms);
     all.into_iter()
         .map(|(f, twist)| (f, unit_twist(twist)))
         .collect()

@@ -22,7 +22,7 @@ use crate::search::answer::proven_cheapest::up_to;
 use crate::search::build::at_most::at_most;
 use crate::search::build::estimates::estimates;
 use crate::search::build::orders::{Orders, orders};
-use crate::search::build::self_stress::{in_self_stress_space, nothing};
+use crate::search::build::self_stress::{Wanted, in_self_stress_space, nothing};
 use crate::search::build::spanning_halves::Halves;
 use crate::search::build::staging::{Laid, Staged, laid};
 use crate::search::build::two_sided::two_sided;
@@ -33,6 +33,7 @@ use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
 use crate::search::question::Question;
+use crate::search::question::throughout::PoseOnly;
 use crate::search::reduce::plane_split::Model;
 use num_bigint::BigUint;
 use num_traits::Zero;
@@ -44,6 +45,8 @@ pub struct Diagrams {
     pub determinate: Diagram,
     /// Of those that meet every condition that does not depend on counts of changes and mobility.
     pub admissible: Diagram,
+    /// Of those of the admissible ones that keep the motion throughout, or why there is no such diagram.
+    pub lasting: Result<Diagram, PoseOnly>,
     /// The cheapest of the admissible ones, where they are wanted and that diagram is not whole.
     pub cheapest: Option<UpTo>,
     /// About how many determinate and admissible variants there are, where their diagrams are cut down and a seed is given.
@@ -56,6 +59,13 @@ pub struct Diagrams {
 }
 
 impl Diagrams {
+    /// The diagram of the variants that are listed: those that keep the motion throughout, where that is known, or else the admissible
+    /// ones.
+    #[must_use]
+    pub fn listed(&self) -> &Diagram {
+        self.lasting.as_ref().unwrap_or(&self.admissible)
+    }
+
     /// The less complete of the two reasons for stopping.
     #[must_use]
     pub fn stop(&self) -> Stop {
@@ -124,9 +134,53 @@ fn build_with(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagrams {
-    if let Some(out) = build_parts(question, orders, cancelled, progress) {
-        return out;
+    let mut out = build_parts(question, orders, cancelled, progress)
+        .unwrap_or_else(|| build_in_one(question, orders, cut_down, cancelled, progress));
+    out.lasting = build_lasting(question, orders, &out, cancelled, progress);
+    out
+}
+
+/// Builds the diagram of the variants that keep the motion throughout, where the one of admissible variants is whole; or says why it is
+/// not built.
+fn build_lasting(
+    question: &Question,
+    orders: &Orders,
+    at_the_pose: &Diagrams,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Result<Diagram, PoseOnly> {
+    let along = question.throughout.as_ref().map_err(PoseOnly::clone)?;
+    if !is_whole(&at_the_pose.admissible) {
+        return Err(PoseOnly::Budget);
     }
+    if is_empty(&at_the_pose.admissible) {
+        return Ok(at_the_pose.admissible.clone());
+    }
+    let laid = laid(question, orders, &along.model);
+    let staged = laid.admissible.as_ref().unwrap_or(&laid.determinate);
+    let built = built(
+        question,
+        &along.model,
+        staged,
+        Wanted::Lasting,
+        cancelled,
+        progress,
+    );
+    if is_whole(&built) {
+        Ok(built)
+    } else {
+        Err(PoseOnly::Budget)
+    }
+}
+
+/// Builds both diagrams of the drawn pose from all rows that choices differ in.
+fn build_in_one(
+    question: &Question,
+    orders: &Orders,
+    cut_down: CutDown<'_>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagrams {
     let model = &question.least.whole;
     let Laid {
         determinate: first,
@@ -137,14 +191,13 @@ fn build_with(
         if !question.conditions.counted {
             return uncounted(question, staged, cancelled, progress);
         }
-        let whole = built(question, model, staged, admissible, cancelled, progress);
+        let wanted = Wanted::of(question, admissible);
+        let whole = built(question, model, staged, wanted, cancelled, progress);
         if !whole.stop.is_cut() {
             return whole;
         }
         let build = &mut |limits: &Limits| {
-            within_limits(
-                question, model, staged, limits, admissible, cancelled, progress,
-            )
+            within_limits(question, model, staged, limits, wanted, cancelled, progress)
         };
         let worth = |d: &Diagram| total(question, d, admissible);
         cut_down(&staged.limits, whole, build, &worth)
@@ -159,6 +212,7 @@ fn build_with(
     let mut out = Diagrams {
         determinate,
         admissible,
+        lasting: Err(PoseOnly::Asked),
         cheapest: None,
         estimates: [None, None],
         order,
@@ -196,7 +250,8 @@ fn build_parts(
     let mut both = |staged: [&Staged<'_>; 2], admissible: bool| {
         let mut built = |part: usize| {
             let (part, staged) = (&parts[part], staged[part]);
-            let d = built(question, part, staged, admissible, cancelled, progress);
+            let wanted = Wanted::of(question, admissible);
+            let d = built(question, part, staged, wanted, cancelled, progress);
             is_whole(&d).then_some(d)
         };
         product([&built(0)?, &built(1)?], &staged[0].limits)
@@ -211,6 +266,7 @@ fn build_parts(
     Some(Diagrams {
         determinate,
         admissible,
+        lasting: Err(PoseOnly::Asked),
         cheapest: None,
         estimates: [None, None],
         order: one.order.clone(),
@@ -242,15 +298,13 @@ fn built(
     question: &Question,
     model: &Model,
     staged: &Staged<'_>,
-    admissible: bool,
+    wanted: Wanted,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     let limits = &staged.limits;
     let within = |limits: &Limits, progress: &mut (dyn FnMut(Progress) + Send)| {
-        within_limits(
-            question, model, staged, limits, admissible, cancelled, progress,
-        )
+        within_limits(question, model, staged, limits, wanted, cancelled, progress)
     };
     if question.conditions.state.is_some() {
         return within(limits, progress);
@@ -266,9 +320,8 @@ fn built(
     if !built.stop.is_cut() {
         return built;
     }
-    let keep_output = admissible && question.conditions.keep_output;
     let order = &staged.order;
-    let most = at_most(question, model, order, &few, keep_output, cancelled);
+    let most = at_most(question, model, order, &few, wanted, cancelled);
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
         return nothing(model, order);
     }
@@ -282,7 +335,7 @@ fn built(
         let found = (limits.nodes > few.nodes).then(|| within(&limits, progress))?;
         is_whole(&found).then_some(found)
     };
-    let halves = Halves::new(question, model, order, limits, keep_output);
+    let halves = Halves::new(question, model, order, limits, wanted);
     let space = &model.space;
     let whole = halves.and_then(|h| two_sided(&h, space, cancelled, progress, &mut from_one_end));
     if let Some(whole) = whole {
@@ -301,22 +354,14 @@ fn within_limits(
     model: &Model,
     staged: &Staged<'_>,
     limits: &Limits,
-    admissible: bool,
+    wanted: Wanted,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
     if question.conditions.state.is_none() {
-        let keep_output = admissible && question.conditions.keep_output;
         let order = &staged.order;
-        let added = in_self_stress_space(
-            question,
-            model,
-            order,
-            limits,
-            keep_output,
-            cancelled,
-            progress,
-        );
+        let added =
+            in_self_stress_space(question, model, order, limits, wanted, cancelled, progress);
         if let Some(added) = added {
             return added;
         }

@@ -10,6 +10,7 @@ pub mod preference;
 pub mod rounded_rank;
 pub mod space;
 pub(crate) mod symmetry;
+pub mod throughout;
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::exact::{ExactError, ExactField};
@@ -22,6 +23,7 @@ use crate::search::question::grasp::{Grasp, grasps, is_free, loose};
 use crate::search::question::kept::{Followed, Kept};
 use crate::search::question::own_images::OwnSymmetry;
 use crate::search::question::space::{Space, Variable};
+use crate::search::question::throughout::{PoseOnly, Throughout};
 use crate::search::reduce::biconnected::{Block, blocks};
 use crate::search::reduce::plane_split::LeastModel;
 use itertools::Itertools;
@@ -48,6 +50,8 @@ pub struct Question {
     pub(in crate::search) rows: i64,
     /// What must move as it does now.
     pub(in crate::search) kept: Kept,
+    /// The choices along the motion, or why only the drawn pose is asked about.
+    pub(in crate::search) throughout: throughout::Followed,
     /// Dimension of that motion by singular values, where exact arithmetic has another mechanism than the one meant.
     pub(in crate::search) present: Option<usize>,
     /// What must be held in the searched state.
@@ -168,7 +172,10 @@ impl Question {
             Vec::new()
         };
         let pinned = pinned(&mechanism, &space, &to_end);
+        let throughout =
+            Throughout::new(&exact, &mechanism, &conditions, &space, &contours, &kept)?;
         Ok(Question {
+            throughout,
             least: LeastModel::new(
                 &exact,
                 &mechanism,
@@ -222,6 +229,12 @@ impl Question {
     #[must_use]
     pub(crate) fn present_motion(&self) -> usize {
         self.present.unwrap_or(self.kept.motion.len())
+    }
+
+    /// Returns why only the drawn pose is asked about; `None` where the motion of the mechanism is followed.
+    #[must_use]
+    pub fn pose_only(&self) -> Option<&PoseOnly> {
+        self.throughout.as_ref().err()
     }
 
     /// The prime field of the search.

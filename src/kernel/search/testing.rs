@@ -4,7 +4,7 @@ use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
 use super::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
 use super::build::orders::orders;
-use super::build::self_stress::in_self_stress_space;
+use super::build::self_stress::{Wanted, in_self_stress_space};
 use super::build::spanning_halves::Halves;
 use super::build::staging::{Staged, laid};
 use super::build::two_sided::two_sided;
@@ -17,24 +17,24 @@ use super::question::Question;
 /// one that is made in another way; all the smallest there are.
 fn beside(
     question: &Question,
-    other: impl Fn(&Staged<'_>, bool) -> Option<Diagram>,
+    other: impl Fn(&Staged<'_>, Wanted) -> Option<Diagram>,
 ) -> Vec<[Option<Diagram>; 2]> {
     let model = &question.least.whole;
     let laid = laid(question, &orders(question), model);
-    let keep_output = question.conditions.keep_output;
+    let keeping = Wanted::of(question, true);
     let both = [
-        Some((&laid.determinate, false)),
-        laid.admissible.as_ref().map(|s| (s, keep_output)),
+        Some((&laid.determinate, Wanted::Determinate)),
+        laid.admissible.as_ref().map(|s| (s, keeping)),
     ];
     let mut found = Vec::new();
-    for (staged, keep_output) in both.into_iter().flatten() {
+    for (staged, wanted) in both.into_iter().flatten() {
         let (stages, limits) = (staged.stages(), &staged.limits);
         let never = || false;
         let one = one_end(question, model, stages, limits, None, &never, &mut |_| {});
         if one.stop != Stop::Exhausted {
             continue;
         }
-        let both = [Some(one), other(staged, keep_output)];
+        let both = [Some(one), other(staged, wanted)];
         found.push(both.map(|d| d.map(|d| minimal(d.layers, d.terminals))));
     }
     found
@@ -43,13 +43,13 @@ fn beside(
 /// The diagrams of a question as made of motions of live links and in the space dual to self-stresses.
 #[must_use]
 pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
-    beside(question, |staged, keep_output| {
+    beside(question, |staged, wanted| {
         in_self_stress_space(
             question,
             &question.least.whole,
             &staged.order,
             &staged.limits,
-            keep_output,
+            wanted,
             &|| false,
             &mut |_| {},
         )
@@ -61,9 +61,9 @@ pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
 #[must_use]
 pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     let model = &question.least.whole;
-    beside(question, |staged, keep_output| {
+    beside(question, |staged, wanted| {
         let (order, limits) = (&staged.order, &staged.limits);
-        let halves = Halves::new(question, model, order, limits, keep_output)?;
+        let halves = Halves::new(question, model, order, limits, wanted)?;
         two_sided(
             &halves,
             &model.space,

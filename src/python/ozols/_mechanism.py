@@ -254,7 +254,7 @@ class Mechanism:
         rank: Mapping[str, float] | Iterable[str] = (),
         pool: int | None = None,
         poses: int = 0,
-        generic_only: bool = False,
+        pose_only: bool = False,
         counted: bool = True,
         check: str = "full",
         method: str = "diagram",

@@ -126,6 +126,13 @@ class Outcome(Sequence[Variant]):
         return int(self.counts["admissible"])
 
     @property
+    def lasting(self) -> int | None:
+        """How many of the admissible ones keep the motion throughout the motion of the mechanism as built, which are the ones listed;
+        None where it is not followed, for the reason in ``counts["pose_only"]``."""
+        lasting = self.counts.get("lasting")
+        return None if lasting is None else int(lasting)
+
+    @property
     def exact(self) -> bool:
         """Whether everything was looked at, so that counts are exact and the list is the best there is."""
         return bool(self.counts["exact"])

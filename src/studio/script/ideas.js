@@ -51,7 +51,7 @@ function showIdeas() {
   if (value.why) return part(element("p", { class: "help" }, `Redesigns were not searched: ${value.why}.`));
   const { found, notes } = value;
   if (found.space === "1") return part(element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: list options under [search] in the file."));
-  const counts = `${found.exact ? "" : "at least "}${inThrees(found.admissible)} of ${inThrees(found.space)} variants have σ = 0 and keep the motion of outputs and drives.`;
+  const counts = `${found.exact ? "" : "at least "}${inThrees(found.lasting ?? found.admissible)} of ${inThrees(found.space)} variants have σ = 0 and keep the motion of outputs and drives ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
   const all = found.variants.map(ideaRow);
   const none = found.variants.length ? null : element("p", { class: "help" }, (found.relaxations ?? []).length ? `None; easier conditions have some: ${found.relaxations.map((r) => `${r.condition} ${r.to} (${inThrees(r.admissible)})`).join(", ")}.` : "None with these options: give the joints more.");
   return part(element("p", { class: "counts" }, counts), ...[none].filter(Boolean), element("ol", { class: "idea-list" }, ...all), ...(notes ?? []).map((n) => element("p", { class: "help" }, n)));

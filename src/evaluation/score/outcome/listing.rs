@@ -10,7 +10,7 @@ use crate::search::answer::ideas::Idea;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::Stroke;
 use crate::search::check::singular_values;
-use crate::search::check::singular_values::{CHECKED, Certified, Summary};
+use crate::search::check::singular_values::{Certified, Summary};
 use crate::search::diagram::Stop;
 use crate::search::numeric::at_tolerance::AtTolerance;
 use crate::search::question::conditions::Symmetry;
@@ -26,7 +26,7 @@ impl Request {
         };
         let looked = match self.ranking(mechanism)? {
             Some(_) => self.cheapest_scored().saturating_add(1),
-            None => self.listed(top),
+            None => top,
         };
         // Of a variant and its images one is kept.
         let images = match self.symmetry {
@@ -35,15 +35,6 @@ impl Request {
             Symmetry::All | Symmetry::SymmetricOnly => 1,
         };
         Ok(looked.saturating_mul(images))
-    }
-
-    /// How many of the cheapest are looked at to give `top` of them: lucky ones make room for others.
-    fn listed(&self, top: usize) -> usize {
-        if self.generic_only && top > 0 {
-            top.saturating_mul(100).max(CHECKED)
-        } else {
-            top
-        }
     }
 }
 
@@ -68,8 +59,7 @@ impl Outcome {
         self.listed(self.request.list, true, self.request.seed, cancelled)
     }
 
-    /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. Those that further
-    /// poses drop are dropped from it, too. The best by a ranking, and more of the best than a search that does not count was
+    /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking, and more of the best than a search that does not count was
     /// asked for, take a search of their own.
     #[must_use]
     pub fn list_unless<'o>(
@@ -175,8 +165,7 @@ impl Outcome {
                 ListSource::of_variants(list.map(|(place, r)| (r.variant.clone(), Some(place))))
             }
             (List::Top(_) | List::All, _) => {
-                let enough = self.request.listed(most(list));
-                ListSource::of_variants(self.search.cheapest(d, enough).map(unranked))
+                ListSource::of_variants(self.search.cheapest(d, most(list)).map(unranked))
             }
         }
     }
@@ -284,16 +273,15 @@ impl Variants<'_> {
     fn is_short(&self) -> bool {
         let (o, given) = (self.outcome, self.summary.given);
         let due = match self.list {
-            List::Sample(n) if !o.admissible.total.is_zero() => n.into(),
-            List::Top(k) if o.ranking.is_none() => o.admissible.total.clone().min(k.into()),
-            List::All => o.admissible.total.clone(),
+            List::Sample(n) if !o.listed_counts().total.is_zero() => n.into(),
+            List::Top(k) if o.ranking.is_none() => o.listed_counts().total.clone().min(k.into()),
+            List::All => o.listed_counts().total.clone(),
             _ => return false,
         };
         // Brute force gives none, and orbits of a list cut short are not counted one by one.
         let counted =
             o.diagrams.is_some() && (o.is_counted() || o.request.symmetry != Symmetry::OnePerOrbit);
-        let some = o.request.generic_only || self.distinct;
-        counted && !some && due > given.into()
+        counted && !self.distinct && due > given.into()
     }
 
     /// What a variant stands for, where only the first of each idea is given.
@@ -311,20 +299,12 @@ impl Variants<'_> {
             return Some((Certified::unasked(variant), place));
         }
         let search = &self.outcome.search;
-        let generic = self.outcome.request.generic_only;
-        let size = if generic {
-            self.room.clamp(16, CHECKED)
-        } else {
-            singular_values::affordable(search)
-        };
+        let size = singular_values::affordable(search);
         let (block, places): (Vec<_>, Vec<_>) = self.source.by_ref().take(size).unzip();
         let certified =
             singular_values::certify(search, block, self.opinions, self.stroke, self.cancelled);
         self.ready = certified.into_iter().zip(places).collect_vec().into_iter();
-        // Nothing is left out unseen, so a list of generic variants is looked at to its end.
-        if !generic {
-            (self.opinions, self.stroke) = (false, None);
-        }
+        (self.opinions, self.stroke) = (false, None);
         self.ready.next()
     }
 }
@@ -333,7 +313,7 @@ impl<'o> Iterator for Variants<'o> {
     type Item = Variant<'o>;
 
     fn next(&mut self) -> Option<Variant<'o>> {
-        while self.room > 0 {
+        if self.room > 0 {
             if (self.cancelled)() {
                 self.interrupted = true;
                 return None;
@@ -343,10 +323,6 @@ impl<'o> Iterator for Variants<'o> {
                 self.short = self.is_short();
                 return None;
             };
-            if self.outcome.request.generic_only && certified.lucky() {
-                self.summary.dropped += 1;
-                continue;
-            }
             self.room -= 1;
             self.summary.add(&certified);
             let cost = self

@@ -26,14 +26,12 @@ pub(in crate::score) fn ranked(
     let List::Top(top) = request.list else {
         return Ok(None);
     };
-    // Further poses may drop some of the best, so that others must stand by.
     let wanted = request.cheapest_scored();
-    let standing = if request.generic_only { wanted } else { top };
     let evaluator = Evaluator::in_states(search, ranking.clearance, &ranking.states)?;
     // What may be kept of a variant: its scores, and its choices beside an allocation's own.
     let each = size_of::<Ranked>() + 32 + size_of::<usize>() * search.space.variables.len();
     let pool = wanted.min(search.conditions.memory / 4 / each).max(1);
-    let top = standing.min(pool);
+    let top = top.min(pool);
     let mut ranker = Ranker::new(&evaluator, ranking, pool, top);
     let known = diagrams.known_up_to();
     let (mut given, mut doubtful) = (0, known.is_none());
@@ -52,11 +50,11 @@ pub(in crate::score) fn ranked(
     } else if doubtful {
         (out.proven, out.proof, out.missing) = (false, "the search stopped early", None);
     }
-    let all = request.pool.is_none() && !request.generic_only && !out.proven && exhausted;
+    let all = request.pool.is_none() && !out.proven && exhausted;
     if all && request.symmetry != Symmetry::OnePerOrbit {
         prove(
             &evaluator,
-            &diagrams.admissible,
+            diagrams.listed(),
             &mut out,
             top,
             should_cancel,
@@ -64,7 +62,7 @@ pub(in crate::score) fn ranked(
         );
     }
     if let Some(missing) = out.missing.as_mut().filter(|_| exhausted) {
-        let by_cost = counts::counts_by_cost(search, &diagrams.admissible);
+        let by_cost = counts::counts_by_cost(search, diagrams.listed());
         missing.cheaper = by_cost.map(|all| all.range(..missing.settled_at).map(|(_, n)| n).sum());
     }
     Ok(Some(out))

@@ -83,7 +83,7 @@ impl Outcome {
             list: List::Top(1),
             check: Check::None,
             poses: 0,
-            generic_only: false,
+            pose_only: true,
             nodes: NODES.min(wider.nodes),
             ..wider.clone()
         };

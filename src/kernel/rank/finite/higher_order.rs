@@ -155,14 +155,21 @@ impl HigherOrder {
     #[must_use]
     pub fn line(&self, order: usize) -> Line {
         let speeds: Vec<Residue> = self.subspace(1).iter().map(|q| q[1]).collect();
-        line::line(&self.solved(), &speeds, None, order)
+        line::line(&self.solved(), &speeds, None, order).0
+    }
+
+    /// Returns a motion in the direction of these weights of the free coordinates, expanded to an order: what comes of it, and the
+    /// coordinates of all columns as series from t¹ on.
+    #[must_use]
+    pub(crate) fn motion(&self, weights: &[Residue], order: usize) -> (Line, Vec<Vec<Residue>>) {
+        line::line(&self.solved(), &self.speeds(weights), None, order)
     }
 
     /// The same with free coordinates of these weights times t, and of further ones times t².
     #[must_use]
     pub(super) fn bent_line(&self, weights: &[Residue], bent: &[Residue], order: usize) -> Line {
         let [speeds, bent] = [weights, bent].map(|w| self.speeds(w));
-        line::line(&self.solved(), &speeds, Some(&bent), order)
+        line::line(&self.solved(), &speeds, Some(&bent), order).0
     }
 
     /// What the equations in the free coordinates are to second order at these weights.
@@ -172,7 +179,7 @@ impl HigherOrder {
     }
 
     /// The field of its numbers, and how many free coordinates there are.
-    pub(super) fn free(&self) -> (Field, usize) {
+    pub(crate) fn free(&self) -> (Field, usize) {
         (self.field, self.free.len())
     }
 

@@ -47,7 +47,7 @@ pub(in crate::search) fn idea_variants<'d>(
 ) -> Cow<'d, Diagram> {
     match least_freedoms::diagram(question, diagrams, Less::Means) {
         Some(least) => Cow::Owned(least),
-        None => Cow::Borrowed(&diagrams.admissible),
+        None => Cow::Borrowed(diagrams.listed()),
     }
 }
 
@@ -187,7 +187,7 @@ pub fn first_of_each<'a>(
     list.enumerate()
         .filter(|(_, v)| seen.insert(patterns.idea(v)))
         .map(|(place, v)| {
-            let idea = idea(question, &diagrams.admissible, &patterns, v.clone());
+            let idea = idea(question, diagrams.listed(), &patterns, v.clone());
             (place, idea)
         })
         .collect()

@@ -47,7 +47,7 @@ pub(crate) fn count(question: &Question, diagrams: &Diagrams) -> Option<BigUint>
     if limited || question.conditions.symmetry == Symmetry::OnePerOrbit {
         return None;
     }
-    let least = least(question, &diagrams.admissible, &order)?;
+    let least = least(question, diagrams.listed(), &order)?;
     Some(total(question, &least, true))
 }
 
@@ -59,7 +59,7 @@ pub(in crate::search) fn diagram(
     less: Less,
 ) -> Option<Diagram> {
     let order = Order::new(question, less);
-    least(question, &diagrams.admissible, &order)
+    least(question, diagrams.listed(), &order)
 }
 
 /// Which choices of each variable have less than another.

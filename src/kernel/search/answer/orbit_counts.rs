@@ -1,6 +1,6 @@
 //! Counts of orbits: of each variant and its images, one.
 
-use crate::search::answer::counts::{Counts, counts};
+use crate::search::answer::counts::SearchCounts;
 use crate::search::build::build;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
@@ -12,9 +12,9 @@ use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 /// As [`Question::new`].
 pub fn orbit_counts(
     question: &Question,
-    all: (Counts, Counts),
+    all: SearchCounts,
     cancelled: &(dyn Fn() -> bool + Sync),
-) -> Result<((Counts, Counts), [Stop; 2]), SearchError> {
+) -> Result<(SearchCounts, [Stop; 2]), SearchError> {
     let conditions = Conditions {
         symmetry: Symmetry::SymmetricOnly,
         cheapest: 0,
@@ -28,10 +28,7 @@ pub fn orbit_counts(
     )?;
     let diagrams = build(&symmetric, cancelled, &mut |_| {});
     let order = question.mechanism.search.order();
-    let determinate = counts(&symmetric, &diagrams.determinate, false);
-    let admissible = counts(&symmetric, &diagrams.admissible, true);
-    let determinate = all.0.orbits(&determinate, order);
-    let admissible = all.1.orbits(&admissible, order);
+    let counts = all.orbits(&SearchCounts::of(&symmetric, &diagrams), order);
     let stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-    Ok(((determinate, admissible), stops))
+    Ok((counts, stops))
 }

@@ -42,7 +42,7 @@ fn in_order<'a>(
         let all = between(question, diagram, top, least, most, every());
         all.filter(move |v| is_first_image(question, diagram, v))
     };
-    let all = &diagrams.admissible;
+    let all = diagrams.listed();
     let Some(UpTo {
         diagram,
         cost_milli,
@@ -145,7 +145,7 @@ pub(crate) fn sample<'a>(
     diagrams: &'a Diagrams,
     seed: u64,
 ) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-    let diagram = &diagrams.admissible;
+    let diagram = diagrams.listed();
     // Each orbit has one variant that comes first, and so the same chance.
     let all = sample_of(question, diagram, seed, true);
     Box::new(all.filter(move |v| is_first_image(question, diagram, v)))

@@ -5,7 +5,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
-use crate::search::build::self_stress::{Added, space};
+use crate::search::build::self_stress::{Added, Wanted, space};
 use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
 use crate::search::diagram::reduced_rows::Arithmetic;
@@ -49,11 +49,11 @@ pub(in crate::search) fn at_most(
     model: &Model,
     order: &[usize],
     limits: &Limits,
-    keep_output: bool,
+    wanted: Wanted,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();
-    let space = space(question, model, order, keep_output)?;
+    let space = space(question, model, order, wanted)?;
     let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
     if spent.internal() != limits.internal {
         return None;

@@ -6,6 +6,7 @@ use crate::search::answer::estimate::random_cuts::{self, Uncut};
 use crate::search::answer::estimate::samples::SetSamples;
 use crate::search::answer::estimate::{Estimate, WITHIN};
 use crate::search::build::at_most::at_most;
+use crate::search::build::self_stress::Wanted;
 use crate::search::build::staging::Staged;
 use crate::search::diagram::completion::Missing;
 use crate::search::diagram::{Diagram, Over, Stop};
@@ -70,9 +71,9 @@ fn estimated(
     if question.conditions.state.is_some() {
         return by_dimension();
     }
-    let keep_output = admissible && question.conditions.keep_output;
+    let wanted = Wanted::of(question, admissible);
     let order = &staged.order;
-    let Some(of) = at_most(question, model, order, limits, keep_output, cancelled) else {
+    let Some(of) = at_most(question, model, order, limits, wanted, cancelled) else {
         return by_dimension();
     };
     let Some(samples) = SetSamples::begin(question, &of, seed, admissible, cancelled) else {

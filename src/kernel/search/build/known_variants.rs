@@ -7,7 +7,7 @@
 use crate::linalg::exterior::{Exterior, Product};
 use crate::linalg::modp::Field;
 use crate::search::build::known_spaces::Spaces;
-use crate::search::build::self_stress::Added;
+use crate::search::build::self_stress::{Added, Wanted};
 use crate::search::build::spanning_halves::{Behind, Halves};
 use crate::search::build::staging::limits;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
@@ -34,7 +34,7 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
     let model = &question.least.whole;
     let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
     let limits = limits(question, model);
-    let halves = Halves::new(question, model, &order, &limits, false)?;
+    let halves = Halves::new(question, model, &order, &limits, Wanted::Determinate)?;
     let spent = Spent::within_mechanism(halves.already);
     if known.terminals.iter().any(|t| *t != spent.redundancy()) {
         return Some(false);

@@ -12,8 +12,31 @@ use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress};
 use crate::search::question::Question;
+use crate::search::question::throughout::ORDER;
 use crate::search::reduce::plane_split::Model;
-use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
+use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace, is_contained};
+
+/// Which variants a diagram has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::search) enum Wanted {
+    /// Those that are determinate, whatever becomes of the motion of outputs and drives.
+    Determinate,
+    /// Those of them that keep this motion in the drawn pose.
+    Keeping,
+    /// Those of them that keep it throughout the motion of the mechanism as built.
+    Lasting,
+}
+
+impl Wanted {
+    /// Returns the variants of the diagram of determinate or of admissible ones.
+    pub(in crate::search) fn of(question: &Question, admissible: bool) -> Wanted {
+        if admissible && question.conditions.keep_output {
+            Wanted::Keeping
+        } else {
+            Wanted::Determinate
+        }
+    }
+}
 
 /// A stage, within limits.
 pub(in crate::search) struct Added<'a> {
@@ -60,18 +83,33 @@ impl Carries for Added<'_> {
     }
 }
 
-/// The space dual to self-stresses for the variables of a question in an order; none where a choice lacks a motion of its present joint.
+/// The space dual to self-stresses for the variables of a question in an order; none where a choice lacks a motion of its present joint,
+/// or where the motion is not followed that variants are to keep.
 pub(in crate::search) fn space(
     question: &Question,
     model: &Model,
     order: &[usize],
-    keep_output: bool,
+    wanted: Wanted,
 ) -> Option<SelfStressSpace> {
-    let kept = keep_output.then_some(&question.kept);
+    let kept = (wanted != Wanted::Determinate).then_some(&question.kept);
     let field = question.exact.field();
     let (mechanism, space) = (&question.mechanism, &model.space);
     let rows = ClosingRows::new(mechanism, space.dim, &question.contours, kept);
-    SelfStressSpace::new(field, &rows, space, order)
+    if !order.iter().all(|&v| is_contained(field, space, v)) {
+        return None;
+    }
+    if wanted != Wanted::Lasting {
+        let of = |v: usize, c: usize| rows.columns(field, &space.variables[v], c);
+        return Some(SelfStressSpace::new(field, &rows, 1, space, order, &of));
+    }
+    let along = question.throughout.as_ref().ok()?;
+    let of = |v: usize, c: usize| {
+        let freedoms = along.of_choice(v, c).iter();
+        freedoms
+            .flat_map(|(joint, series)| rows.multiples(field, *joint, series))
+            .collect()
+    };
+    Some(SelfStressSpace::new(field, &rows, ORDER, space, order, &of))
 }
 
 /// The diagram of a question without a searched state, for the variables in an order: the smallest there is, or what fits the limits;
@@ -84,12 +122,12 @@ pub(in crate::search) fn in_self_stress_space(
     model: &Model,
     order: &[usize],
     limits: &Limits,
-    keep_output: bool,
+    wanted: Wanted,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Option<Diagram> {
     let field = question.exact.field();
-    let added = space(question, model, order, keep_output)?;
+    let added = space(question, model, order, wanted)?;
     let already = limits.already.saturating_add(added.lasting);
     if already > limits.internal {
         return Some(nothing(model, order));

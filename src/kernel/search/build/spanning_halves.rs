@@ -8,7 +8,7 @@
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Set, completed};
 use crate::search::build::path_tree::{PathTree, Vectors, numbered, shortest};
-use crate::search::build::self_stress::{Added, space};
+use crate::search::build::self_stress::{Added, Wanted, space};
 use crate::search::build::spanning_paths::{Annihilator, completing};
 use crate::search::diagram::Layer;
 use crate::search::diagram::adding::{Adding, Kept, adding};
@@ -47,17 +47,17 @@ impl<'a> Halves<'a> {
         model: &Model,
         order: &[usize],
         limits: &'a Limits,
-        keep_output: bool,
+        wanted: Wanted,
     ) -> Option<Self> {
         let field = question.exact.field();
-        let front = space(question, model, order, keep_output)?;
+        let front = space(question, model, order, wanted)?;
         let already = limits.already.saturating_add(front.lasting);
         if already != limits.internal {
             return None;
         }
         let reversed: Vec<usize> = order.iter().rev().copied().collect();
         let orders = [order, &reversed];
-        let spaces = [front, space(question, model, &reversed, keep_output)?];
+        let spaces = [front, space(question, model, &reversed, wanted)?];
         let all = order.len();
         let carried = |t: usize| spaces[0].contours.iter().any(|c| c.is_live_before(t));
         let mut starts: Vec<usize> = (0..all).filter(|&t| !carried(t)).collect();

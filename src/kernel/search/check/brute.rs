@@ -5,7 +5,7 @@ use crate::geom::exact::ExactError;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::JointId;
 use crate::redundancy::stress::harmful_count;
-use crate::search::answer::counts::Counts;
+use crate::search::answer::counts::{Counts, SearchCounts};
 use crate::search::answer::keys::Key;
 use crate::search::check::full_matrices::{RowLayout, WrittenOut};
 use crate::search::check::variant_mechanism::realize;
@@ -25,6 +25,9 @@ pub struct Seen {
     pub external: i32,
     /// Dimension of the kept links' motion.
     pub motion: usize,
+    /// Whether it is the present one throughout the motion of the mechanism as built; `None` where that is not asked or the variant has
+    /// redundant constraints in the drawn pose.
+    pub lasts: Option<bool>,
 }
 
 impl Seen {
@@ -39,6 +42,7 @@ impl Seen {
             internal: u32::try_from(free - rank).unwrap_or(u32::MAX),
             external: of_state.map_or(0, |r| int(state - r) - int(free - rank)),
             motion: with_kept.saturating_sub(rank),
+            lasts: None,
         }
     }
 }
@@ -48,6 +52,8 @@ impl Seen {
 pub struct Matrices {
     field: Field,
     all: WrittenOut<Residue>,
+    /// The same along the motion, with the dimension of the present joints' kept motion there.
+    along: Option<(WrittenOut<Residue>, usize)>,
     /// For each joint without a choice, the columns of every motion.
     whole: Vec<(JointId, Vec<Vec<Residue>>)>,
 }
@@ -68,8 +74,14 @@ impl Matrices {
             });
             (j, every.collect())
         });
+        let present = vec![0; variables.len()];
+        let along = layout.along_motion(question).map(|along| {
+            let [rank, with_kept] = ranks(f, &along, &present);
+            (along, with_kept - rank)
+        });
         Matrices {
             field: f,
+            along,
             whole: whole.collect(),
             all: WrittenOut::modulo_prime(question, &layout),
         }
@@ -98,14 +110,30 @@ impl Matrices {
             let chosen = self.all.chosen(choices);
             chosen.map(|c| c[from..to].to_vec()).collect()
         };
-        let pivots = eliminate(self.field, rows(0, free + kept));
-        let rank = pivots.iter().filter(|&&p| p < free).count();
+        let [rank, with_kept] = ranks(self.field, &self.all, choices);
         let of_state = match state {
             0 => None,
             _ => Some(eliminate(self.field, rows(free + kept, free + kept + state)).len()),
         };
-        Seen::of_ranks(self.all.rows, [rank, pivots.len()], of_state)
+        let along = self.along.as_ref().filter(|_| rank == free);
+        let lasts = along.map(|(along, present)| {
+            let [rank, with_kept] = ranks(self.field, along, choices);
+            rank == along.rows[0] && with_kept - rank == *present
+        });
+        Seen {
+            lasts,
+            ..Seen::of_ranks(self.all.rows, [rank, with_kept], of_state)
+        }
     }
+}
+
+/// Returns the rank of a variant's columns in the rows of the free state, and that in these together with the kept links' motion.
+fn ranks(f: Field, of: &WrittenOut<Residue>, choices: &[usize]) -> [usize; 2] {
+    let [free, kept, _] = of.rows;
+    let chosen = of.chosen(choices).map(|c| c[..free + kept].to_vec());
+    let pivots = eliminate(f, chosen.collect());
+    let rank = pivots.iter().filter(|&&p| p < free).count();
+    [rank, pivots.len()]
 }
 
 /// Plain Gaussian elimination of some vectors; the columns of the pivots.
@@ -132,7 +160,15 @@ pub(super) fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> 
     pivots
 }
 
-/// Counts by looking at every variant: (determinate, admissible). What the searched state makes of a variant is asked of
+/// Counts by looking at every variant: (determinate, admissible), as [`every_variant`] has them.
+///
+/// # Errors
+/// Where a coordinate has no value in the field.
+pub fn brute(question: &Question) -> Result<(Counts, Counts), ExactError> {
+    every_variant(question).map(|found| (found.determinate, found.admissible))
+}
+
+/// Counts by looking at every variant. What the searched state makes of a variant is asked of
 /// the mechanism that the variant is.
 ///
 /// # Errors
@@ -141,25 +177,30 @@ pub(super) fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> 
 /// # Complexity
 /// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
 /// that meet the other conditions.
-pub fn brute(question: &Question) -> Result<(Counts, Counts), ExactError> {
+pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
     let matrices = Matrices::new(question);
-    let (mut all, mut good) = (Counts::default(), Counts::default());
-    for ((key, admissible), count) in count(question, &matrices)? {
+    let mut out = SearchCounts {
+        lasting: matrices.along.is_some().then(Counts::default),
+        ..SearchCounts::default()
+    };
+    for ((key, admissible, lasts), count) in count(question, &matrices)? {
         let count = BigUint::from(count);
-        all.add(question.mobility(key), key, &count);
+        let w = question.mobility(key);
+        out.determinate.add(w, key, &count);
         if admissible && question.wanted(key) {
-            good.add(question.mobility(key), key, &count);
+            out.admissible.add(w, key, &count);
+            let lasting = out.lasting.as_mut().filter(|_| lasts);
+            lasting.into_iter().for_each(|l| l.add(w, key, &count));
         }
     }
-    Ok((all, good))
+    Ok(out)
 }
 
-/// Every variant with few enough redundant constraints, by its properties and whether it is admissible but for mobility
-/// and changes.
-fn count(
-    question: &Question,
-    matrices: &Matrices,
-) -> Result<BTreeMap<(Key, bool), u128>, ExactError> {
+/// Properties of a variant, whether it is admissible but for mobility and changes, and whether it lasts.
+type Judged = (Key, bool, bool);
+
+/// Every variant with few enough redundant constraints, by what is told of it.
+fn count(question: &Question, matrices: &Matrices) -> Result<BTreeMap<Judged, u128>, ExactError> {
     let steps = &question.steps;
     let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
     let head = radix
@@ -172,15 +213,17 @@ fn count(
         .count();
     let heads: usize = radix[..head].iter().product();
     let from = |h: usize| {
-        let mut counts: BTreeMap<(Key, bool), u128> = BTreeMap::new();
+        let mut counts: BTreeMap<Judged, u128> = BTreeMap::new();
         let mut choices = vec![0; radix.len()];
         let mut rest = h;
         for (c, r) in choices.iter_mut().zip(&radix[..head]) {
             (*c, rest) = (rest % r, rest / r);
         }
         loop {
-            if let Some((key, admissible)) = judge(question, &choices, matrices.look(&choices))? {
-                *counts.entry((key, admissible)).or_insert(0) += 1;
+            let seen = matrices.look(&choices);
+            if let Some((key, admissible)) = judge(question, &choices, seen)? {
+                let lasts = seen.lasts == Some(true);
+                *counts.entry((key, admissible, lasts)).or_insert(0) += 1;
             }
             let Some(v) = (head..radix.len()).find(|&v| choices[v] + 1 < radix[v]) else {
                 return Ok(counts);

@@ -7,6 +7,7 @@ use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
+use crate::search::question::throughout::{ColumnSeries, ORDER};
 
 /// What a choice puts at each joint of its variable: twists, each with the joint's entries in the rows of its couplings
 /// behind it.
@@ -55,6 +56,43 @@ impl RowLayout<'_> {
             self.paths.len() * self.dim + self.mechanism.kept_drives(),
             self.state.len() * self.dim + self.coupled_in_state.len(),
         ]
+    }
+
+    /// Returns the columns of each choice along the motion times each power of t, in the rows of the free state at each power and then
+    /// those of the kept links' motion likewise, and how many rows there are of each kind; `None` where no motion is followed.
+    pub(in crate::search) fn along_motion(
+        &self,
+        question: &Question,
+    ) -> Option<WrittenOut<Residue>> {
+        let along = question.throughout.as_ref().ok()?;
+        let [free, kept, _] = self.rows();
+        let multiples = |(joint, series): &(JointId, ColumnSeries)| -> Vec<Vec<Residue>> {
+            let terms = series
+                .iter()
+                .map(|t| self.column(question.field(), *joint, t));
+            let terms: Vec<Vec<Residue>> = terms.collect();
+            let of = |by: usize, from: usize, to: usize| -> Vec<Residue> {
+                let zeros = std::iter::repeat_n(0, by * (to - from));
+                let rest = terms[..terms.len() - by].iter();
+                zeros
+                    .chain(rest.flat_map(|t| t[from..to].iter().copied()))
+                    .collect()
+            };
+            let column = |by| [of(by, 0, free), of(by, free, free + kept)].concat();
+            (0..terms.len()).map(column).collect()
+        };
+        let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
+            along.of_choice(v, c).iter().flat_map(multiples).collect()
+        };
+        let of_variable = |(v, variable): (usize, &Variable)| {
+            let choices = 0..variable.choices.len();
+            choices.map(|c| of_choice(v, c)).collect()
+        };
+        let variables = question.space.variables.iter().enumerate();
+        Some(WrittenOut {
+            rows: [ORDER * free, ORDER * kept, 0],
+            columns: variables.map(of_variable).collect(),
+        })
     }
 
     /// The column of a twist at a joint; behind it stand the joint's rates.

@@ -7,8 +7,7 @@
 //! and every sample drawn from them is equal too.
 
 use crate::format::plural;
-use crate::search::answer::counts::Counts;
-use crate::search::answer::counts::counts;
+use crate::search::answer::counts::{Counts, SearchCounts};
 use crate::search::answer::variants_in_order::cheapest;
 use crate::search::build::Diagrams;
 use crate::search::build::build_in;
@@ -101,6 +100,10 @@ pub fn compare(
     let [a, b] = diagrams;
     let equal = same(&a.determinate, &b.determinate)
         && same(&a.admissible, &b.admissible)
+        && match (&a.lasting, &b.lasting) {
+            (Ok(a), Ok(b)) => same(a, b),
+            (a, b) => a.is_err() && b.is_err(),
+        }
         && match (&a.cheapest, &b.cheapest) {
             (Some(a), Some(b)) => a.cost_milli == b.cost_milli && same(&a.diagram, &b.diagram),
             (a, b) => a.is_none() && b.is_none(),
@@ -109,12 +112,7 @@ pub fn compare(
     if equal {
         return Ok(Verdict::Agree);
     }
-    let count = |i: usize| {
-        (
-            counts(questions[i], &diagrams[i].determinate, false),
-            counts(questions[i], &diagrams[i].admissible, true),
-        )
-    };
+    let count = |i: usize| SearchCounts::of(questions[i], diagrams[i]);
     let best = |i: usize| {
         let list = cheapest(questions[i], diagrams[i], top);
         list.collect_vec()
@@ -125,40 +123,50 @@ pub fn compare(
         return Ok(Verdict::Agree);
     }
     let at = one.iter().zip(&two).take_while(|(a, b)| a == b).count();
+    let differences = format!("the variant at position {} of the list", at + 1);
     let counts = count(0);
-    Err(Box::new(Disagreement {
-        primes: primes(questions),
-        determinate: [counts.0.total.clone(), counts.0.total],
-        admissible: [counts.1.total.clone(), counts.1.total],
-        differences: format!("the variant at position {} of the list", at + 1),
-    }))
+    Err(disagreement(questions, [&counts, &counts], differences))
 }
 
-/// Compares (determinate, admissible) counts that were made over the primes of two searches.
+/// Returns the error of two primes that differ in something.
+fn disagreement(
+    questions: [&Question; 2],
+    counts: [&SearchCounts; 2],
+    differences: String,
+) -> Box<Disagreement> {
+    Box::new(Disagreement {
+        primes: primes(questions),
+        determinate: counts.map(|c| c.determinate.total.clone()),
+        admissible: counts.map(|c| c.admissible.total.clone()),
+        differences,
+    })
+}
+
+/// Compares counts that were made over the primes of two searches.
 ///
 /// # Errors
 /// Where they differ, with both.
 pub fn compare_counts(
     questions: [&Question; 2],
-    counts: [&(Counts, Counts); 2],
+    counts: [&SearchCounts; 2],
 ) -> Result<Verdict, Box<Disagreement>> {
     let [a, b] = counts;
     if a == b {
         return Ok(Verdict::Agree);
     }
-    let mut told = differences("determinate", &a.0, &b.0);
-    told.extend(differences("admissible", &a.1, &b.1));
+    let mut told = differences("determinate", &a.determinate, &b.determinate);
+    told.extend(differences("admissible", &a.admissible, &b.admissible));
+    match (&a.lasting, &b.lasting) {
+        (Some(a), Some(b)) => told.extend(differences("lasting", a, b)),
+        (None, None) => {}
+        _ => told.push("whether the motion can be followed".to_owned()),
+    }
     let more = told.len().saturating_sub(TOLD);
     let mut text = told.iter().take(TOLD).join("; ");
     if more > 0 {
         text += &format!("; and {more} more");
     }
-    Err(Box::new(Disagreement {
-        primes: primes(questions),
-        determinate: [a.0.total.clone(), b.0.total.clone()],
-        admissible: [a.1.total.clone(), b.1.total.clone()],
-        differences: text,
-    }))
+    Err(disagreement(questions, counts, text))
 }
 
 /// The primes of two searches.

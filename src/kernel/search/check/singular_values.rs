@@ -136,8 +136,6 @@ pub struct Summary {
     pub posed: usize,
     /// Those whose figures differ in another pose.
     pub lucky: usize,
-    /// Lucky ones left out.
-    pub dropped: usize,
     /// How many of them, the first, are proven to be the cheapest; `None` where all are, or the list is not by cost.
     pub proven: Option<usize>,
 }

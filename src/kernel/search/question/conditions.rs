@@ -80,6 +80,8 @@ pub struct Conditions {
     pub drives: Drives,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
+    /// Whether it is also asked which variants keep the motion beyond the drawn pose, throughout the motion of the mechanism.
+    pub throughout: bool,
     /// Whether variants are counted; where they are not, the diagrams of all are cut down at once.
     pub counted: bool,
     /// How many of the cheapest are to be found even where the diagram of all does not fit the budgets.
@@ -110,6 +112,7 @@ impl Default for Conditions {
             keep_output: true,
             drives: Drives::Kept,
             symmetry: Symmetry::All,
+            throughout: false,
             counted: true,
             cheapest: 0,
             estimate: None,

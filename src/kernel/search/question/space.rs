@@ -215,7 +215,7 @@ pub(in crate::search) fn columns<S: Scalars>(
     let twists = |o: &JointOption| joint_twists(s, motion, &o.frame, &o.joint_type);
     let mut own = twists(option)?
         .into_iter()
-        .map(|(f, t)| with_rates(s, mechanism, joint, option, f, t))
+        .map(|(f, t)| coupled(s, mechanism, joint, option, Some(f), t))
         .collect::<Result<Vec<_>, _>>()?;
     if let Some(row) = rate_row(s, motion, mechanism, joint, &option.frame)? {
         let driven = |twist: &mut Vec<S::Number>| {
@@ -233,22 +233,26 @@ pub(in crate::search) fn columns<S: Scalars>(
     Ok([own, added.collect()])
 }
 
-/// A twist of an option with its entries in the rows of the joint's couplings behind it.
-fn with_rates<S: Scalars>(
+/// Returns a twist of an option with its entries in the rows of the joint's couplings behind it; none of them is other than 0 where it
+/// is the twist of no freedom that may be coupled.
+///
+/// # Errors
+/// Where a coordinate has no value in the number system.
+pub(in crate::search) fn coupled<S: Scalars>(
     s: &S,
     mechanism: &Mechanism,
     joint: JointId,
     option: &JointOption,
-    freedom: Freedom,
+    freedom: Option<Freedom>,
     mut twist: Vec<S::Number>,
 ) -> Result<Vec<S::Number>, ExactError> {
     let present = &mechanism.joints[joint].frame;
     for (q, end) in mechanism.couplings_of(joint) {
         let coupling = &mechanism.couplings[q];
-        if coupling.ends[end].freedom != freedom {
+        let Some(freedom) = freedom.filter(|f| coupling.ends[end].freedom == *f) else {
             twist.push(S::Number::default());
             continue;
-        }
+        };
         // An option may have its axis written in another length.
         let mut entry = s.eval(&length_ratio((&option.frame, freedom), (present, freedom)))?;
         if end == 0 {

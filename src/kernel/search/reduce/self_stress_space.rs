@@ -75,7 +75,7 @@ impl<'m> ClosingRows<'m> {
     }
 
     /// Returns the number of rows of kept links and drives.
-    fn kept(&self) -> usize {
+    pub(in crate::search) fn kept(&self) -> usize {
         let drives = if self.keeps {
             self.mechanism.kept_drives()
         } else {
@@ -85,12 +85,12 @@ impl<'m> ClosingRows<'m> {
     }
 
     /// Rows of contours, couplings and locked drives.
-    pub(super) fn closing(&self) -> usize {
+    pub(in crate::search) fn closing(&self) -> usize {
         self.contours.len() * self.dim + self.couplings.len() + self.mechanism.locked_drives()
     }
 
     /// The columns of a choice at all joints of its variable.
-    pub(super) fn columns(
+    pub(in crate::search) fn columns(
         &self,
         f: Field,
         variable: &Variable,
@@ -100,6 +100,28 @@ impl<'m> ClosingRows<'m> {
         joints
             .flat_map(|(&j, span)| span.iter().map(move |t| self.column(f, j, t)))
             .collect()
+    }
+
+    /// The columns of a freedom along the motion times each power of t, as vectors over the field: the coordinates of the contours at
+    /// each power of t, then those of kept links likewise.
+    pub(in crate::search) fn multiples(
+        &self,
+        f: Field,
+        joint: JointId,
+        series: &[Vec<Residue>],
+    ) -> Vec<Vec<Residue>> {
+        let (closing, kept, order) = (self.closing(), self.kept(), series.len());
+        let terms: Vec<Vec<Residue>> = series.iter().map(|t| self.column(f, joint, t)).collect();
+        let shifted = |by: usize| {
+            let mut out = vec![0; order * (closing + kept)];
+            for (k, term) in (by..order).zip(&terms) {
+                let (of_contours, of_kept) = term.split_at(closing);
+                out[k * closing..][..closing].copy_from_slice(of_contours);
+                out[order * closing + k * kept..][..kept].copy_from_slice(of_kept);
+            }
+            out
+        };
+        (0..order).map(shifted).collect()
     }
 
     /// The column of a joint's twist, with its rates behind it.
@@ -246,26 +268,25 @@ impl Reached {
 }
 
 impl SelfStressSpace {
-    /// Of the variables of a space in an order, where the motions of the links that `rows` has matter; none where a choice lacks a motion
-    /// that the present joint has.
+    /// Of the variables of a space in an order, where the motions of the links that `rows` has matter; `of_choice` gives the vectors of a
+    /// choice of a variable, which have each row so many `times`: once in the drawn pose, and once for each power of t along a motion.
     ///
     /// # Complexity
     /// O(n·m²) field operations for n vectors of all choices with m rows.
     pub(in crate::search) fn new(
         field: Field,
         rows: &ClosingRows<'_>,
+        times: usize,
         space: &Space,
         order: &[usize],
-    ) -> Option<SelfStressSpace> {
-        let of_choice = |v: usize, c: usize| rows.columns(field, &space.variables[v], c);
-        if !order.iter().all(|&v| is_contained(field, space, v)) {
-            return None;
-        }
+        of_choice: &dyn Fn(usize, usize) -> Vec<Vec<Residue>>,
+    ) -> SelfStressSpace {
         let present = order.iter().flat_map(|&v| of_choice(v, 0));
-        let width = rows.closing() + rows.kept();
+        let closing = times * rows.closing();
+        let width = closing + times * rows.kept();
         let beside = BesidePresent::new(field, present, width);
         // Motions of the kept links, and what the choices add.
-        let links = beside.units(field, rows.closing()..width);
+        let links = beside.units(field, closing..width);
         let left = |column| beside.left(column);
         let of_variable = |&v: &usize| -> Vec<Vec<Added>> {
             let choices = 0..space.variables[v].choices.len();
@@ -299,17 +320,17 @@ impl SelfStressSpace {
         for choice in added.iter_mut().flatten() {
             *choice = Echelon::of(field, &*choice).reduced();
         }
-        Some(SelfStressSpace {
+        SelfStressSpace {
             lasting: u32::try_from(self_stresses - count).unwrap_or(u32::MAX),
             added,
             contours,
             kept,
-        })
+        }
     }
 }
 
 /// Whether every choice of a variable has the motions of the present joints.
-fn is_contained(field: Field, space: &Space, variable: usize) -> bool {
+pub(in crate::search) fn is_contained(field: Field, space: &Space, variable: usize) -> bool {
     let [present, others @ ..] = &space.variables[variable].choices[..] else {
         return true;
     };

@@ -4,6 +4,7 @@ use crate::format::{grouped, plural, plural_of};
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
 use crate::search::check::second_prime::Verdict;
+use crate::search::question::throughout::PoseOnly;
 use crate::view::search::conditions::in_state;
 use crate::view::search::ideas;
 use crate::view::search::numeric;
@@ -12,7 +13,7 @@ use crate::view::search::stopped_early;
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use num_bigint::BigUint;
-use num_traits::Zero;
+use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
@@ -85,7 +86,10 @@ fn verdict(outcome: &Outcome) -> String {
             .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
     ];
     let told = in_state(&outcome.search, false);
-    let more = more.into_iter().flatten().chain(told).collect_vec();
+    let mut more = more.into_iter().flatten().chain(told).collect_vec();
+    if let Some(keeps) = more.first_mut().filter(|_| conditions.keep_output) {
+        *keeps += where_kept(outcome);
+    }
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -95,13 +99,17 @@ fn verdict(outcome: &Outcome) -> String {
     };
     let good = if let Some(found) = &outcome.numeric {
         format!("numeric: {}", numeric::from_to(&found.admissible))
-    } else if outcome.admissible.total.is_zero() && least.is_empty() {
+    } else if outcome.listed_counts().total.is_zero() && least.is_empty() {
         "none".to_owned()
     } else if !outcome.is_confirmed() {
-        format!("not exact: {least}{}", grouped(&outcome.admissible.total))
+        format!(
+            "not exact: {least}{}",
+            grouped(&outcome.listed_counts().total)
+        )
     } else {
         let [_, estimate] = outcome.estimates();
-        stopped_early::number(&outcome.admissible.total, outcome.is_counted(), estimate)
+        let listed = &outcome.listed_counts().total;
+        stopped_early::number(listed, outcome.is_counted(), estimate)
     };
     // Writing to a string cannot fail.
     let of = plural_of(&grouped(&size), "variant");
@@ -112,6 +120,9 @@ fn verdict(outcome: &Outcome) -> String {
             "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
              [\"cylindrical\", \"spherical\"]"
         );
+    }
+    if let Some(line) = in_the_pose(outcome) {
+        let _ = writeln!(out, "  {line}");
     }
     if !more.is_empty() {
         let determinate = match &outcome.numeric {
@@ -124,6 +135,43 @@ fn verdict(outcome: &Outcome) -> String {
         );
     }
     out
+}
+
+/// Where variants keep the motion, so far as that is known.
+fn where_kept(outcome: &Outcome) -> &'static str {
+    match &outcome.lasting {
+        Ok(_) => " throughout the motion",
+        Err(PoseOnly::Rests | PoseOnly::Numeric) => "",
+        Err(_) => " in the drawn pose",
+    }
+}
+
+/// How many variants keep the motion in the drawn pose, or why only these are counted; `None` where there is nothing to say.
+fn in_the_pose(outcome: &Outcome) -> Option<String> {
+    let here = &outcome.admissible.total;
+    match &outcome.lasting {
+        Ok(_) if here.is_zero() => None,
+        Ok(lasting) if lasting.total == *here => {
+            Some("as many in the drawn pose: none loses the motion beside it".to_owned())
+        }
+        Ok(lasting) => {
+            let lost = here - &lasting.total;
+            let lose = if lost.is_one() { "loses" } else { "lose" };
+            let (here, lost) = (grouped(here), grouped(lost));
+            Some(format!(
+                "{here} in the drawn pose; {lost} of these {lose} the motion beside it (--pose-only lists them, too)"
+            ))
+        }
+        Err(
+            PoseOnly::Asked
+            | PoseOnly::OutputChange
+            | PoseOnly::Rests
+            | PoseOnly::Numeric
+            | PoseOnly::NotCounted,
+        ) => None,
+        Err(_) if here.is_zero() => None,
+        Err(why) => Some(format!("not followed along the motion: {why}")),
+    }
 }
 
 /// How many variants are determinate.
@@ -155,11 +203,19 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
             || outcome.admissible.by_mobility.contains_key(w)
             || may(w)
     });
+    // A column more where some variants lose the motion.
+    let lasting = outcome.lasting.as_ref().ok();
+    let lasting = lasting.filter(|l| l.total != outcome.admissible.total);
     let row = |name: String, of: &[i64]| {
         let sum = |m: &BTreeMap<i64, BigUint>| {
             grouped(of.iter().filter_map(|w| m.get(w)).sum::<BigUint>())
         };
         let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
+        if let Some(lasting) = lasting {
+            let of = [determinate, admissible, lasting];
+            let sums = of.map(|counts| sum(&counts.by_mobility));
+            return std::iter::once(name).chain(sums).collect();
+        }
         if let Some(found) = &outcome.numeric {
             let of = |b| numeric::by_mobility(b, of);
             return vec![name, of(&found.determinate), of(&found.admissible)];
@@ -188,6 +244,10 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
         _ => None,
     };
     let rows = each.chain(folded).chain(left_out).collect();
-    let heads = ["W", &condition(outcome), "admissible"];
-    format!("\n{}\n", table(&heads, rows, width))
+    let condition = condition(outcome);
+    let heads: &[&str] = match lasting {
+        Some(_) => &["W", &condition, "in the drawn pose", "throughout"],
+        None => &["W", &condition, "admissible"],
+    };
+    format!("\n{}\n", table(heads, rows, width))
 }

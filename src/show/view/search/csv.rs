@@ -58,7 +58,7 @@ pub fn write(
         let lines = second_opinion::lines(outcome).join("; ");
         return Ok(Some(format!(
             "not exact: {} admissible variants. {lines}",
-            outcome.admissible
+            outcome.listed_counts()
         )));
     }
     if variants.stop() == Stop::Exhausted {
@@ -68,7 +68,7 @@ pub fn write(
         Some(n) if n > 0 => format!(", the first {n} proven the cheapest"),
         _ => String::new(),
     };
-    let (given, of) = (variants.summary().given, &outcome.admissible);
+    let (given, of) = (variants.summary().given, outcome.listed_counts());
     let least = if outcome.is_counted() {
         ""
     } else {

@@ -72,7 +72,14 @@ pub struct SearchData<'a> {
     admissible_by_changes: By<'a, u32>,
     admissible_by_freedoms: By<'a, u32>,
     admissible_by_cost: ByCost,
-    /// Admissible variants of which no other has part of the freedoms, where these are counted.
+    /// Those of them that keep the motion throughout the motion of the mechanism as built, which are the ones listed; `None` where
+    /// it is not followed.
+    lasting: Option<String>,
+    lasting_by_mobility: Option<By<'a, i64>>,
+    lasting_by_cost: Option<ByCost>,
+    /// Why it is not followed.
+    pose_only: Option<String>,
+    /// Variants among those listed of which no other has part of the freedoms, where these are counted.
     minimal: Option<String>,
     largest_layer: Option<usize>,
     nodes: Option<usize>,
@@ -180,6 +187,7 @@ impl<'a> SearchData<'a> {
         ];
         let (first, second) = (sizes(|d| &d.determinate), sizes(|d| &d.admissible));
         let mechanism = &outcome.search.mechanism;
+        let lasting = outcome.lasting.as_ref().ok();
         SearchData {
             mechanism: &mechanism.name,
             space: outcome.search.size().to_string(),
@@ -199,6 +207,10 @@ impl<'a> SearchData<'a> {
             admissible_by_changes: By(&admissible.by_changes),
             admissible_by_freedoms: By(&admissible.by_freedoms),
             admissible_by_cost: ByCost(by_cost.unwrap_or_default()),
+            lasting: lasting.map(ToString::to_string),
+            lasting_by_mobility: lasting.map(|l| By(&l.by_mobility)),
+            lasting_by_cost: outcome.lasting_by_cost().map(ByCost),
+            pose_only: outcome.lasting.as_ref().err().map(ToString::to_string),
             minimal: outcome.minimal().map(|n| n.to_string()),
             largest_layer: first.largest_layer.max(second.largest_layer),
             nodes: first.nodes.zip(second.nodes).map(|(a, b)| a + b),
@@ -269,7 +281,6 @@ pub(crate) struct TailData<'a> {
     variants_check_failed: usize,
     variants_posed: usize,
     variants_lucky: usize,
-    variants_dropped: usize,
     #[serde(flatten)]
     none: Option<NoneData<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -343,7 +354,6 @@ impl<'a> TailData<'a> {
             variants_check_failed: summary.failed,
             variants_posed: summary.posed,
             variants_lucky: summary.lucky,
-            variants_dropped: summary.dropped,
             none,
             seconds,
         }

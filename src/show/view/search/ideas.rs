@@ -8,11 +8,11 @@ use num_traits::Zero;
 pub(in crate::view) const HEAD: &str = "ideas, cheapest first: each stands for all that give the same freedoms to the same joints in \
      series, and is shown by the one that leaves most as it is";
 
-/// How many of the admissible variants are minimal, and what the others are, said once; `None` where that was not counted.
+/// How many of the variants that are listed are minimal, and what the others are, said once; `None` where that was not counted.
 pub(in crate::view) fn minimal(outcome: &Outcome) -> Option<String> {
     let minimal = outcome.minimal()?;
-    let rest = &outcome.admissible.total - &minimal;
-    if outcome.admissible.total.is_zero() {
+    let rest = &outcome.listed_counts().total - &minimal;
+    if outcome.listed_counts().total.is_zero() {
         return None;
     }
     let all = grouped(&minimal);

@@ -52,7 +52,7 @@ pub fn write(
         Ok(serde_json::to_writer(&mut *out, &data)?)
     })?;
     let m = &outcome.search.mechanism;
-    let empty = outcome.admissible.total.is_zero();
+    let empty = outcome.listed_counts().total.is_zero();
     let none = empty.then(|| NoneData::new(m, &none.eased, &none.hopeless));
     let seconds = seconds.map(|s| s());
     let tail = TailData::new(&variants, none, seconds);

@@ -78,7 +78,7 @@ pub fn write(
     }
     // Numbers of a sample, or of a list with some left out, mean nothing to other commands.
     let undecided = summary.given == 0 && outcome.admissible_may_be_more();
-    let steps = if outcome.request.generic_only || undecided {
+    let steps = if undecided {
         Vec::new()
     } else {
         let given = if sample { 0 } else { summary.given };
@@ -171,13 +171,10 @@ pub(crate) fn notes(summary: &Summary) -> Vec<String> {
     }
     out.extend(stopped_early::proven(summary));
     let posed = grouped(summary.posed);
-    match (summary.posed, summary.lucky, summary.dropped) {
-        (0, _, 0) => {}
-        (_, _, n) if n > 0 => out.push(format!(
-            "{n} left out: their figures are not the same at other poses"
-        )),
-        (_, 0, _) => out.push(format!("Figures the same at other poses: all {posed}")),
-        (_, n, _) => out.push(format!(
+    match (summary.posed, summary.lucky) {
+        (0, _) => {}
+        (_, 0) => out.push(format!("Figures the same at other poses: all {posed}")),
+        (_, n) => out.push(format!(
             "Figures not the same at other poses: {n} of {posed}, marked !"
         )),
     }
@@ -240,6 +237,15 @@ fn flags(outcome: &Outcome) -> String {
 /// What to do next where no variant is given: ask for some, or ease a condition.
 fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextCommand> {
     let flags = &flags(outcome);
+    let asked = outcome.listed_counts().total.is_zero() && !outcome.admissible.total.is_zero();
+    if asked {
+        return vec![NextCommand::new(
+            "search",
+            file,
+            format!("{flags} --pose-only").trim(),
+            "the variants that keep the motion in the drawn pose",
+        )];
+    }
     if !outcome.admissible.total.is_zero() {
         return vec![NextCommand::new(
             "search",

@@ -107,6 +107,7 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
         ("allow-output-change", r.allow_output_change),
         ("allow-loose-object", r.allow_loose_object),
         ("symmetric", r.symmetry == Symmetry::SymmetricOnly),
+        ("pose-only", r.pose_only),
         ("one-per-orbit", r.symmetry == Symmetry::OnePerOrbit),
         ("distinct", r.distinct),
         ("as-written", r.as_written),

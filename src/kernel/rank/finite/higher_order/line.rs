@@ -180,7 +180,8 @@ pub struct Line {
 }
 
 /// A motion that begins with these speeds, J x = 0, expanded until it is stopped, to an order or as far as the work allows; the free
-/// coordinates are speed times t and `bent`, likewise J x = 0, times t².
+/// coordinates are speed times t and `bent`, likewise J x = 0, times t². Returns with it the coordinates of the columns as series, from
+/// t¹ on, as far as it was expanded without a stop.
 ///
 /// # Complexity
 /// 12 D² products for each freedom that a contour passes, up to order D.
@@ -189,9 +190,10 @@ pub(super) fn line(
     speeds: &[Residue],
     bent: Option<&[Residue]>,
     order: usize,
-) -> Line {
+) -> (Line, Vec<Vec<Residue>>) {
     let f = of.field;
     let mut walks = at_rest(of);
+    let mut coordinates: Vec<Vec<Residue>> = vec![Vec::new(); of.twists.len()];
     let passed: usize = walks.iter().map(Vec::len).sum();
     let mut work = 0;
     let mut moves: Vec<bool> = speeds.iter().map(|&x| x != 0).collect();
@@ -204,15 +206,18 @@ pub(super) fn line(
     for d in 1..=order {
         work += 30 * d * passed + of.solve.len() * of.solve.len();
         if work > WORK {
-            return out;
+            return (out, coordinates);
         }
         out.order = d;
-        let gaps = pass(f, &mut walks, d, |c| match (d, bent) {
+        let given = |c: usize| match (d, bent) {
             (1, _) => speeds[c],
             (2, Some(bent)) => bent[c],
             _ => 0,
-        });
+        };
+        let gaps = pass(f, &mut walks, d, given);
         if d == 1 {
+            let all = coordinates.iter_mut().zip(speeds);
+            all.for_each(|(series, &x)| series.push(x));
             continue;
         }
         let mut more = vec![0; of.twists.len()];
@@ -223,7 +228,7 @@ pub(super) fn line(
                 Some(&p) => more[p] = f.neg(sum),
                 None if sum != 0 => {
                     (out.stopped, out.value) = (Some(d), sum);
-                    return out;
+                    return (out, coordinates);
                 }
                 None => {}
             }
@@ -235,6 +240,9 @@ pub(super) fn line(
         {
             (*known, out.begun) = (true, d);
         }
+        for (c, series) in coordinates.iter_mut().enumerate() {
+            series.push(f.add(given(c), more[c]));
+        }
         for walk in &mut walks {
             let mut at = SeriesTerm::ZERO;
             for step in walk {
@@ -242,7 +250,7 @@ pub(super) fn line(
             }
         }
     }
-    out
+    (out, coordinates)
 }
 
 /// What the equations that J does not solve are to second order, for a motion that begins with these speeds.

@@ -1,0 +1,387 @@
+//! The columns of every choice along the motion of the mechanism as built, for counts that hold beyond the drawn pose.
+//!
+//! The motion of the present joints is a power series in one variable t over the prime field. A redesign that keeps the motion in the
+//! drawn pose alone does so by a special position, and loses it to some order of t. Along the motion each freedom's column is a series
+//! cut off at t³. Its multiples by 1, t and t² are vectors over the field, and the span of all of them for a variant has a pivot at every
+//! coordinate of the contours where σ = 0 in the drawn pose. What is left in the coordinates of outputs and drives is then exact to
+//! second order. First order is not enough: a symmetric pose shows nothing to first order.
+//!
+//! A variant that is excluded is proven to lose the motion, for the motion as followed. One that is kept keeps it to second order.
+
+use crate::closure::Closure;
+use crate::closure::contour::Contour;
+use crate::closure::drive::{rate, rate_row};
+use crate::closure::tree::spanning_tree;
+use crate::closure::twist::{FrameValues, MotionSpace, Twist};
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
+use crate::motion::displacement_series::{DisplacementSeries, Series};
+use crate::motion::pose::Pose;
+use crate::rank::exact::modular;
+use crate::rank::finite::higher_order::HigherOrder;
+use crate::search::question::conditions::Conditions;
+use crate::search::question::kept::Kept;
+use crate::search::question::space::{Choice, Space, choice_name, coupled};
+use crate::search::reduce::plane_split::Model;
+use crate::search::reduce::self_stress_space::ClosingRows;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// Powers of t that are kept: 1, t and t².
+pub(in crate::search) const ORDER: usize = 3;
+/// The order to which the motion itself is followed, to see that the pose is neither singular nor shaky.
+const FOLLOWED: usize = 8;
+
+/// Why counts are those of the drawn pose alone.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum PoseOnly {
+    /// Nobody asked for more.
+    #[error("only the drawn pose was asked about")]
+    Asked,
+    /// The outputs may move in other ways.
+    #[error("the outputs may move in other ways")]
+    OutputChange,
+    /// More than the count without redundant constraints is wanted.
+    #[error("redundant constraints are allowed")]
+    Redundant,
+    /// A state beside the free one takes part.
+    #[error("a searched state holds the mechanism in its pose")]
+    State,
+    /// Geometry that exact arithmetic does not have as it is meant.
+    #[error("the geometry is judged by singular values")]
+    Numeric,
+    /// Variants are not counted.
+    #[error("the variants are not counted")]
+    NotCounted,
+    /// No motion to follow.
+    #[error("the mechanism does not move")]
+    Rests,
+    /// The motion to first order does not go on.
+    #[error("the drawn pose is singular or shaky: its motion stops at order {0}")]
+    Stopped(usize),
+    /// The rank of the closure equations changes at the drawn pose.
+    #[error("the drawn pose is singular: constraints or output motions are others beside it")]
+    Singular,
+    /// More equations than are expanded.
+    #[error("the closure equations are too many to expand")]
+    TooLarge,
+    /// An option without the present joint's motion beside the drawn pose.
+    #[error("{option} at {joint} does not follow the present joint")]
+    Option {
+        /// The joint.
+        joint: String,
+        /// The option.
+        option: String,
+    },
+    /// The diagram takes more than the budgets.
+    #[error("the diagram along the motion exceeds the node budget")]
+    Budget,
+}
+
+/// A freedom's column at each power of t: a twist with its rates behind it.
+pub(in crate::search) type ColumnSeries = Vec<Vec<Residue>>;
+
+/// The columns of every choice along the motion.
+#[derive(Debug)]
+pub(in crate::search) struct Throughout {
+    /// All rows of the closure equations: out of the drawn pose the parts of a plane need not stay apart.
+    pub(in crate::search) model: Model,
+    /// `[variable][choice]`: the joint and the series of each freedom.
+    columns: Vec<Vec<Vec<(JointId, ColumnSeries)>>>,
+}
+
+/// What [`Throughout::new`] says: columns, or why there are none.
+pub(in crate::search) type Followed = Result<Throughout, PoseOnly>;
+
+impl Throughout {
+    /// Returns the columns of the choices of a space along a random direction of the present motion, drawn from the prime.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    ///
+    /// # Complexity
+    /// One expansion of the contours, one elimination of J, and O(m³) field operations for each freedom of each choice.
+    pub(in crate::search) fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        conditions: &Conditions,
+        space: &Space,
+        contours: &[Contour],
+        kept: &Kept,
+    ) -> Result<Followed, ExactError> {
+        if let Some(why) = not_asked(conditions) {
+            return Ok(Err(why));
+        }
+        let motion = match Motion::new(exact, mechanism)? {
+            Ok(motion) => motion,
+            Err(why) => return Ok(Err(why)),
+        };
+        let mut columns = Vec::with_capacity(space.variables.len());
+        for variable in &space.variables {
+            let mut of_choices = vec![Vec::new(); variable.choices.len()];
+            for &joint in &variable.joints {
+                let present = motion.columns(exact, mechanism, joint, &variable.choices[0])?;
+                let present = present.unwrap_or_default();
+                for (out, choice) in of_choices.iter_mut().zip(&variable.choices) {
+                    let own = motion.columns(exact, mechanism, joint, choice)?;
+                    let own = own.filter(|own| has_all(exact.field(), own, &present));
+                    let Some(own) = own else {
+                        return Ok(Err(PoseOnly::Option {
+                            joint: mechanism.joints[joint].id.clone(),
+                            option: choice_name(mechanism, joint, choice),
+                        }));
+                    };
+                    out.extend(own.into_iter().map(|c| (joint, c)));
+                }
+            }
+            columns.push(of_choices);
+        }
+        let model = Model {
+            space: space.clone(),
+            kept: kept.motion.clone(),
+            already: 0,
+        };
+        let out = Throughout { model, columns };
+        let rows = ClosingRows::new(mechanism, space.dim, contours, Some(kept));
+        Ok(if out.is_regular(exact.field(), &rows) {
+            Ok(out)
+        } else {
+            Err(PoseOnly::Singular)
+        })
+    }
+
+    /// Returns the joints and series of a choice's freedoms.
+    pub(in crate::search) fn of_choice(
+        &self,
+        variable: usize,
+        choice: usize,
+    ) -> &[(JointId, ColumnSeries)] {
+        &self.columns[variable][choice]
+    }
+
+    /// Returns whether the present joints have the same rank and the same kept motion beside the drawn pose as in it.
+    fn is_regular(&self, f: Field, rows: &ClosingRows<'_>) -> bool {
+        let ranks = |order: usize| -> [usize; 2] {
+            let present = self.columns.iter().filter_map(|choices| choices.first());
+            let all = present.flatten().flat_map(|(joint, series)| {
+                rows.multiples(f, *joint, series.get(..order).unwrap_or(series))
+            });
+            let pivots = Echelon::of(f, all).pivots();
+            let closing = pivots.iter().filter(|p| **p < order * rows.closing());
+            [closing.count(), pivots.len()]
+        };
+        ranks(ORDER) == ranks(1).map(|rank| ORDER * rank)
+    }
+}
+
+/// Returns why conditions ask about the drawn pose alone; `None` where they ask for more.
+fn not_asked(conditions: &Conditions) -> Option<PoseOnly> {
+    let all = [
+        (!conditions.throughout, PoseOnly::Asked),
+        (!conditions.keep_output, PoseOnly::OutputChange),
+        (conditions.max_redundant > 0, PoseOnly::Redundant),
+        (conditions.state.is_some(), PoseOnly::State),
+        (conditions.numeric.is_some(), PoseOnly::Numeric),
+        (!conditions.counted, PoseOnly::NotCounted),
+    ];
+    let mut reasons = all.into_iter().filter(|(is, _)| *is);
+    reasons.next().map(|(_, why)| why)
+}
+
+/// Returns whether the module of some columns has all of others.
+fn has_all(f: Field, columns: &[ColumnSeries], others: &[ColumnSeries]) -> bool {
+    let multiples = |series: &ColumnSeries| -> Vec<Vec<Residue>> {
+        let width = series.first().map_or(0, Vec::len);
+        let shifted = |by: usize| {
+            let zeros = std::iter::repeat_n(0, by * width);
+            let rest = series.iter().flatten().copied();
+            zeros.chain(rest).take(series.len() * width).collect()
+        };
+        (0..series.len()).map(shifted).collect()
+    };
+    let span = Echelon::of(f, columns.iter().flat_map(multiples));
+    let mut others = others.iter().flat_map(multiples);
+    others.all(|v| span.contains(&v))
+}
+
+/// The present joints along their motion.
+struct Motion {
+    field: Field,
+    space: MotionSpace<Residue>,
+    links: Vec<DisplacementSeries>,
+    /// The displacement over each joint of the free state.
+    over: BTreeMap<JointId, DisplacementSeries>,
+}
+
+/// A freedom of a joint in series: its name, none for one of an unloading joint, and its twist.
+type InSeries = (Option<Freedom>, Twist<Residue>);
+
+impl Motion {
+    /// Returns the motion in a direction drawn from the prime, or why there is none.
+    fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+    ) -> Result<Result<Motion, PoseOnly>, ExactError> {
+        let field = exact.field();
+        let closure = Closure::new(exact, mechanism, StateId::FREE)?;
+        let pose = Pose::of_file(mechanism, StateId::FREE)?;
+        let rank = modular::rank(exact, &closure);
+        let Some(series) = HigherOrder::new(exact, mechanism, &closure, &pose, rank)? else {
+            return Ok(Err(PoseOnly::TooLarge));
+        };
+        let (_, free) = series.free();
+        if free == 0 {
+            return Ok(Err(PoseOnly::Rests));
+        }
+        let mut random = ChaCha8Rng::seed_from_u64(field.modulus());
+        let mut any = || field.from_i64((random.next_u64() >> 2).cast_signed());
+        let weights: Vec<Residue> = (0..free).map(|_| any()).collect();
+        let (line, q) = series.motion(&weights, FOLLOWED);
+        if let Some(order) = line.stopped {
+            return Ok(Err(PoseOnly::Stopped(order)));
+        }
+        if line.order + 1 < ORDER {
+            return Ok(Err(PoseOnly::TooLarge));
+        }
+        let columns = closure.columns.iter().zip(q);
+        let series = columns.map(|(column, q)| {
+            let q = std::iter::once(0).chain(q).take(ORDER);
+            ((column.joint, column.freedom), q.collect::<Series>())
+        });
+        let series: BTreeMap<(JointId, Freedom), Series> = series.collect();
+        let space = MotionSpace::new(exact, &mechanism.mode)?;
+        let mut over = BTreeMap::new();
+        for j in mechanism.joints_in(StateId::FREE) {
+            let joint = &mechanism.joints[j];
+            let freedoms = joint.joint_type.freedoms();
+            let frame = FrameValues::new(exact, &joint.frame)?;
+            let own = frame.motions_in_series(exact, &space, freedoms);
+            let mut at = DisplacementSeries::identity(field, ORDER);
+            for (freedom, twist) in own {
+                let q = series.get(&(j, freedom));
+                let step = q.map(|q| DisplacementSeries::exp(field, &twist, q));
+                at = step.map_or(at.clone(), |step| at.then(&step));
+            }
+            over.insert(j, at);
+        }
+        let mut links = vec![DisplacementSeries::identity(field, ORDER); mechanism.links.len()];
+        for step in spanning_tree(mechanism, StateId::FREE) {
+            let passed = &over[&step.joint];
+            let from = &links[step.from.index()];
+            links[step.link.index()] = if step.forward {
+                from.then(passed)
+            } else {
+                from.then(&passed.inverse())
+            };
+        }
+        Ok(Ok(Motion {
+            field,
+            space,
+            links,
+            over,
+        }))
+    }
+
+    /// Returns the columns of a choice at a joint, one a freedom; `None` where it does not follow the present joint.
+    fn columns(
+        &self,
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        joint: JointId,
+        choice: &Choice,
+    ) -> Result<Option<Vec<ColumnSeries>>, ExactError> {
+        let of = &mechanism.joints[joint];
+        let option = &of.options[choice.option];
+        let twists = |o: &JointOption| -> Result<Vec<(Freedom, Twist<Residue>)>, ExactError> {
+            let frame = FrameValues::new(exact, &o.frame)?;
+            Ok(frame.motions_in_series(exact, &self.space, o.joint_type.freedoms()))
+        };
+        let inserted = choice.unloading.map(|u| twists(&of.unloading[u]));
+        let inserted = inserted.transpose()?.unwrap_or_default();
+        let mut passed: Vec<InSeries> = inserted.into_iter().map(|(_, t)| (None, t)).collect();
+        passed.extend(twists(option)?.into_iter().map(|(f, t)| (Some(f), t)));
+        let Some(goal) = self.over.get(&joint) else {
+            return Ok(None);
+        };
+        let Some(q) = self.coordinates(&passed, goal) else {
+            return Ok(None);
+        };
+        let row = rate_row(exact, &self.space, mechanism, joint, &option.frame)?;
+        let base = self.base(of.links[0]);
+        let mut before = DisplacementSeries::identity(self.field, ORDER);
+        let mut out = Vec::with_capacity(passed.len());
+        for ((freedom, twist), q) in passed.iter().zip(&q) {
+            let within = before.carried(twist);
+            let carried = base.then(&before).carried(twist);
+            let mut column = ColumnSeries::with_capacity(ORDER);
+            for (k, (here, there)) in within.iter().zip(&carried).enumerate() {
+                let components = self.space.along_axes(exact, there);
+                let coupled_by = freedom.filter(|_| k == 0);
+                let mut entry = coupled(exact, mechanism, joint, option, coupled_by, components)?;
+                if let Some(row) = &row {
+                    let here = self.space.along_axes(exact, here);
+                    entry.push(freedom.map_or(0, |_| rate(exact, row, &here)));
+                }
+                column.push(entry);
+            }
+            out.push(column);
+            before = before.then(&DisplacementSeries::exp(self.field, twist, q));
+        }
+        Ok(Some(out))
+    }
+
+    /// Returns the displacement of a link.
+    fn base(&self, link: LinkId) -> &DisplacementSeries {
+        &self.links[link.index()]
+    }
+
+    /// Returns the coordinates of freedoms in series with which they move as the present joint does, one order of t after the other;
+    /// `None` where they cannot. An unloading joint rests as far as the others move alike.
+    fn coordinates(&self, passed: &[InSeries], goal: &DisplacementSeries) -> Option<Vec<Series>> {
+        let f = self.field;
+        let mut q = vec![vec![0; ORDER]; passed.len()];
+        // Freedoms of the joint itself come first where twists depend on each other.
+        let mut order: Vec<usize> = (0..passed.len()).collect();
+        order.sort_by_key(|&i| passed[i].0.is_none());
+        for k in 1..ORDER {
+            let mut at = DisplacementSeries::identity(f, ORDER);
+            for ((_, twist), q) in passed.iter().zip(&q) {
+                at = at.then(&DisplacementSeries::exp(f, twist, q));
+            }
+            let gap = at.inverse().then(goal).twist(k);
+            let twists: Vec<&Twist<Residue>> = order.iter().map(|&i| &passed[i].1).collect();
+            let more = combination(f, &twists, &gap)?;
+            for (&i, x) in order.iter().zip(more) {
+                q[i][k] = x;
+            }
+        }
+        Some(q)
+    }
+}
+
+/// Returns factors with which some twists add up to another, 0 for one that depends on those before it; `None` where there are none.
+fn combination(f: Field, twists: &[&Twist<Residue>], sum: &Twist<Residue>) -> Option<Vec<Residue>> {
+    let n = twists.len();
+    // Behind each twist its unit, negative: what reduces to nothing carries its factors there.
+    let mut span = Echelon::new(f);
+    for (i, twist) in twists.iter().enumerate() {
+        let mut row = twist.to_vec();
+        row.resize(6 + n, 0);
+        row[6 + i] = f.neg(f.one());
+        let mut left = row.clone();
+        span.reduce(&mut left);
+        if left[..6].iter().any(|&x| x != 0) {
+            span.insert(&row);
+        }
+    }
+    let mut left = sum.to_vec();
+    left.resize(6 + n, 0);
+    span.reduce(&mut left);
+    left[..6].iter().all(|&x| x == 0).then(|| left.split_off(6))
+}
