@@ -83,9 +83,9 @@ fn an_outcome_is_what_the_command_writes() {
         ),
         (
             "3-crr",
-            "--generic-only --top 4",
+            "--pose-only --top 4",
             Request {
-                generic_only: true,
+                pose_only: true,
                 list: List::Top(4),
                 ..request()
             },

@@ -19,6 +19,8 @@ mod none_at_once;
 mod order;
 mod self_stresses;
 mod suggest;
+mod symmetric_best;
+mod throughout;
 pub(crate) mod twin;
 mod usual_options;
 mod variants;

@@ -12,8 +12,8 @@ use crate::cli::terminal::memory;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::SearchWatch;
 use crate::format::{duration, grouped};
+use crate::score::outcome::Beside;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::WhyNone;
 use crate::score::request::{List, Method, Request};
 use crate::view::search::csv;
 use crate::view::search::json;
@@ -121,9 +121,9 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let request = a.request(args.seed)?;
     let mut outcome = SearchWatch::new(args.quiet).run(mechanism, &request)?;
     outcome.request.distinct |= a.tells_ideas(&outcome);
-    let none = &match a.format {
-        SearchFormat::Text | SearchFormat::Json => outcome.why_none(&interrupt::pending)?,
-        SearchFormat::Jsonl | SearchFormat::Csv => WhyNone::default(),
+    let beside = &match a.format {
+        SearchFormat::Text | SearchFormat::Json => outcome.beside(&interrupt::pending)?,
+        SearchFormat::Jsonl | SearchFormat::Csv => Beside::default(),
     };
     let done = output::to(a.output.as_deref(), |out| {
         let variants = outcome.variants_unless(&interrupt::pending);
@@ -132,10 +132,10 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
                 let width = output::width(a.output.as_deref());
                 let file = &a.file.file;
                 if request.list == List::All {
-                    text::write(out, &outcome, variants, none, file, width)?;
+                    text::write(out, &outcome, variants, beside, file, width)?;
                 } else {
                     let mut text = Vec::new();
-                    text::write(&mut text, &outcome, variants, none, file, width)?;
+                    text::write(&mut text, &outcome, variants, beside, file, width)?;
                     let text = a.file.with_loops(String::from_utf8(text)?);
                     write!(
                         out,
@@ -145,7 +145,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
                 }
             }
             SearchFormat::Json => {
-                json::write(out, &outcome, variants, none, Some(&seconds))?;
+                json::write(out, &outcome, variants, beside, Some(&seconds))?;
             }
             SearchFormat::Jsonl => json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => {

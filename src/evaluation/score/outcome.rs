@@ -5,16 +5,19 @@ pub mod pareto;
 mod proof;
 pub(in crate::score) mod ranked;
 pub mod ranking;
+pub mod symmetric;
 pub mod variant;
 pub mod why;
 
 use crate::score::outcome::ranking::RankedPool;
+use crate::score::outcome::symmetric::SymmetricBest;
 use crate::score::request::Request;
 use crate::score::request::prepare::LooksRounded;
 use crate::search::Search;
 use crate::search::answer::counts;
-use crate::search::answer::counts::{Counts, SearchCounts};
+use crate::search::answer::counts::Counts;
 use crate::search::answer::estimate::Estimate;
+use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::why_none;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::build::Diagrams;
@@ -65,13 +68,15 @@ pub struct Outcome {
     pub second: Option<SecondOpinion>,
 }
 
-/// What can be said where nothing was found; nothing where something was.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct WhyNone {
+/// What is told beside the variants: why there are none, and which are symmetric.
+#[derive(Debug, Default)]
+pub struct Beside {
     /// What easing one condition would leave.
     pub eased: Vec<(Relaxation, BigUint)>,
     /// What stands in the way of every variant.
     pub hopeless: Hopeless,
+    /// The cheapest symmetric redesigns of a symmetric mechanism.
+    pub symmetric: Option<SymmetricBest>,
 }
 
 impl Outcome {
@@ -261,14 +266,16 @@ impl Outcome {
         }
         Ok(why_none::hopeless(&self.search)?)
     }
-    /// What can be said where nothing was found, as far as there was time until `cancelled` said to end.
+
+    /// Returns what is told beside the variants, as far as there was time until `cancelled` said to end.
     ///
     /// # Errors
     /// Where the geometry has no exact image.
-    pub fn why_none(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<WhyNone, SearchError> {
-        Ok(WhyNone {
+    pub fn beside(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Beside, SearchError> {
+        Ok(Beside {
             eased: self.relaxations(cancelled)?,
             hopeless: self.hopeless()?,
+            symmetric: self.symmetric_best(cancelled)?,
         })
     }
 }

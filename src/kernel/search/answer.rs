@@ -14,6 +14,7 @@ pub(crate) mod least_freedoms;
 pub mod orbit_counts;
 pub mod place;
 pub(crate) mod proven_cheapest;
+pub mod search_counts;
 pub mod single_changes;
 pub(crate) mod variants_in_order;
 pub mod why_none;

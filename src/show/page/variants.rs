@@ -118,7 +118,7 @@ impl FoundColumns {
         Ok(FoundColumns {
             space: search.size().to_string(),
             determinate: r.found.determinate.total.to_string(),
-            admissible: r.found.admissible.total.to_string(),
+            admissible: r.found.listed_counts().total.to_string(),
             max_redundant: conditions.max_redundant,
             state: conditions.state.map(|s| s.state.index()),
             variables: search

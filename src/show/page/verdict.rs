@@ -7,6 +7,7 @@ use crate::score::outcome::variant::Variant;
 use crate::search::answer::k_best::Assignment;
 use crate::view::analysis::{Analysis, State};
 use crate::view::search::conditions::in_state;
+use crate::view::search::counts::where_kept;
 use crate::view::search::numeric;
 use crate::view::search::second_opinion;
 use crate::view::search::stopped_early::number;
@@ -139,7 +140,7 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
         .chain(&second_opinion::against(found))
         .map(|l| format!(". {l}"))
         .collect();
-    let (all, good) = (grouped(&size), &found.admissible.total);
+    let (all, good) = (grouped(&size), &found.listed_counts().total);
     let request = &found.search.conditions;
     let one = good.is_one();
     let goal = match (request.max_redundant, one) {
@@ -193,7 +194,7 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
         _ => format!("keep{s} the motion of links {}", list(&outputs)),
     };
     let all = [
-        request.keep_output.then_some(motion),
+        request.keep_output.then(|| motion + where_kept(r.found)),
         request
             .max_mobility
             .map(|w| format!("{have} W at most {w}")),

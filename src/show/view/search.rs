@@ -2,7 +2,7 @@
 
 pub(crate) mod conditions;
 pub mod costs;
-mod counts;
+pub(crate) mod counts;
 pub mod csv;
 pub mod data;
 pub(in crate::view) mod ideas;
@@ -11,6 +11,7 @@ pub(crate) mod numeric;
 pub(crate) mod ranking;
 pub(crate) mod second_opinion;
 pub(crate) mod stopped_early;
+pub(in crate::view) mod symmetric;
 pub(in crate::view) mod table;
 pub mod text;
 pub(crate) mod variant;

@@ -12,6 +12,7 @@ use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
 use ozols::search::answer::orbit_counts::orbit_counts;
+use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::question::conditions::{Conditions, Symmetry as Asked};
 use std::collections::{BTreeMap, BTreeSet};
 use tempfile::tempdir;
@@ -43,10 +44,9 @@ fn one_per_orbit(m: &Mechanism) -> BigUint {
     };
     let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
     let diagrams = search.build(&|| false, &mut |_| {});
-    let all = [(&diagrams.determinate, false), (&diagrams.admissible, true)];
-    let [determinate, admissible] = all.map(|(d, all)| search.counts(d, all));
-    let counted = orbit_counts(&search, (determinate, admissible), &|| false);
-    counted.unwrap().0.1.total
+    let all = SearchCounts::of(&search, &diagrams);
+    let (counted, _) = orbit_counts(&search, all, &|| false).unwrap();
+    counted.admissible.total
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
                 "csv" => {
                     let given = list.lines().count() - 1;
                     let end = format!(
-                        "stopped early (interrupted): {given} of 25761436 admissible variants given\n"
+                        "stopped early (interrupted): {given} of 21817629 admissible variants given\n"
                     );
                     assert!(text(&o.stderr).contains(&end), "{}", text(&o.stderr));
                     assert!(!list.contains('#'));

@@ -7,9 +7,10 @@ use ozols::redundancy::analysis::{Method, analyse};
 use serde_json::Value;
 use std::fs;
 
-const BALANCE: [&str; 7] = [
+const BALANCE: [&str; 8] = [
     "search",
     "roberval-balance",
+    "--pose-only",
     "--format",
     "json",
     "--all",
@@ -93,40 +94,17 @@ fn which_link_has_which_pin_matters() {
     assert_eq!(lucky("3-0"), 0);
 }
 
-/// Counts have the lucky variants in them, so that they are not given as if they had not.
 #[test]
-fn generic_only_is_refused_with_counts() {
-    let o = ozols(&["search", "watt-six-bar", "--count", "--generic-only"])
-        .output()
-        .unwrap();
-    assert_eq!(o.status.code(), Some(2));
-    assert!(o.stdout.is_empty());
-}
-
-#[test]
-fn generic_only_leaves_the_lucky_out_and_makes_room() {
-    let v = json(&[&BALANCE[..], &["--generic-only"]].concat());
-    assert_eq!(v["poses"]["asked"], 3);
-    let variants = v["variants"].as_array().unwrap();
-    assert_eq!((variants.len(), &v["variants_dropped"]), (14, &3.into()));
-    assert!(variants.iter().all(|x| x["lucky"] == false));
-    let positions: Vec<u64> = variants
-        .iter()
-        .map(|x| x["position"].as_u64().unwrap())
-        .collect();
-    assert!(positions.iter().copied().eq(1..=14));
-    let text = out(&[
+fn marked_variants_are_said_to_be_of_this_pose_only() {
+    let marked = out(&[
         "search",
         "roberval-balance",
-        "--generic-only",
+        "--pose-only",
+        "--poses",
+        "2",
         "--top",
-        "14",
+        "20",
     ]);
-    assert!(
-        text.contains("\n  14 ") && !text.contains("\n  15 "),
-        "{text}"
-    );
-    let marked = out(&["search", "roberval-balance", "--poses", "2", "--top", "20"]);
     for part in ["14 !", "! 14: in this pose only", "2 ways instead of 1"] {
         assert!(marked.contains(part), "no {part:?} in {marked}");
     }

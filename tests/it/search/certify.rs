@@ -5,6 +5,7 @@ use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
+use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::check::second_prime::{Verdict, build_both, compare, compare_counts, primes};
 use ozols::search::check::singular_values;
 use ozols::search::question::Question;
@@ -38,13 +39,8 @@ fn compared([one, other]: [&str; 2]) -> Result<(Verdict, [u64; 2]), String> {
     let (first, second) = (over(one, 0), over(other, 1));
     let searches: [&Question; 2] = [&first, &second];
     let (a, b) = build_both(searches, &|| false, &mut |_| {});
-    let counts = |s: &Search, d: &ozols::search::build::Diagrams| {
-        (
-            s.counts(&d.determinate, false),
-            s.counts(&d.admissible, true),
-        )
-    };
-    let by_counts = compare_counts(searches, [&counts(&first, &a), &counts(&second, &b)]);
+    let counts = [(&first, &a), (&second, &b)].map(|(s, d)| SearchCounts::of(s, d));
+    let by_counts = compare_counts(searches, counts.each_ref());
     let whole = compare(searches, [&a, &b], 10);
     assert_eq!(by_counts.is_ok(), whole.is_ok());
     match whole {

@@ -9,6 +9,7 @@ use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
 use ozols::search::answer::counts::Counts;
 use ozols::search::answer::orbit_counts;
+use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::check::brute;
 use ozols::search::check::second_prime::{Verdict, build_both, compare};
 use ozols::search::check::singular_values;
@@ -85,7 +86,7 @@ pub(crate) fn links_of(links: usize) -> String {
 }
 
 /// A random mechanism: links, joints, whether planar and in which plane, and a held link.
-fn random() -> impl Strategy<Value = String> {
+pub(crate) fn random() -> impl Strategy<Value = String> {
     let index = any::<prop::sample::Index>;
     (
         3usize..6,
@@ -322,7 +323,8 @@ proptest! {
         let orbit = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, orbit.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &orbit)?;
-        let ((determinate, admissible), _) = orbit_counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
+        let all = SearchCounts { determinate, admissible, lasting: None };
+        let (SearchCounts { determinate, admissible, .. }, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
         let first = |c: &Choice| *c <= image(c);
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&good, &first));
         prop_assert_eq!(&admissible.by_mobility_and_changes, &of(&better, &first));
@@ -369,7 +371,8 @@ proptest! {
         let one = Conditions { symmetry: Symmetry::OnePerOrbit, ..request };
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, one.clone()).unwrap();
         let (determinate, admissible, list) = searched(&m, &one)?;
-        let ((determinate, admissible), _) = orbit_counts::orbit_counts(&search, (determinate, admissible), &|| false).unwrap();
+        let all = SearchCounts { determinate, admissible, lasting: None };
+        let (SearchCounts { determinate, admissible, .. }, _) = orbit_counts::orbit_counts(&search, all, &|| false).unwrap();
         prop_assert_eq!(&determinate.by_mobility_and_changes, &of(&|c| orbit(c).first() == Some(c)));
         let orbits: BTreeSet<BTreeSet<Choice>> = list.iter().map(orbit).collect();
         prop_assert_eq!((orbits.len(), BigUint::from(list.len())), (list.len(), admissible.total));

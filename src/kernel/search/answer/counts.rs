@@ -3,7 +3,6 @@
 use crate::search::answer::count::{Count, Wide};
 use crate::search::answer::count_tables::totals;
 use crate::search::answer::keys::{Key, Kinds};
-use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 use num_bigint::BigUint;
@@ -28,49 +27,6 @@ pub struct Counts {
     pub by_freedoms: BTreeMap<u32, BigUint>,
     /// Whether the total alone is there, since the rest would take more than the memory there is.
     pub only_total: bool,
-}
-
-/// What a search counts.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct SearchCounts {
-    /// Variants without more redundant constraints than are allowed.
-    pub determinate: Counts,
-    /// Those of them that do all that is asked in the drawn pose.
-    pub admissible: Counts,
-    /// Those of them that do it throughout the motion of the mechanism as built; `None` where no motion is followed.
-    pub lasting: Option<Counts>,
-}
-
-impl SearchCounts {
-    /// Returns the counts of the variants of some diagrams.
-    #[must_use]
-    pub fn of(question: &Question, diagrams: &Diagrams) -> SearchCounts {
-        let of = |diagram: &Diagram, filter| counts(question, diagram, filter);
-        let ((determinate, admissible), lasting) = rayon::join(
-            || {
-                rayon::join(
-                    || of(&diagrams.determinate, false),
-                    || of(&diagrams.admissible, true),
-                )
-            },
-            || diagrams.lasting.as_ref().ok().map(|d| of(d, true)),
-        );
-        SearchCounts {
-            determinate,
-            admissible,
-            lasting,
-        }
-    }
-
-    /// Returns the counts of orbits of a symmetry, from all variants and the symmetric ones, as [`orbits`] has it.
-    pub(in crate::search) fn orbits(self, symmetric: &SearchCounts, order: usize) -> SearchCounts {
-        let lasting = self.lasting.zip(symmetric.lasting.as_ref());
-        SearchCounts {
-            determinate: self.determinate.orbits(&symmetric.determinate, order),
-            admissible: self.admissible.orbits(&symmetric.admissible, order),
-            lasting: lasting.map(|(all, kept)| all.orbits(kept, order)),
-        }
-    }
 }
 
 impl fmt::Display for Counts {

@@ -1,6 +1,6 @@
 //! Counts of orbits: of each variant and its images, one.
 
-use crate::search::answer::counts::SearchCounts;
+use crate::search::answer::search_counts::SearchCounts;
 use crate::search::build::build;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;

@@ -1,9 +1,8 @@
 //! Whether a variant is over the stroke what it is in the file's pose, or is so in that one lucky pose only.
 //!
 //! A redesign only adds freedoms, so whatever pose the present mechanism can take, each variant can take too. Poses are
-//! reached by Newton's method from steps along the present motion; a variant is put into each by the coordinates of the
-//! freedoms it shares with the present joints, closed again where its own freedoms are parametrised otherwise, and its
-//! rank is taken there by singular values.
+//! reached by Newton's method from steps along the present motion; each joint of a variant is then displaced as the present joint
+//! is, while its further freedoms rest, and the rank is taken there by singular values.
 //!
 //! What luck there may be: rank is largest at generic poses, so a variant with σ = 0 has it almost everywhere, but an
 //! idle motion that leaves the outputs at rest in the file's pose may move them in others; and the file's pose may be a
@@ -11,7 +10,8 @@
 
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
-use crate::model::joint_type::Freedom;
+use crate::geom::rigid::{RigidMotion, Twist};
+use crate::geom::vector::{add, scale, sub};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::motions;
@@ -21,23 +21,25 @@ use crate::search::question::Question;
 use crate::search::question::kept::driven_in_variant;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols_dense::{Matrix, singular_values};
+use ozols_dense::{Matrix, least_squares_pivoted, singular_values};
+use std::collections::BTreeMap;
 
 /// The largest coordinate of the first steps: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.2;
 /// How often a step that does not close is halved.
 const HALVINGS: u32 = 4;
 
-/// How far a joint's freedom has moved since the file's pose.
-type Coordinate = (JointId, Freedom, f64);
+/// Newton steps to the coordinates of a joint at most, and how near they must come.
+const NEWTON: usize = 30;
+const REACHED: f64 = 1e-10;
 
 /// Poses of the present mechanism besides the file's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stroke {
     /// Poses asked for.
     pub asked: usize,
-    /// Those reached, with the dimension of the kept links' present motion there.
-    poses: Vec<(Vec<Coordinate>, Option<i64>)>,
+    /// Those reached: the displacements over the present joints in the file's unit, and the dimension of the kept links' present motion.
+    poses: Vec<(Vec<(JointId, RigidMotion)>, Option<i64>)>,
 }
 
 impl Stroke {
@@ -109,10 +111,14 @@ pub fn stroke(
         #[allow(clippy::cast_precision_loss, reason = "a small number of poses")]
         let far = STEP * (1.0 + 0.37 * (i / 2) as f64) * if i % 2 == 0 { 1.0 } else { -1.0 };
         if let Some(q) = pose.beside(&here, &along, far, HALVINGS) {
-            let columns = pose.columns.iter().zip(&q);
-            let coordinates = columns.map(|(c, &x)| (c.joint, c.freedom, x)).collect();
+            let mut over = BTreeMap::new();
+            for (c, &x) in pose.columns.iter().zip(&q) {
+                let at = over.entry(c.joint).or_insert(RigidMotion::IDENTITY);
+                *at = at.then(&RigidMotion::exp(&c.twist, x));
+            }
+            let over = over.into_iter().map(|(j, d)| (j, scaled(&d, &pose, true)));
             let figures = figures_at(question, &question.mechanism, &pose.moved(&q));
-            poses.push((coordinates, figures.and_then(|f| f.output)));
+            poses.push((over.collect(), figures.and_then(|f| f.output)));
         }
     }
     Ok(Stroke {
@@ -136,8 +142,8 @@ pub(crate) fn over(
     let Ok(pose) = Pose::of_file(m, StateId::FREE) else {
         return out;
     };
-    for (coordinates, output) in &stroke.poses {
-        let Some(figures) = figures(question, m, &pose, coordinates) else {
+    for (over, output) in &stroke.poses {
+        let Some(figures) = figures(question, m, &pose, over) else {
             continue;
         };
         out.poses += 1;
@@ -157,35 +163,67 @@ pub(crate) fn over(
     out
 }
 
-/// The figures of a variant in a pose of the present mechanism; `None` where it cannot be put there.
-fn figures(question: &Question, m: &Mechanism, pose: &Pose, at: &[Coordinate]) -> Option<Figures> {
-    let moved = |joint: JointId, freedom: Freedom| {
-        let of = |f: Freedom| at.iter().find(|(j, g, _)| (*j, *g) == (joint, f));
-        // A thread is a turn with a slide that goes with it.
-        let screw = || match (freedom, of(Freedom::Screw)?.2) {
-            (Freedom::Rz, q) => Some(q),
-            (Freedom::Tz, q) => {
-                let pitch = question
-                    .mechanism
-                    .joints
-                    .get(joint.index())?
-                    .frame
-                    .pitch
-                    .to_f64();
-                Some(q * pitch / pose.length)
-            }
-            _ => None,
-        };
-        of(freedom).map(|c| c.2).or_else(screw).unwrap_or(0.0)
-    };
-    // Unloading joints come after all joints of the file and stay as they are.
-    let q: Vec<f64> = pose
-        .columns
-        .iter()
-        .map(|c| moved(c.joint, c.freedom))
-        .collect();
-    let q = pose.close(q, &[]).ok()?;
+/// Returns the figures of a variant in a pose of the present mechanism, whose joints there have these displacements; `None` where it
+/// cannot be put there. Freedoms that the present joints do not need rest.
+fn figures(
+    question: &Question,
+    m: &Mechanism,
+    pose: &Pose,
+    at: &[(JointId, RigidMotion)],
+) -> Option<Figures> {
+    let mut q = vec![0.0; pose.columns.len()];
+    for (joint, goal) in at {
+        let own: Vec<usize> = (0..pose.columns.len())
+            .filter(|&c| pose.columns[c].joint == *joint)
+            .collect();
+        let twists: Vec<Twist> = own.iter().map(|&c| pose.columns[c].twist).collect();
+        let found = coordinates(&twists, &scaled(goal, pose, false))?;
+        own.iter().zip(found).for_each(|(&c, x)| q[c] = x);
+    }
     figures_at(question, m, &pose.moved(&q))
+}
+
+/// Returns a displacement in the file's unit about its origin, given one in the lengths of a pose about its middle, or the other way
+/// round.
+fn scaled(of: &RigidMotion, pose: &Pose, to_file: bool) -> RigidMotion {
+    // x -> R x + t about the middle m in lengths L: t' = L t + m - R m, and back.
+    let arm = sub(pose.middle, of.direction(pose.middle));
+    let translation = if to_file {
+        add(scale(of.translation, pose.length), arm)
+    } else {
+        scale(sub(of.translation, arm), 1.0 / pose.length)
+    };
+    RigidMotion { translation, ..*of }
+}
+
+/// Returns coordinates of freedoms in series that make a displacement, by Newton steps; `None` where they do not come to it.
+fn coordinates(twists: &[Twist], goal: &RigidMotion) -> Option<Vec<f64>> {
+    let mut q = vec![0.0; twists.len()];
+    for _ in 0..NEWTON {
+        let mut at = RigidMotion::IDENTITY;
+        for (twist, &x) in twists.iter().zip(&q) {
+            at = at.then(&RigidMotion::exp(twist, x));
+        }
+        let left = at.inverse().then(goal);
+        let gap = [left.rotation_vector(), left.translation].concat();
+        if gap.iter().all(|x| x.abs() < REACHED) {
+            return Some(q);
+        }
+        if twists.is_empty() {
+            return None;
+        }
+        // A freedom's twist as it is after those behind it.
+        let mut behind = RigidMotion::IDENTITY;
+        let mut columns = vec![[0.0; 6]; twists.len()];
+        for ((column, twist), &x) in columns.iter_mut().zip(twists).zip(&q).rev() {
+            *column = behind.inverse().twist(twist);
+            behind = RigidMotion::exp(twist, x).then(&behind);
+        }
+        let matrix = Matrix::from_fn(6, columns.len(), |r, c| columns[c][r]);
+        let step = least_squares_pivoted(&matrix, &gap);
+        q.iter_mut().zip(step).for_each(|(x, s)| *x += s);
+    }
+    None
 }
 
 /// The figures of a mechanism, the present one or a realized variant, in a pose of it.
@@ -260,7 +298,12 @@ mod tests {
         m.joints[1].joint_type = JointType::Cylindrical;
         let pose = Pose::of_file(&m, StateId::FREE).unwrap();
         let output = |turns: f64| {
-            let at = [(JointId::new(1), Freedom::Screw, turns * turn)];
+            // The screw climbs along its axis, in the file's unit.
+            let climbed = RigidMotion {
+                translation: [0.0, 0.0, turns * high],
+                ..RigidMotion::turn([0.0, 0.0, 1.0], turns * turn)
+            };
+            let at = [(JointId::new(1), climbed)];
             figures(&question, &m, &pose, &at).unwrap().output
         };
         assert_eq!([0.0, 1.0, 2.0].map(output), [Some(4), Some(3), Some(4)]);

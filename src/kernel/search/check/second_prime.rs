@@ -7,7 +7,8 @@
 //! and every sample drawn from them is equal too.
 
 use crate::format::plural;
-use crate::search::answer::counts::{Counts, SearchCounts};
+use crate::search::answer::counts::Counts;
+use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::variants_in_order::cheapest;
 use crate::search::build::Diagrams;
 use crate::search::build::build_in;

@@ -138,7 +138,7 @@ fn verdict(outcome: &Outcome) -> String {
 }
 
 /// Where variants keep the motion, so far as that is known.
-fn where_kept(outcome: &Outcome) -> &'static str {
+pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
     match &outcome.lasting {
         Ok(_) => " throughout the motion",
         Err(PoseOnly::Rests | PoseOnly::Numeric) => "",
@@ -151,9 +151,7 @@ fn in_the_pose(outcome: &Outcome) -> Option<String> {
     let here = &outcome.admissible.total;
     match &outcome.lasting {
         Ok(_) if here.is_zero() => None,
-        Ok(lasting) if lasting.total == *here => {
-            Some("as many in the drawn pose: none loses the motion beside it".to_owned())
-        }
+        Ok(lasting) if lasting.total == *here => None,
         Ok(lasting) => {
             let lost = here - &lasting.total;
             let lose = if lost.is_one() { "loses" } else { "lose" };

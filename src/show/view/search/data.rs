@@ -5,6 +5,7 @@ use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::rounded::verdict::RankVerdict;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
+use crate::score::outcome::symmetric::SymmetricBest;
 use crate::score::request::prepare::LooksRounded;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::build::Diagrams;
@@ -13,6 +14,7 @@ use crate::view::search::numeric::NumericData;
 use crate::view::search::ranking::RankingData;
 use crate::view::search::second_opinion::{SecondOpinionData, certainty};
 use crate::view::search::stopped_early::EstimateData;
+use crate::view::search::symmetric::{self, SymmetricData};
 use num_bigint::BigUint;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -283,6 +285,8 @@ pub(crate) struct TailData<'a> {
     variants_lucky: usize,
     #[serde(flatten)]
     none: Option<NoneData<'a>>,
+    /// Of a symmetric mechanism the cheapest symmetric redesign for each number of redundant constraints left.
+    symmetric: Option<Vec<SymmetricData<'a>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     seconds: Option<f64>,
 }
@@ -341,6 +345,7 @@ impl<'a> TailData<'a> {
     pub(crate) fn new(
         variants: &Variants<'_>,
         none: Option<NoneData<'a>>,
+        symmetric: Option<&'a SymmetricBest>,
         seconds: Option<f64>,
     ) -> Self {
         let summary = variants.summary();
@@ -355,6 +360,7 @@ impl<'a> TailData<'a> {
             variants_posed: summary.posed,
             variants_lucky: summary.lucky,
             none,
+            symmetric: symmetric.map(symmetric::data),
             seconds,
         }
     }

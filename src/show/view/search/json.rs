@@ -3,7 +3,7 @@
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
-use crate::score::outcome::{Outcome, WhyNone};
+use crate::score::outcome::{Beside, Outcome};
 use crate::search::diagram::Stop;
 use crate::view::contract;
 use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
@@ -30,7 +30,7 @@ pub fn each<'a, E>(
     })
 }
 
-/// Writes an outcome with its variants as one value; `none` is told where there is none, `seconds` where somebody has a
+/// Writes an outcome with its variants and what is told beside them as one value; `seconds` where somebody has a
 /// clock, asked once all else is written. No other key differs between runs.
 ///
 /// # Errors
@@ -39,7 +39,7 @@ pub fn write(
     out: &mut dyn Write,
     outcome: &Outcome,
     mut variants: Variants<'_>,
-    none: &WhyNone,
+    beside: &Beside,
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
@@ -53,9 +53,9 @@ pub fn write(
     })?;
     let m = &outcome.search.mechanism;
     let empty = outcome.listed_counts().total.is_zero();
-    let none = empty.then(|| NoneData::new(m, &none.eased, &none.hopeless));
+    let none = empty.then(|| NoneData::new(m, &beside.eased, &beside.hopeless));
     let seconds = seconds.map(|s| s());
-    let tail = TailData::new(&variants, none, seconds);
+    let tail = TailData::new(&variants, none, beside.symmetric.as_ref(), seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")

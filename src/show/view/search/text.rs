@@ -4,7 +4,7 @@ use crate::format::{grouped, plural, plural_of};
 use crate::robots::is_description;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
-use crate::score::outcome::{Outcome, WhyNone};
+use crate::score::outcome::{Beside, Outcome};
 use crate::score::request::{List, Request};
 use crate::search::answer::why_none::Relaxation;
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
@@ -14,6 +14,7 @@ use crate::view::search::data::condition;
 use crate::view::search::ideas;
 use crate::view::search::ranking;
 use crate::view::search::stopped_early;
+use crate::view::search::symmetric;
 use crate::view::search::table::{contours, variants};
 use crate::view::search::why;
 use crate::view::terminal::layout::fit;
@@ -25,7 +26,7 @@ use std::io;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Writes an outcome with its variants as they come, and what to do next; `none` is told where there is none. `file` is the argument that named the mechanism.
+/// Writes an outcome with its variants as they come, what is told beside them, and what to do next. `file` is the argument that named the mechanism.
 ///
 /// # Errors
 /// Those of the writer.
@@ -33,12 +34,12 @@ pub fn write(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
-    none: &WhyNone,
+    beside: &Beside,
     file: &str,
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
-    let why = hopeless(&outcome.search.mechanism, &none.hopeless);
+    let why = hopeless(&outcome.search.mechanism, &beside.hopeless);
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = order(outcome);
@@ -61,6 +62,9 @@ pub fn write(
             write!(out, "{}", fit(&why::text(outcome, &shown), width))?;
         }
         footnotes.extend(block.iter().filter_map(note));
+    }
+    if let Some(symmetric) = &beside.symmetric {
+        write!(out, "{}", fit(&symmetric::text(symmetric), width))?;
     }
     let summary = given.summary();
     write_notes(out, &summary, footnotes, width)?;
@@ -85,7 +89,7 @@ pub fn write(
         if given > 0 {
             next_of_some(outcome, changed, file)
         } else {
-            next_of_none(outcome, none, file)
+            next_of_none(outcome, beside, file)
         }
     };
     write!(out, "{}", next_commands::text(&steps, width))
@@ -235,7 +239,7 @@ fn flags(outcome: &Outcome) -> String {
 }
 
 /// What to do next where no variant is given: ask for some, or ease a condition.
-fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextCommand> {
+fn next_of_none(outcome: &Outcome, beside: &Beside, file: &str) -> Vec<NextCommand> {
     let flags = &flags(outcome);
     let asked = outcome.listed_counts().total.is_zero() && !outcome.admissible.total.is_zero();
     if asked {
@@ -254,7 +258,7 @@ fn next_of_none(outcome: &Outcome, none: &WhyNone, file: &str) -> Vec<NextComman
             "the cheapest of them",
         )];
     }
-    let steps = none.eased.iter().map(|(how, n)| {
+    let steps = beside.eased.iter().map(|(how, n)| {
         let (condition, to) = condition(*how);
         let name = format!("--{condition}");
         let flag = match (how, to) {

@@ -1,7 +1,8 @@
 //! A variant as data, by the same contract as the search it is of.
 
+use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::variant::Variant;
+use crate::score::outcome::variant::{Change, Variant};
 use crate::search::answer::freedom_patterns;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::check::singular_values::Opinion;
@@ -31,9 +32,20 @@ pub struct VariantData<'a> {
 
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
-enum Cost {
+pub(in crate::view) enum Cost {
     Whole(i64),
     Part(f64),
+}
+
+impl Cost {
+    /// Returns a cost given in thousandths.
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    pub(in crate::view) fn of(milli: i64) -> Cost {
+        match milli % 1000 {
+            0 => Cost::Whole(milli / 1000),
+            _ => Cost::Part(milli as f64 / 1000.0),
+        }
+    }
 }
 
 /// σ of a contour when they are added in the order given, with the range over all orders of these contours.
@@ -46,10 +58,22 @@ struct ContourData {
 }
 
 #[derive(Debug, Serialize)]
-struct ChangeData<'a> {
+pub(in crate::view) struct ChangeData<'a> {
     joint: &'a str,
     from: String,
     to: String,
+}
+
+impl<'a> ChangeData<'a> {
+    /// Returns changes of a mechanism.
+    pub(in crate::view) fn of(m: &'a Mechanism, changes: Vec<Change>) -> Vec<ChangeData<'a>> {
+        let one = |c: Change| ChangeData {
+            joint: &m.joints[c.joint].id,
+            from: c.from,
+            to: c.to,
+        };
+        changes.into_iter().map(one).collect()
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -92,13 +116,9 @@ impl<'a> VariantData<'a> {
     pub fn new(outcome: &'a Outcome, v: &Variant<'a>) -> Self {
         let mechanism = &outcome.search.mechanism;
         let opinion = v.second().opinion();
-        let milli = v.cost_milli();
         VariantData {
             position: v.position(),
-            cost: match milli % 1000 {
-                0 => Cost::Whole(milli / 1000),
-                _ => Cost::Part(v.cost()),
-            },
+            cost: Cost::of(v.cost_milli()),
             mobility: v.mobility(),
             redundant: v.redundant(),
             external_redundant: v.external_redundant(),
@@ -114,15 +134,7 @@ impl<'a> VariantData<'a> {
                     greatest: share.range.1,
                 })
                 .collect(),
-            changes: v
-                .changes()
-                .into_iter()
-                .map(|c| ChangeData {
-                    joint: &mechanism.joints[c.joint].id,
-                    from: c.from,
-                    to: c.to,
-                })
-                .collect(),
+            changes: ChangeData::of(mechanism, v.changes()),
             idea: v.idea().map(|i| IdeaData {
                 variants: i.variants.to_string(),
                 exact: outcome.is_exact(),

@@ -1,0 +1,114 @@
+//! The cheapest redesigns of a symmetric mechanism that are symmetric themselves, for each number of redundant constraints left.
+
+use crate::model::mechanism::StateId;
+use crate::redundancy::figures;
+use crate::score::outcome::Outcome;
+use crate::score::request::List;
+
+use crate::search::Search;
+use crate::search::answer::k_best::Assignment;
+use crate::search::diagram::Stop;
+use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
+use std::collections::BTreeSet;
+
+/// Redundant constraints left at most.
+const LEFT: u32 = 2;
+/// Nodes of a diagram at most: images chosen alike make small diagrams.
+const NODES: usize = 20_000;
+/// Variants looked at for one that leaves just so many redundant constraints.
+const LOOKED_AT: usize = 10_000;
+
+/// The cheapest symmetric redesigns.
+#[derive(Debug)]
+pub struct SymmetricBest {
+    /// The search for the symmetric variants, with joints that are images of each other as one variable.
+    pub search: Search,
+    /// For 0, 1 and 2 redundant constraints left the cheapest, where there is one and it could be found.
+    pub best: Vec<(u32, Assignment)>,
+    /// Why no symmetric redesign leaves no redundant constraint and adds no idle motion; `None` where one does, or the reason is another.
+    pub odd: Option<OddFreedoms>,
+}
+
+/// Freedoms that joints chosen alike cannot add.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OddFreedoms {
+    /// How many would have to be added.
+    pub needed: i64,
+    /// How many joints at a time they are added at.
+    pub at_a_time: i64,
+}
+
+impl Outcome {
+    /// Returns the cheapest symmetric redesigns, where the mechanism is symmetric and all variants were asked for in the free state.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value in the field.
+    ///
+    /// # Complexity
+    /// Three searches with joints that are images of each other as one.
+    pub fn symmetric_best(
+        &self,
+        should_cancel: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<SymmetricBest>, SearchError> {
+        let asked = &self.search.conditions;
+        let plain = asked.symmetry == Symmetry::All
+            && asked.max_redundant == 0
+            && asked.state.is_none()
+            && asked.keep_output
+            && self.is_exact()
+            && self.request.list != List::Nothing
+            && !self.search.mechanism.search.locks_drives;
+        if !plain {
+            return Ok(None);
+        }
+        let mut best = Vec::new();
+        let mut whole = None;
+        for left in (0..=LEFT).rev() {
+            let conditions = Conditions {
+                symmetry: Symmetry::SymmetricOnly,
+                max_redundant: left,
+                throughout: asked.throughout && left == 0,
+                nodes: NODES,
+                cheapest: 0,
+                estimate: None,
+                ..asked.clone()
+            };
+            let (field, mechanism) = (self.search.exact.clone(), self.search.mechanism.clone());
+            let search = match Search::new(field, mechanism, conditions) {
+                Err(SearchError::Mirror(_)) => return Ok(None),
+                other => other?,
+            };
+            let diagrams = search.build(should_cancel, &mut |_| {});
+            let just = |v: &Assignment| v.key.internal() == left;
+            if diagrams.admissible.stop == Stop::Exhausted {
+                let found = search.cheapest(&diagrams, LOOKED_AT).find(just);
+                best.extend(found.map(|v| (left, v)));
+            }
+            whole = Some(search);
+        }
+        best.reverse();
+        let Some(search) = whole else {
+            return Ok(None);
+        };
+        let odd = odd_freedoms(&search)?;
+        Ok(Some(SymmetricBest { search, best, odd }))
+    }
+}
+
+/// Returns how many freedoms a redesign adds that leaves no redundant constraint and no further motion, where joints that are chosen
+/// alike cannot add so many because each change is made at several of them.
+fn odd_freedoms(search: &Search) -> Result<Option<OddFreedoms>, SearchError> {
+    let present = figures(&search.mechanism, StateId::FREE)?;
+    let needed = i64::try_from(present.redundant).unwrap_or(i64::MAX);
+    let choices = search
+        .space
+        .variables
+        .iter()
+        .filter(|v| v.choices.len() > 1);
+    let sizes: BTreeSet<usize> = choices.map(|v| v.joints.len()).collect();
+    let at_a_time = match sizes.into_iter().collect::<Vec<_>>()[..] {
+        [size] if size > 1 => i64::try_from(size).unwrap_or(i64::MAX),
+        _ => return Ok(None),
+    };
+    Ok((needed % at_a_time != 0).then_some(OddFreedoms { needed, at_a_time }))
+}

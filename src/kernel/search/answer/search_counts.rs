@@ -1,0 +1,49 @@
+//! What a search counts: determinate variants, admissible ones, and those that keep the motion throughout.
+
+use crate::search::answer::counts::{Counts, counts};
+use crate::search::build::Diagrams;
+use crate::search::diagram::Diagram;
+use crate::search::question::Question;
+
+/// What a search counts.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct SearchCounts {
+    /// Variants without more redundant constraints than are allowed.
+    pub determinate: Counts,
+    /// Those of them that do all that is asked in the drawn pose.
+    pub admissible: Counts,
+    /// Those of them that do it throughout the motion of the mechanism as built; `None` where no motion is followed.
+    pub lasting: Option<Counts>,
+}
+
+impl SearchCounts {
+    /// Returns the counts of the variants of some diagrams.
+    #[must_use]
+    pub fn of(question: &Question, diagrams: &Diagrams) -> SearchCounts {
+        let of = |diagram: &Diagram, filter| counts(question, diagram, filter);
+        let ((determinate, admissible), lasting) = rayon::join(
+            || {
+                rayon::join(
+                    || of(&diagrams.determinate, false),
+                    || of(&diagrams.admissible, true),
+                )
+            },
+            || diagrams.lasting.as_ref().ok().map(|d| of(d, true)),
+        );
+        SearchCounts {
+            determinate,
+            admissible,
+            lasting,
+        }
+    }
+
+    /// Returns the counts of orbits of a symmetry, from all variants and the symmetric ones, by Burnside's lemma.
+    pub(in crate::search) fn orbits(self, symmetric: &SearchCounts, order: usize) -> SearchCounts {
+        let lasting = self.lasting.zip(symmetric.lasting.as_ref());
+        SearchCounts {
+            determinate: self.determinate.orbits(&symmetric.determinate, order),
+            admissible: self.admissible.orbits(&symmetric.admissible, order),
+            lasting: lasting.map(|(all, kept)| all.orbits(kept, order)),
+        }
+    }
+}

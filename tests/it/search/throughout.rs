@@ -1,0 +1,195 @@
+//! Redesigns that keep the motion throughout, against every variant looked at one by one and against poses reached numerically.
+//!
+//! The poses share nothing with the power series: they are reached by Newton's method in doubles, and ranks there are singular values.
+
+use crate::common::{json, ozols};
+use crate::search::varied::random;
+use ozols::file::text::mechanism_from_str;
+use ozols::model::mechanism::Mechanism;
+use ozols::redundancy::analysis::exact_field;
+use ozols::search::Search;
+use ozols::search::check::brute::every_variant;
+use ozols::search::check::other_poses::stroke;
+use ozols::search::check::singular_values::certify;
+use ozols::search::question::conditions::{Conditions, Symmetry};
+use ozols::search::question::throughout::PoseOnly;
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+/// Returns a search over the prime that is the `nth`, which is asked what lasts.
+fn search(m: &Mechanism, nth: usize, symmetry: Symmetry) -> Search {
+    let conditions = Conditions {
+        throughout: true,
+        symmetry,
+        ..Conditions::default()
+    };
+    Search::new(exact_field(m, nth).unwrap(), m, conditions).unwrap()
+}
+
+/// Returns how many variants are admissible in the drawn pose and throughout, counted on the diagram; over both primes, and one by one
+/// where there are few.
+fn counted(m: &Mechanism) -> [u64; 2] {
+    let both = [0, 1].map(|nth| {
+        let search = search(m, nth, Symmetry::All);
+        let diagrams = search.build(&|| false, &mut |_| {});
+        let lasting = diagrams.lasting.as_ref().unwrap();
+        let here = search.counts(&diagrams.admissible, true);
+        let lasting = search.counts(lasting, true);
+        if nth == 0 && search.size() <= 4096u32.into() {
+            let all = every_variant(&search).unwrap();
+            assert_eq!(all.admissible, here, "{}", m.name);
+            assert_eq!(all.lasting.as_ref(), Some(&lasting), "{}", m.name);
+        }
+        [here, lasting]
+    });
+    assert_eq!(
+        both[0], both[1],
+        "{}: another prime, another direction",
+        m.name
+    );
+    let [here, lasting] = &both[0];
+    [here, lasting].map(|c| u64::try_from(&c.total).unwrap())
+}
+
+/// Asserts that just those variants last whose figures are the same in other poses.
+fn assert_as_in_poses(m: &Mechanism, poses: usize) {
+    let search = search(m, 0, Symmetry::All);
+    let diagrams = search.build(&|| false, &mut |_| {});
+    let lasting: BTreeSet<Vec<usize>> = search
+        .cheapest(&diagrams, usize::MAX / 4)
+        .map(|v| v.choices)
+        .collect();
+    let here = Search::new(exact_field(m, 0).unwrap(), m, Conditions::default()).unwrap();
+    let diagrams = here.build(&|| false, &mut |_| {});
+    let all = here.cheapest(&diagrams, 1000).collect();
+    let stroke = stroke(&here, poses, 1, &|| false).unwrap();
+    for v in certify(&here, all, false, Some(&stroke), &|| false) {
+        let Some(lucky) = v.stroke.and_then(|s| s.lucky()) else {
+            continue;
+        };
+        let lasts = lasting.contains(&v.variant.choices);
+        assert_eq!(lasts, !lucky, "{}: {:?} {:?}", m.name, v.variant, v.stroke);
+    }
+}
+
+/// The counts of a trial in another language, over another prime field, that looked at every variant.
+#[test]
+fn counts_along_the_motion_are_those_of_the_trial() {
+    for (name, here, lasting) in [
+        ("watt-six-bar", 325, 269),
+        ("sarrus", 6, 5),
+        ("four-bar", 14, 14),
+        ("two-bennetts", 357, 306),
+        ("altmann", 21, 14),
+        ("hooke-double", 16, 4),
+        ("oldham", 5, 5),
+        ("3-crr", 12, 12),
+        ("roberval-balance", 17, 14),
+        ("watt-straight-line", 17, 14),
+        ("stephenson-six-bar", 281, 281),
+        ("hart-inversor", 190, 190),
+        ("scissor-lift", 82, 82),
+        ("geared-five-bar", 31, 31),
+        ("lever-slot-gripper", 16, 16),
+        ("peaucellier", 6_791, 6_179),
+        ("tripteron", 47, 27),
+        ("parallelogram-gripper", 146_260, 144_436),
+        ("gripper-10", 25_761_436, 21_817_629),
+    ] {
+        let m = ozols::built_in(name).unwrap();
+        assert_eq!(counted(&m), [here, lasting], "{name}");
+    }
+}
+
+#[test]
+fn variants_last_whose_figures_are_the_same_in_other_poses() {
+    for name in [
+        "watt-six-bar",
+        "sarrus",
+        "altmann",
+        "hooke-double",
+        "tripteron",
+        "4-upu",
+        "exechon",
+        "delta",
+        "two-bennetts",
+        "roberval-balance",
+        "oldham",
+        "geared-five-bar",
+        "five-bar",
+    ] {
+        assert_as_in_poses(&ozols::built_in(name).unwrap(), 4);
+    }
+}
+
+/// None of the variants of the gripper that move in one way alone loses its motion, and every symmetric count is of symmetric ones.
+#[test]
+fn the_gripper_loses_no_variant_with_one_motion() {
+    let v = json(&["search", "gripper-10", "--count", "--format", "json"]);
+    assert_eq!(v["lasting_by_mobility"]["1"], "7150020");
+    assert_eq!(v["admissible_by_mobility"]["1"], "7150020");
+    let args = ["search", "gripper-10", "--count", "--format", "json"];
+    let orbits = json(&[&args[..], &["--one-per-orbit"]].concat());
+    let symmetric = json(&[&args[..], &["--symmetric"]].concat());
+    let count = |v: &serde_json::Value| -> u64 { v["lasting"].as_str().unwrap().parse().unwrap() };
+    assert_eq!(2 * count(&orbits), count(&v) + count(&symmetric));
+}
+
+/// What is not followed says why.
+#[test]
+fn a_motion_that_is_not_followed_is_said_to_be() {
+    let why = |name: &str, change: fn(&mut Conditions)| {
+        let m = ozols::built_in(name).unwrap();
+        let mut conditions = Conditions {
+            throughout: true,
+            ..Conditions::default()
+        };
+        change(&mut conditions);
+        let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
+        search.pose_only().cloned()
+    };
+    let none = |_: &mut Conditions| {};
+    assert_eq!(why("four-bar", none), None);
+    assert_eq!(
+        why("four-bar", |c| c.throughout = false),
+        Some(PoseOnly::Asked)
+    );
+    assert_eq!(
+        why("four-bar", |c| c.max_redundant = 1),
+        Some(PoseOnly::Redundant)
+    );
+    assert_eq!(
+        why("four-bar", |c| c.keep_output = false),
+        Some(PoseOnly::OutputChange)
+    );
+    assert_eq!(why("octahedron", none), Some(PoseOnly::Rests));
+    assert_eq!(why("parallelogram-flat", none), Some(PoseOnly::Stopped(2)));
+    // Its platform shakes to third order before it is stopped.
+    assert_eq!(why("wren-platform", none), Some(PoseOnly::Stopped(4)));
+}
+
+#[test]
+fn the_drawn_pose_alone_is_searched_where_that_is_asked() {
+    let args = ["search", "sarrus", "--format", "json", "--all"];
+    let [all, pose] = [&[][..], &["--pose-only"]].map(|more| json(&[&args[..], more].concat()));
+    let given = |v: &serde_json::Value| v["variants"].as_array().unwrap().len();
+    assert_eq!([given(&all), given(&pose)], [5, 6]);
+    assert_eq!(all["admissible"], pose["admissible"]);
+    assert_eq!(all["lasting"], "5");
+    assert!(pose["lasting"].is_null() && pose["pose_only"].is_string());
+    let o = ozols(&["search", "sarrus"]).output().unwrap();
+    let text = String::from_utf8(o.stdout).unwrap();
+    assert!(text.starts_with("sarrus: 5 of 3,125 variants"), "{text}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 200, ..ProptestConfig::default() })]
+    #[test]
+    fn random_mechanisms_are_as_one_by_one_and_in_poses(text in random()) {
+        let m = mechanism_from_str("varied.toml", &text).unwrap();
+        let search = search(&m, 0, Symmetry::All);
+        prop_assume!(search.pose_only().is_none() && search.size() <= 256u32.into());
+        counted(&m);
+        assert_as_in_poses(&m, 3);
+    }
+}
