@@ -71,7 +71,7 @@ pub(in crate::cli) struct Which {
     #[arg(long, value_name = "LINK")]
     hold: Vec<String>,
     /// Use these of the file's options everywhere, by name: revolute,spherical. Joint types that the file does not list are
-    /// offered in the joints' own frames.
+    /// offered in the joints' own frames; `any` offers every set of freedoms there.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     options: Vec<String>,
     /// Options allowed at a joint: 2-3=revolute,spherical (repeatable). The present joint always is.

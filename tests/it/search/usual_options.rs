@@ -219,3 +219,86 @@ fn an_unsymmetric_mechanism_is_refused() {
     assert_eq!(o.status.code(), Some(2));
     assert!(o.stdout.is_empty());
 }
+
+/// A hinge has 31 sets of freedoms with its own turn in them, that of a joint which is not there left out. The count of the gripper's is
+/// one of a hand-written enumeration of subsets.
+#[test]
+fn every_set_of_freedoms_is_offered_by_one_word() {
+    let args = [
+        "search",
+        "gripper-10",
+        "--options",
+        "any",
+        "--count",
+        "--format",
+        "json",
+        "-q",
+    ];
+    let (found, _) = answer(&[&args[..], &["--pose-only", "--drives", "free"]].concat());
+    assert_eq!(found["space"], 31u64.pow(12).to_string());
+    assert_eq!(count(&found["admissible"]), 91_391_212);
+    // In a plane a hinge may slide along either axis, and what slides along both is not there.
+    let (found, _) = answer(&[
+        "search",
+        "gripper-10-planar",
+        "--options",
+        "any",
+        "--count",
+        "--format",
+        "json",
+        "-q",
+    ]);
+    assert_eq!(found["space"], 3u64.pow(12).to_string());
+    let o = ozols(&[
+        "search",
+        "four-bar",
+        "--options",
+        "any",
+        "--no-distinct",
+        "--top",
+        "3",
+    ])
+    .output()
+    .unwrap();
+    assert!(
+        String::from_utf8(o.stderr)
+            .unwrap()
+            .starts_with("note: every set of freedoms")
+    );
+}
+
+/// The sets are those of an enumeration: each subset of the six freedoms with the turn of the hinge in it, whatever is left out.
+#[test]
+fn every_subset_of_freedoms_is_a_choice() {
+    let args = [
+        "search",
+        "four-bar",
+        "--options",
+        "any",
+        "--all",
+        "--allow-output-change",
+        "--max-redundant",
+        "9",
+        "--format",
+        "jsonl",
+        "-q",
+        "--check",
+        "none",
+    ];
+    let o = ozols(&args).output().unwrap();
+    let text = String::from_utf8(o.stdout).unwrap();
+    let mut at_one = std::collections::BTreeSet::new();
+    for line in text.lines() {
+        let v: Value = serde_json::from_str(line).unwrap();
+        let changes = v["changes"]
+            .as_array()
+            .map(Vec::as_slice)
+            .unwrap_or_default();
+        if let [one] = changes
+            && one["joint"] == "1-2"
+        {
+            at_one.insert(one["to"].as_str().unwrap().to_owned());
+        }
+    }
+    assert_eq!(at_one.len(), 30);
+}

@@ -1,7 +1,8 @@
-//! Why a redesign helps, and what it costs in stiffness: what each change lets go, what was redundant there, what is still
-//! held, what stays as it is, and what joints bear.
+//! Why a redesign helps, and what it costs in stiffness: what each change lets go, which redundant constraints it removes, what is
+//! still held, which joints stay as they are, and what joints bear.
 
 use crate::closure::Closure;
+use crate::closure::contour::Contour;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, cross, length, real, unit};
 use crate::model::joint_type::{Freedom, JointType};
@@ -17,7 +18,11 @@ use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::Outcome;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
+use crate::search::check::variant_mechanism::realize;
+use crate::search::question::conditions::Conditions;
 use crate::search::question::preference::is_rod;
+use itertools::Itertools;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The side load where a file has none. `[N]`
@@ -44,8 +49,17 @@ pub struct LetGo {
     pub to: Option<JointType>,
     /// In how many directions forces and moments are still held.
     pub holds: (usize, usize),
-    /// The contours it is on that had redundant constraints: their joints, and how many.
-    pub contours: Vec<(Vec<JointId>, usize)>,
+}
+
+/// Redundant constraints of a contour that had some, before and after a redesign.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Removed {
+    /// The name of the contour.
+    pub contour: String,
+    /// How many it had as built.
+    pub of: usize,
+    /// How many are left.
+    pub left: usize,
 }
 
 /// Why a redesign helps.
@@ -53,10 +67,10 @@ pub struct LetGo {
 pub struct Why {
     /// What each change lets go, in file order.
     pub lets: Vec<LetGo>,
-    /// Driven joints that stay as they are.
-    pub drives: Vec<JointId>,
-    /// Pivots in the frame that stay as they are, drives aside.
-    pub pivots: Vec<JointId>,
+    /// What it removes, contour by contour; `None` where a coordinate has no exact value.
+    pub removes: Option<Vec<Removed>>,
+    /// The joints that stay as they are.
+    pub unchanged: Vec<JointId>,
     /// The joints that bear most of what they may, by force and by moment; `None` where the loads have no equilibrium, or nothing is
     /// known of them.
     pub peaks: Option<[Peak; 2]>,
@@ -66,7 +80,8 @@ pub struct Why {
 #[derive(Debug)]
 pub struct Whys<'o> {
     outcome: &'o Outcome,
-    contours: Vec<(Vec<JointId>, usize)>,
+    /// The contours that have redundant constraints as built.
+    contours: Vec<(Contour, usize)>,
     /// The same search under the side load, where the file has no load.
     side: Option<Search>,
 }
@@ -78,13 +93,15 @@ impl<'o> Whys<'o> {
         let (search, m) = (&outcome.search, &outcome.search.mechanism);
         let closure = Closure::new(search.field(), m, StateId::FREE);
         let all = closure.map_or(Vec::new(), |c| shares(search.field(), &c));
-        let redundant = all.into_iter().filter(|s| s.redundant > 0).map(|s| {
-            let joints = s.contour.joints.iter().map(|(j, _)| *j);
-            (joints.collect(), s.redundant)
-        });
+        let redundant = all.into_iter().filter(|s| s.redundant > 0);
+        let redundant = redundant.map(|s| (s.contour, s.redundant));
         let side = (!is_loaded(m)).then(|| {
             let loaded = Arc::new(pressed_aside(m));
-            Search::new(search.field().clone(), loaded, search.conditions.clone()).ok()
+            let conditions = Conditions {
+                throughout: false,
+                ..search.conditions.clone()
+            };
+            Search::new(search.field().clone(), loaded, conditions).ok()
         });
         Whys {
             outcome,
@@ -134,18 +151,40 @@ impl<'o> Whys<'o> {
         lets.sort_by_key(|l: &LetGo| l.joint);
         let kept = chosen().filter(|(v, c)| **c == 0 && !v.external);
         let kept: Vec<JointId> = kept.flat_map(|(v, _)| v.joints.clone()).collect();
-        let of = |wanted: &dyn Fn(JointId) -> bool| {
-            let mut some: Vec<JointId> = kept.iter().copied().filter(|&j| wanted(j)).collect();
-            some.sort_unstable();
-            some
-        };
-        let is_driven = |j: JointId| m.joints[j].drive;
         Why {
             lets,
-            drives: of(&is_driven),
-            pivots: of(&|j| !is_driven(j) && m.joints[j].links.contains(&m.frame())),
+            removes: self.removes(v),
+            unchanged: kept.into_iter().sorted_unstable().collect(),
             peaks: None,
         }
+    }
+
+    /// Returns what a redesign removes: the difference of what contours have as built and with it.
+    fn removes(&self, v: &Assignment) -> Option<Vec<Removed>> {
+        let search = &self.outcome.search;
+        let m = &*search.mechanism;
+        let mut left: Vec<(BTreeSet<JointId>, usize)> = Vec::new();
+        if v.key.internal() > 0 {
+            let realized = realize(search, &v.choices);
+            let closure = Closure::new(search.field(), &realized, StateId::FREE).ok()?;
+            // Joints put in series come after those of the mechanism.
+            let of_mechanism = |c: &Contour| -> BTreeSet<JointId> {
+                let joints = c.joints.iter().map(|(j, _)| *j);
+                joints.filter(|j| j.index() < m.joints.len()).collect()
+            };
+            let all = shares(search.field(), &closure).into_iter();
+            left.extend(all.map(|s| (of_mechanism(&s.contour), s.redundant)));
+        }
+        let removed = |(contour, of): &(Contour, usize)| {
+            let own: BTreeSet<JointId> = contour.joints.iter().map(|(j, _)| *j).collect();
+            let left = left.iter().find(|(joints, _)| *joints == own);
+            Removed {
+                contour: contour.name(m),
+                of: *of,
+                left: left.map_or(0, |(_, n)| *n),
+            }
+        };
+        Some(self.contours.iter().map(removed).collect())
     }
 
     fn let_go(&self, joint: JointId, to: &JointOption, series: Option<&JointOption>) -> LetGo {
@@ -181,12 +220,6 @@ impl<'o> Whys<'o> {
             to: (series.is_none() && JointType::NAMED.contains(&to.joint_type))
                 .then(|| to.joint_type.clone()),
             holds: (3 - slides.min(3), 3 - turns.min(3)),
-            contours: self
-                .contours
-                .iter()
-                .filter(|(c, _)| c.contains(&joint))
-                .cloned()
-                .collect(),
         }
     }
 }

@@ -93,7 +93,9 @@ impl Request {
             })?);
         }
         let known = KnownOptions::of(mechanism);
-        known.check(&self.options, "--options")?;
+        if !self.wants_any() {
+            known.check(&self.options, "--options")?;
+        }
         let mut rules = OptionRule::read(&self.allow, true, mechanism, &known)?;
         rules.extend(OptionRule::read(&self.forbid, false, mechanism, &known)?);
         for &l in &held {
@@ -106,7 +108,7 @@ impl Request {
         for (id, joint) in mechanism.joint_ids().zip(&mut mechanism.joints) {
             let kept = |name: &String| {
                 let mut own = rules.iter().filter(|r| r.joint == id);
-                (self.options.is_empty() || self.options.contains(name))
+                (self.options.is_empty() || self.wants_any() || self.options.contains(name))
                     && own.all(|r| r.leaves(name))
             };
             let mut place = 0;

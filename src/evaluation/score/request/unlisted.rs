@@ -1,5 +1,6 @@
 //! Joint types that a request names and the file does not list: offered in the joints' own frames.
 
+use crate::closure::coupling::in_plane;
 use crate::file::read::coupling::{coupled_freedoms, keeps_coupled};
 use crate::file::read::resolve::contains;
 use crate::model::joint_type::{Freedom, JointType};
@@ -14,7 +15,42 @@ pub(in crate::score) fn types() -> impl Iterator<Item = &'static JointType> {
     JointType::NAMED.iter().filter(fits)
 }
 
+/// The word for every set of freedoms.
+const ANY: &str = "any";
+
 impl Request {
+    /// Returns whether every set of freedoms is asked for.
+    pub(in crate::score) fn wants_any(&self) -> bool {
+        self.options.iter().any(|name| name == ANY)
+    }
+
+    /// Offers every set of freedoms in its own frame at each joint that may change, but that of a joint which is not there: 30 beside
+    /// the present one at a hinge in space. A set that is a type has its name, another the names of its freedoms, as in `rz+tx`.
+    fn offer_any(&self, mechanism: &mut Mechanism) {
+        use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
+        let all: Vec<JointId> = mechanism.joint_ids().collect();
+        for id in all
+            .into_iter()
+            .filter(|&j| is_changeable(&mechanism.joints[j]))
+        {
+            let of_space = [Rx, Ry, Rz, Tx, Ty, Tz].into_iter();
+            let own: Vec<Freedom> = of_space.filter(|&f| in_plane(mechanism, id, f)).collect();
+            for set in own
+                .iter()
+                .copied()
+                .powerset()
+                .filter(|set| set.len() < own.len())
+            {
+                let alike = |t: &&JointType| {
+                    let freedoms = t.freedoms();
+                    freedoms.len() == set.len() && set.iter().all(|f| freedoms.contains(f))
+                };
+                let named = types().find(alike).cloned();
+                offer(mechanism, id, &named.unwrap_or(JointType::Custom(set)));
+            }
+        }
+    }
+
     /// Offers the usual types at every joint where neither the file nor the request offers any. `tell` hears which.
     pub(in crate::score) fn offer_usual(
         &self,
@@ -55,6 +91,10 @@ impl Request {
         mechanism: &mut Mechanism,
         tell: &mut dyn FnMut(String),
     ) -> Result<(), RequestError> {
+        if self.wants_any() {
+            self.offer_any(mechanism);
+            tell("note: every set of freedoms is tried at all joints without a drive, in the joints' own frames".to_owned());
+        }
         // The first option of a joint is what it is now, and offers nothing.
         let listed: Vec<String> = {
             let offered = mechanism
@@ -116,8 +156,11 @@ fn is_changeable(joint: &Joint) -> bool {
 /// Offers a type at a joint, if it fits there, and returns whether it is offered.
 fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool {
     let joint = &mechanism.joints[id];
-    if joint.joint_type == *joint_type || joint.options.iter().any(|o| o.name == joint_type.name())
-    {
+    let name = match joint_type {
+        JointType::Custom(set) => set.iter().map(|f| f.name()).join("+"),
+        named => named.name().to_owned(),
+    };
+    if joint.joint_type == *joint_type || joint.options.iter().any(|o| o.name == name) {
         return true;
     }
     let fits = fits(mechanism, id, joint_type);
@@ -128,9 +171,10 @@ fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool
                 .options
                 .push(JointOption::in_frame_of(joint, &joint.joint_type));
         }
-        joint
-            .options
-            .push(JointOption::in_frame_of(joint, joint_type));
+        joint.options.push(JointOption {
+            name,
+            ..JointOption::in_frame_of(joint, joint_type)
+        });
     }
     fits
 }

@@ -4,7 +4,7 @@ use crate::format::brief;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::score::evaluation::terms::Peak;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::why::{LetGo, SIDE_LOAD, Why, Whys};
+use crate::score::outcome::why::{LetGo, Removed, SIDE_LOAD, Why, Whys};
 use crate::search::answer::k_best::Assignment;
 use crate::terms::PairWords;
 use itertools::Itertools;
@@ -13,14 +13,18 @@ use std::collections::BTreeMap;
 
 /// Ideas that a text says why of: the first. Data have all.
 const TOLD: usize = 3;
+/// Loads below this part of the largest are not told.
+const RESIDUAL: f64 = 1e-9;
 
 /// Why an idea helps, as data.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct WhyData {
     /// One row for each change.
     lets: Vec<LetData>,
-    /// Driven joints and pivots in the frame that stay as they are.
-    stays: Vec<String>,
+    /// Redundant constraints of each contour that had some, as built and left.
+    removes: Vec<RemovedData>,
+    /// Joints that stay as they are.
+    unchanged: Vec<String>,
     /// What presses: "file", or the default side load in words.
     under: Option<String>,
     peak_force: Option<PeakData>,
@@ -38,14 +42,13 @@ struct LetData {
     /// Directions in which forces, and moments, are still held.
     holds_forces: usize,
     holds_moments: usize,
-    /// Redundant constraints of the contours it is on, as built.
-    was: Vec<WasData>,
 }
 
 #[derive(Debug, Clone, Serialize)]
-struct WasData {
-    contour: Vec<String>,
+struct RemovedData {
+    contour: String,
     redundant: usize,
+    left: usize,
 }
 
 /// In N or N·m, at a joint, and as part of what its type bears.
@@ -72,7 +75,13 @@ pub(in crate::view) fn teller<'w>(
         let w: Why = why(idea);
         WhyData {
             lets: w.lets.iter().map(|l| LetData::new(m, l, &words)).collect(),
-            stays: ids(m, w.drives.iter().chain(&w.pivots)),
+            removes: w
+                .removes
+                .into_iter()
+                .flatten()
+                .map(RemovedData::from)
+                .collect(),
+            unchanged: ids(m, &w.unchanged),
             under: w.peaks.map(|_| under.clone()),
             peak_force: w.peaks.map(|[force, _]| PeakData::new(m, &force)),
             peak_moment: w.peaks.map(|[_, moment]| PeakData::new(m, &moment)),
@@ -96,16 +105,28 @@ impl LetData {
             hardware: pair.and_then(|p| p.hardware.first().cloned()),
             holds_forces: l.holds.0,
             holds_moments: l.holds.1,
-            was: l
-                .contours
-                .iter()
-                .map(|(joints, redundant)| WasData {
-                    contour: ids(m, joints),
-                    redundant: *redundant,
-                })
-                .collect(),
         }
     }
+}
+
+impl From<Removed> for RemovedData {
+    fn from(r: Removed) -> Self {
+        RemovedData {
+            contour: r.contour,
+            redundant: r.of,
+            left: r.left,
+        }
+    }
+}
+
+/// Returns what is removed, contour by contour: "2 of 2 redundant constraints of loop 0-1-2-3, 1 of 3 of loop 1-2-4-5".
+fn removed(of: &[RemovedData]) -> String {
+    let one = |(i, r): (usize, &RemovedData)| {
+        let removed = r.redundant.saturating_sub(r.left);
+        let what = if i == 0 { " redundant constraints" } else { "" };
+        format!("{removed} of {}{what} of loop {}", r.redundant, r.contour)
+    };
+    of.iter().enumerate().map(one).join(", ")
 }
 
 impl PeakData {
@@ -148,7 +169,7 @@ fn motions(l: &LetGo) -> String {
     }
 }
 
-/// The first ideas with what each lets go, its hardware, what was redundant there, what stays, and what joints bear.
+/// The first ideas with what each lets go, its hardware, what it removes, what stays, and what joints bear.
 pub(in crate::view) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
     let whys = Whys::new(outcome);
     let why = teller(&whys, &outcome.search.mechanism);
@@ -209,11 +230,11 @@ impl WhyData {
         let lets = lets.map(|l| (l.lets.as_str(), format!("{} at {}", l.part, l.joint)));
         let parts = self.lets.iter();
         let parts = parts.filter_map(|l| Some((l.hardware.as_deref()?, l.joint.clone())));
-        let was = self.lets.iter().flat_map(|l| &l.was);
-        let was = was.map(|x| (x.redundant, x.contour.join(", "))).unique();
-        let was = was.map(|(n, joints)| format!("σ = {n} of {joints}"));
+        // What is far below the largest is rounding.
+        let both = [&self.peak_force, &self.peak_moment].into_iter().flatten();
+        let least = RESIDUAL * both.map(|p| p.value).fold(0.0, f64::max);
         let peak = |p: &Option<PeakData>, unit: &str| {
-            let p = p.as_ref().filter(|p| p.value > 0.0)?;
+            let p = p.as_ref().filter(|p| p.value > least)?;
             Some(format!("{} {unit} at {}", brief(p.value), p.joint))
         };
         let peaks = [peak(&self.peak_force, "N"), peak(&self.peak_moment, "N·m")];
@@ -221,11 +242,8 @@ impl WhyData {
         let rows = [
             ("lets parts".to_owned(), grouped(lets, ": ")),
             ("hardware:".to_owned(), grouped(parts, " at ")),
-            (
-                "takes what was out of true:".to_owned(),
-                was.into_iter().join("; "),
-            ),
-            ("as they are:".to_owned(), self.stays.join(", ")),
+            ("removes:".to_owned(), removed(&self.removes)),
+            ("unchanged:".to_owned(), self.unchanged.join(", ")),
             (
                 format!("hardest used under {under}:"),
                 peaks.into_iter().flatten().join(", "),

@@ -1,4 +1,4 @@
-//! What an idea says of itself: what it lets go, of which parts, what was redundant there, what stays, and what joints bear.
+//! What an idea says of itself: what it lets go, of which parts, what it removes, what stays, and what joints bear.
 
 use crate::common::{json, near, out};
 use crate::search::ideas::toggle::gripper;
@@ -21,7 +21,12 @@ fn a_side_load_on_a_jaw_is_borne_by_its_pivot() {
     fs::write(&path, gripper("prismatic", false, options)).unwrap();
     let w = why(&[path.to_str().unwrap()], 0);
     assert_eq!(w["under"], "10 N on each output, along its hinge");
-    assert_eq!(w["stays"], value!(["P", "C1", "C2"]));
+    let unchanged = w["unchanged"].as_array().unwrap();
+    assert!(
+        ["P", "C1", "C2"]
+            .iter()
+            .all(|j| unchanged.contains(&value!(j)))
+    );
     near(w["peak_force"]["value"].as_f64().unwrap(), 10.0, 1e-9);
     let arm = 1e-3 * f64::hypot(30.0 - 6.0, 25.0 - 30.0) / 2.0;
     near(
@@ -52,9 +57,34 @@ fn each_change_says_what_it_lets_go_and_what_was_redundant_there() {
         (&ball["holds_forces"], &ball["holds_moments"]),
         (&value!(3), &value!(0))
     );
-    let was = value!([{ "contour": ["0-1", "1-2", "2-3", "3-0"], "redundant": 3 }]);
-    assert_eq!((&bush["was"], &ball["was"]), (&was, &was));
-    assert_eq!(w["stays"], value!(["0-1", "3-0"]));
+    let removes = value!([{ "contour": "0-1-2-3", "redundant": 3, "left": 0 }]);
+    assert_eq!(w["removes"], removes);
+    assert_eq!(w["unchanged"], value!(["0-1", "3-0"]));
+}
+
+/// A redesign that leaves a redundant constraint does not say that it removes it.
+#[test]
+fn what_is_left_is_not_said_to_be_removed() {
+    for left in 0..3 {
+        let most = left.to_string();
+        let found = json(&[
+            "search",
+            "gripper-10",
+            "--max-redundant",
+            &most,
+            "--distinct",
+            "--top",
+            "40",
+            "--format",
+            "json",
+        ]);
+        for v in found["variants"].as_array().unwrap() {
+            let removes = v["idea"]["why"]["removes"].as_array().unwrap();
+            let sum = |key: &str| -> u64 { removes.iter().map(|r| r[key].as_u64().unwrap()).sum() };
+            assert_eq!(sum("redundant"), 11);
+            assert_eq!(sum("left"), v["redundant"].as_u64().unwrap(), "{v}");
+        }
+    }
 }
 
 #[test]
@@ -78,10 +108,10 @@ fn the_text_says_why_of_the_first_three_ideas() {
         "{text}"
     );
     assert!(
-        text.contains("takes what was out of true: σ = 2 of 0-1, 1-2, 2-3, 3-0;"),
+        text.contains("removes: 2 of 2 redundant constraints of loop 0-1-2-3, 3 of 3 of loop "),
         "{text}"
     );
-    assert!(text.contains("as they are: 0-1, 3-0, 7-0\n"), "{text}");
+    assert!(text.contains("unchanged: 0-1, 3-0, 2-4, 4-5, "), "{text}");
     // What changes nothing lets nothing go.
     assert!(!out(&["search", "gripper-10-planar"]).contains(" lets parts"));
 }
