@@ -8,6 +8,7 @@ pub mod duplicate_constraints;
 pub(crate) mod external;
 pub mod idle_animation;
 mod joint_wrench;
+pub mod link_motion;
 pub mod local_mobility;
 pub mod measured;
 pub mod motion;

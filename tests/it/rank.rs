@@ -7,6 +7,7 @@ mod exact_numbers;
 mod finite_traps;
 mod groups;
 mod least_rows;
+mod link_motion;
 mod mobility;
 mod planes;
 mod poses;

@@ -9,12 +9,13 @@ use crate::cli::option::named::File;
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::output;
 use crate::file::read::workload::motion::stroke;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::rank::method::registry;
 use crate::rank::method::{MobilityMethod, RankOfJ};
 use crate::rank::rounded::verdict::verdict;
 use crate::rank::stroke::request::AskedStroke;
-use crate::redundancy::analysis::{Method, analyse};
+use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::view::analysis::link_motions::LinkMotionData;
 use crate::view::analysis::mobility::ByMethod;
 use crate::view::analysis::next::next as steps;
 use crate::view::analysis::suggestions;
@@ -25,6 +26,7 @@ use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail, ensure};
 use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use itertools::Itertools;
 use std::path::PathBuf;
 
 /// A rank method by its name, listed the surest first.
@@ -51,6 +53,12 @@ pub(in crate::cli) struct Analyze {
     /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
     #[arg(long)]
     pub(in crate::cli) planar: bool,
+    /// Also tell what this link can do; several may be given.
+    #[arg(long, value_name = "LINK")]
+    link: Vec<String>,
+    /// What --link moves relative to, in place of the frame: the connectivity of both.
+    #[arg(long, value_name = "LINK", requires = "link")]
+    relative_to: Option<String>,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(in crate::cli) format: TextOrJson,
@@ -110,10 +118,11 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
         })?;
     }
     let advice = suggestions::advise(&mechanism, &states, &found)?;
-    let analysis = Analysis {
+    let mut analysis = Analysis {
         stroke,
         ..Analysis::new(&mechanism, &found, &advice)
     };
+    add_motions(&mut analysis, &mechanism, &found, a)?;
     let next = steps(&mechanism, &analysis.states, &a.file.file);
     write(a, &analysis, &next)
 }
@@ -130,6 +139,29 @@ fn states_asked(mechanism: &Mechanism, a: &Analyze) -> anyhow::Result<Vec<StateI
             mechanism.states.join(", ")
         ),
     })
+}
+
+/// Adds what the links that were asked about can do.
+fn add_motions<'m>(
+    analysis: &mut Analysis<'m>,
+    mechanism: &'m Mechanism,
+    found: &[StateAnalysis],
+    a: &Analyze,
+) -> anyhow::Result<()> {
+    let link = |name: &String| {
+        let known = || mechanism.links.iter().map(|l| l.id.as_str()).join(", ");
+        let found = mechanism.link(name);
+        found.with_context(|| format!("{} has no link {name}; it has: {}", mechanism.name, known()))
+    };
+    let links: Vec<LinkId> = a.link.iter().map(link).collect::<Result<_, _>>()?;
+    let to = a.relative_to.as_ref().map(link).transpose()?;
+    let to = to.unwrap_or(mechanism.frame());
+    for (state, found) in analysis.states.iter_mut().zip(found) {
+        let all = found.link_motions(mechanism, &links, to)?;
+        let all = all.iter().map(|of| LinkMotionData::new(mechanism, of));
+        state.motions.extend(all);
+    }
+    Ok(())
 }
 
 /// Refuses a tolerance that is none, or that the method has no use for.

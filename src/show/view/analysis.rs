@@ -3,6 +3,7 @@
 mod drives;
 pub(crate) mod idle;
 pub(crate) mod least_rows;
+pub mod link_motions;
 pub mod mechanism;
 pub mod mobility;
 pub mod next;
@@ -18,6 +19,7 @@ use crate::redundancy::local_mobility;
 use crate::redundancy::stress::{JointWrench, StressVerdict};
 use crate::view::analysis::drives::DriveFault;
 use crate::view::analysis::least_rows::{ContourRows, least_rows};
+use crate::view::analysis::link_motions::LinkMotionData;
 use crate::view::analysis::suggestions::{Advice, Suggestions};
 use crate::view::assumed::{as_read, kind};
 use crate::view::claims::about;
@@ -79,6 +81,8 @@ pub struct State<'a> {
     pub least_rows: Vec<ContourRows>,
     pub per_contour: Vec<Contour<'a>>,
     pub external: Option<External>,
+    /// What each output can do, and other links that were asked about.
+    pub motions: Vec<LinkMotionData<'a>>,
     pub idle: Vec<Idle<'a>>,
     pub self_stresses: Vec<SelfStress<'a>>,
     pub left_out: Vec<LeftOut<'a>>,
@@ -263,6 +267,11 @@ impl<'a> State<'a> {
                 counted,
                 agree: counted.redundant == counted.by_rank,
             }),
+            motions: s
+                .outputs
+                .iter()
+                .map(|of| LinkMotionData::new(mechanism, of))
+                .collect(),
             idle: s.idle.iter().map(|i| Idle::new(mechanism, i)).collect(),
             self_stresses: s
                 .self_stresses

@@ -8,6 +8,9 @@ use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use std::fmt::Write;
 
+/// Motions told at most; JSON has all.
+const MOTIONS: usize = 6;
+
 impl Analysis<'_> {
     /// The whole analysis but for its stroke, fitted to a terminal of `width` columns where one is given.
     #[must_use]
@@ -40,6 +43,12 @@ impl State<'_> {
         self.write_counts(out)?;
         for fault in &self.drives {
             writeln!(out, "  {}", fault.text)?;
+        }
+        for motion in self.motions.iter().take(MOTIONS) {
+            writeln!(out, "  motion of {}", motion.line())?;
+        }
+        if let Some(more) = self.motions.len().checked_sub(MOTIONS).filter(|n| *n > 0) {
+            writeln!(out, "  and of {more} more outputs (--format json has all)")?;
         }
         for motion in self.idle_motions() {
             writeln!(out, "  idle: {motion}")?;

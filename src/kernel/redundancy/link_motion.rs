@@ -1,0 +1,208 @@
+//! What a link can do in a pose: its translations, rotations and screw motions, named as an engineer names them.
+//!
+//! The twists that a link can have relative to another form a subspace of dimension 0 to 6. Its pure translations are a subspace of that,
+//! and what is left has as many independent axes of rotation. Where all these axes meet, their common point is told; a single axis has a
+//! line and a pitch.
+//!
+//! # Sources
+//! Subspaces of twists and their types: Hunt, "Kinematic Geometry of Mechanisms", 1978, chapter 12.
+
+use crate::closure::tree::path_from_frame;
+use crate::geom::exact::ExactError;
+use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
+use crate::motion::pose::{FLAT, Pose};
+use crate::rank::finite::local_dimension::motions;
+use ozols_dense::{Matrix, svd};
+
+/// Freedoms of a mechanism at most: a larger one has its singular vectors computed only where somebody asks for them.
+const FREEDOMS: usize = 400;
+
+/// The motion that a link can have relative to another one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkMotion {
+    /// The link.
+    pub link: LinkId,
+    /// What it moves relative to.
+    pub relative_to: LinkId,
+    /// Orthonormal directions of its pure translations.
+    pub slides: Vec<Vector>,
+    /// Its other motions, one for each independent axis of rotation.
+    pub turns: Vec<Turning>,
+    /// The point in the file's unit where all axes of two or three rotations meet; `None` where they do not, or where translations make
+    /// any point as good as another.
+    pub meet: Option<Vector>,
+}
+
+/// A rotation, or a screw motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turning {
+    /// The axis, of unit length.
+    pub axis: Vector,
+    /// The point of the axis nearest to the middle of the mechanism, in the file's unit.
+    pub point: Vector,
+    /// Translation along the axis in one turn, in the file's unit.
+    pub lead: f64,
+}
+
+impl LinkMotion {
+    /// Returns how many independent motions there are.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.slides.len() + self.turns.len()
+    }
+
+    /// Returns the twists (ω; v) about the origin in the file's unit: translations first.
+    #[must_use]
+    pub fn twists(&self) -> Vec<[f64; 6]> {
+        let slides = self
+            .slides
+            .iter()
+            .map(|s| [0.0, 0.0, 0.0, s[0], s[1], s[2]]);
+        let turns = self.turns.iter().map(|t| {
+            let along = scale(t.axis, t.lead / std::f64::consts::TAU);
+            let [w, v] = [t.axis, add(cross(t.point, t.axis), along)];
+            [w[0], w[1], w[2], v[0], v[1], v[2]]
+        });
+        slides.chain(turns).collect()
+    }
+}
+
+/// Returns the motions of some links relative to one in a state of a mechanism that has so many motions; nothing where singular values
+/// find another number of these, or where the mechanism is large.
+///
+/// # Errors
+/// Where a coordinate has no value.
+///
+/// # Complexity
+/// One singular value decomposition of J, and one of 6 rows for each link.
+pub fn link_motions(
+    mechanism: &Mechanism,
+    state: StateId,
+    links: &[LinkId],
+    relative_to: LinkId,
+    mobility: usize,
+) -> Result<Vec<LinkMotion>, ExactError> {
+    let pose = Pose::of_file(mechanism, state)?;
+    if pose.columns.len() > FREEDOMS {
+        return Ok(Vec::new());
+    }
+    let kernel = motions(&pose);
+    if kernel.ncols() != mobility {
+        return Ok(Vec::new());
+    }
+    let twists = |link: LinkId| -> Matrix {
+        let path = path_from_frame(mechanism, state, link);
+        let mut out = Matrix::zeros(6, kernel.ncols());
+        for (c, column) in pose.columns.iter().enumerate() {
+            let Some((_, forward)) = path.iter().find(|(j, _)| *j == column.joint) else {
+                continue;
+            };
+            let sign = if *forward { 1.0 } else { -1.0 };
+            for (k, t) in column.twist.iter().enumerate() {
+                for w in 0..kernel.ncols() {
+                    out[(k, w)] += sign * t * kernel[(c, w)];
+                }
+            }
+        }
+        out
+    };
+    let base = twists(relative_to);
+    let of = |&link: &LinkId| {
+        let own = twists(link);
+        let relative = Matrix::from_fn(6, own.ncols(), |r, c| own[(r, c)] - base[(r, c)]);
+        named(&pose, link, relative_to, &relative)
+    };
+    Ok(links.iter().filter_map(of).collect())
+}
+
+/// Returns a span of twists in the lengths of a pose and about its middle as a motion; `None` where singular values do not converge.
+fn named(pose: &Pose, link: LinkId, relative_to: LinkId, span: &Matrix) -> Option<LinkMotion> {
+    let mut out = LinkMotion {
+        link,
+        relative_to,
+        slides: Vec::new(),
+        turns: Vec::new(),
+        meet: None,
+    };
+    let columns = span.ncols();
+    let size = (0..columns)
+        .map(|c| norm(&column(span, c)))
+        .fold(0.0, f64::max);
+    if size < FLAT {
+        return Some(out);
+    }
+    let part = |from: usize| Matrix::from_fn(3, columns, |r, c| span[(from + r, c)] / size);
+    let (turning, shifting) = (part(0), part(3));
+    let turns = svd(&turning)?;
+    let rank = turns.values.iter().filter(|&&s| s > FLAT).count();
+    // What does not turn slides.
+    let still = turns.null_space(rank);
+    let slides = svd(&shifting.times(&still))?;
+    let many = slides.values.iter().filter(|&&s| s > FLAT).count();
+    out.slides = (0..many).map(|c| vector(&slides.u, c)).collect();
+    let across = |v: Vector| {
+        out.slides
+            .iter()
+            .fold(v, |v, s| sub(v, scale(*s, dot(v, *s))))
+    };
+    let each: Vec<[Vector; 2]> = (0..rank)
+        .map(|i| {
+            let along = turns.v.cols(i..i + 1);
+            let by = 1.0 / turns.values[i];
+            let v = vector(&shifting.times(&along), 0);
+            [vector(&turns.u, i), across(scale(v, by))]
+        })
+        .collect();
+    if rank >= 2 {
+        out.meet = meeting(&each, &across).map(|p| placed(pose, p));
+    }
+    out.turns = each.iter().map(|[w, v]| turning_of(pose, *w, *v)).collect();
+    Some(out)
+}
+
+/// Returns the rotation or screw motion of a twist with an axis of unit length.
+fn turning_of(pose: &Pose, axis: Vector, v: Vector) -> Turning {
+    let pitch = dot(axis, v);
+    let pitch = if pitch.abs() < FLAT { 0.0 } else { pitch };
+    Turning {
+        axis,
+        point: placed(pose, cross(axis, v)),
+        lead: pitch * std::f64::consts::TAU * pose.length,
+    }
+}
+
+/// Returns a place in the file's unit.
+fn placed(pose: &Pose, p: Vector) -> Vector {
+    add(scale(p, pose.length), pose.middle)
+}
+
+/// Returns the point about which all these twists are rotations, up to translations that are there; `None` where there is none, or more
+/// than one.
+fn meeting(twists: &[[Vector; 2]], across: &dyn Fn(Vector) -> Vector) -> Option<Vector> {
+    // v = c × ω for each: three equations, linear in c.
+    let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let matrix = Matrix::from_fn(3 * twists.len(), 3, |r, c| {
+        across(cross(units[c], twists[r / 3][0]))[r % 3]
+    });
+    let right = Matrix::from_fn(3 * twists.len(), 1, |r, _| twists[r / 3][1][r % 3]);
+    let found = svd(&matrix)?;
+    if found.rank(FLAT) < 3 {
+        return None;
+    }
+    let c = vector(&found.least_norm(3, &right), 0);
+    let off = |[w, v]: &[Vector; 2]| length(sub(across(cross(c, *w)), *v));
+    twists.iter().all(|t| off(t) < FLAT.sqrt()).then_some(c)
+}
+
+fn column(m: &Matrix, c: usize) -> Vec<f64> {
+    (0..m.nrows()).map(|r| m[(r, c)]).collect()
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn vector(m: &Matrix, c: usize) -> Vector {
+    [0, 1, 2].map(|r| m[(r, c)])
+}

@@ -1,0 +1,133 @@
+//! What links can do, in words and as data.
+
+use crate::format::brief;
+use crate::geom::vector::{Vector, cross};
+use crate::model::mechanism::Mechanism;
+use crate::redundancy::link_motion::LinkMotion;
+use serde::Serialize;
+
+/// A component of a direction, or a part of a length, below this is rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// The motion of a link relative to another one.
+#[derive(Debug, Clone, Serialize)]
+pub struct LinkMotionData<'a> {
+    link: &'a str,
+    relative_to: &'a str,
+    /// How many independent motions it has.
+    dimension: usize,
+    /// All that in words.
+    text: String,
+    /// A basis of its twists (ω; v) about the origin, in the file's unit of length.
+    twists: Vec<[f64; 6]>,
+}
+
+impl<'a> LinkMotionData<'a> {
+    /// Returns a motion as data.
+    #[must_use]
+    pub fn new(mechanism: &'a Mechanism, of: &LinkMotion) -> Self {
+        LinkMotionData {
+            link: &mechanism.links[of.link].id,
+            relative_to: &mechanism.links[of.relative_to].id,
+            dimension: of.dimension(),
+            text: words(mechanism, of),
+            twists: of.twists().into_iter().map(|t| t.map(clean)).collect(),
+        }
+    }
+
+    /// Returns the line about it: "p relative to 0: three translations".
+    #[must_use]
+    pub(super) fn line(&self) -> String {
+        format!(
+            "{} relative to {}: {}",
+            self.link, self.relative_to, self.text
+        )
+    }
+}
+
+/// Returns a motion in words: "three translations and rotation about z".
+fn words(mechanism: &Mechanism, of: &LinkMotion) -> String {
+    if of.dimension() == 6 {
+        return "every motion".to_owned();
+    }
+    let slides = match of.slides[..] {
+        [] => None,
+        [s] => Some(format!("translation along {}", direction(s))),
+        [a, b] => Some(format!(
+            "two translations, square to {}",
+            direction(cross(a, b))
+        )),
+        _ => Some("three translations".to_owned()),
+    };
+    let parts: Vec<String> = slides.into_iter().chain(turns(mechanism, of)).collect();
+    match parts.len() {
+        0 => "none, it rests".to_owned(),
+        _ => parts.join(" and "),
+    }
+}
+
+/// Returns the rotations and screw motions in words.
+fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
+    let unit = mechanism.length_unit.symbol;
+    let at = |p: Vector| format!("through {} {unit}", place(p));
+    Some(match (&of.turns[..], of.meet) {
+        ([], _) => return None,
+        ([t], _) => {
+            let along = direction(t.axis);
+            // Translations across the axis move it anywhere.
+            let somewhere = of.slides.len() >= 2;
+            let place = if somewhere {
+                String::new()
+            } else {
+                format!(" {}", at(t.point))
+            };
+            if t.lead == 0.0 {
+                format!("rotation about {along}{place}")
+            } else {
+                format!(
+                    "screw motion along {along}{place}, lead {} {unit}",
+                    brief(t.lead)
+                )
+            }
+        }
+        ([a, b], Some(p)) => {
+            let across = direction(cross(a.axis, b.axis));
+            format!("two rotations with axes {}, square to {across}", at(p))
+        }
+        (_, Some(p)) => format!("three rotations, all axes {}", at(p)),
+        ([a, b], None) => {
+            let across = direction(cross(a.axis, b.axis));
+            format!("two rotations with axes square to {across}")
+        }
+        _ => "three rotations".to_owned(),
+    })
+}
+
+/// Returns a number without its rounding.
+fn clean(x: f64) -> f64 {
+    let near = x.round();
+    if (x - near).abs() < ROUNDING {
+        near + 0.0
+    } else {
+        x
+    }
+}
+
+/// Returns a direction, either way along it: "z", "(0.6, 0.8, 0)".
+fn direction(d: Vector) -> String {
+    let d = d.map(clean);
+    let first = d.iter().find(|x| **x != 0.0).copied().unwrap_or(1.0);
+    let d = d.map(|x| clean(x * first.signum()));
+    match d {
+        [1.0, 0.0, 0.0] => "x".to_owned(),
+        [0.0, 1.0, 0.0] => "y".to_owned(),
+        [0.0, 0.0, 1.0] => "z".to_owned(),
+        _ => place(d),
+    }
+}
+
+/// Returns three numbers in brackets.
+fn place(p: Vector) -> String {
+    let [x, y, z] = p.map(|x| brief(clean(x)));
+    format!("({x}, {y}, {z})")
+}

@@ -1,0 +1,122 @@
+//! What outputs can do, in words, against what is published of each mechanism; and as twists, against the exact kernel of J.
+
+use crate::common::{json, near, ozols};
+use serde_json::Value;
+
+fn free(args: &[&str]) -> Value {
+    json(&[&["analyze", "--state", "free", "--format", "json"], args].concat())["states"][0].take()
+}
+
+/// Delta, tripteron and the orthogonal platforms translate; the agile eye turns about a point; 4-UPU has Schoenflies motion.
+#[test]
+fn outputs_move_as_published() {
+    for (name, link, words) in [
+        ("tripteron", "p", "three translations"),
+        ("delta", "p", "three translations"),
+        ("sarrus", "p", "translation along z"),
+        ("4-upu", "p", "three translations and rotation about z"),
+        ("stewart-gough", "p", "every motion"),
+    ] {
+        let state = free(&[name]);
+        let motions = state["motions"].as_array().unwrap();
+        let found = motions.iter().find(|m| m["link"] == link);
+        let found = found.unwrap_or_else(|| panic!("{name}: {motions:?}"));
+        assert_eq!(found["text"], words, "{name}");
+    }
+    let eye = free(&["agile-eye"]);
+    let text = eye["motions"][0]["text"].as_str().unwrap();
+    assert!(
+        text.starts_with("three rotations, all axes through (0, 0, 0)"),
+        "{text}"
+    );
+    let jaw = free(&["gripper-10"]);
+    for m in jaw["motions"].as_array().unwrap() {
+        let text = m["text"].as_str().unwrap();
+        assert!(
+            text.starts_with("translation along ") || text.starts_with("rotation about z"),
+            "{text}"
+        );
+    }
+}
+
+/// A dimension is that of the twists, no more than the working mobility, and equal to it where there is one output.
+#[test]
+fn dimensions_are_those_of_the_exact_kernel() {
+    let all = json(&["list", "--format", "json"]);
+    let names: std::collections::BTreeSet<&str> = all
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|m| m["name"].as_str().unwrap())
+        .collect();
+    let mut named = 0;
+    for name in names {
+        let state = free(&[name]);
+        let motions = state["motions"].as_array().unwrap();
+        let working = state["working_mobility"].as_u64().unwrap();
+        for m in motions {
+            let dimension = m["dimension"].as_u64().unwrap();
+            assert_eq!(
+                m["twists"].as_array().unwrap().len() as u64,
+                dimension,
+                "{name}"
+            );
+            assert!(dimension <= working, "{name}");
+        }
+        if let [one] = &motions[..] {
+            assert_eq!(one["dimension"].as_u64().unwrap(), working, "{name}");
+        }
+        named += motions.len();
+    }
+    assert!(named > 100, "{named}");
+}
+
+/// A screw's nut climbs by the lead of the thread in a turn, and the connectivity of two links is asked in either order.
+#[test]
+fn screws_and_connectivity() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("nut.toml");
+    let text = r#"
+name = "nut"
+[[link]]
+id = "0"
+role = "frame"
+[[link]]
+id = "nut"
+role = "output"
+[[joint]]
+id = "thread"
+links = ["0", "nut"]
+type = "helical"
+lead = 5
+point = [1, 2, 3]
+axis = [0, 0, 1]
+"#;
+    std::fs::write(&path, text).unwrap();
+    let state = free(&[path.to_str().unwrap()]);
+    let found = state["motions"][0]["text"].as_str().unwrap();
+    assert!(
+        found.starts_with("screw motion along z through (1, 2, "),
+        "{found}"
+    );
+    assert!(found.contains("lead 5"), "{found}");
+    let one = |a: &str, b: &str| {
+        let state = free(&["four-bar", "--link", a, "--relative-to", b]);
+        state["motions"].as_array().unwrap().last().unwrap().clone()
+    };
+    let [there, back] = [one("2", "1"), one("1", "2")];
+    assert_eq!(there["dimension"], 1);
+    for k in 0..6 {
+        let of = |v: &Value| v["twists"][0][k].as_f64().unwrap().abs();
+        near(of(&there), of(&back), 1e-9);
+    }
+    let o = ozols(&["analyze", "four-bar", "--link", "nowhere"])
+        .output()
+        .unwrap();
+    assert_eq!(o.status.code(), Some(2));
+    let said = String::from_utf8(o.stderr).unwrap();
+    assert!(
+        said.contains("has no link nowhere; it has: 0, 1, 2, 3"),
+        "{said}"
+    );
+}
