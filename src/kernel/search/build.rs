@@ -28,7 +28,6 @@ use crate::search::build::staging::{Laid, Staged, laid};
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::{Ceiling, Missing};
 use crate::search::diagram::layer::CUT;
-use crate::search::diagram::product::product;
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stage::Stage;
 use crate::search::diagram::{self, Diagram, Progress, Stop};
@@ -54,8 +53,8 @@ pub struct Diagrams {
     /// The variables in the order the admissible diagram takes them.
     pub order: Vec<usize>,
     /// Rows of the closure equations for each contour that they are built of: fewer than a twist has numbers where the rest is
-    /// the same whatever is chosen; of each part, where the equations fall apart into two that choices change.
-    pub rows_per_contour: Vec<usize>,
+    /// the same whatever is chosen.
+    pub rows_per_contour: usize,
 }
 
 impl Diagrams {
@@ -134,54 +133,7 @@ fn build_with(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagrams {
-    let mut out = build_parts(question, orders, cancelled, progress)
-        .unwrap_or_else(|| build_in_one(question, orders, cut_down, cancelled, progress));
-    out.lasting = build_lasting(question, orders, &out, cancelled, progress);
-    out
-}
-
-/// Builds the diagram of the variants that keep the motion throughout, where the one of admissible variants is whole; or says why it is
-/// not built.
-fn build_lasting(
-    question: &Question,
-    orders: &Orders,
-    at_the_pose: &Diagrams,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> Result<Diagram, PoseOnly> {
-    let along = question.throughout.as_ref().map_err(PoseOnly::clone)?;
-    if !is_whole(&at_the_pose.admissible) {
-        return Err(PoseOnly::Budget);
-    }
-    if is_empty(&at_the_pose.admissible) {
-        return Ok(at_the_pose.admissible.clone());
-    }
-    let laid = laid(question, orders, &along.model);
-    let staged = laid.admissible.as_ref().unwrap_or(&laid.determinate);
-    let built = built(
-        question,
-        &along.model,
-        staged,
-        Wanted::Lasting,
-        cancelled,
-        progress,
-    );
-    if is_whole(&built) {
-        Ok(built)
-    } else {
-        Err(PoseOnly::Budget)
-    }
-}
-
-/// Builds both diagrams of the drawn pose from all rows that choices differ in.
-fn build_in_one(
-    question: &Question,
-    orders: &Orders,
-    cut_down: CutDown<'_>,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> Diagrams {
-    let model = &question.least.whole;
+    let model = &question.model;
     let Laid {
         determinate: first,
         admissible: second,
@@ -203,20 +155,11 @@ fn build_in_one(
         cut_down(&staged.limits, whole, build, &worth)
     };
     let determinate = whole(&first, false);
-    let admissible = match &second {
+    let mut admissible = match &second {
         // What is not determinate is not admissible.
         Some(_) if is_empty(&determinate) => nothing(model, &order),
         Some(second) => whole(second, true),
         None => determinate.clone(),
-    };
-    let mut out = Diagrams {
-        determinate,
-        admissible,
-        lasting: Err(PoseOnly::Asked),
-        cheapest: None,
-        estimates: [None, None],
-        order,
-        rows_per_contour: vec![model.space.dim],
     };
     let second = second.as_ref().unwrap_or(&first);
     let kept = usize::from(question.conditions.keep_output) * model.kept.len();
@@ -227,51 +170,52 @@ fn build_in_one(
             question, model, stages, limits, ceiling, cancelled, progress,
         )
     };
-    prove(question, &mut out, second, kept, build);
-    let both = [&out.determinate, &out.admissible];
-    out.estimates = estimates(question, both, [&first, second], kept, cancelled);
-    out
-}
-
-/// Builds both diagrams from those of the two parts that the closure equations fall apart into; none where they do not, or
-/// where a diagram does not fit the limits.
-fn build_parts(
-    question: &Question,
-    orders: &Orders,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> Option<Diagrams> {
-    let parts = question
-        .least
-        .parts
-        .as_ref()
-        .filter(|_| question.conditions.counted)?;
-    let laid = parts.each_ref().map(|part| laid(question, orders, part));
-    let mut both = |staged: [&Staged<'_>; 2], admissible: bool| {
-        let mut built = |part: usize| {
-            let (part, staged) = (&parts[part], staged[part]);
-            let wanted = Wanted::of(question, admissible);
-            let d = built(question, part, staged, wanted, cancelled, progress);
-            is_whole(&d).then_some(d)
-        };
-        product([&built(0)?, &built(1)?], &staged[0].limits)
-    };
-    let [one, two] = &laid;
-    let determinate = both([&one.determinate, &two.determinate], false)?;
-    let admissible = match (&one.admissible, &two.admissible) {
-        (Some(_), Some(_)) if is_empty(&determinate) => nothing(&parts[0], &one.order),
-        (Some(one), Some(two)) => both([one, two], true)?,
-        _ => determinate.clone(),
-    };
-    Some(Diagrams {
+    let cheapest = prove(question, &mut admissible, second, kept, build);
+    let both = [&determinate, &admissible];
+    let estimates = estimates(question, both, [&first, second], kept, cancelled);
+    let lasting = build_lasting(question, orders, &admissible, cancelled, progress);
+    Diagrams {
         determinate,
         admissible,
-        lasting: Err(PoseOnly::Asked),
-        cheapest: None,
-        estimates: [None, None],
-        order: one.order.clone(),
-        rows_per_contour: parts.iter().map(|p| p.space.dim).collect(),
-    })
+        lasting,
+        cheapest,
+        estimates,
+        order,
+        rows_per_contour: model.space.dim,
+    }
+}
+
+/// Builds the diagram of the variants that keep the motion throughout, where the one of admissible variants is whole; or says why it is
+/// not built.
+fn build_lasting(
+    question: &Question,
+    orders: &Orders,
+    at_the_pose: &Diagram,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Result<Diagram, PoseOnly> {
+    let along = question.throughout.as_ref().map_err(PoseOnly::clone)?;
+    if !is_whole(at_the_pose) {
+        return Err(PoseOnly::Budget);
+    }
+    if is_empty(at_the_pose) {
+        return Ok(at_the_pose.clone());
+    }
+    let laid = laid(question, orders, &along.model);
+    let staged = laid.admissible.as_ref().unwrap_or(&laid.determinate);
+    let built = built(
+        question,
+        &along.model,
+        staged,
+        Wanted::Lasting,
+        cancelled,
+        progress,
+    );
+    if is_whole(&built) {
+        Ok(built)
+    } else {
+        Err(PoseOnly::Budget)
+    }
 }
 
 /// The diagram of a question, of the motions of live links, cut down to its limits where it does not fit them; under a ceiling or not.
@@ -381,7 +325,7 @@ fn uncounted(
         nodes: CUT,
         ..staged.limits.clone()
     };
-    let model = &question.least.whole;
+    let model = &question.model;
     let stages = staged.stages();
     let mut few = one_end(question, model, stages, few, None, cancelled, progress);
     if few.stop != Stop::Interrupted {
@@ -390,36 +334,40 @@ fn uncounted(
     few
 }
 
-/// Finds the cheapest admissible variants where they are wanted and not all are known; `end` is the least dimension of
+/// Returns the cheapest admissible variants where they are wanted and not all are known; `end` is the least dimension of
 /// the last nodes.
 fn prove(
     question: &Question,
-    out: &mut Diagrams,
+    admissible: &mut Diagram,
     staged: &Staged<'_>,
     end: usize,
     build: Build<'_>,
-) {
+) -> Option<UpTo> {
     let most = BigUint::from(question.conditions.cheapest);
-    let known = matches!(out.admissible.stop, Stop::Exhausted | Stop::Interrupted);
+    let known = matches!(admissible.stop, Stop::Exhausted | Stop::Interrupted);
     if known || most.is_zero() {
-        return;
+        return None;
     }
-    let space = &question.least.whole.space;
+    let space = &question.model.space;
     let missing = Missing::new(space, staged.stages(), &staged.limits, end);
     if missing.root().is_none() {
         // There is none, by dimensions alone.
-        out.admissible.stop = Stop::Exhausted;
-        return;
+        admissible.stop = Stop::Exhausted;
+        return None;
     }
-    let known = cost_of(question, &out.admissible, &most).flatten();
+    let known = cost_of(question, admissible, &most).flatten();
     let proof = up_to(question, &missing, &most, known, build);
-    match proof.up_to {
+    let cheapest = match proof.up_to {
         // Nothing had to be left out: what has no completion by dimensions made the diagram too large.
-        Some(all) if all.cost_milli == i64::MAX => out.admissible = all.diagram,
-        up_to => out.cheapest = up_to,
-    }
+        Some(all) if all.cost_milli == i64::MAX => {
+            *admissible = all.diagram;
+            None
+        }
+        up_to => up_to,
+    };
     // Where it was cancelled depends on the clock, so that there is nothing to compare with a twin.
     if proof.stop == Stop::Interrupted {
-        out.admissible.stop = Stop::Interrupted;
+        admissible.stop = Stop::Interrupted;
     }
+    cheapest
 }

@@ -12,7 +12,6 @@ pub mod frontier;
 pub(in crate::search) mod layer;
 pub(in crate::search) mod minimize;
 pub(crate) mod output_motion;
-pub(in crate::search) mod product;
 pub(in crate::search) mod reduced_rows;
 pub(crate) mod redundancy_so_far;
 pub(crate) mod stage;

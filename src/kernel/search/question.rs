@@ -25,7 +25,7 @@ use crate::search::question::own_images::OwnSymmetry;
 use crate::search::question::space::{Space, Variable};
 use crate::search::question::throughout::{PoseOnly, Throughout};
 use crate::search::reduce::biconnected::{Block, blocks};
-use crate::search::reduce::plane_split::LeastModel;
+use crate::search::reduce::plane_split::Model;
 use itertools::Itertools;
 use num_bigint::BigUint;
 use std::sync::Arc;
@@ -44,7 +44,7 @@ pub struct Question {
     /// The field in which it is answered, with all numbers of the mechanism.
     pub exact: ExactField,
     /// What its diagrams are built of.
-    pub(in crate::search) least: LeastModel,
+    pub(in crate::search) model: Model,
     /// The contours of the free state, and the rows of J in it.
     pub(in crate::search) contours: Vec<Contour>,
     pub(in crate::search) rows: i64,
@@ -176,7 +176,7 @@ impl Question {
             Throughout::new(&exact, &mechanism, &conditions, &space, &contours, &kept)?;
         Ok(Question {
             throughout,
-            least: LeastModel::new(
+            model: Model::least(
                 &exact,
                 &mechanism,
                 &contours,

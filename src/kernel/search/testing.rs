@@ -19,7 +19,7 @@ fn beside(
     question: &Question,
     other: impl Fn(&Staged<'_>, Wanted) -> Option<Diagram>,
 ) -> Vec<[Option<Diagram>; 2]> {
-    let model = &question.least.whole;
+    let model = &question.model;
     let laid = laid(question, &orders(question), model);
     let keeping = Wanted::of(question, true);
     let both = [
@@ -46,7 +46,7 @@ pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     beside(question, |staged, wanted| {
         in_self_stress_space(
             question,
-            &question.least.whole,
+            &question.model,
             &staged.order,
             &staged.limits,
             wanted,
@@ -60,7 +60,7 @@ pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
 /// constraints are allowed than all variants have.
 #[must_use]
 pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
-    let model = &question.least.whole;
+    let model = &question.model;
     beside(question, |staged, wanted| {
         let (order, limits) = (&staged.order, &staged.limits);
         let halves = Halves::new(question, model, order, limits, wanted)?;

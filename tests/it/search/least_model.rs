@@ -60,7 +60,7 @@ fn built_in_mechanisms_are_counted_and_listed_alike() {
         if whole.1.stop() != Stop::Exhausted {
             continue;
         }
-        assert_eq!(whole.1.rows_per_contour, [whole.0.space.dim], "{name}");
+        assert_eq!(whole.1.rows_per_contour, whole.0.space.dim, "{name}");
         assert_eq!(counts(&whole), counts(&least), "{name}");
         // Fewer where what is redundant in any case is known from the start.
         assert!(
@@ -75,7 +75,7 @@ fn built_in_mechanisms_are_counted_and_listed_alike() {
             s.cheapest(d, 50).take(50).map(|v| v.choices).collect()
         };
         assert_eq!(cheapest(&whole), cheapest(&least), "{name}");
-        if least.1.rows_per_contour == [3] && least.0.space.dim == 6 {
+        if least.1.rows_per_contour == 3 && least.0.space.dim == 6 {
             three.push(name);
         }
     }

@@ -54,7 +54,7 @@ fn estimated(
     admissible: bool,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Estimate> {
-    let (model, limits) = (&question.least.whole, &staged.limits);
+    let (model, limits) = (&question.model, &staged.limits);
     let by_dimension = || {
         let stages = staged.stages();
         let missing = Missing::new(&model.space, stages, limits, end);

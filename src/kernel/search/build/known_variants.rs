@@ -31,7 +31,7 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
     if question.conditions.state.is_some() {
         return None;
     }
-    let model = &question.least.whole;
+    let model = &question.model;
     let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
     let limits = limits(question, model);
     let halves = Halves::new(question, model, &order, &limits, Wanted::Determinate)?;

@@ -24,7 +24,7 @@ pub(crate) fn orders(question: &Question) -> Orders {
         variable_order(
             &question.exact,
             &question.mechanism,
-            &question.least.whole.space,
+            &question.model.space,
             blocks,
             question.conditions.max_redundant,
         )
@@ -44,7 +44,7 @@ pub(crate) fn orders(question: &Question) -> Orders {
 
 /// Whether every variant has more redundant constraints than are allowed, in rows that no choice changes.
 pub(in crate::search) fn is_none_possible(question: &Question) -> bool {
-    question.least.whole.already > question.conditions.max_redundant
+    question.model.already > question.conditions.max_redundant
 }
 
 /// Whether nothing is asked of variants but what makes them determinate.

@@ -142,12 +142,10 @@ impl Throughout {
             }
             columns.push(of_choices);
         }
-        let model = Model {
-            space: space.clone(),
-            kept: kept.motion.clone(),
-            already: 0,
+        let out = Throughout {
+            model: Model::whole(space, kept),
+            columns,
         };
-        let out = Throughout { model, columns };
         let rows = ClosingRows::new(mechanism, space.dim, contours, Some(kept));
         Ok(if out.is_regular(exact.field(), &rows) {
             Ok(out)

@@ -5,8 +5,8 @@
 //! and those out of it: ranks add up, and so do redundant constraints and the motions of links. If all choices of every joint
 //! do the same in the plane, as a hinge, a universal joint about it and a ball do, then what is in the plane is settled once,
 //! and the diagram is built of what is out of it, three rows a contour instead of six; or the other way round. Where choices
-//! differ in both, each part has a diagram, and the product of the two is that of the whole. Rows in which nothing ever moves
-//! are redundant in every contour, whatever is chosen.
+//! differ in both, the diagram is built of all six. Rows in which nothing ever moves are redundant in every contour, whatever is
+//! chosen.
 //!
 //! What a variant is, its freedoms, W and certificate are those of the whole mechanism.
 
@@ -20,7 +20,7 @@ use crate::search::question::kept::Kept;
 use crate::search::question::space::{Choice, Space, Variable};
 use crate::search::reduce::self_stress_space::ClosingRows;
 
-/// Some rows of the closure equations.
+/// The rows of the closure equations that diagrams are built of.
 #[derive(Debug)]
 pub(in crate::search) struct Model {
     /// The variables and their choices in these rows.
@@ -31,40 +31,32 @@ pub(in crate::search) struct Model {
     pub(in crate::search) already: u32,
 }
 
-/// What the diagrams of a search are built of.
-#[derive(Debug)]
-pub(in crate::search) struct LeastModel {
-    /// All rows that choices differ in.
-    pub(in crate::search) whole: Model,
-    /// Its two parts, where it falls apart.
-    pub(in crate::search) parts: Option<[Model; 2]>,
-}
+impl Model {
+    /// Returns all rows of a space.
+    pub(in crate::search) fn whole(space: &Space, kept: &Kept) -> Model {
+        Model {
+            space: space.clone(),
+            kept: kept.motion.clone(),
+            already: 0,
+        }
+    }
 
-impl LeastModel {
-    /// The least model of a space, with the contours of the free state. With `whole_twists` nothing is left out.
+    /// Returns the least model of a space, with the contours of the free state. With `whole_twists` nothing is left out.
     ///
     /// # Errors
     /// Where a coordinate has no value in the field.
     ///
     /// # Complexity
     /// O(joints · options) eliminations of six by six numbers for each plane looked at.
-    pub(in crate::search) fn new(
+    pub(in crate::search) fn least(
         exact: &ExactField,
         mechanism: &Mechanism,
         contours: &[Contour],
         space: &Space,
         kept: &Kept,
         whole_twists: bool,
-    ) -> Result<LeastModel, ExactError> {
+    ) -> Result<Model, ExactError> {
         let f = exact.field();
-        let whole = |parts| LeastModel {
-            whole: Model {
-                space: space.clone(),
-                kept: kept.motion.clone(),
-                already: 0,
-            },
-            parts,
-        };
         // Lanes of a searched state, rows of couplings and of locked drives have not been taken apart.
         if whole_twists
             || space.dim != 6
@@ -72,7 +64,7 @@ impl LeastModel {
             || !mechanism.couplings.is_empty()
             || mechanism.locked_drives() > 0
         {
-            return Ok(whole(None));
+            return Ok(Model::whole(space, kept));
         }
         let present = space
             .variables
@@ -88,21 +80,16 @@ impl LeastModel {
             if !falls_apart(space, [&inside, &outside]) {
                 continue;
             }
-            let settled = [&inside, &outside].map(Seen::is_settled);
-            let (differing, settled) = match settled {
+            let (differing, settled) = match [&inside, &outside].map(Seen::is_settled) {
                 [true, _] => (outside, inside),
                 [false, true] => (inside, outside),
-                [false, false] => {
-                    let parts = [inside, outside]
-                        .map(|part| part.model(f, contours.len(), space, kept, mechanism));
-                    return Ok(whole(Some(parts)));
-                }
+                [false, false] => break,
             };
-            let mut whole = differing.model(f, contours.len(), space, kept, mechanism);
-            whole.already += redundant(f, mechanism, contours, &settled.present(space));
-            return Ok(LeastModel { whole, parts: None });
+            let mut model = differing.model(f, contours.len(), space, kept, mechanism);
+            model.already += redundant(f, mechanism, contours, &settled.present(space));
+            return Ok(model);
         }
-        Ok(whole(None))
+        Ok(Model::whole(space, kept))
     }
 }
 

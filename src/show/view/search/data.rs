@@ -85,8 +85,8 @@ pub struct SearchData<'a> {
     minimal: Option<String>,
     largest_layer: Option<usize>,
     nodes: Option<usize>,
-    /// Rows of the closure equations for each contour, in each part that has diagrams of its own.
-    rows_per_contour: Option<Vec<usize>>,
+    /// Rows of the closure equations for each contour; a list of one number.
+    rows_per_contour: Option<[usize; 1]>,
     determinate_diagram: SizeData,
     admissible_diagram: SizeData,
     stop: &'static str,
@@ -216,10 +216,7 @@ impl<'a> SearchData<'a> {
             minimal: outcome.minimal().map(|n| n.to_string()),
             largest_layer: first.largest_layer.max(second.largest_layer),
             nodes: first.nodes.zip(second.nodes).map(|(a, b)| a + b),
-            rows_per_contour: outcome
-                .diagrams
-                .as_ref()
-                .map(|d| d.rows_per_contour.clone()),
+            rows_per_contour: outcome.diagrams.as_ref().map(|d| [d.rows_per_contour]),
             determinate_diagram: first,
             admissible_diagram: second,
             stop: outcome.stop.word(),

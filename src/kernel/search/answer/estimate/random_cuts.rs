@@ -172,7 +172,7 @@ impl<C: Carries> Cuts<'_, C> {
 
     /// Choices of a stage's variable.
     fn choices(&self, stage: &C) -> usize {
-        let space = &self.question.least.whole.space;
+        let space = &self.question.model.space;
         space.variables[stage.variable()].choices.len()
     }
 
