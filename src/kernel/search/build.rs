@@ -144,12 +144,12 @@ fn build_with(
             return uncounted(question, staged, cancelled, progress);
         }
         let wanted = Wanted::of(question, admissible);
-        let whole = built(question, model, staged, wanted, cancelled, progress);
+        let whole = built(question, staged, wanted, cancelled, progress);
         if !whole.stop.is_cut() {
             return whole;
         }
         let build = &mut |limits: &Limits| {
-            within_limits(question, model, staged, limits, wanted, cancelled, progress)
+            within_limits(question, staged, limits, wanted, cancelled, progress)
         };
         let worth = |d: &Diagram| total(question, d, admissible);
         cut_down(&staged.limits, whole, build, &worth)
@@ -157,7 +157,7 @@ fn build_with(
     let determinate = whole(&first, false);
     let mut admissible = match &second {
         // What is not determinate is not admissible.
-        Some(_) if is_empty(&determinate) => nothing(model, &order),
+        Some(_) if is_empty(&determinate) => nothing(question, &order),
         Some(second) => whole(second, true),
         None => determinate.clone(),
     };
@@ -203,14 +203,7 @@ fn build_lasting(
     }
     let laid = laid(question, orders, &along.model);
     let staged = laid.admissible.as_ref().unwrap_or(&laid.determinate);
-    let built = built(
-        question,
-        &along.model,
-        staged,
-        Wanted::Lasting,
-        cancelled,
-        progress,
-    );
+    let built = built(question, staged, Wanted::Lasting, cancelled, progress);
     if is_whole(&built) {
         Ok(built)
     } else {
@@ -240,7 +233,6 @@ const AT_ONCE: usize = 20_000;
 /// does not fit either, cut down.
 fn built(
     question: &Question,
-    model: &Model,
     staged: &Staged<'_>,
     wanted: Wanted,
     cancelled: &(dyn Fn() -> bool + Sync),
@@ -248,13 +240,13 @@ fn built(
 ) -> Diagram {
     let limits = &staged.limits;
     let within = |limits: &Limits, progress: &mut (dyn FnMut(Progress) + Send)| {
-        within_limits(question, model, staged, limits, wanted, cancelled, progress)
+        within_limits(question, staged, limits, wanted, cancelled, progress)
     };
     if question.conditions.state.is_some() {
         return within(limits, progress);
     }
     if limits.already > limits.internal {
-        return nothing(model, &staged.order);
+        return nothing(question, &staged.order);
     }
     let few = Limits {
         nodes: limits.nodes.min(AT_ONCE),
@@ -265,9 +257,9 @@ fn built(
         return built;
     }
     let order = &staged.order;
-    let most = at_most(question, model, order, &few, wanted, cancelled);
+    let most = at_most(question, order, &few, wanted, cancelled);
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
-        return nothing(model, order);
+        return nothing(question, order);
     }
     let mut from_one_end = |nodes: usize, progress: &mut (dyn FnMut(Progress) + Send)| {
         // What grows on and on is given up early.
@@ -279,8 +271,8 @@ fn built(
         let found = (limits.nodes > few.nodes).then(|| within(&limits, progress))?;
         is_whole(&found).then_some(found)
     };
-    let halves = Halves::new(question, model, order, limits, wanted);
-    let space = &model.space;
+    let halves = Halves::new(question, order, limits, wanted);
+    let space = &wanted.model(question).space;
     let whole = halves.and_then(|h| two_sided(&h, space, cancelled, progress, &mut from_one_end));
     if let Some(whole) = whole {
         return whole;
@@ -295,7 +287,6 @@ fn built(
 /// state and every choice has the motions of its present joint, otherwise of the motions of live links.
 fn within_limits(
     question: &Question,
-    model: &Model,
     staged: &Staged<'_>,
     limits: &Limits,
     wanted: Wanted,
@@ -304,13 +295,12 @@ fn within_limits(
 ) -> Diagram {
     if question.conditions.state.is_none() {
         let order = &staged.order;
-        let added =
-            in_self_stress_space(question, model, order, limits, wanted, cancelled, progress);
+        let added = in_self_stress_space(question, order, limits, wanted, cancelled, progress);
         if let Some(added) = added {
             return added;
         }
     }
-    let stages = staged.stages();
+    let (model, stages) = (wanted.model(question), staged.stages());
     one_end(question, model, stages, limits, None, cancelled, progress)
 }
 

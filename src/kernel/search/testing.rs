@@ -46,7 +46,6 @@ pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     beside(question, |staged, wanted| {
         in_self_stress_space(
             question,
-            &question.model,
             &staged.order,
             &staged.limits,
             wanted,
@@ -63,7 +62,7 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     let model = &question.model;
     beside(question, |staged, wanted| {
         let (order, limits) = (&staged.order, &staged.limits);
-        let halves = Halves::new(question, model, order, limits, wanted)?;
+        let halves = Halves::new(question, order, limits, wanted)?;
         two_sided(
             &halves,
             &model.space,

@@ -14,7 +14,6 @@ use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::SelfStressSpace;
 use hashbrown::HashMap;
 use itertools::Itertools;
@@ -46,19 +45,18 @@ fn width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
 /// O(layers · width · choices · s³) field operations for s present self-stresses.
 pub(in crate::search) fn at_most(
     question: &Question,
-    model: &Model,
     order: &[usize],
     limits: &Limits,
     wanted: Wanted,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();
-    let space = space(question, model, order, wanted)?;
+    let space = space(question, order, wanted)?;
     let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
     if spent.internal() != limits.internal {
         return None;
     }
-    let choices = |s: &Adding| model.space.variables[s.variable].choices.len();
+    let choices = |s: &Adding| question.space.variables[s.variable].choices.len();
     let stages = adding(field, order, &space, Kept::All);
     let most = stages.iter().map(choices).max().unwrap_or(1);
     let width = width(limits, &stages, most);

@@ -73,7 +73,7 @@ fn estimated(
     }
     let wanted = Wanted::of(question, admissible);
     let order = &staged.order;
-    let Some(of) = at_most(question, model, order, limits, wanted, cancelled) else {
+    let Some(of) = at_most(question, order, limits, wanted, cancelled) else {
         return by_dimension();
     };
     let Some(samples) = SetSamples::begin(question, &of, seed, admissible, cancelled) else {

@@ -31,10 +31,9 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
     if question.conditions.state.is_some() {
         return None;
     }
-    let model = &question.model;
     let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
-    let limits = limits(question, model);
-    let halves = Halves::new(question, model, &order, &limits, Wanted::Determinate)?;
+    let limits = limits(question, &question.model);
+    let halves = Halves::new(question, &order, &limits, Wanted::Determinate)?;
     let spent = Spent::within_mechanism(halves.already);
     if known.terminals.iter().any(|t| *t != spent.redundancy()) {
         return Some(false);

@@ -36,6 +36,14 @@ impl Wanted {
             Wanted::Determinate
         }
     }
+
+    /// Returns the rows that their diagram is built of.
+    pub(in crate::search) fn model(self, question: &Question) -> &Model {
+        match &question.throughout {
+            Ok(along) if self == Wanted::Lasting => &along.model,
+            _ => &question.model,
+        }
+    }
 }
 
 /// A stage, within limits.
@@ -87,13 +95,12 @@ impl Carries for Added<'_> {
 /// or where the motion is not followed that variants are to keep.
 pub(in crate::search) fn space(
     question: &Question,
-    model: &Model,
     order: &[usize],
     wanted: Wanted,
 ) -> Option<SelfStressSpace> {
     let kept = (wanted != Wanted::Determinate).then_some(&question.kept);
     let field = question.exact.field();
-    let (mechanism, space) = (&question.mechanism, &model.space);
+    let (mechanism, space) = (&question.mechanism, &wanted.model(question).space);
     let rows = ClosingRows::new(mechanism, space.dim, &question.contours, kept);
     if !order.iter().all(|&v| is_contained(field, space, v)) {
         return None;
@@ -119,7 +126,6 @@ pub(in crate::search) fn space(
 /// O(nodes · choices · s²) field operations for s present self-stresses.
 pub(in crate::search) fn in_self_stress_space(
     question: &Question,
-    model: &Model,
     order: &[usize],
     limits: &Limits,
     wanted: Wanted,
@@ -127,15 +133,15 @@ pub(in crate::search) fn in_self_stress_space(
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Option<Diagram> {
     let field = question.exact.field();
-    let added = space(question, model, order, wanted)?;
+    let added = space(question, order, wanted)?;
     let already = limits.already.saturating_add(added.lasting);
     if already > limits.internal {
-        return Some(nothing(model, order));
+        return Some(nothing(question, order));
     }
     let stages = adding(field, order, &added, Kept::Live);
     let over = |stage| Added::new(field, stage, limits);
     let stages: Vec<Added<'_>> = stages.into_iter().map(over).collect();
-    let space = &model.space;
+    let space = &wanted.model(question).space;
     let built = diagram::build(space, &stages, limits, already, None, cancelled, progress);
     let stop = built.stop;
     let smallest = minimal(built.layers, built.terminals);
@@ -143,9 +149,9 @@ pub(in crate::search) fn in_self_stress_space(
 }
 
 /// The diagram of no variant, for variables in an order.
-pub(in crate::search) fn nothing(model: &Model, order: &[usize]) -> Diagram {
+pub(in crate::search) fn nothing(question: &Question, order: &[usize]) -> Diagram {
     let layer = |(t, &variable): (usize, &usize)| {
-        let choices = model.space.variables[variable].choices.len();
+        let choices = question.space.variables[variable].choices.len();
         Layer {
             variable,
             nodes: 1,

@@ -17,7 +17,6 @@ use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::plane_split::Model;
 use std::collections::BTreeSet;
 
 /// Motions of kept links are told by one sum of their coordinates, each times a power of this: for one that is not nothing it is
@@ -44,20 +43,19 @@ impl<'a> Halves<'a> {
     /// just the redundant constraints are allowed which all variants have.
     pub(in crate::search) fn new(
         question: &Question,
-        model: &Model,
         order: &[usize],
         limits: &'a Limits,
         wanted: Wanted,
     ) -> Option<Self> {
         let field = question.exact.field();
-        let front = space(question, model, order, wanted)?;
+        let front = space(question, order, wanted)?;
         let already = limits.already.saturating_add(front.lasting);
         if already != limits.internal {
             return None;
         }
         let reversed: Vec<usize> = order.iter().rev().copied().collect();
         let orders = [order, &reversed];
-        let spaces = [front, space(question, model, &reversed, wanted)?];
+        let spaces = [front, space(question, &reversed, wanted)?];
         let all = order.len();
         let carried = |t: usize| spaces[0].contours.iter().any(|c| c.is_live_before(t));
         let mut starts: Vec<usize> = (0..all).filter(|&t| !carried(t)).collect();
