@@ -28,11 +28,9 @@ impl Request {
     /// the present one at a hinge in space. A set that is a type has its name, another the names of its freedoms, as in `rz+tx`.
     fn offer_any(&self, mechanism: &mut Mechanism) {
         use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
-        let all: Vec<JointId> = mechanism.joint_ids().collect();
-        for id in all
-            .into_iter()
-            .filter(|&j| is_changeable(&mechanism.joints[j]))
-        {
+        let changeable = |j: &JointId| is_changeable(&mechanism.joints[*j]);
+        let all: Vec<JointId> = mechanism.joint_ids().filter(changeable).collect();
+        for id in all {
             let of_space = [Rx, Ry, Rz, Tx, Ty, Tz].into_iter();
             let own: Vec<Freedom> = of_space.filter(|&f| in_plane(mechanism, id, f)).collect();
             for set in own
