@@ -48,8 +48,6 @@ pub struct Diagrams {
     pub cheapest: Option<UpTo>,
     /// About how many determinate and admissible variants there are, where their diagrams are cut down and a seed is given.
     pub estimates: [Option<Estimate>; 2],
-    /// The variables in the order the admissible diagram takes them.
-    pub order: Vec<usize>,
     /// Rows of the closure equations for each contour that they are built of: fewer than a twist has numbers where the rest is
     /// the same whatever is chosen.
     pub rows_per_contour: usize,
@@ -178,7 +176,6 @@ fn build_with(
         lasting,
         cheapest,
         estimates,
-        order,
         rows_per_contour: model.space.dim,
     }
 }

@@ -30,8 +30,6 @@ enum Source {
 /// One joint added to the chosen part.
 #[derive(Debug, Clone)]
 pub struct Step {
-    /// The joint.
-    pub joint: JointId,
     /// Whether it closes a contour: then new block 0 is the gap that must vanish.
     pub closing: bool,
     /// Couplings it closes, and the drive that it locks: the gaps of their rates are the blocks after that.
@@ -216,7 +214,6 @@ impl<'m> Planner<'m> {
             }
         }
         Step {
-            joint: joined.joint,
             closing,
             coupled,
             blocks,

@@ -43,7 +43,6 @@ pub(crate) fn at_tolerance(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<AtTolerance, ExactError> {
     let judge = Judge::new(question, digits)?;
-    let present = judge.present();
     let size = question.size();
     let found = match size.to_u32().filter(|n| *n <= WHOLE) {
         Some(n) => whole(question, &judge, n, cancelled),
@@ -52,11 +51,7 @@ pub(crate) fn at_tolerance(
     let motion = judge.motion();
     drop(judge);
     question.present = Some(motion);
-    Ok(AtTolerance {
-        digits,
-        present,
-        ..found
-    })
+    Ok(found)
 }
 
 fn whole(
@@ -92,7 +87,6 @@ fn whole(
     let [determinate, admissible] = met.brackets(question, &size.into());
     AtTolerance {
         digits: judge.digits(),
-        present: judge.present(),
         looked: met.looked,
         determinate,
         admissible,

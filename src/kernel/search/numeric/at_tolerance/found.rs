@@ -6,7 +6,7 @@ use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::diagram::Stop;
 use crate::search::question::Question;
-use crate::search::question::rounded_rank::{Digits, RankRange};
+use crate::search::question::rounded_rank::Digits;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
@@ -39,8 +39,6 @@ impl Bracket {
 pub struct AtTolerance {
     /// What the digits tell.
     pub digits: Digits,
-    /// The rank of the mechanism as it is.
-    pub present: RankRange,
     /// How many variants were looked at.
     pub looked: u64,
     /// Those with few enough redundant constraints.

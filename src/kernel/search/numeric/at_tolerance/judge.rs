@@ -38,9 +38,7 @@ pub(super) struct Judge<'s> {
     question: &'s Question,
     all: Approximate,
     digits: Digits,
-    /// The closure equations' rank in the free state, of the mechanism as it is.
-    present: RankRange,
-    /// The least and the largest dimension that the kept links' motion may have there.
+    /// The least and the largest dimension that the kept links' motion may have in the free state, of the mechanism as it is.
     motion: [usize; 2],
 }
 
@@ -58,17 +56,12 @@ impl<'s> Judge<'s> {
             question,
             all,
             digits,
-            present,
             motion,
         })
     }
 
     pub(super) fn digits(&self) -> Digits {
         self.digits
-    }
-
-    pub(super) fn present(&self) -> RankRange {
-        self.present
     }
 
     /// The dimension of the kept links' present motion, the largest it may be.

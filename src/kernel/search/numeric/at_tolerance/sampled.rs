@@ -51,7 +51,6 @@ pub(super) fn search(
     let [determinate, admissible] = met.brackets(question, &question.size());
     AtTolerance {
         digits: judge.digits(),
-        present: judge.present(),
         looked: met.looked,
         determinate,
         admissible,
