@@ -19,7 +19,7 @@ use ozols::rank::exact::modular;
 use ozols::rank::numeric;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
-use ozols::search::check::brute::brute;
+use ozols::search::check::brute::every_variant;
 use ozols::search::question::conditions::Conditions;
 use std::hint::black_box;
 use std::time::Duration;
@@ -94,13 +94,13 @@ fn twins(c: &mut Criterion) {
     let mut group = c.benchmark_group("diagram against brute force");
     group.bench_function("R S, 4096 variants, diagram", |b| b.iter(|| whole(&rs, 0)));
     group.bench_function("R S, 4096 variants, brute force", |b| {
-        b.iter(|| brute(&search(&rs, false)))
+        b.iter(|| every_variant(&search(&rs, false)))
     });
     group.bench_function("R C U S, 16777216 variants, diagram", |b| {
         b.iter(|| whole(&rcus, 0))
     });
     group.bench_function("R C U S, 4096 of 16777216 variants, brute force", |b| {
-        b.iter(|| brute(&search(&part, false)))
+        b.iter(|| every_variant(&search(&part, false)))
     });
     group.finish();
 }

@@ -161,14 +161,6 @@ pub(super) fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> 
     pivots
 }
 
-/// Counts by looking at every variant: (determinate, admissible), as [`every_variant`] has them.
-///
-/// # Errors
-/// Where a coordinate has no value in the field.
-pub fn brute(question: &Question) -> Result<(Counts, Counts), ExactError> {
-    every_variant(question).map(|found| (found.determinate, found.admissible))
-}
-
 /// Counts by looking at every variant. What the searched state makes of a variant is asked of
 /// the mechanism that the variant is.
 ///
