@@ -216,7 +216,6 @@ mod tests {
             slides: span(3),
         };
         let step = Step {
-            joint: JointId::new(0),
             closing: false,
             coupled: 0,
             blocks: Vec::new(),

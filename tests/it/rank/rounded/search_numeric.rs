@@ -94,15 +94,14 @@ fn said(name: &str, m: &Mechanism, truth: &Outcome) -> (Said, String) {
         .all(|(b, t)| b.sure.total <= t.total && t.total <= b.most);
     let narrow = within.iter().all(|(b, _)| b.is_narrow());
     let words = format!(
-        "{name}: {} to {} for {}, determinate {} to {} for {}, {:?}, base {:?}",
+        "{name}: {} to {} for {}, determinate {} to {} for {}, {:?}",
         numeric.admissible.sure,
         numeric.admissible.most,
         truth.admissible,
         numeric.determinate.sure,
         numeric.determinate.most,
         truth.determinate,
-        numeric.digits,
-        numeric.present
+        numeric.digits
     );
     let worth = match (same && narrow, holds && !narrow) {
         (true, _) => Said::Numeric,
