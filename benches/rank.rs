@@ -30,7 +30,7 @@ use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::modular;
-use ozols::rank::numeric;
+use ozols::rank::numeric::{DEFAULT_TOLERANCE, Elimination};
 use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
 use ozols_dense::{Format, Matrix};
@@ -114,7 +114,10 @@ impl Case {
             ),
             (
                 "modular, written out",
-                Box::new(|| modular::rank_dense(&self.exact, &self.closure)),
+                Box::new(move || {
+                    let columns = self.closure.dense(&self.exact);
+                    echelon::rank(field, columns.iter().map(Vec::as_slice))
+                }),
             ),
             (
                 "modular, elimination alone",
@@ -122,7 +125,10 @@ impl Case {
             ),
             (
                 "f64 singular values, scaled",
-                Box::new(|| numeric::rank(&self.real).map_or(0, |r| r.rank)),
+                Box::new(|| {
+                    let found = Elimination::Svd.rank(&self.real, DEFAULT_TOLERANCE);
+                    found.map_or(0, |r| r.rank)
+                }),
             ),
             (
                 "f64 singular values",

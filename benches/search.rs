@@ -16,7 +16,7 @@ use ozols::geom::Reals;
 use ozols::model::joint_type::{Freedom, JointType};
 use ozols::model::mechanism::{JointOption, Mechanism, StateId};
 use ozols::rank::exact::modular;
-use ozols::rank::numeric;
+use ozols::rank::numeric::{DEFAULT_TOLERANCE, Elimination};
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
 use ozols::search::check::brute::every_variant;
@@ -80,7 +80,7 @@ fn rank(c: &mut Criterion) {
         b.iter(|| modular::rank(&exact, black_box(&closure)))
     });
     group.bench_function("singular values", |b| {
-        b.iter(|| numeric::rank(black_box(&real)))
+        b.iter(|| Elimination::Svd.rank(black_box(&real), DEFAULT_TOLERANCE))
     });
     group.finish();
 }

@@ -2,6 +2,10 @@
 
 use assert_cmd::Command;
 use ozols::Mechanism;
+use ozols::closure::Closure;
+use ozols::geom::exact::ExactField;
+use ozols::linalg::echelon;
+use ozols::linalg::modp::Residue;
 use serde_json::Value;
 use std::fs;
 use std::hash::{BuildHasher, Hasher, RandomState};
@@ -162,4 +166,10 @@ pub(crate) fn run_on(
 /// A seed that no run before had; a failure tells it.
 pub(crate) fn fresh() -> u64 {
     RandomState::new().build_hasher().finish() % 1_000_000
+}
+
+/// Returns the rank of J over the field by writing it out.
+pub(crate) fn rank_dense(exact: &ExactField, closure: &Closure<Residue>) -> usize {
+    let columns = closure.dense(exact);
+    echelon::rank(exact.field(), columns.iter().map(Vec::as_slice))
 }

@@ -1,7 +1,7 @@
 //! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
 //! shares of the contours from one basis of the self-stresses.
 
-use crate::common::built_in;
+use crate::common::{built_in, rank_dense};
 use crate::search::twin;
 use ozols::accuracy::lattice::{self, LatticeKind};
 use ozols::builtin;
@@ -46,7 +46,7 @@ fn check(mechanism: &Mechanism) {
         let what = format!("{} {}", mechanism.name, mechanism.states[state]);
         assert_eq!(
             modular::rank(&exact, &closure),
-            modular::rank_dense(&exact, &closure),
+            rank_dense(&exact, &closure),
             "{what}"
         );
         let found: Vec<[usize; 3]> = shares(&exact, &closure)
@@ -137,7 +137,7 @@ proptest! {
             couplings: Vec::new(),
             left_out: Vec::new(),
         };
-        prop_assert_eq!(modular::rank(&exact, &closure), modular::rank_dense(&exact, &closure));
+        prop_assert_eq!(modular::rank(&exact, &closure), rank_dense(&exact, &closure));
         let found: Vec<[usize; 3]> =
             shares(&exact, &closure).iter().map(|s| [s.redundant, s.range.0, s.range.1]).collect();
         prop_assert_eq!(found, shares_by_definition(&exact, &closure));
@@ -151,7 +151,7 @@ proptest! {
                 closure.couplings.push(CouplingRow { entries });
             }
         }
-        prop_assert_eq!(modular::rank(&exact, &closure), modular::rank_dense(&exact, &closure));
+        prop_assert_eq!(modular::rank(&exact, &closure), rank_dense(&exact, &closure));
     }
 }
 

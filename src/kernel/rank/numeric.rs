@@ -138,14 +138,6 @@ impl Elimination {
     }
 }
 
-/// Rank of J by singular values with the default tolerance, see [`Elimination::rank`].
-///
-/// # Errors
-/// Where the decomposition fails.
-pub fn rank(closure: &Closure<f64>) -> Result<NumericRank, NumericError> {
-    rank_with_tolerance(closure, DEFAULT_TOLERANCE)
-}
-
 /// Rank of J by singular values. Lengths are divided by the largest velocity entry first and columns scaled to unit
 /// length, so that the answer does not depend on the unit of length.
 ///

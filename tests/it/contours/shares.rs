@@ -1,6 +1,6 @@
 //! σ of a contour over all bases that it is part of, against every basis of simple closed walks.
 
-use crate::common::built_in;
+use crate::common::{built_in, rank_dense};
 use itertools::Itertools;
 use ozols::builtin;
 use ozols::closure::Closure;
@@ -8,7 +8,6 @@ use ozols::closure::contour::{Contour, closed_walk};
 use ozols::geom::exact::ExactField;
 use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::field::field_of;
-use ozols::rank::exact::modular;
 use ozols::redundancy::contour_shares::{ContourShare, shares};
 use ozols::redundancy::measured::Measured;
 
@@ -76,7 +75,7 @@ fn independent(walks: &[&Contour], joints: &[JointId]) -> bool {
 
 fn redundant(exact: &ExactField, m: &Mechanism, of: Vec<Contour>) -> usize {
     let closure = Closure::with_contours(exact, m, StateId::FREE, of).unwrap();
-    closure.rows() - modular::rank_dense(exact, &closure)
+    closure.rows() - rank_dense(exact, &closure)
 }
 
 /// The most that a contour has of the redundant constraints in bases whose others leave out one of its joints, whichever.

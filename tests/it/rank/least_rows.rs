@@ -1,12 +1,11 @@
 //! The rows that are enough for the rank of J: against all rows written out, by other primes, and by what is known of mechanisms.
 
-use crate::common::{built_in, json, out};
+use crate::common::{built_in, json, out, rank_dense};
 use crate::search::twin;
 use ozols::builtin;
 use ozols::closure::Closure;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::rank::exact::modular;
 use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use ozols::redundancy::analysis::exact_field;
 use proptest::prelude::*;
@@ -20,7 +19,7 @@ fn check(m: &Mechanism, state: StateId) -> LeastRows {
     let found = LeastRows::new(&one, m, &closure).unwrap();
     let whole = Closure::new(&other, m, state).unwrap();
     let what = format!("{} {}: {found:?}", m.name, m.states[state]);
-    assert_eq!(found.rank(), modular::rank_dense(&other, &whole), "{what}");
+    assert_eq!(found.rank(), rank_dense(&other, &whole), "{what}");
     assert!(
         found.rows() <= found.of && found.of == whole.rows(),
         "{what}"

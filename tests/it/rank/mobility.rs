@@ -1,7 +1,7 @@
 //! Mobility methods: the automatic choice on every built-in mechanism, turned, scaled and measured; finite mobility by proof
 //! against finite mobility by following the motion; poses against finite differences.
 
-use crate::common::built_in;
+use crate::common::{built_in, rank_dense};
 mod proven;
 
 use chacha20::ChaCha8Rng;
@@ -200,8 +200,8 @@ fn groups_need_no_more_rows_than_dimensions() {
             let reduced = group.rows_of(&closure);
             assert_eq!(reduced.dim, group.dimension(), "{name}");
             assert_eq!(
-                modular::rank_dense(&exact, &reduced),
-                modular::rank_dense(&exact, &closure),
+                rank_dense(&exact, &reduced),
+                rank_dense(&exact, &closure),
                 "{name}"
             );
         }

@@ -16,7 +16,6 @@
 
 use crate::closure::Closure;
 use crate::geom::exact::ExactField;
-use crate::linalg::echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::elimination_order::EliminationPlan;
@@ -28,8 +27,7 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Qu
 /// # Complexity
 /// O(f·d³w³) field operations for f columns, d = 6 rows per contour and fronts of at most w contours: linear in the
 /// number of contours k for chains, trees and grids of bounded width, where w is bounded. The order of the contours
-/// costs O(k·w·k/64) operations on words besides. Never more than O(w) times the dense elimination,
-/// [`rank_dense`].
+/// costs O(k·w·k/64) operations on words besides. Never more than O(w) times the dense elimination.
 #[must_use]
 pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let plan = EliminationPlan::new(closure);
@@ -45,16 +43,6 @@ pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
         work.eliminate(closure, c);
     }
     work.rank
-}
-
-/// Rank of J over the field by writing it out: the slow twin of [`rank`].
-///
-/// # Complexity
-/// O(f · rank · 6k) field operations.
-#[must_use]
-pub fn rank_dense(exact: &ExactField, closure: &Closure<Residue>) -> usize {
-    let columns = closure.dense(exact);
-    echelon::rank(exact.field(), columns.iter().map(Vec::as_slice))
 }
 
 /// What a front leaves: columns on the rows of the contour's neighbours, ascending.

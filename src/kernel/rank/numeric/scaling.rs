@@ -68,12 +68,6 @@ impl Scaling {
         self.length
     }
 
-    /// What the speeds of the columns are multiplied by.
-    #[must_use]
-    pub fn sizes(&self) -> &[f64] {
-        &self.columns
-    }
-
     /// A twist about the middle.
     fn about(&self, twist: &[f64]) -> Vec<f64> {
         let mut t = twist.to_vec();

@@ -82,8 +82,6 @@ pub struct RankVerdict {
     pub tolerance: f64,
     /// What is meant.
     pub meant: Meant,
-    /// Whether a scene is known that the digits say is meant: of it, or of what is written, relations are exact.
-    pub resolved: bool,
     /// What rows of J, as it is written, are enough for its rank; empty where all are taken.
     pub needed: String,
 }
@@ -235,7 +233,6 @@ pub(in crate::rank) fn verdict_on(
         meant: Meant::AsWritten,
         needed,
         rounded,
-        resolved: scene.is_some(),
     };
     let Some(half) = allowed(file, found.rounded.as_ref()) else {
         return Ok(found);
