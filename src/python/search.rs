@@ -3,7 +3,7 @@
 use crate::mechanism::{Mechanism, drawn};
 use crate::told::{failed, json};
 use crate::waiting::{TURN, patiently};
-use ozols::draw::marks::of_variant;
+use ozols::draw::Marks;
 use ozols::score::outcome::variant;
 use ozols::score::request::{List, Request};
 use ozols::score::run::{Event, run};
@@ -210,7 +210,8 @@ impl Variant {
 
     fn draw(&self, py: Python<'_>, kind: &str, state: &str) -> PyResult<String> {
         py.detach(|| {
-            let (realized, marks) = of_variant(&self.outcome.search, &self.assignment, &self.name);
+            let (realized, marks) =
+                Marks::of_variant(&self.outcome.search, &self.assignment, &self.name);
             drawn(&realized, kind, state, Some(marks))
         })
     }

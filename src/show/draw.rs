@@ -5,7 +5,6 @@
 //! name, they stand farther away on a leader.
 
 mod kinematic;
-pub mod marks;
 mod place;
 #[cfg(feature = "png")]
 pub mod png;
@@ -20,14 +19,14 @@ pub use kinematic::moving::{Moved, kinematic_along, kinematic_moving};
 pub use kinematic::scene::{Scene, Shown, kinematic_scene};
 pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed};
 
-pub use place::view_direction::Sight;
+pub use place::projection::Sight;
 pub use scheme::scheme;
 pub(crate) use scheme::scheme_with;
 pub use sheet::STYLE as SHEET_STYLE;
 pub use sheet::{Drawing, Label};
 pub use subject::{Marks, Subject};
 pub use symbol::pairs::joint_type;
-pub use symbol::swap::Swap;
+pub use symbol::placed::Swap;
 
 /// How large a picture of a drawing is.
 #[derive(Debug, Clone, Copy, PartialEq)]

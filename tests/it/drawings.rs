@@ -17,7 +17,7 @@ mod undriven;
 use self::reading::{collisions, covers, misread, outside, texts};
 use crate::common::{built_in, out, ozols};
 use ozols::builtin;
-use ozols::draw::{Drawing, Rect, Subject, kinematic, marks, scheme};
+use ozols::draw::{Drawing, Marks, Rect, Subject, kinematic, scheme};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::{Method, analyse, exact_field};
@@ -158,7 +158,7 @@ fn variants_are_marked() {
     let search = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
     let diagrams = search.build(&|| false, &mut |_| {});
     let first = search.cheapest(&diagrams, 1).next();
-    let (realized, marks) = marks::of_variant(&search, &first.unwrap(), "variant 1");
+    let (realized, marks) = Marks::of_variant(&search, &first.unwrap(), "variant 1");
     assert_eq!(marks.links, 11);
     assert!(
         realized.links.len() > 11,

@@ -148,7 +148,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
     if let Some(k) = a.chosen.place() {
         let (realized, changes) = variant::kth(mechanism, request, k, |v| {
             let search = &v.outcome().search;
-            draw::marks::of_variant(search, v.assignment(), &v.name())
+            draw::Marks::of_variant(search, v.assignment(), &v.name())
         })?;
         (mechanism, marks) = (realized, Some(changes));
     }

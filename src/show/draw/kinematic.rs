@@ -13,21 +13,19 @@ pub(super) mod moving;
 mod naming;
 mod on_paper;
 mod points;
-mod posed;
 pub(super) mod scene;
 
 use self::arrow::Arrow;
 use self::body::Body;
 use self::marked::Marked;
 use super::subject::{Mark, Subject};
+use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{self, JointInSpace, Projection, Vector, bounds};
-use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
-use crate::draw::symbol::couplings;
+use crate::draw::subject;
 use crate::draw::symbol::ground::Ground;
-use crate::draw::symbol::placed::Symbol;
-use crate::draw::symbol::swap::{self, Swap};
+use crate::draw::symbol::placed::{self, Swap, Symbol};
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect, add, mean, polyline, scale, sub, unit};
@@ -84,7 +82,7 @@ pub(crate) fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Draw
         let mut piece = Sheet::piece();
         symbol.draw(&mut piece, subject, joint, Mark::Changed);
         if swap.unloading {
-            piece.shapes(&[swap::ring(symbol.reach())], [0.0; 2]);
+            piece.shapes(&[placed::ring(symbol.reach())], [0.0; 2]);
         }
         out.push(piece.into_text());
         if let Some(spot) = drawn.spots.iter_mut().find(|s| s.joint == joint) {
@@ -323,7 +321,7 @@ impl Kinematic<'_> {
             }
             if circles.is_empty() {
                 let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
-                couplings::draw_line(sheet, coupling, place);
+                subject::draw_line(sheet, coupling, place);
             }
         }
     }

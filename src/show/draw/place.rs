@@ -1,10 +1,36 @@
-//! Where links and joints stand in a picture: layouts of schemes, and projections of mechanisms in space.
+//! Where links and joints stand in a picture: layouts of schemes, found by chance that is the same each time, and projections of
+//! mechanisms in space.
 
-pub(in crate::draw) mod graph;
-pub(in crate::draw) mod initial_layout;
-pub(in crate::draw) mod layout;
-pub(in crate::draw) mod layout_penalty;
-pub(in crate::draw) mod mirror;
-pub(in crate::draw) mod projection;
-pub(in crate::draw) mod random;
-pub(in crate::draw) mod view_direction;
+pub(super) mod graph;
+pub(super) mod initial_layout;
+pub(super) mod layout;
+pub(super) mod layout_penalty;
+pub(super) mod projection;
+
+/// Numbers that look random and are the same each time.
+#[derive(Debug)]
+struct Dice(u64);
+
+impl Dice {
+    fn new(seed: u64) -> Dice {
+        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
+    }
+
+    /// Even in 0..1.
+    fn even(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Even in -1..1.
+    fn signed(&mut self) -> f64 {
+        2.0 * self.even() - 1.0
+    }
+
+    /// Even among 0..n.
+    fn below(&mut self, n: usize) -> usize {
+        ((self.even() * n as f64) as usize).min(n.saturating_sub(1))
+    }
+}

@@ -10,7 +10,7 @@ use crate::draw::place::layout::{Layout, layout};
 use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::shapes::{HALF, hatch, hatch_with, outline, rounded};
 use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
-use crate::draw::symbol::swap::{self, Swap};
+use crate::draw::symbol::placed::{self, Swap};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::svg::plane::{Point, Rect, add, inside, mean, norm, polyline, scale, sub, to_segment};
@@ -55,7 +55,7 @@ pub(crate) fn scheme_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing
         let class = s.option.joint_type.class();
         draw_symbol(&mut piece, subject, s.joint, class, Mark::Changed);
         if s.unloading {
-            piece.shapes(&[swap::ring(DRIVE)], [0.0; 2]);
+            piece.shapes(&[placed::ring(DRIVE)], [0.0; 2]);
         }
         piece.into_text()
     };

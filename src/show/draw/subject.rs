@@ -1,9 +1,19 @@
-//! What is drawn: a mechanism in one state, and what a redesign of it changed.
+//! What is drawn: a mechanism in one state with its couplings, and what a redesign of it changed.
 
-use crate::draw::sheet::{SMALL, Shape, Swatch};
+use crate::draw::sheet::{SMALL, Shape, Sheet, Swatch};
+use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
+use crate::search::Search;
+use crate::search::answer::k_best::Assignment;
+use crate::search::check::variant_mechanism;
+use crate::search::question::space::choice_name;
+use crate::svg::plane::{Point, add};
 use crate::svg::text::width;
+use std::fmt::Write as _;
+
+/// The class of the style sheet that the lines of couplings have.
+const CLASS: &str = "fine dash";
 
 /// What is to be drawn.
 #[derive(Debug, Clone)]
@@ -31,6 +41,44 @@ pub struct Marks {
     pub links: usize,
     /// The mechanism with its present joints in place of the changed ones, to be seen from the same side.
     pub before: Option<Mechanism>,
+}
+
+impl Marks {
+    /// The mechanism that a variant is, with its changes marked for drawing.
+    #[must_use]
+    pub fn of_variant(search: &Search, variant: &Assignment, name: &str) -> (Mechanism, Marks) {
+        let old = &search.mechanism;
+        let realized = variant_mechanism::realize(search, &variant.choices);
+        let mut changed: Vec<(JointId, String)> = Vec::new();
+        for (v, &choice) in search.space.variables.iter().zip(&variant.choices) {
+            if choice == 0 {
+                continue;
+            }
+            for &j in &v.joints {
+                let joint = &old.joints[j];
+                let to = choice_name(old, j, &v.choices[choice]);
+                let (from, now) = (
+                    joint.joint_type.class(),
+                    realized.joints[j].joint_type.class(),
+                );
+                changed.push((j, format!("{}: {from} → {now} {to}", joint.id)));
+            }
+        }
+        changed.sort_unstable();
+        let mut before = realized.clone();
+        for (joint, present) in before.joints.iter_mut().zip(&old.joints) {
+            joint.joint_type = present.joint_type.clone();
+            joint.frame = present.frame.clone();
+        }
+        let marks = Marks {
+            name: name.to_owned(),
+            changed,
+            joints: old.joints.len(),
+            links: old.links.len(),
+            before: Some(before),
+        };
+        (realized, marks)
+    }
 }
 
 /// How a part of the drawing is marked.
@@ -144,6 +192,39 @@ impl Subject<'_> {
         }
         out
     }
+
+    /// Draws the lines of the couplings between joints that stand at `place`.
+    pub(super) fn draw_couplings(
+        &self,
+        sheet: &mut Sheet,
+        place: impl Fn(JointId) -> Option<Point>,
+    ) {
+        for coupling in self.mechanism.couplings_in(self.state) {
+            draw_line(sheet, coupling, &place);
+        }
+    }
+
+    /// The row of the legend, where there are couplings.
+    pub(super) fn coupling_row(&self) -> Option<(Swatch, String)> {
+        self.mechanism.couplings_in(self.state).next()?;
+        let draw = |s: &mut Sheet, p: Point| s.line(CLASS, add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
+        Some((Swatch::Symbol(draw), "coupled joints".to_owned()))
+    }
+
+    /// The couplings for those who do not see the drawing.
+    pub(super) fn coupling_words(&self) -> String {
+        let mut out = String::new();
+        for c in self.mechanism.couplings_in(self.state) {
+            // Writing to a string cannot fail.
+            let _ = write!(
+                out,
+                " Coupled: {}, ratio {}.",
+                c.name(self.mechanism),
+                c.ratio
+            );
+        }
+        out
+    }
 }
 
 /// How much larger than usual a drawing is, for long names to have room.
@@ -153,4 +234,16 @@ pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
         .map(|&j| width(&m.joints[j].id, SMALL).min(150.0));
     let usual = wide.sum::<f64>() / joints.len().max(1) as f64;
     1.0 + 0.5 * ((usual - 40.0) / 60.0).clamp(0.0, 1.0)
+}
+
+/// Draws the line of a coupling between joints that stand at `place`.
+pub(super) fn draw_line(
+    sheet: &mut Sheet,
+    coupling: &Coupling,
+    place: impl Fn(JointId) -> Option<Point>,
+) {
+    let [a, b] = coupling.ends.map(|e| place(e.joint));
+    if let (Some(a), Some(b)) = (a, b) {
+        sheet.line(CLASS, a, b);
+    }
 }

@@ -1,7 +1,7 @@
 //! The shape of a link: a bar where its joints are in a row, a plate where they are not.
 
-use crate::draw::symbol::concentric::one_place;
 use crate::draw::symbol::pieces::hull;
+use crate::draw::symbol::placed::one_place;
 use crate::svg::plane::{Point, add, cross, dot, mean, norm, scale, sub, unit};
 
 /// A plate thinner than this, in pixels, is a bar.

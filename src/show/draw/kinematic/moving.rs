@@ -1,14 +1,13 @@
 //! A kinematic scheme over the way of its drive: one picture a pose, shown one after the other.
 
-pub(in crate::draw::kinematic) mod coupler_curves;
 pub(in crate::draw::kinematic) mod frame;
 pub(in crate::draw::kinematic) mod sliding;
 
 use super::{Kinematic, STRIP};
 use crate::draw::kinematic::moving::frame::MovingPicture;
-use crate::draw::kinematic::posed::Carried;
+use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{JointInSpace, bounds};
-use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Sheet, SheetPlan, Swatch, plan};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::placed::Symbol;

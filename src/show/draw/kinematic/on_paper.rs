@@ -3,14 +3,13 @@
 use crate::draw::kinematic::body::{self, Body};
 use crate::draw::kinematic::marked::marked;
 use crate::draw::kinematic::{Kinematic, Spot};
+use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::places::places;
 use crate::draw::place::projection::{self, JointInSpace, Projection, ToBeSeen, Vector};
-use crate::draw::place::view_direction::Sight;
 use crate::draw::subject::{Subject, roominess};
-use crate::draw::symbol::concentric::sizes;
 use crate::draw::symbol::drive::driven_slides;
 use crate::draw::symbol::ground::{Foot, grounds};
-use crate::draw::symbol::placed::Symbol;
+use crate::draw::symbol::placed::{Symbol, sizes};
 use crate::draw::symbol::symbols::side_of_slide;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role};

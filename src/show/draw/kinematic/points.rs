@@ -2,9 +2,12 @@
 
 use super::Kinematic;
 use super::marked::{Marked, draw_mark};
+use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::place::projection::{Vector, add as add3, scale as times};
 use crate::draw::sheet::{Sheet, Swatch};
+use crate::draw::symbol::placed::one_place;
 use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, add, polyline};
+use crate::svg::plane::{Point, add, polyline, sub};
 
 impl Kinematic<'_> {
     /// The points of a link.
@@ -57,5 +60,51 @@ impl Kinematic<'_> {
             out.push((Swatch::Symbol(draw), of.to_owned()));
         }
         out
+    }
+
+    /// The way of each point that is shown.
+    pub(super) fn ways(&self, poses: &[Carried<'_>]) -> Vec<Vec<Point>> {
+        let tips = self.tips().into_iter();
+        let of = tips.map(|(link, tip)| {
+            let at = |c: &Carried<'_>| self.projection.flat(c.point(link, tip));
+            poses.iter().map(at).collect()
+        });
+        of.collect()
+    }
+
+    /// The points of interest; of output links that have none the free end of one with a single joint, else its joints but those of the frame.
+    pub(super) fn tips(&self) -> Vec<(LinkId, Vector)> {
+        let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
+        let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();
+        let bare = |l: LinkId| self.is_output(l) && self.points_of(l).next().is_none();
+        for (row, (l, of)) in self.links.iter().enumerate() {
+            if !bare(*l) {
+                continue;
+            }
+            let mut seen: Vec<Point> = Vec::new();
+            for &i in of {
+                let spot = &self.spots[i];
+                let links = self.subject.mechanism.joints[spot.joint].links;
+                let grounded = links.iter().any(|&l| self.is_frame(l));
+                if !grounded && !seen.iter().any(|&p| one_place(p, spot.at)) {
+                    seen.push(spot.at);
+                    out.push((*l, self.places[i].point));
+                }
+            }
+            out.extend(self.loose_in_space(row).map(|p| (*l, p)));
+        }
+        out
+    }
+
+    /// The free end of a link with one joint.
+    pub(super) fn loose_in_space(&self, link: usize) -> Option<Vector> {
+        let of = &self.links[link].1;
+        let off = sub(self.loose(link)?, self.spots[of[0]].at);
+        let (view, scale) = (&self.projection.view, self.projection.scale);
+        let across = add3(
+            times(view.right, off[0] / scale),
+            times(view.up, -off[1] / scale),
+        );
+        Some(add3(self.places[of[0]].point, across))
     }
 }

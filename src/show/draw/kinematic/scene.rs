@@ -2,23 +2,20 @@
 //!
 //! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
 
-pub(in crate::draw::kinematic) mod pair;
 pub(in crate::draw::kinematic) mod part;
 mod standing;
-pub(in crate::draw::kinematic) mod swapped;
 
 use super::Kinematic;
 use super::arrow::Arrow;
 use super::moving::{Moved, flag_row, poses};
 use crate::draw::kinematic::moving::frame::MovingPicture;
-use crate::draw::kinematic::posed::Carried;
-use crate::draw::kinematic::scene::pair::{Pair, Tie};
-use crate::draw::kinematic::scene::part::{SymbolPart, tidy};
+use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::kinematic::scene::part::{Pair, SymbolPart, Tie, tidy};
+use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{Vector, sub};
-use crate::draw::place::view_direction::Sight;
 use crate::draw::sheet::{Caption, Drawing, Sheet, Swatch, plan};
 use crate::draw::subject::Subject;
-use crate::draw::symbol::swap::Swap;
+use crate::draw::symbol::placed::Swap;
 use crate::model::mechanism::LinkId;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;

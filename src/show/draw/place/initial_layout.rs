@@ -1,8 +1,7 @@
 //! First places for the joints of a scheme.
 
-use crate::draw::place::graph::{Graph, Net};
-use crate::draw::place::mirror::Mirror;
-use crate::draw::place::random::Dice;
+use crate::draw::place::Dice;
+use crate::draw::place::graph::{Graph, Mirror, Net};
 use crate::svg::plane::{Point, add, mean, norm, scale, sub};
 use std::f64::consts::TAU;
 

@@ -7,10 +7,9 @@
 //! # Sources
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
 
-use crate::draw::place::graph::{Graph, Net, net};
+use crate::draw::place::graph::{Graph, Mirror, Net, net};
 use crate::draw::place::initial_layout::{self, Start};
 use crate::draw::place::layout_penalty::Crowding;
-use crate::draw::place::mirror::Mirror;
 use crate::svg::plane::{Point, add, dot, mean, norm, scale, sub, unit};
 
 /// A finished layout; the unit of length is about the length of a bar.

@@ -1,8 +1,7 @@
 //! How bad a layout is, and small moves that make it better.
 
-use crate::draw::place::graph::{Graph, radius, ring};
-use crate::draw::place::mirror::Mirror;
-use crate::draw::place::random::Dice;
+use crate::draw::place::Dice;
+use crate::draw::place::graph::{Graph, Mirror, radius, ring};
 use crate::svg::plane::{
     Point, add, apart, area, cross, inside, mean, norm, segments_cross, sub, to_segment,
 };

@@ -3,9 +3,9 @@
 pub(in crate::draw) mod places;
 mod view;
 
+pub use crate::draw::place::projection::view::Sight;
 use crate::draw::place::projection::view::{FLAT, face_on, unit, views};
 pub(in crate::draw) use crate::draw::place::projection::view::{View, along_z, aslant};
-use crate::draw::place::view_direction::Sight;
 use crate::geom::expr::Expr;
 use crate::geom::extent::diagonal;
 pub(in crate::draw) use crate::geom::vector::{

@@ -1,14 +1,13 @@
-//! The symbol of a joint, with the ring of a drive.
+//! The symbol of a joint at its place: with the ring of a drive, within others that stand there, and in place of another.
 
-use crate::draw::place::projection::{JointInSpace, View};
+use crate::draw::place::projection::{JointInSpace, ONE_PLACE, View};
 use crate::draw::sheet::{Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
-use crate::draw::symbol::drive;
 use crate::draw::symbol::pieces::{PaperPose, Piece};
-use crate::draw::symbol::symbols;
+use crate::draw::symbol::{drive, symbols};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::JointId;
-use crate::svg::plane::Rect;
+use crate::model::mechanism::{Joint, JointId, JointOption};
+use crate::svg::plane::{Point, Rect, norm, sub};
 
 /// The symbol of a joint round the origin.
 pub(in crate::draw) struct Symbol {
@@ -118,5 +117,65 @@ impl Symbol {
         });
         let below = self.ring.map(drive).unwrap_or_default();
         (below, only_here.into_iter().collect())
+    }
+}
+
+/// A joint in place of another.
+#[derive(Debug, Clone, Copy)]
+pub struct Swap<'a> {
+    /// The place.
+    pub joint: JointId,
+    /// What is put there.
+    pub option: &'a JointOption,
+    /// Whether an unloading joint is put in series with it: a ring stands for that.
+    pub unloading: bool,
+}
+
+/// The mark of an unloading joint round a symbol of some reach.
+pub(in crate::draw) fn ring(reach: f64) -> Shape {
+    Shape::Circle {
+        at: [0.0; 2],
+        radius: reach + 4.0,
+        class: "line new".to_owned(),
+    }
+}
+
+/// How much larger the next joint outwards is, so that the outline of each is seen.
+const STEP: f64 = 0.6;
+
+/// How many times its usual size each joint is drawn.
+pub(in crate::draw) fn sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
+    let mut out = vec![1.0; at.len()];
+    let mut done = vec![false; at.len()];
+    for i in 0..at.len() {
+        if done[i] {
+            continue;
+        }
+        let mut here: Vec<usize> = (i..at.len())
+            .filter(|&k| !done[k] && one_place(at[k], at[i]))
+            .collect();
+        here.sort_by_key(|&k| (outward(&joints[k].joint_type), joints[k].drive, k));
+        for (level, k) in here.into_iter().enumerate() {
+            done[k] = true;
+            out[k] = 1.0 + STEP * level as f64;
+        }
+    }
+    out
+}
+
+/// Whether two points of the paper are one to the eye.
+pub(in crate::draw) fn one_place(a: Point, b: Point) -> bool {
+    norm(sub(a, b)) <= ONE_PLACE
+}
+
+/// Which of several joints is nearer to the outside: pins and balls stand on blocks and plates.
+fn outward(of: &JointType) -> u8 {
+    match of {
+        JointType::Revolute | JointType::Spherical => 0,
+        JointType::Cylindrical | JointType::CylindricalUniversal => 2,
+        JointType::Fixed | JointType::Slotted | JointType::Prismatic => 3,
+        JointType::SphereInCylinder => 4,
+        JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane => 5,
+        _ => 1,
     }
 }

@@ -1,11 +1,34 @@
-//! What slides along what in a moving scheme, and how far.
+//! What a pose of the motion carries where, what slides along what, and how far.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::kinematic::posed::Carried;
-use crate::draw::place::projection::{Vector, dot, scale as times, sub as sub3};
-use crate::draw::symbol::concentric::one_place;
+use crate::draw::place::projection::{JointInSpace, Vector, dot, scale as times, sub as sub3};
+use crate::draw::symbol::placed::one_place;
+use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::LinkId;
+use crate::motion::pose::Pose;
+
+/// Where a link has carried what is fixed to it.
+pub(in crate::draw::kinematic) struct Carried<'p> {
+    pub(in crate::draw::kinematic) pose: &'p Pose,
+    pub(in crate::draw::kinematic) links: &'p [RigidMotion],
+}
+
+impl Carried<'_> {
+    pub(in crate::draw::kinematic) fn point(&self, link: LinkId, p: Vector) -> Vector {
+        self.pose.carried(self.links, link, p)
+    }
+
+    pub(in crate::draw::kinematic) fn place(
+        &self,
+        link: LinkId,
+        frame: LinkId,
+        place: &JointInSpace,
+    ) -> JointInSpace {
+        let turn = |v| self.links[frame].direction(v);
+        place.carried(self.point(link, place.point), turn)
+    }
+}
 
 impl Kinematic<'_> {
     /// How far along its axis each joint slides from where it is at rest, over all poses; nothing for those that do not.

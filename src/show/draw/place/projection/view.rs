@@ -1,8 +1,16 @@
 //! Sides to look from: those that are asked for by name, and those that are chosen from.
 
-use crate::draw::place::view_direction::Sight;
 use crate::geom::vector::{Vector, cross, dot, length as norm, scale, sub};
 use crate::svg::plane::Point;
+
+/// From where a kinematic scheme is looked at, as far as that is asked for; the rest is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sight {
+    /// The direction from the mechanism to the reader, of any length but zero.
+    pub toward: Option<Vector>,
+    /// What goes up on paper, as far as it is not the direction looked in; z where it is not stated.
+    pub up: Option<Vector>,
+}
 
 /// Points and axes nearer than this to a plane, relative to the size of the whole, lie in it: files of robots have some
 /// six digits.
