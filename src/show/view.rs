@@ -1,11 +1,10 @@
-//! Finished values as JSON and as text for people.
+//! Finished values as JSON that says which contract it keeps and as text for people, with how sure they are: figures that rest on what a
+//! reader took for granted are those of the file as read.
 
 pub mod accuracy;
 pub mod analysis;
-pub(crate) mod assumed;
 pub mod catalog;
 pub(crate) mod claims;
-pub mod contract;
 pub mod drive;
 pub mod grip;
 pub mod lint;
@@ -14,3 +13,55 @@ pub mod search;
 pub mod statics;
 pub mod stroke;
 pub mod terminal;
+
+use crate::format::plural;
+use crate::model::mechanism::Mechanism;
+use serde::Serialize;
+
+/// Returns the words for how sure a figure is, with the number of assumptions where there are any.
+fn as_read(m: &Mechanism, sure: String) -> String {
+    match with_assumptions(m) {
+        None => sure,
+        Some(read) => format!("{read}: {sure}"),
+    }
+}
+
+/// Returns "of the file as read, with 2 assumptions", or nothing where nothing was assumed.
+fn with_assumptions(m: &Mechanism) -> Option<String> {
+    let n = m.assumed.len();
+    (n > 0).then(|| format!("of the file as read, with {}", plural(n, "assumption")))
+}
+
+/// Returns the same in one word for programs: `as-read`, or the word given where nothing was assumed.
+pub(crate) fn kind(m: &Mechanism, sure: &'static str) -> &'static str {
+    if m.assumed.is_empty() { sure } else { AS_READ }
+}
+
+/// What is said of figures that rest on assumptions.
+const AS_READ: &str = "as-read";
+
+/// The number of the contract of all JSON that the commands print. It is raised when a key goes or means something else; keys that
+/// come are no new contract.
+pub const FORMAT: u32 = 1;
+
+/// A value as JSON for people to read and programs to parse; an object with `format`, the number of the contract, first.
+///
+/// # Errors
+/// Where a key is no text.
+///
+/// # Examples
+/// ```
+/// #[derive(serde::Serialize)]
+/// struct Rank {
+///     rank: usize,
+/// }
+/// let text = ozols::view::pretty(&Rank { rank: 12 }).unwrap();
+/// assert_eq!(text, "{\n  \"format\": 1,\n  \"rank\": 12\n}");
+/// ```
+pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
+    let text = serde_json::to_string_pretty(value)?;
+    Ok(match text.strip_prefix("{\n") {
+        Some(rest) => format!("{{\n  \"format\": {FORMAT},\n{rest}"),
+        None => text,
+    })
+}

@@ -10,7 +10,7 @@ use crate::cli::option::global::Global;
 use crate::cli::terminal::machine;
 use crate::cli::terminal::output;
 use crate::cli::terminal::progress::Bar;
-use crate::view::accuracy::survey::summary;
+use crate::view::accuracy::summary;
 use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;

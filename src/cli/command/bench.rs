@@ -15,7 +15,7 @@ use crate::cli::terminal::progress::Bar;
 use crate::model::mechanism::Mechanism;
 use crate::score::request::{List, Request};
 use crate::search::question::conditions::Symmetry;
-use crate::view::accuracy::bench::{BenchData, text};
+use crate::view::accuracy::{BenchData, bench_text};
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -139,7 +139,11 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     output::to(None, |out| {
         match a.format {
             BenchFormat::Text => {
-                write!(out, "{}", text(&trials, &machine, output::width(None)))?;
+                write!(
+                    out,
+                    "{}",
+                    bench_text(&trials, &machine, output::width(None))
+                )?;
             }
             BenchFormat::Json => output::json(out, &BenchData::new(&trials, &machine))?,
             BenchFormat::Csv => write!(out, "{}", table::csv(&trials))?,

@@ -7,11 +7,10 @@ mod standard;
 
 pub(in crate::cli) use beside::{abandon, cut_short};
 
-use crate::api;
 use crate::cli::terminal::spinner;
 use crate::file::problem::ImportError;
 use crate::format::plain::{coloured, plain};
-use crate::view::contract;
+use crate::{api, view};
 use anyhow::Context;
 use named::Named;
 use standard::Standard;
@@ -111,7 +110,7 @@ pub(in crate::cli) fn json(
     out: &mut dyn Write,
     value: &impl serde::Serialize,
 ) -> anyhow::Result<()> {
-    Ok(writeln!(out, "{}", contract::pretty(value)?)?)
+    Ok(writeln!(out, "{}", view::pretty(value)?)?)
 }
 
 /// No text is fitted to less.

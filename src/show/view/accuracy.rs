@@ -1,4 +1,281 @@
 //! How right and how fast methods and ways of searching are, for people and as data.
 
-pub mod bench;
-pub mod survey;
+use crate::accuracy::AnswerVerdict;
+use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
+use crate::accuracy::searching::pictures::{ranking, wrong};
+use crate::accuracy::searching::record::{Record, Share, Trial};
+use crate::accuracy::searching::table::{TrialRow, rows};
+use crate::accuracy::survey::{Case, Survey};
+use crate::accuracy::timing::{Machine, Timing};
+use crate::format::{duration, grouped, signed};
+use crate::rank::method::registry;
+use crate::view::terminal::layout::{fit, table};
+use serde::Serialize;
+use std::cmp::Reverse;
+use std::fmt::Write;
+
+/// Everything, for programs: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
+#[derive(Debug, Serialize)]
+pub struct BenchData<'a> {
+    machine: MachineData<'a>,
+    mechanisms: Vec<TrialData<'a>>,
+    ways: Vec<TrialRow<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct MachineData<'a> {
+    processor: &'a str,
+    threads: usize,
+    cores: usize,
+    memory_bytes: Option<u64>,
+    system: &'a str,
+    version: &'static str,
+    optimised: bool,
+    clock: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+struct TrialData<'a> {
+    mechanism: &'a str,
+    space: String,
+    determinate: Option<String>,
+    admissible: Option<String>,
+    looked_at: usize,
+    all_looked_at: bool,
+    top: usize,
+    ranked_by_pool: Option<usize>,
+    ranking_proven: Option<bool>,
+}
+
+impl<'a> BenchData<'a> {
+    /// Of some trials.
+    #[must_use]
+    pub fn new(trials: &'a [Trial], machine: &'a Machine) -> BenchData<'a> {
+        let trial = |t: &'a Trial| {
+            let found = |i: usize| t.found.as_ref().map(|f| f[i].to_string());
+            TrialData {
+                mechanism: &t.mechanism,
+                space: t.space.to_string(),
+                determinate: found(0),
+                admissible: found(1),
+                looked_at: t.looked,
+                all_looked_at: t.whole,
+                top: t.top,
+                ranked_by_pool: t.ranked.map(|r| r.0),
+                ranking_proven: t.ranked.map(|r| r.1),
+            }
+        };
+        BenchData {
+            machine: MachineData {
+                processor: &machine.processor,
+                threads: machine.threads,
+                cores: machine.cores,
+                memory_bytes: machine.memory,
+                system: &machine.system,
+                version: Machine::VERSION,
+                optimised: machine.optimised,
+                clock: machine.time(),
+            },
+            mechanisms: trials.iter().map(trial).collect(),
+            ways: rows(trials),
+        }
+    }
+}
+
+/// A table for each mechanism, and on what machine they were made.
+#[must_use]
+pub fn bench_text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
+    let mut out = String::new();
+    for t in trials {
+        out += &fit(&trial_head(t), width);
+        let best = format!("of the best {}", t.top);
+        let heads = [
+            "way",
+            "right counts",
+            "counting",
+            &best,
+            "naming them",
+            "right variants",
+        ];
+        let rows = t.records.iter().map(row).collect();
+        // Writing to a string cannot fail.
+        let _ = write!(out, "\n{}\n\n", table(&heads, rows, width));
+        out += &fit(&format!("{}\n\n", notes(t)), width);
+    }
+    let times = if trials
+        .iter()
+        .flat_map(|t| &t.records)
+        .any(|r| r.counting.is_some_and(|t| t.repeats > 1))
+    {
+        "the median and the farthest from it"
+    } else {
+        "once"
+    };
+    let clock = machine.time();
+    out + &fit(
+        &format!("Times are {clock}, {times}; on {machine}.\n"),
+        width,
+    )
+}
+
+fn trial_head(t: &Trial) -> String {
+    let space = grouped(&t.space);
+    match &t.found {
+        Some([determinate, admissible]) => format!(
+            "{}: {space} variants, {} determinate, {} admissible\n",
+            t.mechanism,
+            grouped(determinate),
+            grouped(admissible)
+        ),
+        None => format!(
+            "{}: {space} variants; the truth needs more --nodes, so that no counts are compared\n",
+            t.mechanism
+        ),
+    }
+}
+
+fn share(s: Share) -> String {
+    let of = |n: usize| grouped(n);
+    format!("{} of {}", of(s.right), of(s.of))
+}
+
+fn row(r: &Record) -> Vec<String> {
+    let or_none = |s: Option<Share>| s.map_or_else(String::new, share);
+    let about = if r.by_proportion { "about " } else { "" };
+    let time = |t: Option<Timing>| t.map_or_else(String::new, |t| format!("{about}{}", spread(t)));
+    vec![
+        r.way.to_string(),
+        or_none(r.counts),
+        time(r.counting),
+        or_none(r.best),
+        time(r.naming),
+        share(r.variants),
+    ]
+}
+
+/// The median, and how far the times are from it at most.
+fn spread(t: Timing) -> String {
+    let off = (t.most - t.median).max(t.median - t.least);
+    match t.repeats {
+        1 => duration(t.median),
+        _ => format!("{} ±{}", duration(t.median), duration(off)),
+    }
+}
+
+fn notes(t: &Trial) -> String {
+    let mut notes = vec![wrong(t)];
+    if !t.whole {
+        notes.push(format!(
+            "Brute force looked at {} variants, half drawn from all and half from the admissible ones, and what prunes at branches \
+             drawn at random: they give no counts, and their time is in proportion to all.",
+            grouped(t.looked)
+        ));
+    }
+    notes.extend(ranking(t));
+    notes.join(" ")
+}
+
+/// A table of the methods, on what machine it was made, then a paragraph for each chart.
+#[must_use]
+pub fn summary<'a>(
+    survey: &Survey,
+    sentences: impl IntoIterator<Item = (&'a str, &'a str)>,
+    machine: &Machine,
+    width: Option<u16>,
+) -> String {
+    let cases = survey.cases.len();
+    let heads = [
+        "method",
+        &format!("right of {cases}"),
+        "at the pose only",
+        "wrong",
+        "n/a",
+        "median time",
+        "middle half",
+        "what fails, and why",
+    ];
+    let standing = |name: &str| {
+        let m = registry::ALL.iter().position(|x| x.name() == name)?;
+        Some(survey.standing(m).right)
+    };
+    let mut out = format!("{cases} cases of known mobility");
+    if let (Some(auto), Some(count)) = (standing("auto"), standing("count")) {
+        // Writing to a string cannot fail.
+        let _ = write!(
+            out,
+            ": the automatic choice is right on {auto}, the counting formula on {count}"
+        );
+    }
+    let _ = write!(out, "\n\n{}\n", table(&heads, method_rows(survey), width));
+    let _ = write!(
+        out,
+        "\n{} {}. On {machine}.\n",
+        tolerances(survey),
+        repeated(survey)
+    );
+    for (title, sentence) in sentences {
+        // Writing to a string cannot fail.
+        let _ = write!(out, "\n{title}: {sentence}\n");
+    }
+    fit(&out, width)
+}
+
+/// Each method as it is, and with its best tolerance where it has one.
+fn method_rows(survey: &Survey) -> Vec<Vec<String>> {
+    let cases = survey.cases.len();
+    let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
+    let mut rows = Vec::new();
+    for (m, method) in registry::ALL.iter().enumerate() {
+        let s = survey.standing(m);
+        let row = |name: String, right: usize, pose: usize, why: String| {
+            let [from, to] = s.middle_half.map(duration);
+            vec![
+                name,
+                right.to_string(),
+                count(pose),
+                count(s.applies - right - pose),
+                count(cases - s.applies),
+                duration(s.seconds),
+                format!("{from} to {to}"),
+                why,
+            ]
+        };
+        rows.push(row(
+            method.name().to_owned(),
+            s.right,
+            s.pose,
+            failures(survey, m),
+        ));
+        let tuned = survey.tuned.iter().find(|t| t.method == m);
+        if let Some((t, name)) = tuned.and_then(|t| Some((t, tuned_name(t)?))) {
+            rows.push(row(name, t.right, t.pose, "its best tolerance".to_owned()));
+        }
+    }
+    rows
+}
+
+/// The worst failures of a method, and what it needs to be right.
+fn failures(survey: &Survey, m: usize) -> String {
+    let mut wrong: Vec<(u64, &Case, String)> = survey
+        .of_method(m)
+        .filter_map(|(case, reply)| match reply.verdict {
+            AnswerVerdict::Wrong(by) => Some((by.unsigned_abs(), case, signed(by))),
+            AnswerVerdict::Failed => Some((u64::MAX, case, "fails".to_owned())),
+            _ => None,
+        })
+        .collect();
+    wrong.sort_by_key(|(size, case, _)| (Reverse(*size), case.name()));
+    let pose = survey.standing(m).pose > 0;
+    let Some((_, worst, by)) = wrong.first() else {
+        return if pose {
+            "speaks of the pose: singular and shaky poses look mobile".to_owned()
+        } else {
+            String::new()
+        };
+    };
+    format!(
+        "{by} on {}; {}",
+        worst.name(),
+        registry::ALL[m].about().guarantee
+    )
+}

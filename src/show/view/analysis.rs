@@ -1,6 +1,5 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
-mod drives;
 pub(crate) mod idle;
 pub(crate) mod least_rows;
 pub mod link_motions;
@@ -17,13 +16,13 @@ use crate::redundancy::analysis::{self, StateAnalysis};
 use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::local_mobility;
 use crate::redundancy::stress::{JointWrench, StressVerdict};
-use crate::view::analysis::drives::DriveFault;
+use crate::view::analysis::idle::DriveFault;
 use crate::view::analysis::least_rows::{ContourRows, least_rows};
 use crate::view::analysis::link_motions::LinkMotionData;
 use crate::view::analysis::suggestions::{Advice, Suggestions};
-use crate::view::assumed::{as_read, kind};
 use crate::view::claims::about;
 use crate::view::stroke::StrokeData;
+use crate::view::{as_read, kind};
 use serde::Serialize;
 
 /// The analysis of a mechanism.

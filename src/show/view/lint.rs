@@ -2,11 +2,10 @@
 
 mod assembly;
 mod finding;
-mod passed_over;
 
 pub use assembly::{Misfit, TypeChange};
+pub use finding::PassedOver;
 pub use finding::{Finding, words};
-pub use passed_over::PassedOver;
 
 use assembly::{count, then};
 use finding::LintWords;
@@ -16,7 +15,7 @@ use crate::model::mechanism::Mechanism;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
 use crate::robots::{CadCount, Imported, Origin, Report};
-use crate::view::assumed::{as_read, kind, with_assumptions};
+use crate::view::{as_read, kind, with_assumptions};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -281,6 +280,6 @@ impl Lint {
 #[must_use]
 pub fn json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
-    passed_over::in_json(&mut out, passed_over);
+    finding::in_json(&mut out, passed_over);
     out
 }

@@ -2,4 +2,3 @@
 
 pub mod layout;
 pub mod next_commands;
-pub(in crate::view) mod si_prefix;

@@ -1,6 +1,7 @@
 //! A redundant constraint of a robot description in words.
 
 use super::assembly::{Misfit, TypeChange};
+use crate::format::plain::line;
 use crate::format::{brief, cost};
 use crate::geom::vector::Vector;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
@@ -9,6 +10,7 @@ use crate::redundancy::release::{Duplicate, Release, becomes};
 use crate::robots::{ElementPlace, Origin};
 use itertools::Itertools;
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Remedies told of each finding.
 const REMEDIES: usize = 3;
@@ -210,5 +212,52 @@ fn name(d: Vector) -> String {
     match along {
         Some(i) => axes[i].to_owned(),
         None => format!("({})", d.map(brief).join(", ")),
+    }
+}
+
+/// A file that could not be looked at, or has nothing to be looked at.
+#[derive(Debug, Clone, Serialize)]
+pub struct PassedOver {
+    /// Name of the file.
+    pub file: String,
+    /// Why, in a line.
+    pub why: String,
+    /// Whether nothing in it can move: then nothing is redundant, and nothing is wrong.
+    pub rigid: bool,
+}
+
+impl PassedOver {
+    /// Why a file is passed over.
+    #[must_use]
+    pub fn new(file: &str, why: &str, rigid: bool) -> PassedOver {
+        let line = why.lines().next().unwrap_or_default();
+        // The file stands in front of the line already: `FILE:3:7: why`, `FILE: why` or `FILE is no such thing`.
+        let named = line.strip_prefix(file).and_then(|rest| {
+            let of_place = rest.strip_prefix(':').map(str::trim_start);
+            of_place.or_else(|| rest.strip_prefix(" is "))
+        });
+        PassedOver {
+            file: file.to_owned(),
+            why: named.unwrap_or(line).to_owned(),
+            rigid,
+        }
+    }
+
+    /// A line for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let (file, why) = (line(&self.file), line(&self.why));
+        if self.rigid {
+            format!("{file}: nothing is redundant: {why}\n")
+        } else {
+            format!("{file}: not looked at: {why}\n")
+        }
+    }
+}
+
+/// Tells of them beside the findings in JSON; nothing where there are none.
+pub(super) fn in_json(out: &mut Value, all: &[PassedOver]) {
+    if !all.is_empty() {
+        out["passed_over"] = json!(all);
     }
 }

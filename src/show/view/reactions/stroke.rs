@@ -7,8 +7,7 @@ use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};
 use crate::view::reactions::text::ADD_LOADS;
 use crate::view::reactions::{HEADS, JointForces, Reactions, couplings};
-use crate::view::terminal::layout::table as text_table;
-use crate::view::terminal::si_prefix::prefix;
+use crate::view::terminal::layout::{prefix, table as text_table};
 use serde::Serialize;
 use std::fmt::Write;
 

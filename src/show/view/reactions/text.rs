@@ -3,8 +3,7 @@
 use crate::format::{figure, list, plural, significant};
 use crate::statics::reactions::NEARLY_SINGULAR;
 use crate::view::reactions::{JointForces, ObjectContact, Reactions, couplings};
-use crate::view::terminal::layout::{fit, table};
-use crate::view::terminal::si_prefix::prefix;
+use crate::view::terminal::layout::{fit, prefix, table};
 use std::fmt::Write;
 
 /// The remedy for a file that states no loads.

@@ -6,10 +6,7 @@ use crate::score::outcome::Outcome;
 use crate::search::check::second_prime::Verdict;
 use crate::search::question::throughout::PoseOnly;
 use crate::view::search::conditions::in_state;
-use crate::view::search::ideas;
-use crate::view::search::numeric;
-use crate::view::search::second_opinion;
-use crate::view::search::stopped_early;
+use crate::view::search::{numeric, second_opinion, stopped_early};
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -20,11 +17,15 @@ use std::fmt::Write;
 /// Rows of mobilities told at most; JSON and the page have them all.
 const MOBILITIES: usize = 12;
 
+/// Above a list of ideas.
+pub(super) const IDEAS: &str = "ideas, cheapest first: each stands for all that give the same freedoms to the same joints in \
+     series, and is shown by the one that leaves most as it is";
+
 /// The verdict, how it was checked, and the counts by mobility.
 pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     let mut out = verdict(outcome);
-    let minimal = ideas::minimal(outcome).into_iter();
-    let lines = minimal.chain(numeric::lines(outcome));
+    let lines = minimal(outcome).into_iter();
+    let lines = lines.chain(numeric::lines(outcome));
     // Writing to a string cannot fail.
     for line in lines.chain(second_opinion::lines(outcome)) {
         let _ = writeln!(out, "  {line}");
@@ -58,7 +59,7 @@ fn condition(outcome: &Outcome) -> String {
 }
 
 /// Returns what variants keep, in words.
-pub(crate) fn keep_motion(mechanism: &Mechanism) -> &'static str {
+fn keep_motion(mechanism: &Mechanism) -> &'static str {
     match (mechanism.kept_drives(), mechanism.locked_drives()) {
         (0, 0) => "keep the output motion",
         (_, 0) => "keep the motion of outputs and drives",
@@ -248,4 +249,25 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
         None => &["W", &condition, "admissible"],
     };
     format!("\n{}\n", table(heads, rows, width))
+}
+
+/// How many of the variants that are listed are minimal, and what the others are, said once; `None` where that was not counted.
+fn minimal(outcome: &Outcome) -> Option<String> {
+    let minimal = outcome.minimal()?;
+    let rest = &outcome.listed_counts().total - &minimal;
+    if outcome.listed_counts().total.is_zero() {
+        return None;
+    }
+    let all = grouped(&minimal);
+    if rest.is_zero() {
+        return Some("minimal: each of them, none does with less than another".to_owned());
+    }
+    let idle = match outcome.search.conditions.max_redundant {
+        0 => "idle motion",
+        _ => "freedoms",
+    };
+    let rest = grouped(&rest);
+    Some(format!(
+        "{all} minimal; the other {rest} only add {idle} to one of these"
+    ))
 }

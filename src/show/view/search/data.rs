@@ -14,7 +14,7 @@ use crate::view::search::numeric::NumericData;
 use crate::view::search::ranking::RankingData;
 use crate::view::search::second_opinion::{SecondOpinionData, certainty};
 use crate::view::search::stopped_early::EstimateData;
-use crate::view::search::symmetric::{self, SymmetricData};
+use crate::view::search::variant::{self, SymmetricData};
 use num_bigint::BigUint;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -357,7 +357,7 @@ impl<'a> TailData<'a> {
             variants_posed: summary.posed,
             variants_lucky: summary.lucky,
             none,
-            symmetric: symmetric.map(symmetric::data),
+            symmetric: symmetric.map(variant::symmetric_data),
             seconds,
         }
     }

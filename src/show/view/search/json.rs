@@ -5,7 +5,7 @@ use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
 use crate::score::outcome::{Beside, Outcome};
 use crate::search::diagram::Stop;
-use crate::view::contract;
+use crate::view;
 use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
 use crate::view::search::variant::VariantData;
 use crate::view::search::why;
@@ -43,7 +43,7 @@ pub fn write(
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
-    let text = contract::pretty(&SearchData::new(outcome))?;
+    let text = view::pretty(&SearchData::new(outcome))?;
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"variants\": [")?;
     each(outcome, variants.by_ref(), |v, data| -> io::Result<()> {

@@ -6,7 +6,7 @@ use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Asked, Contradiction, SecondOpinion};
-use crate::view::assumed::{AS_READ, with_assumptions};
+use crate::view::{AS_READ, with_assumptions};
 use serde::Serialize;
 
 /// How sure counts are that are not exact though no budget cut them short.

@@ -11,12 +11,8 @@ use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
 use crate::view::search::conditions::hopeless;
 use crate::view::search::counts::counts;
 use crate::view::search::data::condition;
-use crate::view::search::ideas;
-use crate::view::search::ranking;
-use crate::view::search::stopped_early;
-use crate::view::search::symmetric;
 use crate::view::search::table::{contours, variants};
-use crate::view::search::why;
+use crate::view::search::{counts, ranking, stopped_early, variant, why};
 use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, NextCommand, file_name};
 use itertools::Itertools;
@@ -64,7 +60,7 @@ pub fn write(
         footnotes.extend(block.iter().filter_map(note));
     }
     if let Some(symmetric) = &beside.symmetric {
-        write!(out, "{}", fit(&symmetric::text(symmetric), width))?;
+        write!(out, "{}", fit(&variant::symmetric_text(symmetric), width))?;
     }
     let summary = given.summary();
     write_notes(out, &summary, footnotes, width)?;
@@ -100,7 +96,7 @@ fn order(outcome: &Outcome) -> String {
     match &outcome.ranking {
         Some(p) => ranking::head(p),
         None if matches!(outcome.request.list, List::Sample(_)) => "drawn at random".to_owned(),
-        None if outcome.request.distinct => ideas::HEAD.to_owned(),
+        None if outcome.request.distinct => counts::IDEAS.to_owned(),
         None => "cheapest first".to_owned(),
     }
 }

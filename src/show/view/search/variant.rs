@@ -1,14 +1,18 @@
-//! A variant as data, by the same contract as the search it is of.
+//! A variant as data, by the same contract as the search it is of, and the cheapest symmetric redesigns for people and as data.
 
+use crate::format::cost;
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::variant::{Change, Variant};
+use crate::score::outcome::symmetric::SymmetricBest;
+use crate::score::outcome::variant::{Change, Variant, changes, in_words};
 use crate::search::answer::freedom_patterns;
+use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::check::singular_values::Opinion;
 use crate::view::search::ranking::RankedData;
 use crate::view::search::why::WhyData;
 use serde::Serialize;
+use std::fmt::Write;
 
 /// One variant.
 #[derive(Debug, Serialize)]
@@ -32,7 +36,7 @@ pub struct VariantData<'a> {
 
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
-pub(in crate::view) enum Cost {
+pub(crate) enum Cost {
     Whole(i64),
     Part(f64),
 }
@@ -40,7 +44,7 @@ pub(in crate::view) enum Cost {
 impl Cost {
     /// Returns a cost given in thousandths.
     #[allow(clippy::cast_precision_loss, reason = "costs are small")]
-    pub(in crate::view) fn of(milli: i64) -> Cost {
+    pub(crate) fn of(milli: i64) -> Cost {
         match milli % 1000 {
             0 => Cost::Whole(milli / 1000),
             _ => Cost::Part(milli as f64 / 1000.0),
@@ -58,7 +62,7 @@ struct ContourData {
 }
 
 #[derive(Debug, Serialize)]
-pub(in crate::view) struct ChangeData<'a> {
+struct ChangeData<'a> {
     joint: &'a str,
     from: String,
     to: String,
@@ -176,4 +180,51 @@ impl OtherPoses {
             }),
         }
     }
+}
+
+/// Returns a line for each number of redundant constraints left, under a heading.
+pub(in crate::view) fn symmetric_text(found: &SymmetricBest) -> String {
+    let SymmetricBest { search, best, odd } = found;
+    let mut out = String::from("\n  the cheapest symmetric redesign for each σ left:\n");
+    // Writing to a string cannot fail.
+    for (left, v) in best {
+        let price = cost(search.steps.milli(v.key.cost()));
+        let (w, words) = (
+            search.mobility(v.key),
+            in_words(search, &changes(search, v)),
+        );
+        let _ = writeln!(out, "    σ = {left}: cost {price}, W = {w}, {words}");
+    }
+    if best.is_empty() {
+        out += "    none with the options offered and at most 2 redundant constraints\n";
+    }
+    if let Some(odd) = odd {
+        let _ = writeln!(
+            out,
+            "    none has σ = 0 without idle motion: it takes {} freedoms more, and joints that are alike get them {} at a time",
+            odd.needed, odd.at_a_time
+        );
+    }
+    out
+}
+
+/// A symmetric redesign as data.
+#[derive(Debug, Serialize)]
+pub(in crate::view) struct SymmetricData<'a> {
+    redundant: u32,
+    cost: Cost,
+    mobility: i64,
+    changes: Vec<ChangeData<'a>>,
+}
+
+/// Returns the cheapest symmetric redesigns as data.
+pub(in crate::view) fn symmetric_data(found: &SymmetricBest) -> Vec<SymmetricData<'_>> {
+    let search = &found.search;
+    let one = |(left, v): &(u32, Assignment)| SymmetricData {
+        redundant: *left,
+        cost: Cost::of(search.steps.milli(v.key.cost())),
+        mobility: search.mobility(v.key),
+        changes: ChangeData::of(&search.mechanism, changes(search, v)),
+    };
+    found.best.iter().map(one).collect()
 }

@@ -10,7 +10,7 @@ use crate::statics::inertia::{LinkInertia, link_inertias};
 use crate::statics::kinetostatics::LoadSource;
 use crate::statics::planar::PairId;
 use crate::view::statics::{StaticsData, magnitudes};
-use crate::view::terminal::si_prefix::prefix;
+use crate::view::terminal::layout::prefix;
 use itertools::Itertools;
 
 /// Named figures of a group's reactions.

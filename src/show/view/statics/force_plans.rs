@@ -9,7 +9,7 @@ use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::LoadSource;
 use crate::view::statics::StaticsData;
-use crate::view::terminal::si_prefix::prefix;
+use crate::view::terminal::layout::prefix;
 
 /// The drawing of each group, with the name of its file.
 #[must_use]

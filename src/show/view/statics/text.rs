@@ -12,8 +12,7 @@ use crate::statics::planar::PairId;
 use crate::view::claims;
 use crate::view::reactions::text::{NO_STRAIN, no_loads};
 use crate::view::statics::{Decomposed, GroupData, StaticsData, Structures, magnitudes};
-use crate::view::terminal::layout::{fit, table};
-use crate::view::terminal::si_prefix::prefix;
+use crate::view::terminal::layout::{fit, prefix, table};
 use itertools::Itertools;
 use std::fmt::Write;
 
