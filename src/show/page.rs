@@ -10,18 +10,14 @@ mod certainty;
 mod contents;
 mod data;
 mod explorer;
-mod figures;
 #[cfg(feature = "store")]
 mod gripper;
 #[doc(hidden)]
 pub mod moving;
-mod number;
 mod policy;
 #[doc(hidden)]
 pub mod scenes;
-mod stage;
 mod states;
-mod style;
 mod symbols;
 mod variants;
 #[doc(hidden)]
@@ -33,8 +29,7 @@ use crate::redundancy::AnalysisError;
 use crate::view::analysis::Analysis;
 use data::Data;
 use maud::{Markup, PreEscaped, html};
-use policy::POLICY;
-use style::STYLE;
+use policy::{POLICY, STYLE};
 use symbols::Drawn;
 use variants::FoundColumns;
 
@@ -153,8 +148,8 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                 main {
                     div.front {
                         section id="verdict" aria-label="Verdict" { (verdict::html(page, &analysis)) }
-                        (stage::html(page, &analysis))
-                        (section(1, explorer::html(page)))
+                        (explorer::stage(page, &analysis))
+                        (section(1, explorer::redesigns(page)))
                     }
                     (section(2, states::html(&analysis, &drawn)))
                     (section(3, certainty::html(page, &analysis)))

@@ -2,8 +2,7 @@
 
 use super::data::escaped;
 use super::gripper::drawing;
-use super::policy::{self, POLICY};
-use super::style::STYLE;
+use super::policy::{self, POLICY, STYLE};
 use crate::catalog::store::{Store, StoreError};
 use crate::file::text::mechanism_from_str;
 use crate::robots::formats;

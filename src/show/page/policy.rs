@@ -1,9 +1,11 @@
-//! The content security policy of a page: its own script and styles are allowed, each by its hash, and nothing else is.
+//! How every page looks, and its content security policy: its own script and styles are allowed, each by its hash, and nothing else is.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use itertools::Itertools;
 use sha2::{Digest, Sha256};
+
+pub(super) const STYLE: &str = concat!(include_str!("look.css"), include_str!("page.css"));
 
 /// What stands for the policy until all that it allows is written.
 pub(super) const POLICY: &str = "default-src 'none'";

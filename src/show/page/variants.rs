@@ -1,16 +1,22 @@
 //! The variants as columns for the script.
 
 use super::contents::{Page, Redesigns};
-use super::figures;
-use super::number::PageNumber;
-use super::workload::{WorkloadColumns, workload};
-use crate::model::mechanism::Mechanism;
+use super::workload::{PageNumber, WorkloadColumns, workload};
+use crate::closure::Closure;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
+use crate::rank::exact::modular;
 use crate::redundancy::AnalysisError;
+use crate::redundancy::contour_shares::shares;
+use crate::redundancy::local_mobility::idle_motions;
+use crate::redundancy::motion::motions;
 use crate::score::outcome::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::{Variable, choice_name};
+use crate::view::analysis::idle;
+use crate::view::search::variant::Cost;
 use crate::view::search::{text, why};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -26,7 +32,7 @@ pub(super) struct FoundColumns {
     variables: Vec<Choices>,
     /// Pairs of a variable and its choice, where that is not the present one.
     choices: Vec<Vec<usize>>,
-    cost: Vec<PageNumber>,
+    cost: Vec<Cost>,
     changes: Vec<u32>,
     mobility: Vec<i64>,
     redundant: Vec<u32>,
@@ -87,19 +93,16 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     let exact = search.field();
     let one = |(i, c): (usize, &Variant<'_>)| -> Result<Further, AnalysisError> {
         let m = variant_mechanism::realize(search, &c.assignment().choices);
-        let states = m
-            .state_ids()
-            .skip(1)
-            .map(|s| figures::figures(exact, &m, s));
+        let states = m.state_ids().skip(1).map(|s| figures(exact, &m, s));
         Ok(Further {
             states: states.collect::<Result<_, _>>()?,
             idle: if i < CHECKED {
-                figures::idle(exact, &m)?
+                idle(exact, &m)?
             } else {
                 String::new()
             },
             contours: (c.redundant() > 0)
-                .then(|| figures::redundant_by_contour(exact, &m))
+                .then(|| redundant_by_contour(exact, &m))
                 .transpose()?,
         })
     };
@@ -132,7 +135,7 @@ impl FoundColumns {
                 let changed = choices.filter(|(_, c)| **c != 0);
                 changed.flat_map(|(v, &c)| [v, c]).collect()
             }),
-            cost: column(r, |c| PageNumber::cost(c.cost_milli())),
+            cost: column(r, |c| Cost::of(c.cost_milli())),
             changes: column(r, |c| c.change_count()),
             mobility: column(r, |c| c.mobility()),
             redundant: column(r, |c| c.redundant()),
@@ -217,4 +220,39 @@ impl Choices {
             choices: choices.collect(),
         }
     }
+}
+
+/// W and σ of a state of a mechanism.
+pub(super) fn figures(
+    exact: &ExactField,
+    m: &Mechanism,
+    state: StateId,
+) -> Result<(usize, usize), ExactError> {
+    let closure = Closure::new(exact, m, state)?;
+    let rank = modular::rank(exact, &closure);
+    Ok((closure.columns.len() - rank, closure.rows() - rank))
+}
+
+/// Its idle motions in the free state, in words.
+pub(super) fn idle(exact: &ExactField, m: &Mechanism) -> Result<String, ExactError> {
+    let closure = Closure::new(exact, m, StateId::FREE)?;
+    let kernel = motions(exact, &closure);
+    let outputs: Vec<LinkId> = m
+        .link_ids()
+        .filter(|&l| m.links[l].role == Role::Output)
+        .collect();
+    let found = idle_motions(exact, m, &closure, &kernel, &outputs);
+    Ok(idle::told_once(found.iter().map(|i| idle::words(m, i))).join("; "))
+}
+
+/// σ of each of its contours in the free state.
+pub(super) fn redundant_by_contour(
+    exact: &ExactField,
+    m: &Mechanism,
+) -> Result<Vec<usize>, ExactError> {
+    let closure = Closure::new(exact, m, StateId::FREE)?;
+    Ok(shares(exact, &closure)
+        .iter()
+        .map(|s| s.redundant)
+        .collect())
 }

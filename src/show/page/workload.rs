@@ -1,13 +1,12 @@
 //! What the joints of each variant bear, and its scores, where the file states loads.
 
 use super::contents::Redesigns;
-use super::number::PageNumber;
 use crate::model::ranking::Term;
 use crate::score::evaluation::joint_loads::{Bearing, Bearings};
 use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
 use crate::view::search::ranking::{head, notes};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Columns of the variants; `None` in them where the loads of a variant have no equilibrium.
 #[derive(Serialize)]
@@ -126,5 +125,40 @@ impl RankingColumns {
             front: all.iter().map(|x| x.and_then(|r| r.front)).collect(),
             reason: r.variants.iter().map(|v| v.reason()).collect(),
         }
+    }
+}
+
+/// A number; whole ones without a `.0`, and null where it is none.
+#[derive(Clone, Copy)]
+pub(super) struct PageNumber(f64);
+
+impl PageNumber {
+    /// To five significant digits.
+    pub(super) fn measured(x: f64) -> PageNumber {
+        PageNumber(format!("{x:.4e}").parse().unwrap_or(f64::NAN))
+    }
+}
+
+impl Serialize for PageNumber {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        #[allow(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
+        if self.0.fract() == 0.0 && self.0.abs() < 1e15 {
+            to.serialize_i64(self.0 as i64)
+        } else {
+            to.serialize_f64(self.0)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PageNumber;
+
+    #[test]
+    fn numbers_are_short() {
+        let of = |x| serde_json::to_string(&PageNumber::measured(x)).unwrap();
+        assert_eq!(of(2.0), "2");
+        assert_eq!(of(0.022_345_678), "0.022346");
+        assert_eq!(of(f64::NAN), "null");
     }
 }
