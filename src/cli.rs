@@ -1,14 +1,13 @@
 //! The command line: arguments as data, one file per command, three exit codes.
 
 mod command;
-mod done;
 mod examples;
 mod option;
 mod terminal;
 
 use crate::cli::command::Command;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
+use crate::cli::option::Global;
+use crate::cli::terminal::Done;
 use anyhow::Context;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser};
 use std::ffi::OsString;

@@ -6,7 +6,6 @@ pub(in crate::cli) mod bench;
 pub(in crate::cli) mod catalog;
 pub(in crate::cli) mod check;
 pub(in crate::cli) mod clamped;
-pub(in crate::cli) mod closure;
 pub(in crate::cli) mod completions;
 pub(in crate::cli) mod draw;
 pub(in crate::cli) mod drive;
@@ -41,7 +40,7 @@ pub(in crate::cli) enum Command {
     Statics(statics::args::Statics),
     /// What a lever gripper can hold, and the drive moment it takes; force closure of any clamped mechanism.
     #[command(after_help = examples::GRIP)]
-    Grip(grip::args::Grip),
+    Grip(grip::Grip),
     /// Size a torsional drive of two discs and run its programme.
     #[command(after_help = examples::DRIVE)]
     Drive(drive::Drive),

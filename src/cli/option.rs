@@ -1,10 +1,36 @@
-//! Arguments that several commands have.
+//! Arguments that several commands have, and those that every command has.
 
-pub(in crate::cli) mod format;
-pub(in crate::cli) mod global;
-pub(in crate::cli) mod load;
-pub(in crate::cli) mod named;
-pub(in crate::cli) mod picture;
-pub(in crate::cli) mod reading;
-pub(in crate::cli) mod request;
-pub(in crate::cli) mod variant;
+pub(super) mod load;
+pub(super) mod named;
+pub(super) mod picture;
+pub(super) mod reading;
+pub(super) mod request;
+pub(super) mod variant;
+
+use clap::{Args as ClapArgs, ValueEnum};
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct Global {
+    /// Nothing but errors on standard error: no progress bar, no report of an import, no warnings.
+    #[arg(long, short, global = true)]
+    pub(super) quiet: bool,
+    /// Threads to use; all processors by default. Results do not depend on it.
+    #[arg(long, global = true, value_name = "N")]
+    pub(super) threads: Option<usize>,
+    /// Seed of random samples.
+    #[arg(long, global = true, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum TextOrJson {
+    Text,
+    Json,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum TextJsonOrCsv {
+    Text,
+    Json,
+    Csv,
+}

@@ -1,11 +1,22 @@
 //! The terminal: output, progress, interrupts, colour, memory.
 
-pub(in crate::cli) mod charts;
-pub(in crate::cli) mod colour;
-pub(in crate::cli) mod did_you_mean;
-pub(in crate::cli) mod interrupt;
-pub(in crate::cli) mod machine;
-pub(in crate::cli) mod memory;
-pub(in crate::cli) mod output;
-pub(in crate::cli) mod progress;
-pub(in crate::cli) mod spinner;
+pub(super) mod charts;
+pub(super) mod colour;
+pub(super) mod did_you_mean;
+pub(super) mod interrupt;
+pub(super) mod machine;
+pub(super) mod memory;
+pub(super) mod output;
+pub(super) mod progress;
+pub(super) mod spinner;
+
+/// How a command ended without failing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Done {
+    /// It did what was asked.
+    Found,
+    /// There was nothing to be found, or something was that should not be there.
+    Nothing,
+    /// Some of it failed, which was said, and the rest was done.
+    Partly,
+}

@@ -1,13 +1,10 @@
 //! `ozols analyze`.
 
 use crate::cli::command::verify;
-use crate::cli::done::Done;
-use crate::cli::option::format::TextOrJson;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
+use crate::cli::option::{Global, TextOrJson, load};
 use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 use crate::file::read::workload::motion::stroke;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::rank::method::registry;

@@ -1,20 +1,15 @@
 //! `ozols catalog`.
 
 mod build;
-mod built;
 mod chains;
 mod drawn;
-mod find;
-mod format;
-mod listing;
 mod look;
 mod merge;
-mod pairs;
 mod task;
 mod wanted;
 
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
+use crate::cli::option::Global;
+use crate::cli::terminal::Done;
 use clap::{Args as ClapArgs, Subcommand};
 
 #[derive(Debug, ClapArgs)]
@@ -36,7 +31,7 @@ enum What {
     /// Put the parts of a catalogue together.
     Merge(merge::Merge),
     /// What structure a mechanism has, what it is known as, and whether a catalogue has it.
-    Find(find::Find),
+    Find(look::Find),
     /// Ask a catalogue in SQL, or for its best structures.
     Query(look::Query),
     /// What a catalogue knows of a structure.
@@ -54,7 +49,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
         What::Build(b) => build::run(args, b),
         What::Search(s) => drawn::search(args, s),
         What::Merge(m) => merge::merge(m),
-        What::Find(f) => find::find(f),
+        What::Find(f) => look::find(f),
         What::Query(q) => look::query(q),
         What::Show(s) => look::show(s),
         What::Export(e) => look::export(e),

@@ -1,12 +1,10 @@
 //! `ozols check`, `show` and `schema`.
 
 use crate::builtin;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
+use crate::cli::option::{Global, load};
 use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 use crate::file::lint::{Checked, across, check};
 use crate::file::locate::DocumentStep;
 use crate::file::read::workload::tables_alone;

@@ -1,8 +1,7 @@
 //! `ozols statics` of a mechanism that grips: the part cut free, its contact forces on the jaws.
 
 use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
-use crate::cli::done::Done;
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 use crate::format::significant;
 use crate::grip::clamped::{ClampingReactions, clamped};
 use crate::grip::clamping::DiameterRow;

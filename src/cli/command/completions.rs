@@ -1,7 +1,6 @@
 //! `ozols completions`.
 
-use crate::cli::done::Done;
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 use clap::Args as ClapArgs;
 use clap::Command;
 

@@ -1,14 +1,10 @@
 //! `ozols draw`.
 
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
-use crate::cli::option::picture;
 use crate::cli::option::request::Which;
-use crate::cli::option::variant;
 use crate::cli::option::variant::Chosen;
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, load, picture, variant};
+use crate::cli::terminal::{Done, output};
 use crate::draw::{self, Drawing, Sight, Size, Subject};
 use crate::model::mechanism::StateId;
 use crate::page::moving::Moving;

@@ -1,12 +1,8 @@
 //! `ozols drive`.
 
-use crate::cli::done::Done;
-use crate::cli::option::format::TextOrJson;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
-use crate::cli::terminal::charts;
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, TextOrJson, load};
+use crate::cli::terminal::{Done, charts, output};
 use crate::drive::driving::drive;
 use crate::drive::shares;
 use crate::file::read::workload::drive_from_bytes;

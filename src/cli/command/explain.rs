@@ -2,9 +2,7 @@
 
 mod pair;
 
-use crate::cli::done::Done;
-use crate::cli::terminal::did_you_mean;
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, did_you_mean, output};
 use crate::model::joint_type::JointType;
 use crate::terms::{GlossaryTerm, Terms};
 use crate::view::terminal::layout::table;

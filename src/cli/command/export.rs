@@ -1,16 +1,13 @@
 //! `ozols export`.
 
 use crate::cli::command::types::changed;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::option::reading::{Reading, description};
 use crate::cli::option::request::Which;
-use crate::cli::option::variant;
 use crate::cli::option::variant::{Chosen, tell};
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, load, variant};
 use crate::cli::terminal::progress::note;
+use crate::cli::terminal::{Done, output};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::release::Release;
 use crate::robots::formats::{self, Format, FormattedFile};

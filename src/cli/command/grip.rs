@@ -1,31 +1,80 @@
 //! `ozols grip`.
 
-pub(in crate::cli) mod args;
-
 use crate::api::MAX_DESCRIPTION_BYTES;
-use crate::cli::command::closure;
-use crate::cli::done::Done;
-use crate::cli::option::format::TextOrJson;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
-use crate::cli::terminal::charts;
-use crate::cli::terminal::output;
+use crate::cli::option::named::File;
+use crate::cli::option::{Global, TextOrJson, load};
+use crate::cli::terminal::{Done, charts, output};
 use crate::file::disk;
 use crate::file::read::workload::trajectory::trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
+use crate::grip::clamped_part::ClampedPart;
+use crate::grip::force_closure::{closure, shares};
 use crate::grip::grip;
 use crate::grip::motion::along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::statics::reactions::contact::object_at;
 use crate::view;
-use crate::view::grip::{charts::charts, motion::GripMotion, text};
+use crate::view::grip::charts::charts;
+use crate::view::grip::closure::ClosureData;
+use crate::view::grip::motion::GripMotion;
+use crate::view::grip::text;
 use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail, ensure};
-use args::Grip;
-use std::path::Path;
+use clap::Args as ClapArgs;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Grip {
+    #[command(flatten)]
+    file: File,
+    /// A further acceleration of the gripper in m/s², in its axes (repeatable): 5,0,-2.
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    acceleration: Vec<[f64; 3]>,
+    /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
+    #[arg(long, value_name = "A")]
+    any_acceleration: Option<f64>,
+    /// A motion as CSV, one step a line: columns ax, ay, az in m/s², and if wanted gx, gy, gz (gravity in the gripper's axes),
+    /// time, diameter. The least clamping is found for every step.
+    #[arg(long, value_name = "CSV", value_hint = clap::ValueHint::FilePath)]
+    motion: Option<PathBuf>,
+    /// How firmly the contacts of any clamped mechanism hold the part, with friction and without, and how far from its loss; the
+    /// file needs no [workload.grip].
+    #[arg(long, conflicts_with_all = ["acceleration", "any_acceleration", "motion", "svg"])]
+    closure: bool,
+    /// The clamped state; the first with contacts by default.
+    #[arg(long, requires = "closure")]
+    state: Option<String>,
+    /// Also the share of samples with closure whose contacts are out by up to so much, in the file's unit of length.
+    #[arg(long, value_name = "LENGTH", requires = "closure")]
+    tolerance: Option<f64>,
+    /// How many samples.
+    #[arg(long, value_name = "N", requires = "tolerance", default_value = "200")]
+    samples: usize,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: TextOrJson,
+    /// Also write charts, each as SVG and CSV, into this folder.
+    #[arg(long, value_name = "DIR")]
+    svg: Option<PathBuf>,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+fn vector(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|t| t.trim().parse::<f64>().ok().filter(|x| x.abs() <= 1e6))
+        .collect::<Option<_>>()
+        .unwrap_or_default();
+    <[f64; 3]>::try_from(numbers)
+        .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
+}
 
 pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     if a.closure {
-        return closure::run(args, a);
+        return run_closure(args, a);
     }
     let (name, bytes) = load::named(&a.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
@@ -102,4 +151,57 @@ fn steps_of(path: &Path, file: &mut WorkloadFile<GripSpec>) -> anyhow::Result<Ve
     }
     file.spec.diameters.sort_by(f64::total_cmp);
     Ok(steps)
+}
+
+/// The state asked for, or the first in which a part is clamped.
+fn state(m: &Mechanism, asked: Option<&str>) -> anyhow::Result<StateId> {
+    let Some(name) = asked else {
+        let clamped = |s: &StateId| m.joints_in(*s).any(|j| object_at(m, j).is_some());
+        return Ok(m.state_ids().find(clamped).unwrap_or(StateId::FREE));
+    };
+    m.state(name).with_context(|| {
+        format!(
+            "{} has no state {name}; it has: {}",
+            m.name,
+            m.states.join(", ")
+        )
+    })
+}
+
+/// Says how firmly the contacts of any clamped mechanism hold the part.
+fn run_closure(args: &Global, a: &Grip) -> anyhow::Result<Done> {
+    let m = load::mechanism(&a.file)?;
+    let part = ClampedPart::new(&m, state(&m, a.state.as_deref())?)?;
+    let force = closure(&part, &part.faces)?;
+    let form = closure(&part, &part.smooth())?;
+    let samples = match a.tolerance {
+        None => None,
+        Some(t) => {
+            ensure!(
+                t > 0.0 && t.is_finite(),
+                "--tolerance must be a positive length"
+            );
+            ensure!(a.samples > 0, "--samples must be at least 1");
+            Some(shares(
+                &part,
+                t * m.length_unit.metres,
+                a.samples,
+                args.seed,
+            )?)
+        }
+    };
+    let shown = ClosureData::new(&m, &part, [&force, &form], samples.as_ref());
+    output::to(a.output.as_deref(), |out| {
+        match a.format {
+            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Text => {
+                write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
+            }
+        }
+        Ok(match shown.force_closure.closed {
+            Some(true) => Done::Found,
+            Some(false) => Done::Nothing,
+            None => Done::Partly,
+        })
+    })
 }

@@ -1,13 +1,11 @@
 //! `ozols lint`.
 
 use crate::cli::command::types;
-use crate::cli::done::Done;
-use crate::cli::option::format::TextOrJson;
-use crate::cli::option::load;
 use crate::cli::option::named::Named;
 use crate::cli::option::reading::{Reading, description};
+use crate::cli::option::{TextOrJson, load};
 use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_bytes;
 use crate::model::mechanism::{JointId, Mechanism};

@@ -1,9 +1,7 @@
 //! `ozols list`.
 
 use crate::builtin;
-use crate::cli::done::Done;
-use crate::cli::terminal::did_you_mean;
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, did_you_mean, output};
 use crate::format::csv;
 use crate::model::mechanism::StateId;
 use crate::redundancy::figures;

@@ -1,10 +1,8 @@
 //! `ozols new`.
 
 use crate::builtin;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, load};
+use crate::cli::terminal::{Done, output};
 use crate::file::template;
 use anyhow::{Context, bail};
 use clap::{Args as ClapArgs, ValueHint};

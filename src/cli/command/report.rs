@@ -1,13 +1,10 @@
 //! `ozols report`.
 
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
-use crate::cli::terminal::interrupt;
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, load};
 use crate::cli::terminal::progress::{SearchWatch, note};
+use crate::cli::terminal::{Done, interrupt, output};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::scenes::scenes;
 use crate::page::{Commands, Page, Redesigns, html};

@@ -1,16 +1,11 @@
 //! `ozols search`.
 
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
+use crate::cli::option::{Global, load};
 use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::interrupt;
-use crate::cli::terminal::machine;
-use crate::cli::terminal::memory;
-use crate::cli::terminal::output;
 use crate::cli::terminal::progress::SearchWatch;
+use crate::cli::terminal::{Done, interrupt, machine, memory, output};
 use crate::format::{duration, grouped};
 use crate::score::outcome::Beside;
 use crate::score::outcome::Outcome;

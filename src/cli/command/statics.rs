@@ -3,12 +3,9 @@
 pub(in crate::cli) mod args;
 
 use crate::cli::command::clamped;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
-use crate::cli::terminal::charts;
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, load};
+use crate::cli::terminal::{Done, charts, output};
 use crate::file::read::workload::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;

@@ -2,12 +2,9 @@
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::builtin;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::{Loops, Named};
-use crate::cli::terminal::output;
-use crate::cli::terminal::spinner;
+use crate::cli::option::{Global, load};
+use crate::cli::terminal::{Done, output, spinner};
 use crate::robots;
 use crate::score::request::Request;
 use crate::studio::{Opening, Studio};

@@ -1,10 +1,8 @@
 //! `ozols verify`, and the certificates that `ozols analyze` writes for it.
 
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::File;
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, load};
+use crate::cli::terminal::{Done, output};
 use crate::file::disk;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::certificate::{certify, matrix, number_field};

@@ -1,8 +1,7 @@
 //! Charts and drawings into a folder, each as SVG and CSV.
 
 use crate::chart::{Chart, page};
-use crate::cli::done::Done;
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 
 /// A drawing beside the charts.
 pub(in crate::cli) struct ChartDrawing {

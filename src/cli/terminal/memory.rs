@@ -1,9 +1,6 @@
 //! How much memory there is, and sizes of memory as words.
 
 mod group;
-mod limits;
-
-pub(in crate::cli) use limits::share_pools;
 
 use crate::cli::terminal::machine;
 use crate::score::request::Request;
@@ -11,9 +8,9 @@ use crate::score::request::Request;
 /// A quarter of the memory that the machine has, or that this process may have of it; what the library takes by default where
 /// that is not told. Of addresses that are scarce no more than half of those that are left.
 pub(in crate::cli) fn quarter() -> usize {
-    let most = limits::least().map_or(Request::default().memory as u64, |all| all / 4);
+    let most = least().map_or(Request::default().memory as u64, |all| all / 4);
     let taken = machine::addresses().unwrap_or(0);
-    let left = limits::ulimit().map(|all| all.saturating_sub(taken) / 2);
+    let left = ulimit().map(|all| all.saturating_sub(taken) / 2);
     usize::try_from(left.map_or(most, |left| left.min(most))).unwrap_or(usize::MAX)
 }
 
@@ -49,3 +46,46 @@ pub(in crate::cli) fn bytes(word: &str) -> Result<usize, String> {
     let size = size.filter(|s| (1e6..1e15).contains(s)).map(|s| s as usize);
     size.ok_or_else(|| "give a size of 1M or more, such as 500M or 2G".to_owned())
 }
+
+/// The least of all that bounds this process, in bytes; none where nothing is told.
+fn least() -> Option<u64> {
+    let known = [machine::memory(), group::limit(), ulimit()];
+    known.into_iter().flatten().min()
+}
+
+/// Most bytes of addresses, or of data, that the process may have: `ulimit -v` and `ulimit -d`.
+#[cfg(unix)]
+fn ulimit() -> Option<u64> {
+    use rustix::process::{Resource, getrlimit};
+    let limits = [Resource::As, Resource::Data].map(|r| getrlimit(r).current);
+    limits.into_iter().flatten().min()
+}
+
+#[cfg(not(unix))]
+fn ulimit() -> Option<u64> {
+    None
+}
+
+/// Starts the program anew where addresses are scarce, with one pool of memory for all threads: glibc sets 64 MiB of addresses aside
+/// for each thread's own, so that a few threads would use up what there is without holding any of it.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub(in crate::cli) fn share_pools(words: &[std::ffi::OsString]) {
+    use std::os::unix::process::CommandExt;
+    const POOLS: &str = "MALLOC_ARENA_MAX";
+    /// With more than this, what is set aside does not matter.
+    const PLENTY: u64 = 16 << 30;
+    if ulimit().is_none_or(|l| l > PLENTY) || std::env::var_os(POOLS).is_some() {
+        return;
+    }
+    if let (Ok(program), [name, rest @ ..]) = (std::env::current_exe(), words) {
+        // It comes back where that does not work, and all goes on as it was.
+        let _ = std::process::Command::new(program)
+            .arg0(name)
+            .args(rest)
+            .env(POOLS, "1")
+            .exec();
+    }
+}
+
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+pub(in crate::cli) fn share_pools(_: &[std::ffi::OsString]) {}

@@ -2,19 +2,15 @@
 
 mod beside;
 pub(in crate::cli) mod kept;
-mod named;
-mod standard;
 
 pub(in crate::cli) use beside::{abandon, cut_short};
 
-use crate::cli::terminal::spinner;
+use crate::cli::terminal::{Done, spinner};
 use crate::file::problem::ImportError;
 use crate::format::plain::{coloured, plain};
 use crate::{api, view};
 use anyhow::Context;
-use named::Named;
-use standard::Standard;
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -26,15 +22,11 @@ fn file(path: Option<&Path>) -> Option<&Path> {
 /// Runs `write` on standard output, which is also `-`, or on a file that appears under its name only once it is complete.
 pub(in crate::cli) fn to(
     path: Option<&Path>,
-    write: impl FnOnce(&mut dyn Write) -> anyhow::Result<crate::cli::done::Done>,
-) -> anyhow::Result<crate::cli::done::Done> {
+    write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
+) -> anyhow::Result<Done> {
     let Some(path) = file(path) else {
         kept::apart_from_standard_output()?;
-        let named = Named::new("standard output", Standard::new());
-        let mut out = BufWriter::new(named);
-        let done = write(&mut out)?;
-        out.flush()?;
-        return Ok(done);
+        return fill("standard output", Standard::new(), write);
     };
     kept::apart(path)?;
     let name = path.display().to_string();
@@ -47,10 +39,7 @@ pub(in crate::cli) fn to(
             .write(true)
             .open(path)
             .with_context(whole)?;
-        let mut out = BufWriter::new(Named::new(&name, file));
-        let done = write(&mut out)?;
-        out.flush()?;
-        return Ok(done);
+        return fill(&name, file, write);
     }
     let folder = path
         .parent()
@@ -67,12 +56,7 @@ pub(in crate::cli) fn to(
         );
     }
     let mut temporary = beside::begin(folder).with_context(whole)?;
-    let done = {
-        let mut out = BufWriter::new(Named::new(&name, temporary.as_file_mut()));
-        let done = write(&mut out)?;
-        out.flush()?;
-        done
-    };
+    let done = fill(&name, temporary.as_file_mut(), write)?;
     let older = old.as_ref().is_some_and(|m| m.len() > 0);
     if let Some(old) = old {
         let file = temporary.as_file();
@@ -99,7 +83,7 @@ pub(in crate::cli) fn files(
     for (name, text) in files {
         to(Some(&folder.join(&name)), |out| {
             out.write_all(text.as_bytes())?;
-            Ok(crate::cli::done::Done::Found)
+            Ok(Done::Found)
         })?;
     }
     Ok(())
@@ -192,4 +176,105 @@ pub(in crate::cli) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
 /// Says something on standard error, its colours left out where they are not wanted.
 pub(in crate::cli) fn coloured_note(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", coloured(text));
+}
+
+/// Runs `write` on something with a name, and returns how that ended once all is there.
+fn fill(
+    name: &str,
+    out: impl Write,
+    write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
+) -> anyhow::Result<Done> {
+    let mut out = BufWriter::new(Named { name, out });
+    let done = write(&mut out)?;
+    out.flush()?;
+    Ok(done)
+}
+
+/// A writer to something with a name, whose errors say what could not be written and what to do about it.
+struct Named<'n, W> {
+    name: &'n str,
+    out: W,
+}
+
+impl<W> Named<'_, W> {
+    /// Returns an error of the same kind that names what is written.
+    fn named(&self, why: io::Error) -> io::Error {
+        let remedy = match why.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+                "; make room there, or write elsewhere"
+            }
+            ErrorKind::FileTooLarge => "; raise the limit on the size of files (ulimit -f)",
+            _ => "",
+        };
+        let words = format!("cannot write {}: {why}{remedy}", self.name);
+        io::Error::new(why.kind(), words)
+    }
+}
+
+impl<W: Write> Write for Named<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.out.write(bytes).map_err(|why| self.named(why))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush().map_err(|why| self.named(why))
+    }
+}
+
+/// Standard output, held. Nothing is drawn over what is written, and where a person looks, no text of a file steers the terminal.
+struct Standard {
+    out: StdoutLock<'static>,
+    /// The beginning of a line whose rest is to come, where there is a terminal.
+    line: Option<Vec<u8>>,
+}
+
+impl Standard {
+    fn new() -> Standard {
+        let out = io::stdout();
+        let line = out.is_terminal().then(Vec::new);
+        Standard {
+            out: out.lock(),
+            line,
+        }
+    }
+}
+
+impl Write for Standard {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        spinner::rest();
+        let Some(line) = &mut self.line else {
+            return self.out.write(bytes);
+        };
+        line.extend_from_slice(bytes);
+        if let Some(end) = line.iter().rposition(|b| *b == b'\n') {
+            let rest = line.split_off(end + 1);
+            let whole = std::mem::replace(line, rest);
+            show(&mut self.out, &whole)?;
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if let Some(line) = &mut self.line {
+            show(&mut self.out, &std::mem::take(line))?;
+        }
+        self.out.flush()
+    }
+}
+
+fn show(out: &mut dyn Write, bytes: &[u8]) -> io::Result<()> {
+    out.write_all(coloured(&String::from_utf8_lossy(bytes)).as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::show;
+
+    #[test]
+    fn colours_pass_and_nothing_else_does() {
+        let mut out = Vec::new();
+        show(&mut out, "\u{1b}[1mσ\u{1b}[0m \u{1b}]0;x\u{7}\n".as_bytes()).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert_eq!(text, "\u{1b}[1mσ\u{1b}[0m \\u{1b}]0;x\\u{7}\n");
+    }
 }

@@ -1,17 +1,16 @@
 //! `ozols catalog build`.
 
-use super::built::built;
 use super::task::TaskArgs;
 use crate::catalog::build::{build, work};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::terminal::interrupt;
+use crate::cli::option::Global;
 use crate::cli::terminal::progress::Bar;
+use crate::cli::terminal::{Done, interrupt, output};
 use crate::file::disk;
 use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
+use crate::view::catalog::structures::built_text;
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::ops::ControlFlow;
@@ -209,8 +208,21 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     if !interrupt::pending() {
         store.finish_part(part, all)?;
     }
-    let path = a.output.display();
-    let interrupted =
-        interrupt::pending().then(|| format!("the same command carries on with {path}."));
-    built(&store, &a.output, count, "structures", interrupted)
+    built(&store, &a.output, count, "structures")
+}
+
+/// Says what a catalogue holds now that so many of something were added, and that it was interrupted where it was.
+pub(super) fn built(store: &Store, path: &Path, added: usize, what: &str) -> anyhow::Result<Done> {
+    output::to(None, |out| {
+        let text = built_text(store, path, added, what, output::width(None))?;
+        write!(out, "{text}")?;
+        if interrupt::pending() {
+            let path = path.display();
+            writeln!(
+                out,
+                "\nInterrupted: the same command carries on with {path}."
+            )?;
+        }
+        Ok(Done::Found)
+    })
 }

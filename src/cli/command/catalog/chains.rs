@@ -1,19 +1,138 @@
-//! `ozols catalog count` and `chains`.
+//! `ozols catalog count` and `chains`: of hinges alone, and of other pairs.
 
-use super::listing::Listing;
-use super::pairs::PairArgs;
 use crate::catalog::spec::range;
 use crate::chains::census::census;
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::terminal::output;
+use crate::chains::pairs::PairKind;
+use crate::chains::pairs::census::pair_census;
+use crate::chains::pairs::sharing::Menu;
+use crate::chains::pairs::symmetric_census::symmetric_census;
+use crate::cli::option::{Global, TextJsonOrCsv};
 use crate::cli::terminal::progress::Bar;
+use crate::cli::terminal::{Done, output};
+use crate::format::csv::records;
 use crate::view::catalog::chains::{CensusData, ChainData, census_text, chains_text};
+use crate::view::catalog::pairs::{pair_rows, pair_text, symmetric_rows, symmetric_text};
 use anyhow::ensure;
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, ValueHint};
+use itertools::Itertools;
 use rayon::prelude::*;
+use serde::Serialize;
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+#[derive(Debug, ClapArgs)]
+struct PairArgs {
+    /// Chains with other pairs than hinges, too: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins
+    /// in two slots between the same links).
+    #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
+    pairs: Vec<PairKind>,
+    /// Pairs that are not hinges at most; with --up-to-symmetry a left and a right one count once.
+    #[arg(long, value_name = "K", default_value_t = 3, requires = "pairs")]
+    at_most: usize,
+    /// Symmetric grippers alone, by how many pairs they have that are not hinges.
+    #[arg(long, requires = "pairs", conflicts_with = "chains")]
+    up_to_symmetry: bool,
+}
+
+fn kind(word: &str) -> Result<PairKind, String> {
+    let others = PairKind::ALL.iter().filter(|k| k.0 != PairKind::Hinge);
+    let found = others.clone().find(|k| k.1 == word).map(|k| k.0);
+    found.ok_or_else(|| {
+        let known = others.map(|k| k.1).join(", ");
+        format!("{word:?} is none of {known}; hinges are always there")
+    })
+}
+
+/// Beyond so many links there are too many chains to be counted one by one.
+const MOST_LINKS: usize = 10;
+
+impl PairArgs {
+    /// Whether pairs are asked for.
+    fn are_given(&self) -> bool {
+        !self.pairs.is_empty()
+    }
+
+    /// Counts chains alone, or their grippers, too.
+    fn count(
+        &self,
+        links: &RangeInclusive<usize>,
+        chains_alone: bool,
+        listing: &Listing,
+        bar: &mut Bar,
+    ) -> anyhow::Result<Done> {
+        listing.is_of_one_motion("--pairs")?;
+        ensure!(
+            *links.end() <= MOST_LINKS,
+            "chains of pairs are counted up to {MOST_LINKS} links: there are too many beyond"
+        );
+        let numbers = links.clone().enumerate();
+        let steps = links.clone().count();
+        let mut step = |i, n: usize| bar.step(&format!("{n} links"), i, steps);
+        let menu = Menu {
+            kinds: &self.pairs,
+            most: self.at_most,
+        };
+        if self.up_to_symmetry {
+            let mut all = Vec::new();
+            for (i, n) in numbers {
+                step(i, n);
+                all.extend(symmetric_rows(n, self.at_most, &symmetric_census(n, menu)));
+            }
+            bar.clear();
+            return listing.give(&all, symmetric_text);
+        }
+        let mut all = Vec::new();
+        for (i, n) in numbers {
+            step(i, n);
+            all.push((n, pair_census(n, menu, !chains_alone)));
+        }
+        bar.clear();
+        let rows = all.iter().flat_map(|(n, cells)| pair_rows(*n, cells));
+        listing.give(&rows.collect_vec(), |_, width| pair_text(&all, width))
+    }
+}
+
+#[derive(Debug, ClapArgs)]
+struct Listing {
+    /// Mobility of the chains, all of whose joints have one freedom.
+    #[arg(long, value_name = "W", default_value_t = 1)]
+    mobility: usize,
+    /// Output format.
+    #[arg(long, value_enum, default_value = "text")]
+    format: TextJsonOrCsv,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+impl Listing {
+    /// Refuses chains of several motions where `option` is about those of one.
+    fn is_of_one_motion(&self, option: &str) -> anyhow::Result<()> {
+        ensure!(
+            self.mobility == 1,
+            "{option} counts chains of one motion: leave --mobility out"
+        );
+        Ok(())
+    }
+
+    /// Writes what was found, one row each, or as `text` for a terminal of some width.
+    fn give<T: Serialize>(
+        &self,
+        all: &[T],
+        text: impl Fn(&[T], Option<u16>) -> String,
+    ) -> anyhow::Result<Done> {
+        let path = self.output.as_deref();
+        output::to(path, |out| {
+            match self.format {
+                TextJsonOrCsv::Text => write!(out, "{}", text(all, output::width(path)))?,
+                TextJsonOrCsv::Json => output::json(out, &all)?,
+                TextJsonOrCsv::Csv => write!(out, "{}", records(all))?,
+            }
+            Ok(Done::Found)
+        })
+    }
+}
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Count {

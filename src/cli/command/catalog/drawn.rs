@@ -1,17 +1,14 @@
 //! `ozols catalog search`.
 
-use super::built::built;
+use super::build::built;
 use crate::builtin;
 use crate::catalog::drawn::{DrawnMechanism, drawn, id};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::cli::done::Done;
-use crate::cli::option::global::Global;
-use crate::cli::option::load;
 use crate::cli::option::named::{Loops, Named};
-use crate::cli::terminal::interrupt;
-use crate::cli::terminal::output;
+use crate::cli::option::{Global, load};
 use crate::cli::terminal::progress::Bar;
+use crate::cli::terminal::{Done, interrupt, output};
 use crate::model::mechanism::Mechanism;
 use anyhow::ensure;
 use clap::{Args as ClapArgs, ValueHint};
@@ -72,10 +69,7 @@ pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
         bar.step("mechanisms", i + 1, of);
     }
     bar.clear();
-    let path = a.output.display();
-    let interrupted =
-        interrupt::pending().then(|| format!("the same command carries on with {path}."));
-    let done = built(&store, &a.output, added, "mechanisms", interrupted)?;
+    let done = built(&store, &a.output, added, "mechanisms")?;
     Ok(if well { done } else { Done::Partly })
 }
 

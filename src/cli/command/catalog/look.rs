@@ -1,16 +1,20 @@
-//! `ozols catalog query`, `show`, `export` and `page`.
+//! `ozols catalog query`, `show`, `export`, `page` and `find`.
 
-use super::format::CatalogFormat;
 use super::wanted::WantedGrippers;
 use crate::api::Scheme;
+use crate::catalog::find::entries;
+use crate::catalog::neighbours::{Neighbours, neighbours};
 use crate::catalog::store::Store;
-use crate::cli::done::Done;
-use crate::cli::terminal::output;
+use crate::cli::option::named::File;
+use crate::cli::option::{TextJsonOrCsv, load};
+use crate::cli::terminal::{Done, output};
 use crate::page::catalogue::catalogue;
 use crate::redundancy::analysis::exact_field;
 use crate::search::Search;
 use crate::search::check::variant_mechanism;
 use crate::search::question::conditions::Conditions;
+use crate::synthesis::recognize::recognize;
+use crate::view::catalog::find::{FoundData, InCatalogue, found_text};
 use crate::view::catalog::structures::{QueryAnswer, StructureData, show_text};
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
@@ -33,7 +37,7 @@ pub(in crate::cli) struct Query {
     sql: Option<String>,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    format: CatalogFormat,
+    format: TextJsonOrCsv,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: Option<PathBuf>,
@@ -75,9 +79,9 @@ pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
     let path = a.output.as_deref();
     output::to(path, |out| {
         match a.format {
-            CatalogFormat::Text => write!(out, "{}", answer.text(output::width(path)))?,
-            CatalogFormat::Json => output::json(out, &answer)?,
-            CatalogFormat::Csv => write!(out, "{}", answer.csv())?,
+            TextJsonOrCsv::Text => write!(out, "{}", answer.text(output::width(path)))?,
+            TextJsonOrCsv::Json => output::json(out, &answer)?,
+            TextJsonOrCsv::Csv => write!(out, "{}", answer.csv())?,
         }
         Ok(if answer.rows.is_empty() {
             Done::Nothing
@@ -187,5 +191,59 @@ pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
     output::to(Some(&a.output), |out| {
         out.write_all(page.as_bytes())?;
         Ok(Done::Found)
+    })
+}
+
+#[derive(Debug, ClapArgs)]
+pub(in crate::cli) struct Find {
+    #[command(flatten)]
+    file: File,
+    /// A catalogue to look for it in.
+    #[arg(long = "in", value_name = "CATALOGUE", value_hint = ValueHint::FilePath)]
+    within: Option<PathBuf>,
+    /// JSON instead of text.
+    #[arg(long)]
+    json: bool,
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
+    let m = load::mechanism(&a.file)?;
+    let found = recognize(&m).with_context(|| {
+        format!(
+            "{}: not a structure of two jaws, or of three, that links, hinges, slides, gears and slots make",
+            a.file.file
+        )
+    })?;
+    let store = a.within.as_deref().map(open).transpose()?;
+    let part = found.structure.essential_links();
+    let essential = found.structure.part(&part);
+    let known = store.map(|s| -> anyhow::Result<InCatalogue> {
+        let whole = found.whole.part(&found.whole.essential_links());
+        Ok(InCatalogue {
+            entries: entries(&s, &whole, found.made_as)?,
+            // Three sides that are alike are not compared.
+            neighbours: if found.sides() == 3 {
+                Neighbours::default()
+            } else {
+                neighbours(&s, &essential)?
+            },
+        })
+    });
+    let data = FoundData::new(&found, &part, known.transpose()?);
+    let path = a.output.as_deref();
+    output::to(path, |out| {
+        if a.json {
+            output::json(out, &data)?;
+        } else {
+            write!(out, "{}", found_text(&m.name, &data, output::width(path)))?;
+        }
+        Ok(if data.is_known() {
+            Done::Found
+        } else {
+            Done::Nothing
+        })
     })
 }

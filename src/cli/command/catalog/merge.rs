@@ -1,9 +1,8 @@
 //! `ozols catalog merge`.
 
-use super::built::built;
+use super::build::built;
 use crate::catalog::store::{Merged, Store};
-use crate::cli::done::Done;
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 use crate::shard::Shard;
 use anyhow::ensure;
 use clap::{Args as ClapArgs, ValueHint};
@@ -37,7 +36,7 @@ pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
     }
     let whole = &a.output;
     let store = Store::open(whole)?;
-    built(&store, whole, merged.added, "structures", None)?;
+    built(&store, whole, merged.added, "structures")?;
     if !merged.missing.is_empty() {
         output::note(&missing(&merged, whole));
     }

@@ -1,8 +1,7 @@
 //! The reference of joint types.
 
-use crate::cli::done::Done;
 use crate::cli::option::picture;
-use crate::cli::terminal::output;
+use crate::cli::terminal::{Done, output};
 use crate::draw::{self, Size};
 use crate::format::{cost, plural};
 use crate::model::joint_type::{Freedom, JointType};
