@@ -7,7 +7,6 @@
 pub(crate) mod cases;
 pub mod folder;
 pub mod lattice;
-mod pareto;
 pub mod pictures;
 pub mod searching;
 pub mod stability;

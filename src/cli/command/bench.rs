@@ -2,7 +2,7 @@
 
 use crate::accuracy::searching::record::Trial;
 use crate::accuracy::searching::search_method::Way;
-use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, table, trial};
+use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, record, trial};
 use crate::accuracy::timing::Stopwatch;
 use crate::cli::option::named::{Loops, Named};
 use crate::cli::option::request::Which;
@@ -143,7 +143,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
                 )?;
             }
             BenchFormat::Json => output::json(out, &BenchData::new(&trials, &machine))?,
-            BenchFormat::Csv => write!(out, "{}", table::csv(&trials))?,
+            BenchFormat::Csv => write!(out, "{}", record::csv(&trials))?,
         }
         if let Some(folder) = &a.output {
             let index = folder.join("index.html");

@@ -1,7 +1,6 @@
 //! The survey as pictures.
 
 use super::AnswerVerdict;
-use super::pareto::front;
 use super::survey::{Case, MethodRecord, Reply, Survey};
 use super::timing::{Machine, quantile};
 use super::tuned::Tuned;
@@ -9,6 +8,7 @@ use crate::chart::{Axis, Bands, Cell, Chart, Matrix, Scale, Series, Style, Verdi
 use crate::format::{duration, list, scientific, signed};
 use crate::rank::method::MobilityMethod;
 use crate::rank::method::registry;
+use crate::score::outcome::pareto::front;
 
 /// A method, at its default tolerance or at its best: its median time of an answer in seconds, and the share of all cases that
 /// it is right about.

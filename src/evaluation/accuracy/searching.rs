@@ -10,7 +10,6 @@ mod ground_truth;
 pub mod pictures;
 pub mod record;
 pub mod search_method;
-pub mod table;
 
 pub use ground_truth::TrialEffort;
 

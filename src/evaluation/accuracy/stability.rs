@@ -1,7 +1,6 @@
 //! Where numbers fail: geometry, closeness to special ones, shakiness, size, scale, noise, rounding and tolerance moved until
 //! answers turn wrong.
 
-mod asked;
 pub mod change;
 pub mod close;
 mod digits;
@@ -13,7 +12,6 @@ pub mod said;
 mod scale;
 pub mod shaky;
 mod size;
-mod sketch;
 pub mod special;
 mod study;
 pub(crate) mod sweep;

@@ -4,7 +4,6 @@ pub(in crate::score) mod beginnings;
 mod coupled;
 pub mod elimination;
 pub mod evaluate;
-pub(crate) mod floor;
 pub mod joint_loads;
 pub mod load_cases;
 mod load_limits;

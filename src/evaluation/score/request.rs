@@ -1,7 +1,6 @@
 //! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
 //! how its answer is checked. In JSON it is an object whose keys are the fields, those of the default left out.
 
-pub(crate) mod costs;
 pub(in crate::score) mod error;
 pub(in crate::score) mod missing_options;
 pub(in crate::score) mod option_rules;
@@ -251,7 +250,9 @@ impl Request {
         } else if let Some(i) = settled.verdicts.iter().position(|v| !v.is_as_written()) {
             settled.open.get_or_insert(i);
         }
-        self.price(&mut out)?;
+        if let Some(file) = &self.costs {
+            prepare::price(&mut out, &file.name, &file.text)?;
+        }
         self.offer_usual(&mut out, tell);
         self.offer_unlisted(&mut out, tell)?;
         self.restrict(&mut out)?;

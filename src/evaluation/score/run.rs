@@ -1,7 +1,6 @@
 //! From a mechanism and a request to the outcome: conditions, diagrams, the twin over a second prime, counts, orbits,
 //! poses and the ranking.
 
-mod error;
 mod opinions;
 
 use crate::model::mechanism::Mechanism;
@@ -28,7 +27,7 @@ use crate::search::question::rounded_rank::Digits;
 use crate::search::question::throughout::PoseOnly;
 use std::sync::Arc;
 
-pub use error::RunError;
+pub use crate::score::request::error::RunError;
 
 /// Brute force looks at no more variants than this.
 const BRUTE_LIMIT: u64 = 1 << 32;

@@ -3,8 +3,7 @@
 use crate::accuracy::AnswerVerdict;
 use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
 use crate::accuracy::searching::pictures::{ranking, wrong};
-use crate::accuracy::searching::record::{Record, Share, Trial};
-use crate::accuracy::searching::table::{TrialRow, rows};
+use crate::accuracy::searching::record::{Record, Share, Trial, TrialRow, rows};
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
 use crate::format::{duration, grouped, signed};

@@ -1,11 +1,11 @@
 //! Ways of searching as pictures, and what they show in words.
 
+use super::record;
 use super::record::{Record, Share, Trial};
-use super::table;
-use crate::accuracy::pareto::front;
 use crate::accuracy::timing::Machine;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
 use crate::format::{duration, grouped, list};
+use crate::score::outcome::pareto::front;
 
 /// A way with its median time in seconds and how often it is right.
 type Point<'a> = (&'a Record, f64, Share);
@@ -177,7 +177,7 @@ pub fn wrong(trial: &Trial) -> String {
 /// Names and texts of every file, `index.html` last, so that it is there only once all that it shows is.
 #[must_use]
 pub fn files(trials: &[Trial], machine: &Machine) -> Vec<(String, String)> {
-    let mut files = vec![("searches.csv".to_owned(), table::csv(trials))];
+    let mut files = vec![("searches.csv".to_owned(), record::csv(trials))];
     let mut parts = Vec::new();
     for (n, trial) in trials.iter().enumerate() {
         let plain = |c: char| if c.is_alphanumeric() { c } else { '-' };

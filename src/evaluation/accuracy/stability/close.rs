@@ -1,10 +1,9 @@
 //! Mechanisms made from a seed in pairs of different mobility: one is special, the other the same but for one number, in the
 //! second to the sixteenth digit. Coordinates are fractions, which mean what they say.
 
-use super::asked::{self, Replies};
 use super::change::Noise;
-use super::said::{AnswerCount, Counts};
-use super::sketch::Sketch;
+use super::said::{self, AnswerCount, Counts, Replies};
+use super::special::Sketch;
 use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{RightTally, TallySweep};
 use crate::accuracy::Truth;
@@ -161,17 +160,17 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let drawn: Vec<DrawnNumbers> = (0..SpecialPair::ALL.len() * each)
         .map(|i| DrawnNumbers::new(SpecialPair::ALL[i / each], &mut Noise::new(effort.seed, i)))
         .collect();
-    let mut rows = asked::rows();
+    let mut rows = said::rows();
     let mut auto: Vec<(String, Vec<AnswerCount>)> = SpecialPair::ALL
         .map(|p| (p.name().to_owned(), Vec::new()))
         .to_vec();
     for (n, &digit) in digits.iter().enumerate() {
         progress("closeness", n, digits.len());
         let found: Vec<Replies> = drawn.par_iter().filter_map(|d| d.replies(digit)).collect();
-        asked::add(&mut rows, &found);
+        said::add(&mut rows, &found);
         for (p, row) in auto.iter_mut().enumerate() {
             row.1
-                .push(asked::auto(found.iter().skip(p * each).take(each)));
+                .push(said::auto(found.iter().skip(p * each).take(each)));
         }
     }
     let values: Vec<f64> = digits

@@ -1,10 +1,9 @@
 //! Shakiness of higher and higher order: rows of toggles made from a seed, each knee pushed by the one before by the square of
 //! its motion. At the pose they have one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
 
-use super::asked::{self, Replies};
 use super::change::Noise;
-use super::said::{AnswerCount, Counts};
-use super::sketch::Sketch;
+use super::said::{self, AnswerCount, Counts, Replies};
+use super::special::Sketch;
 use super::study::{Effort, Picture, Progress, Study};
 use super::sweep::{RightTally, TallySweep};
 use crate::accuracy::Truth;
@@ -53,7 +52,7 @@ const TRUTH: Truth = Truth {
 /// Runs the study.
 pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, most) = if effort.quick { (1, 3) } else { (3, 6) };
-    let mut rows = asked::rows();
+    let mut rows = said::rows();
     let mut auto = Vec::new();
     for levels in 1..=most {
         progress("order of shakiness", levels - 1, most);
@@ -65,8 +64,8 @@ pub(super) fn study(effort: Effort, progress: Progress<'_>) -> Study {
                 Replies::new(&[(m, TRUTH)], text)
             })
             .collect();
-        asked::add(&mut rows, &found);
-        auto.push(asked::auto(&found));
+        said::add(&mut rows, &found);
+        auto.push(said::auto(&found));
     }
     let values: Vec<f64> = (1..=most).map(|l| f64::from(1u32 << l)).collect();
     let x = "order of shakiness".to_owned();

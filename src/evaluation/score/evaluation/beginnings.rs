@@ -9,11 +9,10 @@ use crate::geom::vector::length;
 use crate::model::ranking::{ClearanceSum, Ranking};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
-use crate::score::evaluation::floor::Floor;
 use crate::score::evaluation::load_limits::LoadLimits;
 use crate::score::evaluation::lower_bound::within;
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
-use crate::score::evaluation::terms::ErrorSum;
+use crate::score::evaluation::terms::{ErrorSum, Floor};
 use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::geometry::Six;
 

@@ -9,8 +9,8 @@
 use crate::geom::vector::{dot, length};
 use crate::model::ranking::ClearanceSum;
 use crate::score::evaluation::evaluate::Evaluator;
-use crate::score::evaluation::floor::Floor;
 use crate::score::evaluation::pose_tables::{PlacedJoint, PoseTable};
+use crate::score::evaluation::terms::Floor;
 use ozols_dense::{Matrix, svd, thin_svd};
 
 /// Steps of each problem.

@@ -8,7 +8,7 @@ use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::evaluation::beginnings::{Beginnings, Begun, TakenChoice};
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::Evaluator;
-use crate::score::evaluation::floor::Floor;
+use crate::score::evaluation::terms::Floor;
 use crate::score::outcome::ranking::{Ranked, RankedPool, compare};
 use crate::search::Search;
 use crate::search::answer::k_best::{Assignment, least_from};

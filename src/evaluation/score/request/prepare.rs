@@ -1,7 +1,9 @@
 //! A mechanism made ready for a search: the one that is meant, and what is said where its coordinates are rounded.
 
+use crate::file::costs::costs_from_str;
+use crate::file::problem::ImportError;
 use crate::file::read::resolve::contains;
-use crate::model::mechanism::{Joint, JointOption, Mechanism};
+use crate::model::mechanism::{CostSpec, Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
 use crate::rank::rounded::intended::Settled;
@@ -175,4 +177,24 @@ fn difference(name: &str, why: Option<&Rounded>, v: &RankVerdict) -> String {
          value kept {:.1e}, largest dropped {:.1e}). Exact ranks take rounding errors for real misalignments",
         v.state, of.0, of.1, v.tolerance, near.0, near.1, n.kept, n.dropped
     )
+}
+
+/// Puts the costs of a file in place of those of the mechanism.
+pub(super) fn price(mechanism: &mut Mechanism, file: &str, text: &str) -> Result<(), ImportError> {
+    let stated = costs_from_str(file, text, mechanism)?;
+    let old = std::mem::take(&mut mechanism.search.costs);
+    let mut by_type_milli = stated.by_type_milli;
+    let named = |list: &[(String, i64)], name: &str| list.iter().any(|(n, _)| n == name);
+    let kept = old.by_type_milli.into_iter();
+    let kept: Vec<_> = kept.filter(|(n, _)| !named(&by_type_milli, n)).collect();
+    by_type_milli.extend(kept);
+    by_type_milli.sort();
+    mechanism.search.costs = CostSpec {
+        by_type_milli,
+        change_milli: stated.change_milli.or(old.change_milli),
+        link_milli: stated.link_milli.or(old.link_milli),
+        driven_milli: stated.driven_milli.or(old.driven_milli),
+        harmful_milli: stated.harmful_milli.or(old.harmful_milli),
+    };
+    Ok(())
 }

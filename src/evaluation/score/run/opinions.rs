@@ -2,8 +2,8 @@
 
 use crate::redundancy::analysis::exact_field;
 use crate::score::outcome::ranking::RankedPool;
+use crate::score::request::error::RunError;
 use crate::score::request::{List, Request};
-use crate::score::run::error::RunError;
 use crate::search::Search;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
