@@ -1,6 +1,5 @@
 //! Validation: from the file's entries to a mechanism, or every problem with them.
 
-mod connected;
 pub mod coupling;
 mod joints;
 mod links;
@@ -27,9 +26,8 @@ use crate::geom::expr::Expr;
 use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, SearchSpec};
-use connected::{connected, contours};
 use joints::{joints, states};
-use links::links;
+use links::{connected, contours, links};
 use search::search;
 use value::LIMITS;
 use value::tolerance::tolerance;

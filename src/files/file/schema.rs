@@ -1,6 +1,5 @@
 //! The mechanism file: one schema for TOML and JSON.
 
-mod drive;
 mod grip;
 mod number;
 mod ranking;
@@ -8,7 +7,6 @@ mod workload;
 
 use crate::format::disjunction;
 use crate::model::joint_type::JointType;
-pub use drive::DriveEntry;
 pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};
 pub use number::ToleranceEntry;
 pub use number::Words;
@@ -19,8 +17,8 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 pub use workload::{
-    ContactEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry, StiffnessEntry,
-    StrokeEntry, WorkloadEntry,
+    ContactEntry, DriveEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry,
+    StiffnessEntry, StrokeEntry, WorkloadEntry,
 };
 
 /// A mechanism: links, joints, and what a search may change.

@@ -1,8 +1,6 @@
 //! A mechanism as the entries of its file, exactly.
 
 mod number;
-mod quantity;
-mod tolerance;
 mod workload;
 
 use crate::file::read::resolve::motion_name;
@@ -31,7 +29,7 @@ const LONGEST_COMMENT: usize = 110;
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
-    let stated = tolerance::tolerance(m);
+    let stated = number::tolerance(m);
     let (mode, plane_normal) = match &m.mode {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(direction(normal))),
@@ -75,7 +73,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
                 id: p.id.clone(),
                 link: m.links[p.link].id.clone(),
                 point: vector(&p.point),
-                tolerance: tolerance::of_point(&p.point, stated.as_ref()),
+                tolerance: number::point_tolerance(&p.point, stated.as_ref()),
             })
             .collect(),
         search: search(m),
@@ -222,7 +220,7 @@ fn joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntr
         reference: (!is_default(&j.frame)).then(|| direction(&j.frame.reference)),
         lead: None,
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
-        tolerance: tolerance::of_point(&j.frame.point, stated),
+        tolerance: number::point_tolerance(&j.frame.point, stated),
         drive: match j.drive_freedom {
             Some(freedom) => DriveWord::Freedom(freedom.name().to_owned()),
             None => DriveWord::Driven(j.drive),
@@ -375,7 +373,7 @@ fn workload(m: &Mechanism) -> WorkloadEntry {
         moment: vector(&x.moment),
         state: states(m, x.states.as_ref()),
     };
-    let decimal = |x: f64| quantity::number(x, 1.0);
+    let decimal = |x: f64| number::number(x, 1.0);
     let face = |f: &Face| ContactEntry {
         joint: m.joints[f.joint].id.clone(),
         friction: f.friction.map(decimal),

@@ -7,7 +7,6 @@ pub(in crate::robots) mod digits;
 pub(in crate::robots) mod kinematics;
 pub(in crate::robots) mod loops;
 pub(in crate::robots) mod massless;
-pub(in crate::robots) mod mimic;
 pub(in crate::robots) mod origin;
 pub(in crate::robots) mod physical;
 

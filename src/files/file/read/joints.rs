@@ -4,7 +4,7 @@ use crate::file::Findings;
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{frame, joint_type, motion_name, option};
-use crate::file::read::search::options::options;
+use crate::file::read::search::options;
 use crate::file::read::value::LIMITS;
 use crate::file::read::value::names::{check_id, link_by_id};
 use crate::file::read::value::number::{direction, pitch, vector};

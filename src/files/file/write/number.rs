@@ -1,7 +1,10 @@
-//! Numbers of the geometry, such that they say what they said where they were read.
+//! Numbers such that they say what they said where they were read: those of the geometry, with what is stated of how well they are known,
+//! and those in the units of a file.
 
-use crate::file::schema::Coordinate;
+use crate::file::schema::{Coordinate, ToleranceEntry};
 use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
+use crate::geom::vector::{length, real};
+use crate::model::mechanism::Mechanism;
 use crate::model::rounded::ratio::doubt;
 use crate::model::rounded::{LONG_DIRECTION, LONG_LENGTH};
 use num_bigint::BigInt;
@@ -90,4 +93,147 @@ fn zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
     let (whole, fraction) = all.split_at(all.len() - width);
     let sign = if value.is_negative() { "-" } else { "" };
     Some(format!("{sign}{whole}.{fraction}"))
+}
+
+/// The shortest decimal that times `unit` is `value`.
+fn shortest(value: f64, unit: f64) -> Option<f64> {
+    let near = value / unit;
+    // A product rounds, so a quotient may be off by a digit in the last place.
+    let digits = (0..17).filter_map(|n| format!("{near:.n$e}").parse::<f64>().ok());
+    let beside = [near, near.next_up(), near.next_down()];
+    // Equal to the last bit, or it is not the same number.
+    digits
+        .chain(beside)
+        .find(|x| (x * unit).to_bits() == value.to_bits())
+}
+
+/// A value in SI units, in a file whose unit is `unit` of it.
+pub(crate) fn number(value: f64, unit: f64) -> Coordinate {
+    plain(shortest(value, unit).unwrap_or(value / unit))
+}
+
+/// Three of them.
+pub(crate) fn numbers(values: [f64; 3], unit: f64) -> [Coordinate; 3] {
+    values.map(|x| number(x, unit))
+}
+
+/// An angle: in degrees where that is exact, else in radians.
+pub(crate) fn angle(radians: f64) -> Coordinate {
+    match shortest(radians, 1f64.to_radians()) {
+        Some(degrees) => plain(degrees),
+        None => Coordinate::Expression(format!("{radians}rad")),
+    }
+}
+
+/// A number as people write it.
+fn plain(x: f64) -> Coordinate {
+    #[allow(clippy::cast_possible_truncation, reason = "whole and within 2^53")]
+    if x.fract() == 0.0 && x.abs() < 2f64.powi(53) {
+        return Coordinate::Integer(x as i64);
+    }
+    Coordinate::Decimal(x)
+}
+
+/// What is stated of most numbers of the points, and of all of the directions.
+pub(super) fn tolerance(m: &Mechanism) -> Option<ToleranceEntry> {
+    let frames = m.joints.iter().map(|j| &j.frame);
+    let points = frames.clone().flat_map(|f| &f.point);
+    let points = points.chain(m.points.iter().flat_map(|p| &p.point));
+    let directions = frames.flat_map(|f| [&f.axis, &f.reference]);
+    let directions = directions.flat_map(|v| v.iter().map(move |e| (length(real(v)), e)));
+    let lengths = most(points.filter(|e| e.to_f64() != 0.0).map(|e| (e, stated(e))));
+    let turned = directions.filter(|(_, e)| ![0.0, 1.0].contains(&e.to_f64().abs()));
+    let direction = most(turned.map(|(of, e)| (e, stated(e).map(|half| short(half / of)))));
+    let entry = |x: Option<f64>| x.map(|x| number(x, 1.0));
+    (lengths.is_some() || direction.is_some()).then(|| ToleranceEntry {
+        length: entry(lengths),
+        direction: entry(direction),
+    })
+}
+
+/// What is stated of a point by itself, where that is not what is stated of the file.
+pub(super) fn point_tolerance(
+    point: &[Expr; 3],
+    file: Option<&ToleranceEntry>,
+) -> Option<Coordinate> {
+    let halves = point.iter().filter_map(stated);
+    let half = number(halves.reduce(f64::max)?, 1.0);
+    let size = |c: &Coordinate| match c {
+        Coordinate::Integer(x) => x.to_string(),
+        Coordinate::Decimal(x) => x.to_string(),
+        Coordinate::Expression(x) => x.clone(),
+    };
+    let of_file = file.and_then(|t| t.length.as_ref()).map(size);
+    (of_file != Some(size(&half))).then_some(half)
+}
+
+/// What was multiplied by a length and divided again is off in its last bits.
+fn short(x: f64) -> f64 {
+    format!("{x:.12e}").parse().unwrap_or(x)
+}
+
+fn stated(e: &Expr) -> Option<f64> {
+    match e.written() {
+        WrittenNumber::Stated(half) => Some(half),
+        _ => None,
+    }
+}
+
+/// The half unit that most have; none where one that would be read as a number has none.
+fn most<'e>(of: impl Iterator<Item = (&'e Expr, Option<f64>)>) -> Option<f64> {
+    let mut count: Vec<(f64, usize)> = Vec::new();
+    for (e, half) in of {
+        match half {
+            None if e.written() == WrittenNumber::No => {}
+            None => return None,
+            Some(half) => match count.iter_mut().find(|c| c.0.to_bits() == half.to_bits()) {
+                Some(c) => c.1 += 1,
+                None => count.push((half, 1)),
+            },
+        }
+    }
+    let most = count.iter().map(|c| c.1).max();
+    count.iter().find(|c| Some(c.1) == most).map(|c| c.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn value(c: &Coordinate) -> f64 {
+        match c {
+            #[allow(clippy::cast_precision_loss, reason = "whole and within 2^53")]
+            Coordinate::Integer(x) => *x as f64,
+            Coordinate::Decimal(x) => *x,
+            Coordinate::Expression(t) => t.trim_end_matches("rad").parse().unwrap(),
+        }
+    }
+
+    #[test]
+    fn what_people_write_comes_back() {
+        for (x, unit) in [(40.0, 1e-3), (0.1, 1e-3), (23.09, 0.0254), (7.0, 1.0)] {
+            assert_eq!(value(&number(x * unit, unit)), x);
+        }
+        for x in [120.0, 30.5, 0.0, 33.3] {
+            assert_eq!(value(&angle(f64::to_radians(1.0) * x)), x);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_read_back_exactly(x in -1e6..1e6f64, unit in prop::sample::select(vec![1.0, 1e-2, 1e-3, 1e-6, 0.0254])) {
+            let value_si = x * unit;
+            prop_assert_eq!(value(&number(value_si, unit)) * unit, value_si);
+        }
+
+        #[test]
+        fn angles_read_back_exactly(x in 0.0..7.0f64) {
+            let read = match angle(x) {
+                Coordinate::Expression(t) => t.trim_end_matches("rad").parse::<f64>().unwrap(),
+                c => value(&c) * 1f64.to_radians(),
+            };
+            prop_assert_eq!(read, x);
+        }
+    }
 }

@@ -5,7 +5,7 @@ use crate::file::schema::{
     Coordinate, Diameters, DriveEntry, Gravity, GripEntry, JointTypeEntry, LimitEntry,
     RankingEntry, TermEntry,
 };
-use crate::file::write::quantity::{angle, number, numbers};
+use crate::file::write::number::{angle, number, numbers};
 use crate::model::drive::{DriveSpec, ProgrammeStep, Push};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::Mechanism;

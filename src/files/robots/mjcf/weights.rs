@@ -1,6 +1,5 @@
 //! What the bodies of an MJCF file weigh: by their `<inertial>`, else by their shapes.
 
-mod settings;
 mod shape;
 mod weight;
 
@@ -12,10 +11,9 @@ use crate::robots::description::Robot;
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::xml::Element;
-use settings::Settings;
 use shape::weight_of_shape;
 use std::collections::BTreeMap;
-use weight::together;
+use weight::{Settings, together};
 
 /// A body or frame still to be read: its link, its place there, and the class of what is in it.
 struct Waiting<'a> {

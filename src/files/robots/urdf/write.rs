@@ -4,8 +4,8 @@ use crate::closure::tree::{TreeStep, spanning_tree};
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
+use crate::robots::description::coupling::{mimics, settled, stand_in};
 use crate::robots::description::massless::Light;
-use crate::robots::description::mimic::{mimics, settled, stand_in};
 use crate::robots::description::physical::{self, GRAM, inertial, left_out, moving};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{

@@ -5,8 +5,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, add, length, scale, sub};
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Lookup;
-use crate::robots::mjcf::weights::settings::Settings;
-use crate::robots::mjcf::weights::weight::Weight;
+use crate::robots::mjcf::weights::weight::{Settings, Weight};
 use std::f64::consts::PI;
 
 /// kg/m³ where nothing is said.
