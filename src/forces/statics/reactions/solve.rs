@@ -6,14 +6,12 @@ use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::{Contacts, contacts};
 use crate::statics::reactions::drives::{Driven, driven, period};
-use crate::statics::reactions::equations::System;
-use crate::statics::reactions::family;
+use crate::statics::reactions::equations::{self, System, Transmitted};
 use crate::statics::reactions::geometry::{Geometry, Six, power, wrench};
 use crate::statics::reactions::inertia::inertia_loads;
 use crate::statics::reactions::solution::{
     NO_STRESS, Solution, Uniqueness, left_over, open, open_couplings, passed_by_couplings, present,
 };
-use crate::statics::reactions::transmitted::Transmitted;
 use crate::statics::reactions::unilateral::{TOLERANCE, pushing};
 use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::{greatest, over_load, rounding};
@@ -150,7 +148,7 @@ impl Reactions {
         }
         let stresses = system.self_stresses(m.joints.len());
         let rigid = of.clone();
-        family::least_norm(geometry, &mut of, &stresses);
+        equations::least_norm(geometry, &mut of, &stresses);
         let faces = match of_contacts {
             Contacts::Pushing => contacts(m, geometry)?,
             // Where the side is open, nothing can be said of pulling.
@@ -161,7 +159,7 @@ impl Reactions {
         }
         // Elastic joints are solved with contacts as joints alone.
         let elastic = match of_contacts {
-            Contacts::AsJoints => family::elastic(m, geometry, loads, rigid, &stresses),
+            Contacts::AsJoints => equations::elastic(m, geometry, loads, rigid, &stresses),
             Contacts::Pushing => None,
         };
         // Wrenches begin as those of the loads along the tree, and so are rounded beside these.

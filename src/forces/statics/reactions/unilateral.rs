@@ -6,8 +6,8 @@
 
 use crate::statics::cone_programme::{ConeProgramme, Row};
 use crate::statics::reactions::contact::{Contact, Touch};
+use crate::statics::reactions::equations::Transmitted;
 use crate::statics::reactions::geometry::{Geometry, Six};
-use crate::statics::reactions::transmitted::Transmitted;
 use crate::statics::reactions::unsolved::Unsolved;
 use clarabel::solver::SolverStatus;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
