@@ -8,7 +8,6 @@
 mod annealing;
 pub(crate) mod beside;
 pub(crate) mod bones;
-mod coordinate;
 pub(crate) mod elimination;
 pub mod figures;
 pub mod layout;

@@ -12,12 +12,9 @@
 pub mod census;
 pub mod chain;
 pub mod classics;
-pub(crate) mod graphs;
-mod halves;
 pub mod motion;
 pub mod roles;
 pub mod sharing;
-mod smaller;
 pub mod structure;
 pub mod symmetric_census;
 

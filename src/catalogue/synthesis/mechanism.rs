@@ -6,9 +6,8 @@ use crate::file::schema::{
     SearchEntry, ToleranceEntry, Unloading, WorkloadEntry,
 };
 use crate::geom::vector::{Vector, X};
-use crate::synthesis::coordinate::{Pivot, number, point};
 use crate::synthesis::layout::Layout;
-use crate::synthesis::place::{Place, Point};
+use crate::synthesis::place::{Pivot, Place, Point, number, point};
 use crate::synthesis::structure::Structure;
 use crate::synthesis::task;
 use crate::synthesis::workload::{HeldPart, Workload};

@@ -2,8 +2,7 @@
 
 use crate::file::schema::{Coordinate, ForceEntry};
 use crate::geom::vector::{Vector, add_scaled, length, sub};
-use crate::synthesis::coordinate::{Pivot, number};
-use crate::synthesis::place::{Place, middle};
+use crate::synthesis::place::{Pivot, Place, middle, number};
 use crate::synthesis::task::exactly;
 use serde::{Deserialize, Serialize};
 

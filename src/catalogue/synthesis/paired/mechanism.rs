@@ -6,13 +6,12 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, MechanismFile, OptionEntry, OptionTable,
     SearchEntry, Unloading,
 };
-use crate::synthesis::coordinate::{Pivot, point};
 use crate::synthesis::mechanism::{FileHead, Menu, in_space, joint_name};
 use crate::synthesis::paired::Teeth;
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::rules::{Mesh, PairRules};
 use crate::synthesis::paired::structure::PairedStructure;
-use crate::synthesis::place::{Place, Point};
+use crate::synthesis::place::{Pivot, Place, Point, point};
 use crate::synthesis::task;
 use crate::synthesis::workload::{HeldPart, Workload};
 

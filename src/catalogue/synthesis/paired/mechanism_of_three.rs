@@ -5,12 +5,11 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, JointEntry, MechanismFile, OptionEntry, SearchEntry, Unloading,
 };
 use crate::geom::vector::Vector;
-use crate::synthesis::coordinate::Pivot;
 use crate::synthesis::mechanism::{FileHead, Menu, direction_turned, options_turned};
 use crate::synthesis::paired::layout::PairLayout;
 use crate::synthesis::paired::mechanism::{joint_id, link_names, whole};
 use crate::synthesis::paired::threefold::{SIDES, ThreefoldStructure};
-use crate::synthesis::place::Place;
+use crate::synthesis::place::{Pivot, Place};
 use crate::synthesis::workload::{HeldPart, Workload};
 
 /// What the links of a gripper of three jaws are called: those of a side by the letter of its jaw.

@@ -9,10 +9,9 @@ use crate::chains::layout_symmetry::Symmetry;
 use crate::chains::pairs::PairKind;
 use crate::chains::pairs::chain::{Joint, PairChain, ordered};
 use crate::synthesis::bones::{BonePlan, Bones};
-use crate::synthesis::coordinate::Pivot;
 use crate::synthesis::paired::rules::PairRules;
 use crate::synthesis::paired::structure::{Lay, PairedStructure};
-use crate::synthesis::place::{Point, third};
+use crate::synthesis::place::{Pivot, Point, third};
 use crate::synthesis::structure::short_id;
 use petgraph::unionfind::UnionFind;
 
