@@ -9,23 +9,19 @@
 mod desk;
 mod disk;
 mod door;
-mod force;
 mod http;
 mod idea;
-mod palette;
 mod paper;
 mod reading;
 mod room;
 mod routes;
 mod shelf;
-mod waiting;
-mod windows;
 mod work;
 
 pub use disk::Opening;
 
 use crate::score::request::Request;
-use door::Door;
+use door::{Door, Waiting, WaitingPlace};
 use room::Room;
 use std::io;
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
@@ -33,7 +29,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
-use waiting::{Waiting, WaitingPlace};
 
 /// Most requests with the token at a time: the windows' own, and some more.
 const CONNECTIONS: usize = 64;

@@ -1,15 +1,18 @@
-//! What the windows, the worker and the requests share.
+//! What the windows, the worker and the requests share; and the windows that are open, to each of which is sent what is new as it comes.
 
 use super::desk::{Desk, Refused};
 use super::disk::Opening;
-use super::windows::{Windows, event};
+use super::http;
 use crate::score::outcome::Outcome;
 use crate::score::request::Request;
 use serde_json::{Value, json};
-use std::io;
+use std::io::{self, Write};
+use std::net::TcpStream;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// What was told of the newest text, for windows that come later.
 #[derive(Debug, Default)]
@@ -186,4 +189,79 @@ impl Room {
             "searches": { "begun": begun, "ended": ended },
         })
     }
+}
+
+/// How often a window that hears nothing is asked whether it is still there.
+const PULSE: Duration = Duration::from_millis(500);
+
+/// The open windows.
+#[derive(Debug, Default)]
+pub(super) struct Windows {
+    list: Mutex<Vec<(u64, Sender<Arc<str>>)>>,
+    ever: AtomicBool,
+}
+
+/// An event as a browser reads it.
+pub(super) fn event(name: &str, value: &serde_json::Value) -> Arc<str> {
+    format!("event: {name}\ndata: {value}\n\n").into()
+}
+
+impl Windows {
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        locked(&self.list).len()
+    }
+
+    /// Whether there were any, and none is there now.
+    pub(super) fn left(&self) -> bool {
+        self.ever.load(Ordering::SeqCst) && locked(&self.list).is_empty()
+    }
+
+    /// Tells all of them.
+    pub(super) fn tell(&self, event: &Arc<str>) {
+        locked(&self.list).retain(|(_, window)| window.send(event.clone()).is_ok());
+    }
+
+    /// Sends what there is `now`, and then all that is new, to a window until it is closed or all has `ended`.
+    pub(super) fn serve(
+        &self,
+        stream: &mut TcpStream,
+        now: impl FnOnce() -> Vec<Arc<str>>,
+        ended: impl Fn() -> bool,
+    ) -> io::Result<()> {
+        let (tell, news) = channel();
+        let number = {
+            let mut list = locked(&self.list);
+            // Nothing that happens from here on is missed.
+            let number = list.iter().map(|(n, _)| n + 1).max().unwrap_or(0);
+            list.push((number, tell));
+            number
+        };
+        self.ever.store(true, Ordering::SeqCst);
+        let served = send(stream, &news, now, ended);
+        locked(&self.list).retain(|(n, _)| *n != number);
+        served
+    }
+}
+
+fn send(
+    stream: &mut TcpStream,
+    news: &Receiver<Arc<str>>,
+    now: impl FnOnce() -> Vec<Arc<str>>,
+    ended: impl Fn() -> bool,
+) -> io::Result<()> {
+    http::begin(stream, "text/event-stream")?;
+    for event in now() {
+        stream.write_all(event.as_bytes())?;
+    }
+    stream.flush()?;
+    while !ended() {
+        match news.recv_timeout(PULSE) {
+            Ok(event) => stream.write_all(event.as_bytes())?,
+            Err(RecvTimeoutError::Timeout) => stream.write_all(b": \n\n")?,
+            Err(RecvTimeoutError::Disconnected) => break,
+        }
+        stream.flush()?;
+    }
+    Ok(())
 }

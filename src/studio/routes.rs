@@ -4,8 +4,8 @@ use super::desk::Refused;
 use super::disk::Opening;
 use super::http::{Asked, Reply};
 use super::idea::{self, Taken};
-use super::room::Room;
-use super::{palette, paper, shelf, work};
+use super::room::{self, Room};
+use super::{paper, shelf, work};
 use crate::api::export;
 use crate::draw::{Subject, kinematic, scheme};
 use crate::file::edit::Edit;
@@ -70,7 +70,7 @@ fn get(path: &str, room: &Room) -> Reply {
         "studio.js" => Reply::new("text/javascript; charset=utf-8", paper::script()),
         "studio.css" => Reply::new("text/css; charset=utf-8", paper::style()),
         "icon.svg" => Reply::new("image/svg+xml", paper::ICON),
-        "palette" => Reply::json(&palette::json()),
+        "palette" => Reply::json(&shelf::joint_types()),
         "shelf" => Reply::json(&shelf::list()),
         "status" => Reply::json(&room.status()),
         _ => match path.split_once('/') {
@@ -148,8 +148,7 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
             let done = room.at_desk(|desk| desk.edit(&edits, revision));
             if let Err(Refused::Conflict(_)) = &done {
                 // Whoever was too late gets what there is now.
-                room.windows
-                    .tell(&super::windows::event("look", &room.desk().json()));
+                room.windows.tell(&room::event("look", &room.desk().json()));
             }
             done
         }

@@ -1,17 +1,20 @@
-//! The work at the newest text: the verdict, the motion, the search. One thread does it; what another text makes useless ends.
+//! The work at the newest text: the verdict, the motion, the forces over it where the file states loads, the search. One thread does it; what another text makes useless ends.
 
-use super::force;
 use super::idea;
 use super::room::Room;
+use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::page::moving::Moving;
 use crate::page::scenes::{moving_scene, still_scene};
 use crate::page::verdict;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::score::outcome::Outcome;
 use crate::score::request::{List, Request};
 use crate::score::run::{Event, run};
+use crate::statics::solve::{Model, SolvedReactions, solve};
 use crate::view::FORMAT;
 use crate::view::analysis::Analysis;
+use crate::view::reactions::stroke::ReactionsOverStroke as Reactions;
 use crate::view::search::json;
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -75,7 +78,7 @@ fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
     );
     search(room, revision, m, &states);
     if !room.is_old(revision) {
-        let charts = force::charts(m);
+        let charts = force_charts(m);
         room.tell(
             revision,
             "force",
@@ -170,4 +173,37 @@ fn given(
     let told = json!({ "revision": revision, "found": found, "marks": marks });
     room.keep(revision, Arc::new(outcome));
     Ok(told)
+}
+
+/// Positions of a stroke that the file does not state.
+const STEPS: usize = 24;
+
+/// By state a chart as SVG, or why there is none; null where nothing loads it.
+fn force_charts(m: &Mechanism) -> Vec<Value> {
+    m.state_ids().map(|s| chart(m, s)).collect()
+}
+
+fn chart(m: &Mechanism, state: StateId) -> Value {
+    if !m.loads.acts_from_outside(state) {
+        return Value::Null;
+    }
+    let stroke = m.loads.stroke.or_else(|| reach(m, state));
+    match solve(m, state, stroke, Model::Spatial) {
+        Ok(SolvedReactions::Spatial(found)) => {
+            let svg = Reactions::new(m, state, &found).chart().map(|c| c.svg());
+            json!({ "svg": svg })
+        }
+        Ok(SolvedReactions::Planar(_)) => Value::Null,
+        Err(why) => json!({ "why": why.to_string() }),
+    }
+}
+
+/// As far as the drive goes.
+fn reach(m: &Mechanism, state: StateId) -> Option<Stroke> {
+    let [from, to] = Moving::new(m, state, None, None).ok()?.reach()?;
+    Some(Stroke {
+        from,
+        to,
+        steps: STEPS,
+    })
 }

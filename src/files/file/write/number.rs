@@ -107,7 +107,7 @@ fn shortest(value: f64, unit: f64) -> Option<f64> {
         .find(|x| (x * unit).to_bits() == value.to_bits())
 }
 
-/// A value in SI units, in a file whose unit is `unit` of it.
+/// A value in SI units, in a file whose unit is `unit` of it, such that it reads back as the very number it was.
 pub(crate) fn number(value: f64, unit: f64) -> Coordinate {
     plain(shortest(value, unit).unwrap_or(value / unit))
 }

@@ -120,7 +120,7 @@ impl Symbol {
     }
 }
 
-/// A joint in place of another.
+/// A joint in place of another, so that a page can show any redesign in one drawing of the mechanism as it is.
 #[derive(Debug, Clone, Copy)]
 pub struct Swap<'a> {
     /// The place.
@@ -143,7 +143,8 @@ pub(in crate::draw) fn ring(reach: f64) -> Shape {
 /// How much larger the next joint outwards is, so that the outline of each is seen.
 const STEP: f64 = 0.6;
 
-/// How many times its usual size each joint is drawn.
+/// How many times its usual size each joint is drawn: those in one place on paper within each other, a multiple joint as concentric
+/// circles, a pin on its block.
 pub(in crate::draw) fn sizes(at: &[Point], joints: &[&Joint]) -> Vec<f64> {
     let mut out = vec![1.0; at.len()];
     let mut done = vec![false; at.len()];

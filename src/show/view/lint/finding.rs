@@ -1,4 +1,4 @@
-//! A redundant constraint of a robot description in words.
+//! A redundant constraint of a robot description in words, and a file that nothing can be said of but why.
 
 use super::assembly::{Misfit, TypeChange};
 use crate::format::plain::line;
@@ -215,7 +215,8 @@ fn name(d: Vector) -> String {
     }
 }
 
-/// A file that could not be looked at, or has nothing to be looked at.
+/// A file that could not be looked at, or has nothing to be looked at: told in every format, so that those that can be looked at are not
+/// lost with them.
 #[derive(Debug, Clone, Serialize)]
 pub struct PassedOver {
     /// Name of the file.
