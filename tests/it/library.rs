@@ -2,7 +2,7 @@
 
 use crate::common::{built_in, ozols, text, timeless};
 use ozols::model::ranking::Term;
-use ozols::score::outcome::Beside;
+use ozols::score::outcome::beside::Beside;
 use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};
 use ozols::search::diagram::Stop;

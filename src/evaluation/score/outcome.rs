@@ -1,5 +1,6 @@
 //! What a search found: counts, how they were checked, and the variants one by one.
 
+pub mod beside;
 pub mod listing;
 pub mod pareto;
 mod proof;
@@ -10,7 +11,6 @@ pub mod variant;
 pub mod why;
 
 use crate::score::outcome::ranking::RankedPool;
-use crate::score::outcome::symmetric::SymmetricBest;
 use crate::score::request::Request;
 use crate::score::request::prepare::LooksRounded;
 use crate::search::Search;
@@ -66,17 +66,6 @@ pub struct Outcome {
     pub numeric: Option<AtTolerance>,
     /// What singular values say of the counts, where coordinates look rounded and exact arithmetic counted all the same.
     pub second: Option<SecondOpinion>,
-}
-
-/// What is told beside the variants: why there are none, and which are symmetric.
-#[derive(Debug, Default)]
-pub struct Beside {
-    /// What easing one condition would leave.
-    pub eased: Vec<(Relaxation, BigUint)>,
-    /// What stands in the way of every variant.
-    pub hopeless: Hopeless,
-    /// The cheapest symmetric redesigns of a symmetric mechanism.
-    pub symmetric: Option<SymmetricBest>,
 }
 
 impl Outcome {
@@ -265,17 +254,5 @@ impl Outcome {
             return Ok(Hopeless::default());
         }
         Ok(why_none::hopeless(&self.search)?)
-    }
-
-    /// Returns what is told beside the variants, as far as there was time until `cancelled` said to end.
-    ///
-    /// # Errors
-    /// Where the geometry has no exact image.
-    pub fn beside(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Beside, SearchError> {
-        Ok(Beside {
-            eased: self.relaxations(cancelled)?,
-            hopeless: self.hopeless()?,
-            symmetric: self.symmetric_best(cancelled)?,
-        })
     }
 }

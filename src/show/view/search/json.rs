@@ -1,9 +1,10 @@
 //! A search as JSON, and its variants as JSON lines, written as they come.
 
+use crate::score::outcome::Outcome;
+use crate::score::outcome::beside::Beside;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
-use crate::score::outcome::{Beside, Outcome};
 use crate::search::diagram::Stop;
 use crate::view;
 use crate::view::search::data::{EndData, NoneData, SearchData, TailData};

@@ -2,9 +2,10 @@
 
 use crate::format::{grouped, plural, plural_of};
 use crate::robots::is_description;
+use crate::score::outcome::Outcome;
+use crate::score::outcome::beside::Beside;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
-use crate::score::outcome::{Beside, Outcome};
 use crate::score::request::{List, Request};
 use crate::search::answer::why_none::Relaxation;
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
