@@ -196,15 +196,14 @@ fn what_prunes_loses_nothing() {
                 .iter()
                 .map(|&v| radix[v] - 1)
                 .collect();
+            // Pruning asks about the drawn pose alone.
+            let look = |choices: &[usize]| Seen {
+                lasts: None,
+                ..all.look(choices)
+            };
             let mut found = Vec::new();
             pruned.visit(&beginning, &mut |choices, seen| {
-                // Pruning asks about the drawn pose alone.
-                let lasts = None;
-                let whole = Seen {
-                    lasts,
-                    ..all.look(choices)
-                };
-                assert_eq!(seen, whole, "{name}: {choices:?}");
+                assert_eq!(seen, look(choices), "{name}: {choices:?}");
                 found.push(choices.to_vec());
             });
             found.sort();
@@ -214,7 +213,7 @@ fn what_prunes_loses_nothing() {
                 .iter()
                 .for_each(|&v| choices[v] = radix[v] - 1);
             loop {
-                let seen = all.look(&choices);
+                let seen = look(&choices);
                 assert_eq!(pruned.look(&choices), (seen.internal == 0).then_some(seen));
                 if seen.internal == 0 {
                     truth.push(choices.clone());

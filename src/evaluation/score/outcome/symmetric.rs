@@ -56,7 +56,7 @@ impl Outcome {
             && asked.state.is_none()
             && asked.keep_output
             && self.is_exact()
-            && self.request.list != List::Nothing
+            && !matches!(self.request.list, List::Nothing | List::Top(0))
             && !self.search.mechanism.search.locks_drives;
         if !plain {
             return Ok(None);

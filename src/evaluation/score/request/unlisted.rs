@@ -158,7 +158,14 @@ fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool
         JointType::Custom(set) => set.iter().map(|f| f.name()).join("+"),
         named => named.name().to_owned(),
     };
-    if joint.joint_type == *joint_type || joint.options.iter().any(|o| o.name == name) {
+    // The file may offer the same motion under a name of its own.
+    let new = JointOption::in_frame_of(joint, joint_type);
+    let alike = |o: &JointOption| {
+        o.name == name
+            || (contains(o, &new), contains(&new, o)) == (Some(true), Some(true))
+                && matches!(joint_type, JointType::Custom(_))
+    };
+    if joint.joint_type == *joint_type || joint.options.iter().any(alike) {
         return true;
     }
     let fits = fits(mechanism, id, joint_type);
@@ -169,10 +176,7 @@ fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool
                 .options
                 .push(JointOption::in_frame_of(joint, &joint.joint_type));
         }
-        joint.options.push(JointOption {
-            name,
-            ..JointOption::in_frame_of(joint, joint_type)
-        });
+        joint.options.push(JointOption { name, ..new });
     }
     fits
 }

@@ -1,6 +1,5 @@
 //! What links can do, in words and as data.
 
-use crate::format::brief;
 use crate::geom::vector::{Vector, cross};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::link_motion::LinkMotion;
@@ -86,7 +85,7 @@ fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
             } else {
                 format!(
                     "screw motion along {along}{place}, lead {} {unit}",
-                    brief(t.lead)
+                    number(t.lead)
                 )
             }
         }
@@ -113,6 +112,11 @@ fn clean(x: f64) -> f64 {
     }
 }
 
+/// Returns a number to four decimals, without zeros at its end.
+fn number(x: f64) -> String {
+    ((x * 1e4).round() / 1e4 + 0.0).to_string()
+}
+
 /// Returns a direction, either way along it: "z", "(0.6, 0.8, 0)".
 fn direction(d: Vector) -> String {
     let d = d.map(clean);
@@ -128,6 +132,6 @@ fn direction(d: Vector) -> String {
 
 /// Returns three numbers in brackets.
 fn place(p: Vector) -> String {
-    let [x, y, z] = p.map(|x| brief(clean(x)));
+    let [x, y, z] = p.map(number);
     format!("({x}, {y}, {z})")
 }
