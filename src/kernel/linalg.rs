@@ -2,6 +2,7 @@
 //! whole ones over a denominator that they have in common.
 
 pub mod echelon;
+pub(crate) mod exterior;
 pub mod modp;
 pub mod number_ring;
 

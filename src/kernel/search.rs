@@ -22,7 +22,7 @@ use crate::model::mechanism::Mechanism;
 use crate::search::answer::counts::{self, Counts};
 use crate::search::answer::ideas::{self, Idea, IdeaBasis};
 use crate::search::answer::k_best::Assignment;
-use crate::search::answer::least_freedoms;
+use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order;
 use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
@@ -89,6 +89,13 @@ impl Search {
         build::build_in(self, orders, cancelled, progress)
     }
 
+    /// Whether all [minimal variants](Self::minimal_variants) of another search are determinate here; `None` where that is not told
+    /// without diagrams.
+    #[must_use]
+    pub fn has_all(&self, known: &Diagram) -> Option<bool> {
+        build::known_variants::has_all(self, known)
+    }
+
     /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
     #[must_use]
     pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
@@ -132,6 +139,12 @@ impl Search {
     #[must_use]
     pub fn minimal(&self, diagrams: &Diagrams) -> Option<BigUint> {
         least_freedoms::count(self, diagrams)
+    }
+
+    /// The diagram of those minimal ones; `None` where what is admissible is not all known, or where it takes too many nodes.
+    #[must_use]
+    pub fn minimal_variants(&self, diagrams: &Diagrams) -> Option<Diagram> {
+        least_freedoms::diagram(self, diagrams, Less::Freedoms)
     }
 
     /// The admissible variants that ideas are made of: those without another that has part of their freedoms and costs no more; all

@@ -12,6 +12,7 @@ mod families;
 mod held;
 pub(crate) mod ideas;
 mod inside;
+mod known_variants;
 mod least_model;
 mod listed;
 mod none_at_once;

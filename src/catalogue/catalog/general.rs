@@ -2,8 +2,8 @@
 //!
 //! A variant is determinate where the columns that it adds have the full rank. At special places a rank is less than at nearly
 //! all places, never more: what is determinate at some place is so in general position. One search, at places drawn at random,
-//! serves all layouts then that have the same determinate variants, and whether a layout has them is seen by its own diagram over
-//! one prime: modulo a prime, too, a rank is never more than it is. A minimal diagram is the only one of its variants in an order of
+//! serves all layouts then that have the same determinate variants, and whether a layout has them is seen by following the minimal ones
+//! over one prime: modulo a prime, too, a rank is never more than it is. A minimal diagram is the only one of its variants in an order of
 //! variables, so that diagrams are compared edge by edge.
 
 use crate::catalog::spec::Spec;
@@ -36,6 +36,8 @@ pub struct General {
     orders: Orders,
     /// The determinate variants.
     diagram: Diagram,
+    /// Of these the minimal ones, where they are known.
+    minimal: Option<Diagram>,
     /// Those that ideas are made of.
     idea_variants: Diagram,
     /// The first ideas of layouts, each with what they depend on.
@@ -142,6 +144,7 @@ impl General {
                 return Ok(Some(General {
                     counts: one.counts(diagram, false).by_mobility_and_changes,
                     orders,
+                    minimal: one.minimal_variants(&diagrams),
                     idea_variants: one.idea_variants(&diagrams),
                     ideas: Mutex::default(),
                     diagram: diagrams.determinate,
@@ -152,21 +155,27 @@ impl General {
     }
 
     /// The search of a layout of the pair over one prime, where all variants that are determinate in general position are so there; then
-    /// no others are, and all counts are those of the pair.
+    /// no others are, and all counts are those of the pair. The minimal ones are enough: freedoms that are added to a determinate variant
+    /// leave it determinate.
     ///
     /// # Errors
     /// Where the mechanism cannot be searched.
     ///
     /// # Complexity
-    /// One diagram.
+    /// Half of the minimal variants from either end; one diagram, where that is not known to do.
     pub(super) fn certify(
         &self,
         layout: Mechanism,
         spec: &Spec,
     ) -> Result<Option<Search>, RowError> {
         let search = search(layout, spec, 0)?;
-        let built = search.build_in(&self.orders, &|| false, &mut |_| {});
-        Ok(same(&self.diagram, &built.determinate).then_some(search))
+        let minimal = self.minimal.as_ref();
+        let has_all = minimal.and_then(|known| search.has_all(known));
+        let has_all = has_all.unwrap_or_else(|| {
+            let built = search.build_in(&self.orders, &|| false, &mut |_| {});
+            same(&self.diagram, &built.determinate)
+        });
+        Ok(has_all.then_some(search))
     }
 
     /// The first ideas of a layout that is certified, `top` of them at most: those of an earlier one, where they depend on the same.

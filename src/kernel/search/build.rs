@@ -4,6 +4,8 @@ pub(in crate::search) mod at_most;
 pub(in crate::search) mod budget;
 pub(in crate::search) mod completing_sets;
 mod estimates;
+mod known_spaces;
+pub(in crate::search) mod known_variants;
 pub mod orders;
 mod path_tree;
 pub(in crate::search) mod self_stress;

@@ -10,7 +10,7 @@ use crate::search::answer::counts::limited;
 use crate::search::answer::freedom_patterns::{Added, Pattern, Patterns, patterns};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::{Key, Steps};
-use crate::search::answer::least_freedoms;
+use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order::{distinct, key};
 use crate::search::build::Diagrams;
 use crate::search::diagram::{DEAD, Diagram};
@@ -45,7 +45,7 @@ pub(in crate::search) fn idea_variants<'d>(
     question: &Question,
     diagrams: &'d Diagrams,
 ) -> Cow<'d, Diagram> {
-    match least_freedoms::diagram(question, diagrams) {
+    match least_freedoms::diagram(question, diagrams, Less::Means) {
         Some(least) => Cow::Owned(least),
         None => Cow::Borrowed(diagrams.listed()),
     }

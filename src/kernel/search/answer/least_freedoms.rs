@@ -23,7 +23,7 @@ use num_bigint::BigUint;
 
 /// What another variant must not have more of, to make one with more freedoms idle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Less {
+pub(crate) enum Less {
     /// Freedoms alone: what is minimal then has none that can be left out.
     Freedoms,
     /// Freedoms, at joints that are no dearer and no more of them changed: a ball may stand where a universal joint would do,
@@ -51,16 +51,20 @@ pub(crate) fn count(question: &Question, diagrams: &Diagrams) -> Option<BigUint>
     Some(total(question, &least, true))
 }
 
-/// The diagram of the admissible variants without another that has part of their freedoms by no more means; `None` where what is
-/// admissible is not all known, or where it takes too many nodes.
-pub(in crate::search) fn diagram(question: &Question, diagrams: &Diagrams) -> Option<Diagram> {
-    let order = Order::new(question, Less::Means);
+/// The diagram of the minimal variants among the admissible; `None` where what is admissible is not all known, or where it takes
+/// too many nodes.
+pub(in crate::search) fn diagram(
+    question: &Question,
+    diagrams: &Diagrams,
+    less: Less,
+) -> Option<Diagram> {
+    let order = Order::new(question, less);
     least(question, diagrams.listed(), &order)
 }
 
 /// Which choices of each variable have less than another.
 #[derive(Debug)]
-struct Order {
+pub(in crate::search) struct Order {
     /// `[variable][choice]`: the others with no more, and whether they have less.
     within: Vec<Vec<Vec<(usize, bool)>>>,
     /// `[variable][choice]`: of those with less the ones with most.
@@ -71,7 +75,7 @@ struct Order {
 
 impl Order {
     /// Of the choices of a question.
-    fn new(question: &Question, less: Less) -> Order {
+    pub(in crate::search) fn new(question: &Question, less: Less) -> Order {
         let within = |v: &Variable| -> Vec<Vec<(usize, bool)>> {
             let spans = v
                 .choices

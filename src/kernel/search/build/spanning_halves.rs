@@ -13,7 +13,7 @@ use crate::search::build::spanning_paths::{Annihilator, completing};
 use crate::search::diagram::Layer;
 use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::layer::Nodes;
-use crate::search::diagram::reduced_rows::Rows;
+use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
@@ -25,7 +25,7 @@ const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
 
 /// A question in the space dual to self-stresses, from both ends.
 pub(in crate::search) struct Halves<'a> {
-    field: Field,
+    pub(in crate::search) field: Field,
     pub(in crate::search) limits: &'a Limits,
     /// Redundant constraints that every variant has.
     pub(in crate::search) already: u32,
@@ -101,10 +101,28 @@ impl<'a> Halves<'a> {
         told: &mut dyn FnMut(usize),
     ) -> Option<Vec<Set>> {
         let f = self.field;
-        let [stages, _] = &self.parts[part];
-        let behind = &stages[stages.len() - back.len()..];
-        // Coordinates that the front half reaches, and those that only the back half does.
-        let meeting = self.starts[part + 1] - back.len();
+        let behind = self.behind(part, back.len());
+        let tree = PathTree::new(&behind.vectors, &shortest(back, &behind.added));
+        let bases = tree.of_bases(f);
+        let tree = if bases.size() < tree.size() {
+            bases
+        } else {
+            tree
+        };
+        let of_node = |node: usize| {
+            let left = behind.left(nodes.matrix(node));
+            completing(&tree, &left, self.kept > 0)
+        };
+        completed(nodes.len(), of_node, cancelled, told)
+    }
+
+    /// What the last stages of a part add, so many of them.
+    pub(in crate::search) fn behind(&self, part: usize, stages: usize) -> Behind {
+        let f = self.field;
+        let [all, _] = &self.parts[part];
+        let behind = &all[all.len() - stages..];
+        // Coordinates that the stages before reach, and those that only these do.
+        let meeting = self.starts[part + 1] - stages;
         let is_live = |&c: &usize| self.contours[c].is_live_before(meeting);
         let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
         let reached = behind.iter().flat_map(Added::contours).copied();
@@ -128,24 +146,62 @@ impl<'a> Halves<'a> {
                 vectors.all.len() - 1
             })
         });
-        let added: Vec<_> = added.collect();
-        let tree = PathTree::new(&vectors, &shortest(back, &added));
-        let bases = tree.of_bases(f);
-        let tree = if bases.size() < tree.size() {
-            bases
-        } else {
-            tree
-        };
-        let of_node = |node: usize| {
-            let mut rows = Rows::default();
-            rows.unpack(f, live.len() + self.kept, nodes.matrix(node));
-            let rows = rows.rows().map(|row| {
-                let (contours, kept) = row.split_at(live.len());
-                [contours, &[f.dot(&weights, kept)]].concat()
-            });
-            let left = Annihilator::new(f, rows, live.len() + 1);
-            completing(&tree, &left, self.kept > 0)
-        };
-        completed(nodes.len(), of_node, cancelled, told)
+        Behind {
+            added: added.collect(),
+            vectors,
+            live: live.len(),
+            weights,
+        }
+    }
+}
+
+/// What the last stages of a part add, in the coordinates of contours that the stages before them do not reach, then in those that they
+/// reach, and in one of kept links.
+pub(in crate::search) struct Behind {
+    vectors: Vectors,
+    /// What the choices of each stage add, as the numbers of vectors, from the last stage on.
+    added: Vec<Vec<Vec<usize>>>,
+    /// Coordinates of contours that the stages before reach, too.
+    pub(in crate::search) live: usize,
+    /// Those of kept links are told by the sum of their coordinates times these.
+    weights: Vec<Residue>,
+}
+
+impl Behind {
+    /// What choices of the stages, from the last on, add where the stages before reach it, too, as rows with a number of kept links
+    /// behind; `false` where they do not span the rest.
+    pub(in crate::search) fn left_of(
+        &self,
+        choices: &[usize],
+        arithmetic: &mut Arithmetic,
+        rows: &mut Rows,
+    ) -> bool {
+        let Vectors { beyond, all, .. } = &self.vectors;
+        rows.clear(beyond + self.live + 1);
+        let added = self.added.iter().zip(choices);
+        for &number in added.flat_map(|(added, &choice)| &added[choice]) {
+            rows.insert(arithmetic, &mut all[number].clone());
+        }
+        let spans = rows.rank_before(*beyond) == *beyond;
+        rows.drop_first(*beyond);
+        spans
+    }
+
+    /// The rows of the matrix of a node before these stages: in the coordinates that both reach, then in those of kept links.
+    pub(in crate::search) fn unpacked(&self, matrix: &[Residue], rows: &mut Rows) {
+        let width = self.live + self.weights.len();
+        rows.unpack(self.vectors.field, width, matrix);
+    }
+
+    /// What the matrix of a node before these stages leaves to be spanned.
+    fn left(&self, matrix: &[Residue]) -> Annihilator {
+        let f = self.vectors.field;
+        let mut rows = Rows::default();
+        self.unpacked(matrix, &mut rows);
+        let rows = rows.rows().map(|row| {
+            let (contours, kept) = row.split_at(self.live);
+            [contours, &[f.dot(&self.weights, kept)]].concat()
+        });
+        Annihilator::new(f, rows, self.live + 1)
     }
 }

@@ -46,7 +46,7 @@ fn is_way(joined: &Move) -> bool {
 }
 
 /// What is allowed of the diagram of determinate variants.
-fn limits(question: &Question, model: &Model) -> Limits {
+pub(in crate::search) fn limits(question: &Question, model: &Model) -> Limits {
     Limits {
         layer: usize::MAX,
         already: model.already,

@@ -27,7 +27,7 @@ impl Clone for Rows {
 }
 
 impl Rows {
-    pub(super) fn clear(&mut self, width: usize) {
+    pub(in crate::search) fn clear(&mut self, width: usize) {
         self.width = width;
         self.pivots.clear();
         self.data.clear();
@@ -76,12 +76,12 @@ impl Rows {
     }
 
     /// Dimension of the span.
-    pub(super) fn rank(&self) -> usize {
+    pub(in crate::search) fn rank(&self) -> usize {
         self.pivots.len()
     }
 
     /// Dimension of what the span is in the first coordinates.
-    pub(super) fn rank_before(&self, coordinates: usize) -> usize {
+    pub(in crate::search) fn rank_before(&self, coordinates: usize) -> usize {
         self.pivots.partition_point(|&p| p < coordinates)
     }
 
@@ -91,7 +91,7 @@ impl Rows {
     }
 
     /// Drops the first coordinates, and the rows that reach them.
-    pub(super) fn drop_first(&mut self, coordinates: usize) {
+    pub(in crate::search) fn drop_first(&mut self, coordinates: usize) {
         let dropped = self.rank_before(coordinates);
         let (width, narrow) = (self.width, self.width - coordinates);
         for r in dropped..self.pivots.len() {
@@ -171,7 +171,11 @@ impl Rows {
     }
 
     /// Adds a vector, keeping the form; `vector` is used up.
-    pub(super) fn insert(&mut self, arithmetic: &mut Arithmetic, vector: &mut [Residue]) {
+    pub(in crate::search) fn insert(
+        &mut self,
+        arithmetic: &mut Arithmetic,
+        vector: &mut [Residue],
+    ) {
         let (f, width) = (arithmetic.field, self.width);
         for (row, &p) in self.data.chunks_exact(width.max(1)).zip(&self.pivots) {
             f.subtract_multiple(&mut vector[p..], &row[p..]);

@@ -38,6 +38,12 @@ impl Children {
         }
     }
 
+    /// None again.
+    pub(in crate::search) fn clear(&mut self) {
+        self.found.clear();
+        self.data.clear();
+    }
+
     /// Takes a child, `times` in a row.
     fn take(&mut self, matrix: &[Residue], spent: Spent, times: usize) {
         let start = self.data.len();

@@ -1,0 +1,67 @@
+//! Whether one mechanism has the variants of another, followed from both ends, against both diagrams variant by variant.
+
+use crate::common::fresh;
+use crate::search::beyond_budget::{ladder, search};
+use itertools::Itertools;
+use ozols::search::question::conditions::Conditions;
+use std::fmt::Write;
+
+/// A mechanism's hinges at whole places from 0 to below a limit: some of them on one line, some at one place.
+fn crowded(text: &str, below: i64) -> String {
+    text.lines().fold(String::new(), |mut out, line| {
+        match line.strip_prefix("point = [") {
+            Some(place) => {
+                let numbers = place.trim_end_matches(']').split(", ");
+                let numbers = numbers.map(|n| n.parse::<i64>().unwrap() % below);
+                writeln!(out, "point = {:?}", numbers.collect::<Vec<_>>()).unwrap();
+            }
+            None => writeln!(out, "{line}").unwrap(),
+        }
+        out
+    })
+}
+
+/// Whether two hinges have one x or one y: they are then on a line along an axis, about which options tilt.
+fn is_in_line(text: &str) -> bool {
+    let points = text.lines().filter_map(|l| l.strip_prefix("point = ["));
+    let places = points.map(|p| p.split(", ").map(str::to_owned).collect::<Vec<_>>());
+    let places: Vec<Vec<String>> = places.collect();
+    (0..2).any(|c| !places.iter().map(|p| &p[c]).all_unique())
+}
+
+/// All choices for so many joints of four options each.
+fn choices(joints: u32) -> impl Iterator<Item = Vec<usize>> {
+    (0..4usize.pow(joints)).map(move |n| (0..joints).map(|j| n >> (2 * j) & 3).collect())
+}
+
+#[test]
+fn what_is_followed_from_both_ends_is_what_both_diagrams_have() {
+    let first = fresh();
+    let mut told = [0; 2];
+    for (contours, spatial, runs) in [(1, false, 20), (2, false, 30), (3, false, 6), (2, true, 8)] {
+        let joints = 1 + 3 * contours;
+        for seed in (first..).take(runs) {
+            let text = ladder(contours as usize, seed, spatial);
+            let (general, known) = search(&text, Conditions::default());
+            let minimal = general.minimal_variants(&known).unwrap();
+            let other = ladder(contours as usize, seed + 1, spatial);
+            let in_line = is_in_line(&text) || is_in_line(&other);
+            let places = [&text, &other, &crowded(&other, 3), &crowded(&other, 8)];
+            for (place, text) in places.into_iter().enumerate() {
+                let (own, found) = search(text, Conditions::default());
+                let mut all = choices(joints);
+                let has = |c: &Vec<usize>| found.determinate.end(c).is_some();
+                let expected = all.all(|c| minimal.end(&c).is_none() || has(&c));
+                match own.has_all(&minimal) {
+                    Some(has) => {
+                        assert_eq!(has, expected, "seed {seed}: {text}");
+                        told[usize::from(has)] += 1;
+                    }
+                    // Special places may part what is coupled elsewhere.
+                    None => assert!(place > 1 || in_line, "seed {seed}: {text}"),
+                }
+            }
+        }
+    }
+    assert!(told.iter().all(|&n| n > 20), "{told:?}");
+}
