@@ -78,12 +78,12 @@ impl DisplacementSeries {
         // The turn transposed, and the shift turned back by it.
         let turned = |t: &Term| -> Term { [0, 1, 2].map(|i| [t[0][i], t[1][i], t[2][i], 0]) };
         let mut terms: Vec<Term> = self.terms.iter().map(turned).collect();
-        for k in 0..terms.len() {
-            for i in 0..3 {
+        for (k, term) in terms.iter_mut().enumerate() {
+            for (i, row) in term.iter_mut().enumerate() {
                 let products = (0..=k)
                     .flat_map(|d| (0..3).map(move |r| (d, r)))
                     .map(|(d, r)| (self.terms[d][r][i], self.terms[k - d][r][3]));
-                terms[k][i][3] = f.neg(f.sum_of_products(products));
+                row[3] = f.neg(f.sum_of_products(products));
             }
         }
         DisplacementSeries { field: f, terms }

@@ -33,13 +33,16 @@ const HALVINGS: u32 = 4;
 const NEWTON: usize = 30;
 const REACHED: f64 = 1e-10;
 
+/// The displacement over each joint since the file's pose.
+type JointDisplacements = Vec<(JointId, RigidMotion)>;
+
 /// Poses of the present mechanism besides the file's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stroke {
     /// Poses asked for.
     pub asked: usize,
     /// Those reached: the displacements over the present joints in the file's unit, and the dimension of the kept links' present motion.
-    poses: Vec<(Vec<(JointId, RigidMotion)>, Option<i64>)>,
+    poses: Vec<(JointDisplacements, Option<i64>)>,
 }
 
 impl Stroke {
