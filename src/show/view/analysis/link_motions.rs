@@ -34,11 +34,11 @@ impl<'a> LinkMotionData<'a> {
         }
     }
 
-    /// Returns the line about it: "p relative to 0: three translations".
+    /// Returns the line about it: "p relative to 0 (in this pose): three translations".
     #[must_use]
     pub(super) fn line(&self) -> String {
         format!(
-            "{} relative to {}: {}",
+            "{} relative to {} (in this pose): {}",
             self.link, self.relative_to, self.text
         )
     }
