@@ -159,7 +159,7 @@ class Outcome(Sequence[Variant]):
         return list(self._shown(self._native.variants(False, None, 0)))
 
     def all(self) -> Iterator[Variant]:
-        """Every admissible variant, the cheapest first, however many there are: a million takes no more memory than ten."""
+        """Every variant that the search lists, the cheapest first, however many there are: a million takes no more memory than ten."""
         return self._shown(self._native.variants(True, None, 0))
 
     def sample(self, count: int, seed: int = 1) -> Iterator[Variant]:
