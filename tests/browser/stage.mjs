@@ -87,7 +87,7 @@ export function stageTests(test, { gripper, loaded }) {
   test("an idea says what the terminal says of it", async () => {
     await open(gripper, {}, async (tab) => {
       const said = await tab.locator("#chosen .why").innerText();
-      for (const words of ["tilt both ways: link 2 at 1-2", "rod end (spherical plain bearing) at 1-2", "σ = 2 of 0-1, 1-2, 2-3, 3-0"]) assert.ok(said.includes(words), words);
+      for (const words of ["tilt both ways: link 2 at 1-2", "rod end (spherical plain bearing) at 1-2", "2 of 2 redundant constraints of loop 0-1-2-3"]) assert.ok(said.includes(words), words);
     });
   });
 
