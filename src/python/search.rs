@@ -80,8 +80,8 @@ impl Outcome {
     fn data(&self, py: Python<'_>) -> PyResult<String> {
         let o = &*self.0;
         written(py, |out| {
-            let beside = o.beside(&|| false).map_err(failed)?;
-            json::write(out, o, o.variants(), &beside, None).map_err(failed)
+            let remarks = o.remarks(&|| false).map_err(failed)?;
+            json::write(out, o, o.variants(), &remarks, None).map_err(failed)
         })
     }
 
@@ -95,9 +95,9 @@ impl Outcome {
     fn text(&self, py: Python<'_>) -> PyResult<String> {
         let o = &*self.0;
         written(py, |out| {
-            let beside = o.beside(&|| false).map_err(failed)?;
+            let remarks = o.remarks(&|| false).map_err(failed)?;
             let name = &o.search.mechanism.name;
-            text::write(out, o, o.variants(), &beside, name, None).map_err(failed)
+            text::write(out, o, o.variants(), &remarks, name, None).map_err(failed)
         })
     }
 

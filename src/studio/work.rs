@@ -164,10 +164,10 @@ fn given(
 ) -> Result<Value, String> {
     let words = |e: &dyn std::fmt::Display| e.to_string();
     let is_old = || room.is_old(revision);
-    let beside = outcome.beside(&is_old).map_err(|e| words(&e))?;
+    let remarks = outcome.remarks(&is_old).map_err(|e| words(&e))?;
     let mut text = Vec::new();
     let variants = outcome.variants_unless(&is_old);
-    json::write(&mut text, &outcome, variants, &beside, None).map_err(|e| words(&e))?;
+    json::write(&mut text, &outcome, variants, &remarks, None).map_err(|e| words(&e))?;
     let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
     let marks = idea::marks(m, states, &outcome, &found["variants"]);
     let told = json!({ "revision": revision, "found": found, "marks": marks });

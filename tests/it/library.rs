@@ -2,7 +2,7 @@
 
 use crate::common::{built_in, ozols, text, timeless};
 use ozols::model::ranking::Term;
-use ozols::score::outcome::beside::Beside;
+use ozols::score::outcome::remarks::Remarks;
 use ozols::score::request::{Check, JointOptions, List, Method};
 use ozols::score::run::{Event, run};
 use ozols::search::diagram::Stop;
@@ -19,7 +19,7 @@ fn search(name: &str, request: &Request) -> Outcome {
 
 fn json(outcome: &Outcome) -> String {
     let mut out = Vec::new();
-    let none = outcome.beside(&|| false).unwrap();
+    let none = outcome.remarks(&|| false).unwrap();
     json::write(&mut out, outcome, outcome.variants(), &none, None).unwrap();
     String::from_utf8(out).unwrap()
 }
@@ -228,7 +228,7 @@ fn csv_and_text_are_those_of_the_command() {
     // People are given ideas.
     outcome.request.distinct = true;
     let variants = outcome.variants();
-    let none = &Beside::default();
+    let none = &Remarks::default();
     text::write(&mut text, &outcome, variants, none, "four-bar", None).unwrap();
     assert_eq!(text, printed("text").unwrap().stdout);
 }

@@ -50,10 +50,10 @@ pub(in crate::cli) struct Analyze {
     /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
     #[arg(long)]
     pub(in crate::cli) planar: bool,
-    /// Also tell what this link can do; several may be given.
+    /// Also report the motion of this link; may be repeated.
     #[arg(long, value_name = "LINK")]
     link: Vec<String>,
-    /// What --link moves relative to, in place of the frame: the connectivity of both.
+    /// Report the motion of --link relative to this link instead of the frame.
     #[arg(long, value_name = "LINK", requires = "link")]
     relative_to: Option<String>,
     /// Output format.
@@ -138,7 +138,7 @@ fn states_asked(mechanism: &Mechanism, a: &Analyze) -> anyhow::Result<Vec<StateI
     })
 }
 
-/// Adds what the links that were asked about can do.
+/// Adds the motions of the links named by --link.
 fn add_motions<'m>(
     analysis: &mut Analysis<'m>,
     mechanism: &'m Mechanism,

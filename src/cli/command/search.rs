@@ -8,7 +8,7 @@ use crate::cli::terminal::progress::SearchWatch;
 use crate::cli::terminal::{Done, interrupt, machine, memory, output};
 use crate::format::{duration, grouped};
 use crate::score::outcome::Outcome;
-use crate::score::outcome::beside::Beside;
+use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Method, Request};
 use crate::view::search::csv;
 use crate::view::search::json;
@@ -116,9 +116,9 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let request = a.request(args.seed)?;
     let mut outcome = SearchWatch::new(args.quiet).run(mechanism, &request)?;
     outcome.request.distinct |= a.tells_ideas(&outcome);
-    let beside = &match a.format {
-        SearchFormat::Text | SearchFormat::Json => outcome.beside(&interrupt::pending)?,
-        SearchFormat::Jsonl | SearchFormat::Csv => Beside::default(),
+    let remarks = &match a.format {
+        SearchFormat::Text | SearchFormat::Json => outcome.remarks(&interrupt::pending)?,
+        SearchFormat::Jsonl | SearchFormat::Csv => Remarks::default(),
     };
     let done = output::to(a.output.as_deref(), |out| {
         let variants = outcome.variants_unless(&interrupt::pending);
@@ -127,10 +127,10 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
                 let width = output::width(a.output.as_deref());
                 let file = &a.file.file;
                 if request.list == List::All {
-                    text::write(out, &outcome, variants, beside, file, width)?;
+                    text::write(out, &outcome, variants, remarks, file, width)?;
                 } else {
                     let mut text = Vec::new();
-                    text::write(&mut text, &outcome, variants, beside, file, width)?;
+                    text::write(&mut text, &outcome, variants, remarks, file, width)?;
                     let text = a.file.with_loops(String::from_utf8(text)?);
                     write!(
                         out,
@@ -140,7 +140,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
                 }
             }
             SearchFormat::Json => {
-                json::write(out, &outcome, variants, beside, Some(&seconds))?;
+                json::write(out, &outcome, variants, remarks, Some(&seconds))?;
             }
             SearchFormat::Jsonl => json::write_lines(out, &outcome, variants)?,
             SearchFormat::Csv => {

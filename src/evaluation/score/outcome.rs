@@ -1,11 +1,11 @@
 //! What a search found: counts, how they were checked, and the variants one by one.
 
-pub mod beside;
 pub mod listing;
 pub mod pareto;
 mod proof;
 pub(in crate::score) mod ranked;
 pub mod ranking;
+pub mod remarks;
 pub mod symmetric;
 pub mod variant;
 pub mod why;

@@ -24,7 +24,6 @@ use crate::search::diagram::{Progress, Stop};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, Symmetry};
 use crate::search::question::rounded_rank::Digits;
-use crate::search::question::throughout::PoseOnly;
 use std::sync::Arc;
 
 pub use crate::score::request::error::RunError;
@@ -145,14 +144,8 @@ pub fn answer(
             return Ok(Outcome { second, ..found });
         }
     }
-    let lasting = match (counts.lasting.take(), &diagrams.lasting) {
-        (Some(lasting), _) => Ok(lasting),
-        (None, Err(why)) => Err(why.clone()),
-        (None, Ok(_)) => Err(PoseOnly::Budget),
-    };
     Ok(Outcome {
         second,
-        lasting,
         diagrams: Some(diagrams),
         stop: stops[0].or(stops[1]),
         determinate_stop: stops[0],

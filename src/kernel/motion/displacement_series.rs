@@ -115,6 +115,17 @@ impl DisplacementSeries {
     }
 }
 
+/// Returns a vector of series times 1, t, t², ..., cut off at its order: the coefficients of t⁰ first, then those of t¹, and so on.
+pub(crate) fn multiples(terms: &[impl AsRef<[Residue]>]) -> Vec<Vec<Residue>> {
+    let width = terms.first().map_or(0, |t| t.as_ref().len());
+    let shifted = |by: usize| {
+        let zeros = std::iter::repeat_n(0, by * width);
+        let rest = terms[..terms.len() - by].iter().flat_map(|t| t.as_ref());
+        zeros.chain(rest.copied()).collect()
+    };
+    (0..terms.len()).map(shifted).collect()
+}
+
 /// Returns the matrix of a twist (ω; v): the rows of ω's cross product, each with its component of v.
 fn hat(f: Field, s: &Twist<Residue>) -> Term {
     let [x, y, z, u, v, w] = *s;

@@ -2,8 +2,8 @@
 
 use crate::closure::Closure;
 use crate::geom::Reals;
-use crate::geom::exact::{ExactError, ExactField};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::geom::exact::ExactField;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::exact::certificate::{self, Budget};
 pub use crate::rank::exact::field::exact_field;
 use crate::rank::exact::field::field_of;
@@ -21,7 +21,6 @@ use crate::redundancy::contour_shares::{coupling_shares, shares};
 use crate::redundancy::drives::{DriveFault, drive_faults};
 pub use crate::redundancy::external::External;
 use crate::redundancy::external::{external, freedoms_of, int, present_links};
-use crate::redundancy::link_motion::{LinkMotion, link_motions};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
 use crate::redundancy::measured::Measured;
 use crate::redundancy::motion::{motions, outputs, span_of_links};
@@ -95,8 +94,6 @@ pub struct StateAnalysis {
     pub per_coupling: Vec<CouplingShare>,
     /// What the state adds to the free one.
     pub external: Option<External>,
-    /// What each output can do; nothing where singular values find another number of motions than the rank says.
-    pub outputs: Vec<LinkMotion>,
     /// Links that move while every output rests.
     pub idle: Vec<Idle>,
     /// A basis of the self-stresses.
@@ -126,21 +123,6 @@ impl StateAnalysis {
             _ => None,
         }
     }
-
-    /// Returns what some links can do relative to another in this state of the mechanism that was analysed, as [`link_motions`].
-    ///
-    /// # Errors
-    /// Where a coordinate has no value.
-    pub fn link_motions(
-        &self,
-        mechanism: &Mechanism,
-        links: &[LinkId],
-        relative_to: LinkId,
-    ) -> Result<Vec<LinkMotion>, ExactError> {
-        let meant = self.meant.as_deref().unwrap_or(mechanism);
-        let state = mechanism.state(&self.state).unwrap_or(StateId::FREE);
-        link_motions(meant, state, links, relative_to, self.mobility)
-    }
 }
 
 /// Analyses the given states.
@@ -152,24 +134,18 @@ pub fn analyse(
     states: &[StateId],
     method: Method,
 ) -> Result<Vec<StateAnalysis>, AnalysisError> {
-    let one = |&s: &StateId| {
-        let mut found = match method {
-            Method::Auto => chosen(mechanism, s)?,
-            Method::Modular => exactly(mechanism, s, None)?,
+    states
+        .iter()
+        .map(|&s| match method {
+            Method::Auto => chosen(mechanism, s),
+            Method::Modular => exactly(mechanism, s, None),
             Method::Numeric(elimination, tolerance) => {
                 let real = Closure::new(&Reals, mechanism, s)?;
                 let rank = elimination.rank(&real, tolerance)?;
-                numerically(mechanism, s, elimination, rank, tolerance, None)?
+                numerically(mechanism, s, elimination, rank, tolerance, None)
             }
-        };
-        let joints: Vec<JointId> = mechanism.joints_in(s).collect();
-        let there = present_links(mechanism, &joints);
-        let mut outputs = outputs(mechanism);
-        outputs.retain(|l| there.contains(l));
-        found.outputs = found.link_motions(mechanism, &outputs, mechanism.frame())?;
-        Ok(found)
-    };
-    states.iter().map(one).collect()
+        })
+        .collect()
 }
 
 /// By the automatic choice.
@@ -438,7 +414,6 @@ fn exactly(
             .transpose()?,
         idle,
         self_stresses: self_stresses(exact, mechanism, &closure)?,
-        outputs: Vec::new(),
         left_out: closure.left_out.clone(),
         method: modular::Modular.name(),
         certainty,

@@ -10,9 +10,12 @@
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
 use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
-use crate::model::mechanism::{LinkId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::motions;
+use crate::redundancy::analysis::StateAnalysis;
+use crate::redundancy::external::present_links;
+use crate::redundancy::motion::outputs;
 use ozols_dense::{Matrix, svd};
 
 /// Freedoms of a mechanism at most: a larger one has its singular vectors computed only where somebody asks for them.
@@ -68,6 +71,38 @@ impl LinkMotion {
     }
 }
 
+impl StateAnalysis {
+    /// Returns the motions of the outputs relative to the frame; nothing where singular values find another number of
+    /// motions than the rank says.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    pub fn output_motions(&self, mechanism: &Mechanism) -> Result<Vec<LinkMotion>, ExactError> {
+        let state = mechanism.state(&self.state).unwrap_or(StateId::FREE);
+        let joints: Vec<JointId> = mechanism.joints_in(state).collect();
+        let there = present_links(mechanism, &joints);
+        let mut outputs = outputs(mechanism);
+        outputs.retain(|l| there.contains(l));
+        self.link_motions(mechanism, &outputs, mechanism.frame())
+    }
+
+    /// Returns what some links can do relative to another in this state of the mechanism that was analysed; nothing where singular
+    /// values find another number of motions than the rank says.
+    ///
+    /// # Errors
+    /// Where a coordinate has no value.
+    pub fn link_motions(
+        &self,
+        mechanism: &Mechanism,
+        links: &[LinkId],
+        relative_to: LinkId,
+    ) -> Result<Vec<LinkMotion>, ExactError> {
+        let meant = self.meant.as_deref().unwrap_or(mechanism);
+        let state = mechanism.state(&self.state).unwrap_or(StateId::FREE);
+        link_motions(meant, state, links, relative_to, self.mobility)
+    }
+}
+
 /// Returns the motions of some links relative to one in a state of a mechanism that has so many motions; nothing where singular values
 /// find another number of these, or where the mechanism is large.
 ///
@@ -76,7 +111,7 @@ impl LinkMotion {
 ///
 /// # Complexity
 /// One singular value decomposition of J, and one of 6 rows for each link.
-pub fn link_motions(
+fn link_motions(
     mechanism: &Mechanism,
     state: StateId,
     links: &[LinkId],
@@ -91,29 +126,17 @@ pub fn link_motions(
     if kernel.ncols() != mobility {
         return Ok(Vec::new());
     }
-    let twists = |link: LinkId| -> Matrix {
-        let path = path_from_frame(mechanism, state, link);
-        let mut out = Matrix::zeros(6, kernel.ncols());
-        for (c, column) in pose.columns.iter().enumerate() {
-            let Some((_, forward)) = path.iter().find(|(j, _)| *j == column.joint) else {
-                continue;
-            };
-            let sign = if *forward { 1.0 } else { -1.0 };
-            for (k, t) in column.twist.iter().enumerate() {
-                for w in 0..kernel.ncols() {
-                    out[(k, w)] += sign * t * kernel[(c, w)];
-                }
-            }
-        }
-        out
-    };
-    let base = twists(relative_to);
-    let of = |&link: &LinkId| {
-        let own = twists(link);
-        let relative = Matrix::from_fn(6, own.ncols(), |r, c| own[(r, c)] - base[(r, c)]);
+    // Behind the rows of the closure equations stand six for the twist of each link.
+    let all = std::iter::once(&relative_to).chain(links);
+    let paths: Vec<_> = all.map(|&l| path_from_frame(mechanism, state, l)).collect();
+    let moved = pose.jacobian_with(&paths, &[]).times(&kernel);
+    let row = |link: usize, r: usize| pose.rows() + 6 * link + r;
+    let of = |(at, &link): (usize, &LinkId)| {
+        let difference = |r: usize, c: usize| moved[(row(at + 1, r), c)] - moved[(row(0, r), c)];
+        let relative = Matrix::from_fn(6, kernel.ncols(), difference);
         named(&pose, link, relative_to, &relative)
     };
-    Ok(links.iter().filter_map(of).collect())
+    Ok(links.iter().enumerate().filter_map(of).collect())
 }
 
 /// Returns a span of twists in the lengths of a pose and about its middle as a motion; `None` where singular values do not converge.

@@ -266,8 +266,10 @@ impl<'a> State<'a> {
                 counted,
                 agree: counted.redundant == counted.by_rank,
             }),
+            // Coordinates that were analysed have values.
             motions: s
-                .outputs
+                .output_motions(mechanism)
+                .unwrap_or_default()
                 .iter()
                 .map(|of| LinkMotionData::new(mechanism, of))
                 .collect(),

@@ -39,7 +39,7 @@ fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
         assert_eq!(row(v), row(first.unwrap()), "σ = {left}");
     }
     let text = out(&["search", "gripper-10"]);
-    let said = "it takes 11 freedoms more, and joints that are alike get them 2 at a time";
+    let said = "that takes 11 more freedoms, and joints that are images of each other gain them 2 at a time";
     assert!(text.contains(said), "{text}");
     let flags = ["--symmetric", "--max-mobility", "1", "--count"];
     let none = ozols(&[&["search", "gripper-10"][..], &flags].concat()).output();

@@ -4,7 +4,6 @@ use crate::model::mechanism::StateId;
 use crate::redundancy::figures;
 use crate::score::outcome::Outcome;
 use crate::score::request::List;
-
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::search::diagram::Stop;
@@ -15,7 +14,7 @@ use std::collections::BTreeSet;
 const LEFT: u32 = 2;
 /// Nodes of a diagram at most: images chosen alike make small diagrams.
 const NODES: usize = 20_000;
-/// Variants looked at for one that leaves just so many redundant constraints.
+/// Variants searched for one that leaves exactly the wanted number of redundant constraints.
 const LOOKED_AT: usize = 10_000;
 
 /// The cheapest symmetric redesigns.
@@ -62,7 +61,7 @@ impl Outcome {
             return Ok(None);
         }
         let mut best = Vec::new();
-        let mut whole = None;
+        let mut whole: Option<Search> = None;
         for left in (0..=LEFT).rev() {
             let conditions = Conditions {
                 symmetry: Symmetry::SymmetricOnly,
@@ -73,7 +72,9 @@ impl Outcome {
                 estimate: None,
                 ..asked.clone()
             };
-            let (field, mechanism) = (self.search.exact.clone(), self.search.mechanism.clone());
+            // The symmetry that the first search finds is entered in its mechanism.
+            let last = whole.as_ref().unwrap_or(&self.search);
+            let (field, mechanism) = (last.exact.clone(), last.mechanism.clone());
             let search = match Search::new(field, mechanism, conditions) {
                 Err(SearchError::Mirror(_)) => return Ok(None),
                 other => other?,

@@ -83,7 +83,6 @@ impl Outcome {
             list: List::Top(1),
             check: Check::None,
             poses: 0,
-            pose_only: true,
             nodes: NODES.min(wider.nodes),
             ..wider.clone()
         };

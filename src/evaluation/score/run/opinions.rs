@@ -10,6 +10,7 @@ use crate::search::answer::k_best::Assignment;
 use crate::search::build::Diagrams;
 use crate::search::check::second_opinion::{self, SecondOpinion};
 use crate::search::check::singular_values::CHECKED;
+use crate::search::question::conditions::Conditions;
 use num_bigint::BigUint;
 
 /// Of so many ideas the first variants get a second opinion.
@@ -65,8 +66,11 @@ pub(super) fn other_scenes(
     let (mut range, mut differ) = ([own.clone(), own], false);
     for scene in scenes {
         let field = exact_field(scene, 0)?;
-        let mut conditions = search.conditions.clone();
-        conditions.estimate = None;
+        let conditions = Conditions {
+            estimate: None,
+            throughout: false,
+            ..search.conditions.clone()
+        };
         let other = Search::new(field, scene.clone(), conditions)?;
         let built = other.build(should_cancel, &mut |_| {});
         let found = (

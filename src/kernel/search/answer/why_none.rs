@@ -145,7 +145,7 @@ impl Easing<'_> {
         change(&mut eased);
         let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
         let built = build_whole(&other, self.cancelled);
-        Ok(built.map(|d| counts(&other, &d.admissible, true)))
+        Ok(built.map(|d| counts(&other, d.listed(), true)))
     }
 
     /// The same; none where there is no variant, either.

@@ -5,9 +5,11 @@ use crate::closure::tree::path_from_frame;
 use crate::geom::Scalars;
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::displacement_series::multiples;
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
 use crate::search::question::throughout::{ColumnSeries, ORDER};
+use std::ops::Range;
 
 /// What a choice puts at each joint of its variable: twists, each with the joint's entries in the rows of its couplings
 /// behind it.
@@ -71,15 +73,11 @@ impl RowLayout<'_> {
                 .iter()
                 .map(|t| self.column(question.field(), *joint, t));
             let terms: Vec<Vec<Residue>> = terms.collect();
-            let of = |by: usize, from: usize, to: usize| -> Vec<Residue> {
-                let zeros = std::iter::repeat_n(0, by * (to - from));
-                let rest = terms[..terms.len() - by].iter();
-                zeros
-                    .chain(rest.flat_map(|t| t[from..to].iter().copied()))
-                    .collect()
+            let part = |rows: Range<usize>| -> Vec<Vec<Residue>> {
+                multiples(&terms.iter().map(|t| &t[rows.clone()]).collect::<Vec<_>>())
             };
-            let column = |by| [of(by, 0, free), of(by, free, free + kept)].concat();
-            (0..terms.len()).map(column).collect()
+            let both = part(0..free).into_iter().zip(part(free..free + kept));
+            both.map(|(a, b)| [a, b].concat()).collect()
         };
         let of_choice = |v: usize, c: usize| -> Vec<Vec<Residue>> {
             along.of_choice(v, c).iter().flat_map(multiples).collect()

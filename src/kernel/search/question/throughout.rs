@@ -17,8 +17,8 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
-use crate::motion::displacement_series::{DisplacementSeries, Series};
+use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
+use crate::motion::displacement_series::{DisplacementSeries, Series, multiples};
 use crate::motion::pose::Pose;
 use crate::rank::exact::modular;
 use crate::rank::finite::higher_order::HigherOrder;
@@ -50,7 +50,7 @@ pub enum PoseOnly {
     /// More than the count without redundant constraints is wanted.
     #[error("redundant constraints are allowed")]
     Redundant,
-    /// A state beside the free one takes part.
+    /// A state takes part in the search.
     #[error("a searched state holds the mechanism in its pose")]
     State,
     /// Geometry that exact arithmetic does not have as it is meant.
@@ -66,12 +66,14 @@ pub enum PoseOnly {
     #[error("the drawn pose is singular or shaky: its motion stops at order {0}")]
     Stopped(usize),
     /// The rank of the closure equations changes at the drawn pose.
-    #[error("the drawn pose is singular: constraints or output motions are others beside it")]
+    #[error(
+        "the drawn pose is singular: the constraints or the output motions differ from those of poses next to it"
+    )]
     Singular,
     /// More equations than are expanded.
     #[error("the closure equations are too many to expand")]
     TooLarge,
-    /// An option without the present joint's motion beside the drawn pose.
+    /// An option that has the present joint's motion in the drawn pose alone.
     #[error("{option} at {joint} does not follow the present joint")]
     Option {
         /// The joint.
@@ -126,10 +128,13 @@ impl Throughout {
         for variable in &space.variables {
             let mut of_choices = vec![Vec::new(); variable.choices.len()];
             for &joint in &variable.joints {
-                let present = motion.columns(exact, mechanism, joint, &variable.choices[0])?;
-                let present = present.unwrap_or_default();
+                let mut present = Vec::new();
                 for (out, choice) in of_choices.iter_mut().zip(&variable.choices) {
                     let own = motion.columns(exact, mechanism, joint, choice)?;
+                    // The present joint comes first.
+                    if present.is_empty() {
+                        present = own.clone().unwrap_or_default();
+                    }
                     let own = own.filter(|own| has_all(exact.field(), own, &present));
                     let Some(own) = own else {
                         return Ok(Err(PoseOnly::Option {
@@ -163,7 +168,7 @@ impl Throughout {
         &self.columns[variable][choice]
     }
 
-    /// Returns whether the present joints have the same rank and the same kept motion beside the drawn pose as in it.
+    /// Returns whether the present joints have the same rank and the same kept motion in poses next to the drawn one.
     fn is_regular(&self, f: Field, rows: &ClosingRows<'_>) -> bool {
         let ranks = |order: usize| -> [usize; 2] {
             let present = self.columns.iter().filter_map(|choices| choices.first());
@@ -194,17 +199,8 @@ fn not_asked(conditions: &Conditions) -> Option<PoseOnly> {
 
 /// Returns whether the module of some columns has all of others.
 fn has_all(f: Field, columns: &[ColumnSeries], others: &[ColumnSeries]) -> bool {
-    let multiples = |series: &ColumnSeries| -> Vec<Vec<Residue>> {
-        let width = series.first().map_or(0, Vec::len);
-        let shifted = |by: usize| {
-            let zeros = std::iter::repeat_n(0, by * width);
-            let rest = series.iter().flatten().copied();
-            zeros.chain(rest).take(series.len() * width).collect()
-        };
-        (0..series.len()).map(shifted).collect()
-    };
-    let span = Echelon::of(f, columns.iter().flat_map(multiples));
-    let mut others = others.iter().flat_map(multiples);
+    let span = Echelon::of(f, columns.iter().flat_map(|c| multiples(c)));
+    let mut others = others.iter().flat_map(|c| multiples(c));
     others.all(|v| span.contains(&v))
 }
 
@@ -262,9 +258,11 @@ impl Motion {
             let own = frame.motions_in_series(exact, &space, freedoms);
             let mut at = DisplacementSeries::identity(field, ORDER);
             for (freedom, twist) in own {
-                let q = series.get(&(j, freedom));
-                let step = q.map(|q| DisplacementSeries::exp(field, &twist, q));
-                at = step.map_or(at.clone(), |step| at.then(&step));
+                at = at.then(&DisplacementSeries::exp(
+                    field,
+                    &twist,
+                    &series[&(j, freedom)],
+                ));
             }
             over.insert(j, at);
         }
@@ -311,7 +309,7 @@ impl Motion {
             return Ok(None);
         };
         let row = rate_row(exact, &self.space, mechanism, joint, &option.frame)?;
-        let base = self.base(of.links[0]);
+        let base = &self.links[of.links[0].index()];
         let mut before = DisplacementSeries::identity(self.field, ORDER);
         let mut out = Vec::with_capacity(passed.len());
         for ((freedom, twist), q) in passed.iter().zip(&q) {
@@ -332,11 +330,6 @@ impl Motion {
             before = before.then(&DisplacementSeries::exp(self.field, twist, q));
         }
         Ok(Some(out))
-    }
-
-    /// Returns the displacement of a link.
-    fn base(&self, link: LinkId) -> &DisplacementSeries {
-        &self.links[link.index()]
     }
 
     /// Returns the coordinates of freedoms in series with which they move as the present joint does, one order of t after the other;

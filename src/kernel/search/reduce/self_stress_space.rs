@@ -14,6 +14,7 @@ use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::motion::displacement_series::multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shortened};
@@ -110,18 +111,11 @@ impl<'m> ClosingRows<'m> {
         joint: JointId,
         series: &[Vec<Residue>],
     ) -> Vec<Vec<Residue>> {
-        let (closing, kept, order) = (self.closing(), self.kept(), series.len());
         let terms: Vec<Vec<Residue>> = series.iter().map(|t| self.column(f, joint, t)).collect();
-        let shifted = |by: usize| {
-            let mut out = vec![0; order * (closing + kept)];
-            for (k, term) in (by..order).zip(&terms) {
-                let (of_contours, of_kept) = term.split_at(closing);
-                out[k * closing..][..closing].copy_from_slice(of_contours);
-                out[order * closing + k * kept..][..kept].copy_from_slice(of_kept);
-            }
-            out
-        };
-        (0..order).map(shifted).collect()
+        let parts = terms.iter().map(|t| t.split_at(self.closing()));
+        let (of_contours, of_kept): (Vec<_>, Vec<_>) = parts.unzip();
+        let both = multiples(&of_contours).into_iter().zip(multiples(&of_kept));
+        both.map(|(a, b)| [a, b].concat()).collect()
     }
 
     /// The column of a joint's twist, with its rates behind it.

@@ -80,17 +80,14 @@ fn verdict(outcome: &Outcome) -> String {
     let more = [
         conditions
             .keep_output
-            .then(|| keep_motion(&outcome.search.mechanism).to_owned()),
+            .then(|| keep_motion(&outcome.search.mechanism).to_owned() + where_kept(outcome)),
         conditions.max_mobility.map(|w| format!("have W ≤ {w}")),
         conditions
             .max_changes
             .map(|c| format!("change at most {}", plural(c as usize, "joint"))),
     ];
     let told = in_state(&outcome.search, false);
-    let mut more = more.into_iter().flatten().chain(told).collect_vec();
-    if let Some(keeps) = more.first_mut().filter(|_| conditions.keep_output) {
-        *keeps += where_kept(outcome);
-    }
+    let more = more.into_iter().flatten().chain(told).collect_vec();
     let all = match more.split_last() {
         None => format!("have {condition}"),
         Some((last, rest)) => {
@@ -151,14 +148,13 @@ pub(crate) fn where_kept(outcome: &Outcome) -> &'static str {
 fn in_the_pose(outcome: &Outcome) -> Option<String> {
     let here = &outcome.admissible.total;
     match &outcome.lasting {
-        Ok(_) if here.is_zero() => None,
         Ok(lasting) if lasting.total == *here => None,
         Ok(lasting) => {
             let lost = here - &lasting.total;
             let lose = if lost.is_one() { "loses" } else { "lose" };
             let (here, lost) = (grouped(here), grouped(lost));
             Some(format!(
-                "{here} in the drawn pose; {lost} of these {lose} the motion beside it (--pose-only lists them, too)"
+                "{here} in the drawn pose; {lost} of these {lose} the motion in other poses (--pose-only lists them too)"
             ))
         }
         Err(

@@ -1,8 +1,8 @@
 //! A search as JSON, and its variants as JSON lines, written as they come.
 
 use crate::score::outcome::Outcome;
-use crate::score::outcome::beside::Beside;
 use crate::score::outcome::listing::Variants;
+use crate::score::outcome::remarks::Remarks;
 use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
 use crate::search::diagram::Stop;
@@ -31,7 +31,7 @@ pub fn each<'a, E>(
     })
 }
 
-/// Writes an outcome with its variants and what is told beside them as one value; `seconds` where somebody has a
+/// Writes an outcome with its variants and the remarks as one value; `seconds` where somebody has a
 /// clock, asked once all else is written. No other key differs between runs.
 ///
 /// # Errors
@@ -40,7 +40,7 @@ pub fn write(
     out: &mut dyn Write,
     outcome: &Outcome,
     mut variants: Variants<'_>,
-    beside: &Beside,
+    remarks: &Remarks,
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
@@ -54,9 +54,9 @@ pub fn write(
     })?;
     let m = &outcome.search.mechanism;
     let empty = outcome.listed_counts().total.is_zero();
-    let none = empty.then(|| NoneData::new(m, &beside.eased, &beside.hopeless));
+    let none = empty.then(|| NoneData::new(m, &remarks.eased, &remarks.hopeless));
     let seconds = seconds.map(|s| s());
-    let tail = TailData::new(&variants, none, beside.symmetric.as_ref(), seconds);
+    let tail = TailData::new(&variants, none, remarks.symmetric.as_ref(), seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")

@@ -3,8 +3,8 @@
 use crate::format::{grouped, plural, plural_of};
 use crate::robots::is_description;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::beside::Beside;
 use crate::score::outcome::listing::Variants;
+use crate::score::outcome::remarks::Remarks;
 use crate::score::outcome::variant::Variant;
 use crate::score::request::{List, Request};
 use crate::search::answer::why_none::Relaxation;
@@ -23,7 +23,7 @@ use std::io;
 /// Variants a table holds at most.
 const BLOCK: usize = 1000;
 
-/// Writes an outcome with its variants as they come, what is told beside them, and what to do next. `file` is the argument that named the mechanism.
+/// Writes an outcome with its variants as they come, the remarks, and what to do next. `file` is the argument that named the mechanism.
 ///
 /// # Errors
 /// Those of the writer.
@@ -31,12 +31,12 @@ pub fn write(
     out: &mut dyn io::Write,
     outcome: &Outcome,
     mut given: Variants<'_>,
-    beside: &Beside,
+    remarks: &Remarks,
     file: &str,
     width: Option<u16>,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width))?;
-    let why = hopeless(&outcome.search.mechanism, &beside.hopeless);
+    let why = hopeless(&outcome.search.mechanism, &remarks.hopeless);
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = order(outcome);
@@ -60,7 +60,7 @@ pub fn write(
         }
         footnotes.extend(block.iter().filter_map(note));
     }
-    if let Some(symmetric) = &beside.symmetric {
+    if let Some(symmetric) = &remarks.symmetric {
         write!(out, "{}", fit(&variant::symmetric_text(symmetric), width))?;
     }
     let summary = given.summary();
@@ -86,7 +86,7 @@ pub fn write(
         if given > 0 {
             next_of_some(outcome, changed, file)
         } else {
-            next_of_none(outcome, beside, file)
+            next_of_none(outcome, remarks, file)
         }
     };
     write!(out, "{}", next_commands::text(&steps, width))
@@ -236,7 +236,7 @@ fn flags(outcome: &Outcome) -> String {
 }
 
 /// What to do next where no variant is given: ask for some, or ease a condition.
-fn next_of_none(outcome: &Outcome, beside: &Beside, file: &str) -> Vec<NextCommand> {
+fn next_of_none(outcome: &Outcome, remarks: &Remarks, file: &str) -> Vec<NextCommand> {
     let flags = &flags(outcome);
     let asked = outcome.listed_counts().total.is_zero() && !outcome.admissible.total.is_zero();
     if asked {
@@ -255,7 +255,7 @@ fn next_of_none(outcome: &Outcome, beside: &Beside, file: &str) -> Vec<NextComma
             "the cheapest of them",
         )];
     }
-    let steps = beside.eased.iter().map(|(how, n)| {
+    let steps = remarks.eased.iter().map(|(how, n)| {
         let (condition, to) = condition(*how);
         let name = format!("--{condition}");
         let flag = match (how, to) {

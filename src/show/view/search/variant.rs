@@ -201,7 +201,7 @@ pub(in crate::view) fn symmetric_text(found: &SymmetricBest) -> String {
     if let Some(odd) = odd {
         let _ = writeln!(
             out,
-            "    none has σ = 0 without idle motion: it takes {} freedoms more, and joints that are alike get them {} at a time",
+            "    none has σ = 0 without idle motion: that takes {} more freedoms, and joints that are images of each other gain them {} at a time",
             odd.needed, odd.at_a_time
         );
     }

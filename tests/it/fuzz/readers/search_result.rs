@@ -95,7 +95,7 @@ fn proven(m: &Mechanism) {
 
 /// The outcome in every form; JSON says the same, and each variant is what it is said to be. Returns the counts.
 fn written(outcome: &Outcome) -> String {
-    let none = outcome.beside(&|| false).unwrap_or_default();
+    let none = outcome.remarks(&|| false).unwrap_or_default();
     let (mut told, mut table, mut words) = (Vec::new(), Vec::new(), Vec::new());
     json::write(&mut told, outcome, outcome.variants(), &none, None).unwrap();
     csv::write(&mut table, outcome, outcome.variants()).unwrap();

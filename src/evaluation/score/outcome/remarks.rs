@@ -1,4 +1,4 @@
-//! What is told beside the variants of an outcome.
+//! Remarks on an outcome: why there are no variants, and which redesigns are symmetric.
 
 use crate::score::outcome::Outcome;
 use crate::score::outcome::symmetric::SymmetricBest;
@@ -6,9 +6,9 @@ use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::question::conditions::SearchError;
 use num_bigint::BigUint;
 
-/// What is told beside the variants: why there are none, and which are symmetric.
+/// Remarks on the variants of a search.
 #[derive(Debug, Default)]
-pub struct Beside {
+pub struct Remarks {
     /// What easing one condition would leave.
     pub eased: Vec<(Relaxation, BigUint)>,
     /// What stands in the way of every variant.
@@ -18,12 +18,12 @@ pub struct Beside {
 }
 
 impl Outcome {
-    /// Returns what is told beside the variants, as far as there was time until `cancelled` said to end.
+    /// Returns the remarks on the variants, as far as there was time until `cancelled` said to end.
     ///
     /// # Errors
     /// Where the geometry has no exact image.
-    pub fn beside(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Beside, SearchError> {
-        Ok(Beside {
+    pub fn remarks(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Remarks, SearchError> {
+        Ok(Remarks {
             eased: self.relaxations(cancelled)?,
             hopeless: self.hopeless()?,
             symmetric: self.symmetric_best(cancelled)?,
