@@ -3,34 +3,27 @@
 //! Nodes are kept as reduced row echelon forms over a prime field, which are canonical, so equal spaces meet in one
 //! hash table.
 
-pub(in crate::search) mod adding;
 pub(in crate::search) mod allowance;
 pub(in crate::search) mod between;
 pub(in crate::search) mod choice_inclusion;
+pub(in crate::search) mod columns;
 pub(in crate::search) mod completion;
-pub mod frontier;
+pub(in crate::search) mod lane_stage;
 pub(in crate::search) mod layer;
 pub(in crate::search) mod minimize;
-pub(crate) mod output_motion;
 pub(in crate::search) mod reduced_rows;
 pub(crate) mod redundancy_so_far;
-pub(crate) mod stage;
-pub(crate) mod state_copies;
 pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
 
-use crate::linalg::modp::{Field, Residue};
+use crate::linalg::modp::Residue;
 use crate::search::diagram::allowance::Allowance;
-use crate::search::diagram::choice_inclusion::{Grown, grown};
 use crate::search::diagram::completion::Ceiling;
 pub use crate::search::diagram::layer::DEAD;
 use crate::search::diagram::layer::{CUT, Merge, Nodes};
-use crate::search::diagram::output_motion::Lookahead;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
-use crate::search::diagram::stage::Stage;
-use crate::search::diagram::state_copies::Move;
 pub use crate::search::diagram::stop::Stop;
-use crate::search::diagram::transition::{Children, GrownStage, Worker};
+use crate::search::diagram::transition::{Children, Worker};
 use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
@@ -130,7 +123,7 @@ impl Diagram {
     }
 }
 
-/// Builds the diagram of a space along given stages, of variants with redundant constraints that they have `already`; under a ceiling,
+/// Builds the diagram of a space along given stages, of variants that spend `root` before any choice; under a ceiling,
 /// all of it that variants within the ceiling need.
 ///
 /// `cancelled` is asked between batches of nodes; once it says yes the remaining layers are cut to a few nodes, so that
@@ -144,12 +137,12 @@ pub(super) fn build(
     space: &Space,
     stages: &[impl Carries],
     limits: &Limits,
-    already: u32,
+    root: Spent,
     mut ceiling: Option<&mut Ceiling<'_>>,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Diagram {
-    let mut nodes = Nodes::root(already);
+    let mut nodes = Nodes::root(root);
     let mut ways = vec![1.0];
     let mut layers = Vec::with_capacity(stages.len());
     let (mut largest, mut stop) = (1, Stop::Exhausted);
@@ -163,9 +156,9 @@ pub(super) fn build(
             allowance.bytes,
             &nodes,
             allowance.layer(&nodes, nodes.len() * choices.len(), stop),
-            |spent, size, least| {
+            |spent, matrix, least| {
                 let ceiling = ceiling.as_mut();
-                ceiling.is_some_and(|c| c.is_above(done + 1, spent, size, least))
+                ceiling.is_some_and(|c| c.is_above(done + 1, spent, matrix, least))
             },
             cancelled,
             &mut |layer| progress(Progress::in_layer(done, stages.len(), total, layer)),
@@ -174,9 +167,6 @@ pub(super) fn build(
         let (refused, mut next, mut edges) = (merge.refused, merge.next, merge.edges);
         if refused {
             allowance.lower(&nodes, &next, edges.len());
-        }
-        if let Some(passed) = stage.passing(&next) {
-            retain(&mut next, &passed, &mut edges);
         }
         let keep = allowance.keep(&next, choices.len(), stop, stages.len() - done);
         ways = carried(&ways, &edges, choices.len(), next.len());
@@ -198,24 +188,6 @@ pub(super) fn build(
         nodes: allowance.nodes,
         largest_layer: largest,
     }
-}
-
-/// The same of the motions of live links.
-pub(super) fn of_live_links(
-    field: Field,
-    space: &Space,
-    stages: &[Stage],
-    limits: &Limits,
-    ceiling: Option<&mut Ceiling<'_>>,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> Diagram {
-    let over = |stage| Over::new(field, space, stage, limits);
-    let stages: Vec<Over<'_>> = stages.iter().map(over).collect();
-    let already = limits.already;
-    build(
-        space, &stages, limits, already, ceiling, cancelled, progress,
-    )
 }
 
 /// How many ways lead to each of the next nodes, from how many lead to these.
@@ -243,71 +215,12 @@ fn cut_down(next: &mut Nodes, edges: &mut [u32], ways: Vec<f64>, keep: usize) ->
 pub(super) trait Carries: Sync {
     /// Index of the variable in the space.
     fn variable(&self) -> usize;
-    /// The nodes behind it that pass its test, ascending; none where it has no test.
-    fn passing(&self, _: &Nodes) -> Option<Vec<usize>> {
-        None
-    }
     /// Scratch space for a thread.
     fn worker(&self) -> Worker;
     /// About how many field operations a child takes of a node that has so many bytes.
     fn effort(&self, bytes: usize) -> usize;
     /// Takes all children of a node, in order of choices.
     fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children);
-}
-
-/// A stage of a space, within limits.
-pub(super) struct Over<'a> {
-    field: Field,
-    space: &'a Space,
-    stage: &'a Stage,
-    growth: Vec<Grown>,
-    limits: &'a Limits,
-}
-
-impl<'a> Over<'a> {
-    pub(super) fn new(
-        field: Field,
-        space: &'a Space,
-        stage: &'a Stage,
-        limits: &'a Limits,
-    ) -> Self {
-        Over {
-            field,
-            space,
-            stage,
-            growth: grown(field, space, stage),
-            limits,
-        }
-    }
-}
-
-impl Carries for Over<'_> {
-    fn variable(&self) -> usize {
-        self.stage.variable
-    }
-
-    fn passing(&self, nodes: &Nodes) -> Option<Vec<usize>> {
-        let test = self.stage.lookahead.as_ref()?;
-        Some(passing(self.field, self.space.dim, test, nodes))
-    }
-
-    fn worker(&self) -> Worker {
-        Worker::new(self.field, self.space.dim)
-    }
-
-    fn effort(&self, bytes: usize) -> usize {
-        let numbers = bytes / size_of::<Residue>();
-        let of = |m: &Move| numbers * (numbers / (m.step.width * self.space.dim).max(1)).max(1);
-        self.stage.moves.iter().map(of).sum()
-    }
-
-    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        let stage = GrownStage {
-            stage: self.stage,
-            growth: &self.growth,
-        };
-        worker.children(self.space, stage, matrix, spent, self.limits, out);
-    }
 }
 
 /// The children of a layer's nodes put together, but for those that are `out` of the question; `told` hears how many there are
@@ -322,7 +235,7 @@ pub(super) fn next(
     bytes: usize,
     nodes: &Nodes,
     mut merge: Merge,
-    mut out: impl FnMut(&Spent, usize, i64) -> bool,
+    mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Merge {
@@ -382,30 +295,6 @@ pub(super) fn expand(
         .into_par_iter()
         .map(|s| some(s..(s + chunk).min(range.end)))
         .collect()
-}
-
-/// The nodes of a layer that pass a test, ascending.
-fn passing(field: Field, dim: usize, test: &Lookahead, nodes: &Nodes) -> Vec<usize> {
-    let chunk = if nodes.len() < PARALLEL {
-        nodes.len().max(1)
-    } else {
-        PARALLEL / 4
-    };
-    let starts: Vec<usize> = (0..nodes.len()).step_by(chunk).collect();
-    let some = |start: usize| {
-        let mut worker = Worker::new(field, dim);
-        (start..(start + chunk).min(nodes.len()))
-            .filter(|&i| worker.passes(test, nodes.matrix(i)))
-            .collect::<Vec<_>>()
-    };
-    if starts.len() <= 1 {
-        return starts.into_iter().flat_map(some).collect();
-    }
-    starts
-        .into_par_iter()
-        .map(some)
-        .collect::<Vec<_>>()
-        .concat()
 }
 
 /// The nodes of a layer that are kept where not all can be, ascending: half of them those that most ways lead to, for what is counted,

@@ -1,23 +1,17 @@
-//! In which order to choose: contours should close early and few links stay live.
+//! In which order to choose: contours should close early and few coordinates stay open.
 //!
-//! Contours are taken whole, each by the shortest way through joints not chosen yet that begins and ends at live links (an
-//! [`ear`](ears)). A beam search over such ways keeps those whose layers are least, measured by trials. What is alike is taken in the
-//! canonical order, so that the file's order of tables makes no difference. A bad order costs time, never correctness.
-//!
-//! # Sources
-//! The choice of orders by the sizes of real diagrams: Rudell, "Dynamic variable ordering for ordered binary decision diagrams",
-//! ICCAD 1993.
+//! Contours are taken whole, each by the shortest way through joints not chosen yet that begins and ends at links reached already (an
+//! [`ear`](ears)). A beam search over such ways keeps those behind which the fewest coordinates are open ([`widths`]). What is alike is
+//! taken in the canonical order, so that the file's order of tables makes no difference. A bad order costs time, never correctness.
 
 pub(in crate::search) mod canonical;
 mod ears;
-pub(in crate::search) mod trial;
+mod widths;
 
-use crate::geom::exact::ExactField;
-use crate::model::mechanism::{LinkId, Mechanism};
 use crate::search::order::canonical::canonical;
 use crate::search::order::ears::Joined;
-use crate::search::order::trial::{Trial, Trials};
-use crate::search::question::space::Space;
+use crate::search::order::widths::{Trial, Widths};
+use crate::search::question::Question;
 use crate::search::reduce::biconnected::Block;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -25,21 +19,15 @@ use std::collections::btree_map::Entry;
 /// Orders kept after each contour.
 const BEAM: usize = 2;
 
-/// An order of the variables of some blocks, block by block, whose diagram, with two choices a variable, is among the smallest
-/// found; of those that join the mechanism's own links, the frame stays to the end, and they come last.
+/// Returns an order of the variables of some blocks, block by block, which is among the narrowest found; blocks that have a say in the
+/// motion of kept links come last.
 ///
 /// # Complexity
-/// O(contours · BEAM · EARS) trials of an ear.
+/// O(contours · BEAM · EARS) ears tried.
 #[must_use]
-pub(super) fn variable_order(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    space: &Space,
-    blocks: &[Block],
-    max_redundant: u32,
-) -> Vec<usize> {
+pub(super) fn variable_order(question: &Question, blocks: &[Block]) -> Vec<usize> {
     let all: Vec<usize> = blocks.iter().flat_map(|b| b.variables.clone()).collect();
-    let place = canonical(mechanism, space, &all);
+    let place = canonical(&question.mechanism, &question.model.space, &all);
     let mut block_of = BTreeMap::new();
     for (b, block) in blocks.iter().enumerate() {
         block_of.extend(block.variables.iter().map(|&v| (v, b)));
@@ -53,39 +41,25 @@ pub(super) fn variable_order(
         }
         sorted[b].push(v);
     }
-    met.sort_by_key(|&b| blocks[b].lane == 0);
-    let of = |b: usize| {
-        let pinned = match blocks[b].lane {
-            0 => &[mechanism.frame()][..],
-            _ => &[],
-        };
-        order_of_block(exact, mechanism, space, &sorted[b], pinned, max_redundant)
-    };
+    met.sort_by_key(|&b| !blocks[b].apart);
+    let of = |b: usize| order_of_block(question, &sorted[b]);
     met.into_iter().flat_map(of).collect()
 }
 
-/// The order of one block, whose variables are given in the canonical order.
-fn order_of_block(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    space: &Space,
-    variables: &[usize],
-    pinned: &[LinkId],
-    max_redundant: u32,
-) -> Vec<usize> {
+/// Returns the order of one block, whose variables are given in the canonical order.
+fn order_of_block(question: &Question, variables: &[usize]) -> Vec<usize> {
     if let [_] = variables {
         return variables.to_vec();
     }
-    let (mut trials, start) =
-        Trials::new(exact, mechanism, space, variables, pinned, max_redundant);
-    let joined = Joined::new(&trials, variables);
-    let mut beam = vec![start];
+    let widths = Widths::new(question, variables);
+    let joined = Joined::new(question, variables);
+    let mut beam = vec![widths.start()];
     while beam.iter().any(|t| t.order.len() < variables.len()) {
         let mut next: BTreeMap<Vec<u64>, Trial> = BTreeMap::new();
         for trial in beam {
             for ear in joined.ears(&trial) {
                 let mut grown = trial.clone();
-                ear.iter().for_each(|&v| trials.add(&mut grown, v));
+                ear.iter().for_each(|&v| widths.add(&mut grown, v));
                 match next.entry(joined.taken(&grown)) {
                     Entry::Vacant(vacant) => {
                         vacant.insert(grown);

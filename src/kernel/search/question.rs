@@ -22,10 +22,11 @@ use crate::search::question::cost::CostTable;
 use crate::search::question::grasp::{Grasp, grasps, is_free, loose};
 use crate::search::question::kept::{Followed, Kept};
 use crate::search::question::own_images::OwnSymmetry;
-use crate::search::question::space::{Space, Variable};
+use crate::search::question::space::{Space, Variable, choice_name};
 use crate::search::question::throughout::{PoseOnly, Throughout};
 use crate::search::reduce::biconnected::{Block, blocks};
 use crate::search::reduce::plane_split::Model;
+use crate::search::reduce::self_stress_space::is_contained;
 use itertools::Itertools;
 use num_bigint::BigUint;
 use std::sync::Arc;
@@ -56,8 +57,6 @@ pub struct Question {
     pub(in crate::search) present: Option<usize>,
     /// What must be held in the searched state.
     pub(in crate::search) grasps: Vec<Grasp>,
-    /// Links whose motion the diagram of admissible variants keeps to its end, those that stand for drives included.
-    pub(in crate::search) pinned: Vec<LinkId>,
     /// The blocks of the diagram of determinate variants, and of the other.
     pub(in crate::search) blocks: [Vec<Block>; 2],
 }
@@ -81,6 +80,27 @@ fn open(mechanism: &Mechanism, contours: &[Contour]) -> usize {
     let joints = contours.iter().flat_map(|c| &c.joints);
     let closed = joints.map(|(j, _)| j).unique();
     mechanism.joints_in(StateId::FREE).count() - closed.count()
+}
+
+/// Checks that every choice in the free state has the motions of the present joints: what these do is divided out of a diagram.
+fn check_options(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    space: &Space,
+) -> Result<(), SearchError> {
+    let free = space.variables.iter().filter(|v| !v.external);
+    for (variable, choice) in free.flat_map(|v| v.choices.iter().map(move |c| (v, c))) {
+        let spans = variable.choices[0].spans.iter().zip(&choice.spans);
+        for (&joint, (present, span)) in variable.joints.iter().zip(spans) {
+            if !is_contained(exact.field(), &[present, span]) {
+                return Err(SearchError::LosesMotion {
+                    joint: mechanism.joints[joint].id.clone(),
+                    option: choice_name(mechanism, joint, choice),
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The frame, the links that are kept to the end, and those of joints that come after the common ones.
@@ -148,6 +168,7 @@ impl Question {
         let costs = CostTable::new(&mechanism.search.costs);
         let symmetric = conditions.symmetry == Symmetry::SymmetricOnly;
         let space = Space::new(&exact, &mechanism, searched, symmetric, &costs)?;
+        check_options(&exact, &mechanism, &space)?;
         let steps = Steps::new(&space, &costs);
         let links = kept_links(&mechanism);
         let motion = joint_motion(&exact, &mechanism, StateId::FREE, &links)?;
@@ -181,13 +202,11 @@ impl Question {
                 &mechanism,
                 &contours,
                 &space,
-                &kept,
                 conditions.whole_twists,
             )?,
             grasps: grasps.collect(),
             blocks: both_blocks(&mechanism, &space, &pinned, &contours),
             contours,
-            pinned,
             mechanism,
             conditions,
             space,

@@ -3,74 +3,34 @@
 use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
 use super::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
-use super::build::orders::orders;
-use super::build::self_stress::{Wanted, in_self_stress_space};
+use super::build::orders::{one_diagram, orders};
+use super::build::self_stress::{Wanted, in_self_stress_space, limits};
 use super::build::spanning_halves::Halves;
-use super::build::staging::{Staged, laid};
 use super::build::two_sided::two_sided;
-use super::build::{Diagrams, build, one_end};
+use super::build::{Diagrams, build};
 use super::diagram::minimize::minimal;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
 
-/// The diagrams of a question as made of motions of live links, of those that are made so within the limits, each beside the
-/// one that is made in another way; all the smallest there are.
-fn beside(
-    question: &Question,
-    other: impl Fn(&Staged<'_>, Wanted) -> Option<Diagram>,
-) -> Vec<[Option<Diagram>; 2]> {
-    let model = &question.model;
-    let laid = laid(question, &orders(question), model);
-    let keeping = Wanted::of(question, true);
-    let both = [
-        Some((&laid.determinate, Wanted::Determinate)),
-        laid.admissible.as_ref().map(|s| (s, keeping)),
-    ];
-    let mut found = Vec::new();
-    for (staged, wanted) in both.into_iter().flatten() {
-        let (stages, limits) = (staged.stages(), &staged.limits);
-        let never = || false;
-        let one = one_end(question, model, stages, limits, None, &never, &mut |_| {});
-        if one.stop != Stop::Exhausted {
-            continue;
-        }
-        let both = [Some(one), other(staged, wanted)];
-        found.push(both.map(|d| d.map(|d| minimal(d.layers, d.terminals))));
-    }
-    found
-}
-
-/// The diagrams of a question as made of motions of live links and in the space dual to self-stresses.
-#[must_use]
-pub fn in_both_spaces(question: &Question) -> Vec<[Option<Diagram>; 2]> {
-    beside(question, |staged, wanted| {
-        in_self_stress_space(
-            question,
-            &staged.order,
-            &staged.limits,
-            wanted,
-            &|| false,
-            &mut |_| {},
-        )
-    })
-}
-
-/// The diagrams of a question as made of motions of live links, and from both ends; none of the latter where more redundant
-/// constraints are allowed than all variants have.
+/// The diagrams of a question as made from one end and from both ends, of those that are made so within the limits, all the smallest there
+/// are; none from both ends where more redundant constraints are allowed than all variants have.
 #[must_use]
 pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
-    let model = &question.model;
-    beside(question, |staged, wanted| {
-        let (order, limits) = (&staged.order, &staged.limits);
-        let halves = Halves::new(question, order, limits, wanted)?;
-        two_sided(
-            &halves,
-            &model.space,
-            &|| false,
-            &mut |_| {},
-            &mut |_, _| None,
-        )
-    })
+    let (orders, limits, never) = (orders(question), limits(question), || false);
+    let mut both = vec![(&orders.determinate, Wanted::Determinate)];
+    if !one_diagram(question) {
+        both.push((&orders.admissible, Wanted::Admissible));
+    }
+    let of = |(order, wanted): (&Vec<usize>, Wanted)| {
+        let one = in_self_stress_space(question, order, &limits, wanted, &never, &mut |_| {});
+        let halves = Halves::new(question, order, &limits, wanted);
+        let space = &question.model.space;
+        let both = halves
+            .and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}, &mut |_, _| None));
+        (one.stop == Stop::Exhausted)
+            .then(|| [Some(one), both].map(|d| d.map(|d| minimal(d.layers, d.terminals))))
+    };
+    both.into_iter().filter_map(of).collect()
 }
 
 /// The cheapest admissible variants of a question where so many steps from nodes are kept at once.

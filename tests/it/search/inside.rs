@@ -1,48 +1,11 @@
 //! Ways of the engine that must give the same, looked at from the inside.
 
 use crate::common::built_in;
-use ozols::builtin;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::build::{Diagrams, build};
-use ozols::search::diagram::Diagram;
 use ozols::search::question::Question;
 use ozols::search::question::conditions::Conditions;
-use ozols::search::testing::{
-    Walked, cheapest_in_room, in_both_spaces, walked_for_ideas, walked_for_variants,
-};
-
-#[test]
-fn self_stresses_give_the_smallest_diagram_of_the_motions_of_links() {
-    let mut count = 0;
-    for (i, name) in builtin::names().into_iter().enumerate() {
-        let m = built_in(name);
-        let exact = exact_field(&m, 0).unwrap();
-        for keep_output in [false, true] {
-            let conditions = Conditions {
-                max_redundant: [0, 1, 4][(i + usize::from(keep_output)) % 3],
-                keep_output,
-                nodes: 2_000,
-                ..Conditions::default()
-            };
-            let Ok(question) = Question::new(exact.clone(), m.clone(), conditions) else {
-                continue;
-            };
-            for pair in in_both_spaces(&question) {
-                let edges = |d: &Diagram| {
-                    let layers = d.layers.iter();
-                    layers
-                        .map(|l| (l.variable, l.edges.clone()))
-                        .collect::<Vec<_>>()
-                };
-                let [live, dual] = pair.map(|d| d.expect("it is contained"));
-                assert_eq!(edges(&live), edges(&dual), "{name}");
-                assert_eq!(live.terminals, dual.terminals, "{name}");
-                count += 1;
-            }
-        }
-    }
-    assert!(count > 250, "{count}");
-}
+use ozols::search::testing::{Walked, cheapest_in_room, walked_for_ideas, walked_for_variants};
 
 /// Where there is room for few steps, they are forgotten again and again, and the list is the same.
 #[test]

@@ -1,7 +1,5 @@
 //! About how many variants there are, and no more than how many, where they are not counted.
 
-pub(in crate::search) mod completion_shares;
-pub(in crate::search) mod random_cuts;
 pub(in crate::search) mod samples;
 
 use num_bigint::BigUint;
@@ -56,16 +54,11 @@ impl Estimate {
     }
 }
 
-/// What an estimate is made of.
+/// What an estimate is made of: samples of a larger set that is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Drawn {
-    /// Random cuts of the diagram.
-    Cuts(usize),
-    /// Samples of a larger set that is counted, and how many of them are variants that are wanted.
-    Samples {
-        /// How many were drawn.
-        of: usize,
-        /// How many are wanted.
-        found: usize,
-    },
+pub struct Drawn {
+    /// How many samples were drawn.
+    pub of: usize,
+    /// How many of them are variants that are wanted.
+    pub found: usize,
 }

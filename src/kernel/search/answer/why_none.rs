@@ -6,8 +6,9 @@ use crate::model::mechanism::{JointId, StateId};
 use crate::redundancy::motion::motions;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::counts::counts;
-use crate::search::build::build_whole;
+use crate::search::build::build;
 use crate::search::check::brute::Matrices;
+use crate::search::diagram::Stop;
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, InState, SearchError};
 use crate::search::question::kept::Drives;
@@ -144,8 +145,9 @@ impl Easing<'_> {
         (eased.cheapest, eased.counted, eased.estimate) = (0, true, None);
         change(&mut eased);
         let other = Question::new(question.exact.clone(), question.mechanism.clone(), eased)?;
-        let built = build_whole(&other, self.cancelled);
-        Ok(built.map(|d| counts(&other, d.listed(), true)))
+        let built = build(&other, self.cancelled, &mut |_| {});
+        let whole = built.stop() == Stop::Exhausted;
+        Ok(whole.then(|| counts(&other, built.listed(), true)))
     }
 
     /// The same; none where there is no variant, either.

@@ -5,9 +5,9 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
-use crate::search::build::self_stress::{Added, Wanted, space};
-use crate::search::diagram::adding::{Adding, Kept, adding};
+use crate::search::build::self_stress::{Wanted, adding, space};
 use crate::search::diagram::between::{Between, LEVELS, Passed};
+use crate::search::diagram::columns::Adding;
 use crate::search::diagram::reduced_rows::Arithmetic;
 use crate::search::diagram::redundancy_so_far::{Limits, Redundancy, Spent};
 use crate::search::diagram::transition::{Children, Worker};
@@ -26,20 +26,18 @@ pub(in crate::search) struct AtMost {
     field: Field,
     order: Vec<usize>,
     space: SelfStressSpace,
-    /// Redundant constraints that every variant has.
-    pub(in crate::search) already: u32,
 }
 
 /// Nodes of a layer: their number, bounded by memory, too.
 fn width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
-    let numbers = stages.iter().map(|s| s.width).max().unwrap_or(0);
+    let numbers = stages.iter().map(|s| s.columns.width).max().unwrap_or(0);
     let each = size_of::<u64>() * 2 * (numbers * numbers / 2 + numbers);
     let bytes = limits.bytes / 4 / (each * choices).max(1);
     (limits.nodes / 100).clamp(64, 4096).min(bytes).max(1)
 }
 
 /// The diagram of a question without a searched state, for the variables in an order; none where redundant constraints are allowed,
-/// where a choice lacks a motion of its present joint, or where it is cancelled.
+/// or where it is cancelled.
 ///
 /// # Complexity
 /// O(layers · width · choices · s³) field operations for s present self-stresses.
@@ -51,13 +49,13 @@ pub(in crate::search) fn at_most(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<AtMost> {
     let field = question.exact.field();
-    let space = space(question, order, wanted)?;
+    let space = space(question, order, wanted);
     let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
     if spent.internal() != limits.internal {
         return None;
     }
     let choices = |s: &Adding| question.space.variables[s.variable].choices.len();
-    let stages = adding(field, order, &space, Kept::All);
+    let stages = adding(field, order, &space);
     let most = stages.iter().map(choices).max().unwrap_or(1);
     let width = width(limits, &stages, most);
     let bounds = bounds(&stages, &space.contours);
@@ -70,7 +68,6 @@ pub(in crate::search) fn at_most(
         let choices = choices(stage);
         let layered = Layered {
             field,
-            limits,
             spent: &spent,
             passed: Passed { stage, bounds },
         };
@@ -92,19 +89,11 @@ pub(in crate::search) fn at_most(
         diagram: Diagram::whole(layers, ends),
         field,
         order: order.to_vec(),
-        already: spent.internal(),
         space,
     })
 }
 
 impl AtMost {
-    /// The stages of the diagram that has just the variants.
-    pub(in crate::search) fn stages<'a>(&self, limits: &'a Limits) -> Vec<Added<'a>> {
-        let stages = adding(self.field, &self.order, &self.space, Kept::Live);
-        let within = |stage| Added::new(self.field, stage, limits);
-        stages.into_iter().map(within).collect()
-    }
-
     /// Whether a variant of the diagram is one indeed.
     pub(in crate::search) fn has(&self, choices: &[usize]) -> bool {
         let space = &self.space;
@@ -136,7 +125,6 @@ type Weighed = Vec<(Between, f64)>;
 /// What nodes are carried over.
 struct Layered<'a> {
     field: Field,
-    limits: &'a Limits,
     spent: &'a Spent,
     passed: Passed<'a>,
 }
@@ -148,10 +136,10 @@ impl Layered<'_> {
             .par_iter()
             .with_min_len(64)
             .map_init(
-                || (Worker::new(self.field, 0), Arithmetic::new(self.field)),
+                || (Worker::new(self.field), Arithmetic::new(self.field)),
                 |(worker, arithmetic), (node, _)| {
                     let children = match node.packed() {
-                        Some(packed) => self.exact(worker, &packed, choices),
+                        Some(packed) => self.exact(worker, arithmetic, &packed, choices),
                         None => node.children(arithmetic, &self.passed),
                     };
                     let named = |child: Option<Between>| child.map(|c| (c.words(), c));
@@ -180,26 +168,30 @@ impl Layered<'_> {
     }
 
     /// The children of one space, as the diagram itself has them.
-    fn exact(&self, worker: &mut Worker, packed: &[u64], choices: usize) -> Vec<Option<Between>> {
+    fn exact(
+        &self,
+        worker: &mut Worker,
+        arithmetic: &mut Arithmetic,
+        packed: &[u64],
+        choices: usize,
+    ) -> Vec<Option<Between>> {
         let (stage, mut out) = (self.passed.stage, Children::new(choices));
-        worker.children_added(stage, packed, self.spent, self.limits, &mut out);
-        let own = usize::from(stage.gap > 0);
-        let bounds: Vec<usize> = self.passed.bounds[own..]
-            .iter()
-            .map(|b| b - stage.gap)
-            .collect();
-        let child = |c: Option<(u64, Spent, usize, usize)>| {
+        worker.flat_children(stage, packed, self.spent, &mut out);
+        let gap = stage.columns.closing;
+        let own = usize::from(gap > 0);
+        let bounds: Vec<usize> = self.passed.bounds[own..].iter().map(|b| b - gap).collect();
+        let mut child = |c: Option<(u64, Spent, usize, usize)>| {
             let (_, _, start, end) = c?;
             Some(Between::one(
-                self.field,
-                stage.width - stage.gap,
+                arithmetic,
+                stage.columns.width - gap,
                 &out.data[start..end],
                 &bounds,
             ))
         };
         std::mem::take(&mut out.found)
             .into_iter()
-            .map(child)
+            .map(&mut child)
             .collect()
     }
 }

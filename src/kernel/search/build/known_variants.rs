@@ -7,9 +7,8 @@
 use crate::linalg::exterior::{Exterior, Product};
 use crate::linalg::modp::Field;
 use crate::search::build::known_spaces::Spaces;
-use crate::search::build::self_stress::{Added, Wanted};
+use crate::search::build::self_stress::{Added, Wanted, limits};
 use crate::search::build::spanning_halves::{Behind, Halves};
-use crate::search::build::staging::limits;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Spent;
 use crate::search::diagram::transition::Children;
@@ -21,7 +20,7 @@ use std::cmp::Ordering;
 const WIDEST: usize = 12;
 
 /// Whether every variant of a diagram is determinate in a question without a searched state, where none has more freedoms than another
-/// that it has; none where a choice lacks a motion of its present joint, where redundant constraints are allowed that not all variants
+/// that it has; none where redundant constraints are allowed that not all variants
 /// have, or where it takes too many nodes or minors.
 ///
 /// # Complexity
@@ -32,7 +31,7 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> Option
         return None;
     }
     let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
-    let limits = limits(question, &question.model);
+    let limits = limits(question);
     let halves = Halves::new(question, &order, &limits, Wanted::Determinate)?;
     let spent = Spent::within_mechanism(halves.already);
     if known.terminals.iter().any(|t| *t != spent.redundancy()) {
@@ -71,7 +70,7 @@ fn are_whole(field: Field, behind: &Behind, front: &Spaces, back: &Spaces) -> Op
     let mut products = Vec::with_capacity(front.len());
     let mut at_node = vec![Vec::new(); front.node_count()];
     for space in 0..front.len() {
-        behind.unpacked(front.packed(space), &mut rows);
+        behind.unpacked(&mut arithmetic, front.packed(space), &mut rows);
         exterior.product(rows.rows(), &mut product);
         let start = minors.len();
         minors.extend_from_slice(product.minors());
@@ -103,7 +102,7 @@ fn are_whole(field: Field, behind: &Behind, front: &Spaces, back: &Spaces) -> Op
 
 /// How far known ways were followed from one end.
 struct FollowedHalf<'a> {
-    stages: &'a [Added<'a>],
+    stages: &'a [Added],
     done: usize,
     spaces: Spaces,
 }
@@ -151,7 +150,7 @@ impl FollowedHalf<'_> {
 /// Both halves of the ways through the layers of a part, where they meet; nothing where one of them does not go on, and none where they
 /// come to more than so many spaces.
 fn followed_halves<'a>(
-    ends: &'a [Vec<Added<'a>>; 2],
+    ends: &'a [Vec<Added>; 2],
     layers: &[Layer],
     most: usize,
     spent: &Spent,

@@ -2,43 +2,48 @@
 
 use crate::search::order::variable_order;
 use crate::search::question::Question;
+use crate::search::question::space::Variable;
 use crate::search::reduce::biconnected::Block;
 
 /// The orders in which diagrams take the variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Orders {
-    /// Those of the free state, for the determinate variants.
+    /// That of the diagram of determinate variants.
     pub determinate: Vec<usize>,
-    /// Those that the free state and the searched one have in common, for the admissible variants.
-    pub common: Vec<usize>,
+    /// That of the diagram of admissible variants: variables that the free state and the searched one have in common come first.
+    pub admissible: Vec<usize>,
 }
 
 /// Finds the orders of both diagrams; they do not depend on the prime, and a twin over another may be given them.
 #[must_use]
 pub(crate) fn orders(question: &Question) -> Orders {
     let nothing_is_built = is_none_possible(question);
-    let order = |blocks: &[Block]| {
+    let order = |blocks: &[Block]| -> Vec<usize> {
         if nothing_is_built {
             return blocks.iter().flat_map(|b| b.variables.clone()).collect();
         }
-        variable_order(
-            &question.exact,
-            &question.mechanism,
-            &question.model.space,
-            blocks,
-            question.conditions.max_redundant,
-        )
+        variable_order(question, blocks)
+    };
+    let variables = &question.space.variables;
+    let those = |wanted: fn(&Variable) -> bool| {
+        let all = 0..variables.len();
+        all.filter(move |&v| wanted(&variables[v]))
     };
     let [determinate, common] = &question.blocks;
-    let determinate = order(determinate);
-    let common = if one_diagram(question) {
-        determinate.clone()
-    } else {
-        order(common)
-    };
+    let mut determinate = order(determinate);
+    determinate.extend(those(|v| v.external));
+    if one_diagram(question) {
+        let admissible = determinate.clone();
+        return Orders {
+            determinate,
+            admissible,
+        };
+    }
+    let mut admissible = order(common);
+    admissible.extend(those(|v| v.alone).chain(those(|v| v.external)));
     Orders {
         determinate,
-        common,
+        admissible,
     }
 }
 

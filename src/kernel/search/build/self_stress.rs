@@ -1,42 +1,35 @@
 //! Diagrams built in the space dual to the self-stresses of the present joints.
 //!
 //! A node is what the choices so far add there, within what the rest can still reach: the rest must reach all that is missing, or
-//! the node is dead. That space is smaller than the motions of all live links, and nodes that differ in what a present joint to
-//! come allows anyway are one in it. It holds for the free state, whose joints all have their present motion in every variant.
+//! the node is dead. That space is smaller than the motions of all links, and nodes that differ in what a present joint to
+//! come allows anyway are one in it.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::adding::{Adding, Kept, adding};
+use crate::search::build::lanes::Lanes;
 use crate::search::diagram::choice_inclusion::Grown;
+use crate::search::diagram::columns::{Adding, Columns};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress};
 use crate::search::question::Question;
 use crate::search::question::throughout::ORDER;
+use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::plane_split::Model;
-use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace, is_contained};
+use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
 
 /// Which variants a diagram has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::search) enum Wanted {
-    /// Those that are determinate, whatever becomes of the motion of outputs and drives.
+    /// Those that are determinate in the free state, whatever becomes of the motion of outputs and drives.
     Determinate,
-    /// Those of them that keep this motion in the drawn pose.
-    Keeping,
+    /// Those of them that keep this motion in the drawn pose, where it is to be kept, and do what is asked of the searched state.
+    Admissible,
     /// Those of them that keep it throughout the motion of the mechanism as built.
     Lasting,
 }
 
 impl Wanted {
-    /// Returns the variants of the diagram of determinate or of admissible ones.
-    pub(in crate::search) fn of(question: &Question, admissible: bool) -> Wanted {
-        if admissible && question.conditions.keep_output {
-            Wanted::Keeping
-        } else {
-            Wanted::Determinate
-        }
-    }
-
     /// Returns the rows that their diagram is built of.
     pub(in crate::search) fn model(self, question: &Question) -> &Model {
         match &question.throughout {
@@ -46,25 +39,66 @@ impl Wanted {
     }
 }
 
-/// A stage, within limits.
-pub(in crate::search) struct Added<'a> {
-    field: Field,
-    stage: Adding,
-    limits: &'a Limits,
+/// Returns the limits of the diagrams of a question.
+pub(in crate::search) fn limits(question: &Question) -> Limits {
+    let state = question.conditions.state;
+    Limits {
+        layer: usize::MAX,
+        already: question.model.already,
+        internal: question.conditions.max_redundant,
+        external: state.and_then(|s| s.max_external),
+        harmful: state.and_then(|s| s.max_harmful),
+        nodes: question.conditions.nodes,
+        // Two primes with two diagrams each take half, and what is counted on them the rest.
+        bytes: question.conditions.memory / 8,
+    }
 }
 
-impl<'a> Added<'a> {
-    pub(in crate::search) fn new(field: Field, stage: Adding, limits: &'a Limits) -> Self {
-        Added {
-            field,
-            stage,
-            limits,
-        }
+/// Returns the space dual to the self-stresses of the free state for the variables of a question in an order.
+pub(in crate::search) fn space(
+    question: &Question,
+    order: &[usize],
+    wanted: Wanted,
+) -> SelfStressSpace {
+    let keeps = wanted != Wanted::Determinate && question.conditions.keep_output;
+    let kept = keeps.then_some(&question.kept);
+    let field = question.exact.field();
+    let (mechanism, space) = (&question.mechanism, &wanted.model(question).space);
+    let rows = ClosingRows::free(mechanism, space.dim, &question.contours, kept);
+    let (times, of_choice): (usize, &dyn Fn(usize, usize) -> Vec<Vec<Residue>>) =
+        match &question.throughout {
+            Ok(along) if wanted == Wanted::Lasting => (ORDER, &|v, c| {
+                let freedoms = along.of_choice(v, c).iter();
+                freedoms
+                    .flat_map(|(joint, series)| rows.multiples(field, *joint, series))
+                    .collect()
+            }),
+            _ => (1, &|v, c| {
+                let variable = &space.variables[v];
+                if variable.external {
+                    return Vec::new();
+                }
+                rows.columns(field, variable, c)
+            }),
+        };
+    let present = |v: usize| of_choice(v, 0);
+    SelfStressSpace::new(field, &rows, times, space, order, &present, of_choice)
+}
+
+/// A stage of all that the kept links do.
+pub(in crate::search) struct Added {
+    field: Field,
+    stage: Adding,
+}
+
+impl Added {
+    pub(in crate::search) fn new(field: Field, stage: Adding) -> Self {
+        Added { field, stage }
     }
 
     /// What its choices add, one grown from another.
     pub(in crate::search) fn growth(&self) -> &[Grown] {
-        &self.stage.growth
+        &self.stage.columns.growth
     }
 
     /// The coordinates of contours in use.
@@ -73,54 +107,53 @@ impl<'a> Added<'a> {
     }
 }
 
-impl Carries for Added<'_> {
+impl Carries for Added {
     fn variable(&self) -> usize {
         self.stage.variable
     }
 
     fn worker(&self) -> Worker {
-        Worker::new(self.field, 0)
+        Worker::new(self.field)
     }
 
     fn effort(&self, bytes: usize) -> usize {
-        bytes / size_of::<Residue>() * self.stage.width
+        bytes / size_of::<Residue>() * self.stage.columns.width
     }
 
     fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        worker.children_added(&self.stage, matrix, spent, self.limits, out);
+        worker.flat_children(&self.stage, matrix, spent, out);
     }
 }
 
-/// The space dual to self-stresses for the variables of a question in an order; none where a choice lacks a motion of its present joint,
-/// or where the motion is not followed that variants are to keep.
-pub(in crate::search) fn space(
-    question: &Question,
+/// Returns the stages of a space for the variables in its order, in which no motion of kept links is forgotten.
+pub(in crate::search) fn adding(
+    field: Field,
     order: &[usize],
-    wanted: Wanted,
-) -> Option<SelfStressSpace> {
-    let kept = (wanted != Wanted::Determinate).then_some(&question.kept);
-    let field = question.exact.field();
-    let (mechanism, space) = (&question.mechanism, &wanted.model(question).space);
-    let rows = ClosingRows::new(mechanism, space.dim, &question.contours, kept);
-    if !order.iter().all(|&v| is_contained(field, space, v)) {
-        return None;
-    }
-    if wanted != Wanted::Lasting {
-        let of = |v: usize, c: usize| rows.columns(field, &space.variables[v], c);
-        return Some(SelfStressSpace::new(field, &rows, 1, space, order, &of));
-    }
-    let along = question.throughout.as_ref().ok()?;
-    let of = |v: usize, c: usize| {
-        let freedoms = along.of_choice(v, c).iter();
-        freedoms
-            .flat_map(|(joint, series)| rows.multiples(field, *joint, series))
-            .collect()
+    space: &SelfStressSpace,
+) -> Vec<Adding> {
+    let always = Lifetime {
+        from: 0,
+        to: usize::MAX,
     };
-    Some(SelfStressSpace::new(field, &rows, ORDER, space, order, &of))
+    let kept = space.kept.iter().map(|_| always);
+    let lifetimes: Vec<Lifetime> = space.contours.iter().copied().chain(kept).collect();
+    let stage = |(t, &variable): (usize, &usize)| {
+        let all = 0..lifetimes.len();
+        let coordinates: Vec<usize> = all.filter(|&c| lifetimes[c].is_live_at(t)).collect();
+        let closing = coordinates.iter().filter(|&&c| lifetimes[c].to == t);
+        let closing = closing.count();
+        let contours = coordinates.iter().copied();
+        let added = &space.added[t];
+        Adding {
+            variable,
+            contours: contours.filter(|&c| c < space.contours.len()).collect(),
+            columns: Columns::new(field, &lifetimes, t, &coordinates, closing, added),
+        }
+    };
+    order.iter().enumerate().map(stage).collect()
 }
 
-/// The diagram of a question without a searched state, for the variables in an order: the smallest there is, or what fits the limits;
-/// none where a choice lacks a motion of its present joint.
+/// Returns the diagram of a question for the variables in an order: the smallest there is, or what fits the limits.
 ///
 /// # Complexity
 /// O(nodes · choices · s²) field operations for s present self-stresses.
@@ -131,21 +164,16 @@ pub(in crate::search) fn in_self_stress_space(
     wanted: Wanted,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
-) -> Option<Diagram> {
-    let field = question.exact.field();
-    let added = space(question, order, wanted)?;
-    let already = limits.already.saturating_add(added.lasting);
-    if already > limits.internal {
-        return Some(nothing(question, order));
+) -> Diagram {
+    let Lanes { stages, root } = Lanes::new(question, order, limits, wanted);
+    if !root.within(limits) {
+        return nothing(question, order);
     }
-    let stages = adding(field, order, &added, Kept::Live);
-    let over = |stage| Added::new(field, stage, limits);
-    let stages: Vec<Added<'_>> = stages.into_iter().map(over).collect();
     let space = &wanted.model(question).space;
-    let built = diagram::build(space, &stages, limits, already, None, cancelled, progress);
+    let built = diagram::build(space, &stages, limits, root, None, cancelled, progress);
     let stop = built.stop;
     let smallest = minimal(built.layers, built.terminals);
-    Some(Diagram { stop, ..smallest })
+    Diagram { stop, ..smallest }
 }
 
 /// The diagram of no variant, for variables in an order.

@@ -8,10 +8,9 @@
 use crate::linalg::modp::{Field, Residue};
 use crate::search::build::completing_sets::{Set, completed};
 use crate::search::build::path_tree::{PathTree, Vectors, numbered, shortest};
-use crate::search::build::self_stress::{Added, Wanted, space};
+use crate::search::build::self_stress::{Added, Wanted, adding, space};
 use crate::search::build::spanning_paths::{Annihilator, completing};
 use crate::search::diagram::Layer;
-use crate::search::diagram::adding::{Adding, Kept, adding};
 use crate::search::diagram::layer::Nodes;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
@@ -35,12 +34,12 @@ pub(in crate::search) struct Halves<'a> {
     /// Where each part starts, and the number of variables at the end.
     starts: Vec<usize>,
     /// The stages of each part, between which nothing is carried on, from the front and from the back.
-    pub(in crate::search) parts: Vec<[Vec<Added<'a>>; 2]>,
+    pub(in crate::search) parts: Vec<[Vec<Added>; 2]>,
 }
 
 impl<'a> Halves<'a> {
-    /// Of the variables in an order; none where a choice lacks a motion of its present joint, or where it is not the case that
-    /// just the redundant constraints are allowed which all variants have.
+    /// Of the variables in an order; none where it is not the case that just the redundant constraints are allowed which all variants
+    /// have.
     pub(in crate::search) fn new(
         question: &Question,
         order: &[usize],
@@ -48,28 +47,24 @@ impl<'a> Halves<'a> {
         wanted: Wanted,
     ) -> Option<Self> {
         let field = question.exact.field();
-        let front = space(question, order, wanted)?;
+        let front = space(question, order, wanted);
         let already = limits.already.saturating_add(front.lasting);
         if already != limits.internal {
             return None;
         }
         let reversed: Vec<usize> = order.iter().rev().copied().collect();
         let orders = [order, &reversed];
-        let spaces = [front, space(question, &reversed, wanted)?];
+        let spaces = [front, space(question, &reversed, wanted)];
         let all = order.len();
         let carried = |t: usize| spaces[0].contours.iter().any(|c| c.is_live_before(t));
         let mut starts: Vec<usize> = (0..all).filter(|&t| !carried(t)).collect();
         starts.push(all);
-        let stages = [0, 1].map(|end| adding(field, orders[end], &spaces[end], Kept::All));
+        let stages = [0, 1].map(|end| adding(field, orders[end], &spaces[end]));
         let parts = starts.windows(2).map(|at| {
             let ranges = [at[0]..at[1], all - at[1]..all - at[0]];
             [0, 1].map(|end| {
                 let part = stages[end][ranges[end].clone()].iter().cloned();
-                // Halves meet in what the kept links do, however wrong.
-                let added = part.map(|stage| {
-                    let folding = None;
-                    Added::new(field, Adding { folding, ..stage }, limits)
-                });
+                let added = part.map(|stage| Added::new(field, stage));
                 added.collect()
             })
         });
@@ -188,16 +183,21 @@ impl Behind {
     }
 
     /// The rows of the matrix of a node before these stages: in the coordinates that both reach, then in those of kept links.
-    pub(in crate::search) fn unpacked(&self, matrix: &[Residue], rows: &mut Rows) {
+    pub(in crate::search) fn unpacked(
+        &self,
+        arithmetic: &mut Arithmetic,
+        matrix: &[Residue],
+        rows: &mut Rows,
+    ) {
         let width = self.live + self.weights.len();
-        rows.unpack(self.vectors.field, width, matrix);
+        rows.unpack(arithmetic, width, matrix);
     }
 
     /// What the matrix of a node before these stages leaves to be spanned.
     fn left(&self, matrix: &[Residue]) -> Annihilator {
         let f = self.vectors.field;
         let mut rows = Rows::default();
-        self.unpacked(matrix, &mut rows);
+        self.unpacked(&mut Arithmetic::new(f), matrix, &mut rows);
         let rows = rows.rows().map(|row| {
             let (contours, kept) = row.split_at(self.live);
             [contours, &[f.dot(&self.weights, kept)]].concat()

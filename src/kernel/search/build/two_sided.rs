@@ -29,22 +29,22 @@ const PAIRS_A_SQUARE: usize = 5;
 
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
-    stages: &'a [Added<'a>],
+    stages: &'a [Added],
     layers: Vec<Layer>,
     nodes: Nodes,
 }
 
 impl<'a> Side<'a> {
-    fn new(stages: &'a [Added<'a>], already: u32) -> Self {
+    fn new(stages: &'a [Added], already: u32) -> Self {
         Side {
             stages,
             layers: Vec::new(),
-            nodes: Nodes::root(already),
+            nodes: Nodes::root(Spent::within_mechanism(already)),
         }
     }
 
     /// The stage that comes next.
-    fn ahead(&self) -> &'a Added<'a> {
+    fn ahead(&self) -> &'a Added {
         &self.stages[self.layers.len()]
     }
 
@@ -160,7 +160,7 @@ fn joined(
 fn halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
-    ends: &'a [Vec<Added<'a>>; 2],
+    ends: &'a [Vec<Added>; 2],
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(Progress),
 ) -> Option<Met<'a>> {

@@ -8,8 +8,8 @@
 //! Bergman, Cire, van Hoeve & Hooker, "Discrete optimization with decision diagrams", INFORMS J. Comput. 28 (2016): diagrams
 //! relaxed by merging nodes.
 
-use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::adding::Adding;
+use crate::linalg::modp::Residue;
+use crate::search::diagram::columns::Adding;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 
 /// Spaces that contain one, lie within another, and reach no more than so many dimensions; one space where both are the same.
@@ -35,13 +35,13 @@ pub(in crate::search) struct Passed<'a> {
 impl Between {
     /// One space, with the boundaries to come.
     pub(in crate::search) fn one(
-        field: Field,
+        arithmetic: &mut Arithmetic,
         width: usize,
         packed: &[Residue],
         bounds: &[usize],
     ) -> Between {
         let mut all = Rows::default();
-        all.unpack(field, width, packed);
+        all.unpack(arithmetic, width, packed);
         Between {
             most: bounds.iter().map(|&b| all.rank_before(b)).collect(),
             least: all.rank(),
@@ -56,20 +56,15 @@ impl Between {
 
     /// The one space, packed; none of many.
     pub(in crate::search) fn packed(&self) -> Option<Vec<Residue>> {
-        let mut out = Vec::new();
-        self.all.packed(&mut out);
-        self.any.is_none().then_some(out)
+        self.any.is_none().then(|| self.all.packed())
     }
 
     /// Numbers that tell it from others.
     pub(in crate::search) fn words(&self) -> Vec<u64> {
-        let mut out = Vec::new();
-        self.all.packed(&mut out);
+        let mut out = self.all.packed();
         if let Some(any) = &self.any {
-            let mut more = Vec::new();
-            any.packed(&mut more);
             out.push(u64::MAX);
-            out.extend(more);
+            any.pack(&mut out);
             out.extend(self.most.iter().chain([&self.least]).map(|&x| x as u64));
         }
         out
@@ -110,7 +105,7 @@ impl Between {
 
     /// The same in the coordinates of a stage, with a space of its own that any may have.
     fn entered(&self, stage: &Adding) -> Between {
-        let widened = |rows: &Rows| rows.widened(stage.width, &stage.places);
+        let widened = |rows: &Rows| rows.widened(stage.columns.width, &stage.columns.places);
         Between {
             all: widened(&self.all),
             any: Some(widened(self.any())),
@@ -124,7 +119,7 @@ impl Between {
         arithmetic: &mut Arithmetic,
         over: &Passed<'_>,
     ) -> Vec<Option<Between>> {
-        let (growth, base) = (&over.stage.growth, self.entered(over.stage));
+        let (growth, base) = (&over.stage.columns.growth, self.entered(over.stage));
         let mut grown: Vec<Option<Between>> = vec![None; growth.len()];
         for g in growth {
             let mut next = match g.from {
@@ -167,7 +162,7 @@ impl Between {
 
     /// Drops the coordinates that no later stage reaches; none where a contour stays redundant, or a kept link goes wrong.
     fn ended(mut self, over: &Passed<'_>) -> Option<Between> {
-        let (contours, gap) = (over.stage.contours.len(), over.stage.gap);
+        let (contours, gap) = (over.stage.contours.len(), over.stage.columns.closing);
         let in_contours = self.most.last().copied().unwrap_or(0);
         let goes_wrong = self.all.pivots.last().is_some_and(|&p| p >= contours);
         if goes_wrong || self.least > in_contours {

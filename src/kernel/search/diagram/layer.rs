@@ -28,10 +28,10 @@ pub(in crate::search) struct Nodes {
 }
 
 impl Nodes {
-    /// The node before any choice, with redundant constraints that it has `already`.
-    pub(in crate::search) fn root(already: u32) -> Self {
+    /// The node before any choice.
+    pub(in crate::search) fn root(spent: Spent) -> Self {
         Nodes {
-            spent: vec![Spent::within_mechanism(already)],
+            spent: vec![spent],
             start: vec![0, 0],
             data: Vec::new(),
             least: vec![0],
@@ -132,13 +132,13 @@ impl Merge {
     }
 
     /// Takes the children of some nodes, those of the nodes before them having been taken, but for those that are out of
-    /// the question: said of what a child has spent, the size of its matrix, and the least cost of this way to it.
+    /// the question: said of what a child has spent, its matrix, and the least cost of this way to it.
     pub(in crate::search) fn take(
         &mut self,
         part: &Children,
         parents: &Nodes,
         cost: impl Fn(usize) -> i64,
-        mut out: impl FnMut(&Spent, usize, i64) -> bool,
+        mut out: impl FnMut(&Spent, &[Residue], i64) -> bool,
     ) {
         let choices = part.choices;
         if part.short {
@@ -154,7 +154,7 @@ impl Merge {
             let at = self.edges.len();
             let parent = at / choices;
             let least = parents.least[parent] + cost(at % choices);
-            if out(spent, matrix.len(), least) {
+            if out(spent, matrix, least) {
                 self.edges.push(DEAD);
                 continue;
             }

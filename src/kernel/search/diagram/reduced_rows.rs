@@ -1,7 +1,6 @@
 //! Rows of a matrix in reduced row echelon form, grown one vector at a time in memory that a thread keeps, and packed.
 
 use crate::linalg::modp::{Field, Residue};
-use std::ops::Range;
 
 /// Rows of a matrix in reduced row echelon form: each pivot is one and alone in its column.
 #[derive(Default)]
@@ -27,19 +26,28 @@ impl Clone for Rows {
 }
 
 impl Rows {
+    /// No rows.
+    pub(in crate::search) const fn new() -> Rows {
+        Rows {
+            width: 0,
+            pivots: Vec::new(),
+            data: Vec::new(),
+        }
+    }
+
     pub(in crate::search) fn clear(&mut self, width: usize) {
         self.width = width;
         self.pivots.clear();
         self.data.clear();
     }
 
-    /// What tells rows of a width apart: the pivots, as bits, and of each row the numbers that stand in no pivot's column.
-    pub(super) fn packed(&self, out: &mut Vec<Residue>) {
-        out.clear();
-        out.resize(self.width.div_ceil(64), 0);
+    /// Appends what tells rows of a width apart: the pivots, as bits, and of each row the numbers that stand in no pivot's column.
+    pub(super) fn pack(&self, out: &mut Vec<Residue>) {
+        let start = out.len();
+        out.resize(start + self.width.div_ceil(64), 0);
         self.pivots
             .iter()
-            .for_each(|p| out[p / 64] |= 1 << (p % 64));
+            .for_each(|p| out[start + p / 64] |= 1 << (p % 64));
         for (row, &pivot) in self.data.chunks_exact(self.width.max(1)).zip(&self.pivots) {
             let mut others = self.pivots.iter().copied().peekable();
             for (i, &x) in row.iter().enumerate().skip(pivot) {
@@ -51,27 +59,57 @@ impl Rows {
         }
     }
 
-    /// The rows that were packed; none where nothing was.
-    pub(in crate::search) fn unpack(&mut self, f: Field, width: usize, packed: &[Residue]) {
-        let places: Vec<usize> = (0..width).collect();
-        self.spread(f, width, &places, packed);
+    /// Returns the rows packed alone.
+    pub(in crate::search) fn packed(&self) -> Vec<Residue> {
+        let mut out = Vec::new();
+        self.pack(&mut out);
+        out
     }
 
-    /// The rows that were packed, each coordinate at its place of those of a width, ascending, and nothing at the others; none where nothing was.
-    pub(super) fn spread(&mut self, f: Field, width: usize, places: &[usize], packed: &[Residue]) {
+    /// Takes the rows of a width that were packed.
+    pub(in crate::search) fn unpack(
+        &mut self,
+        arithmetic: &mut Arithmetic,
+        width: usize,
+        mut packed: &[Residue],
+    ) {
+        let places: Vec<usize> = (0..width).collect();
+        self.spread(arithmetic, width, &places, &mut packed);
+    }
+
+    /// Takes rows off what was packed, each coordinate at its place of those of a width, and nothing at the others.
+    pub(super) fn spread(
+        &mut self,
+        arithmetic: &mut Arithmetic,
+        width: usize,
+        places: &[usize],
+        packed: &mut &[Residue],
+    ) {
         self.clear(width);
-        let (bits, mut numbers) = packed.split_at(places.len().div_ceil(64).min(packed.len()));
-        let is_pivot = |i: usize| bits.get(i / 64).is_some_and(|b| b >> (i % 64) & 1 == 1);
-        let of = |pivots: bool| (0..places.len()).filter(move |&i| is_pivot(i) == pivots);
-        self.pivots.extend(of(true).map(|i| places[i]));
-        let others: Vec<usize> = of(false).map(|i| places[i]).collect();
-        self.data.resize(self.pivots.len() * width, 0);
-        for (row, &pivot) in self.data.chunks_exact_mut(width.max(1)).zip(&self.pivots) {
-            row[pivot] = f.one();
-            let others = &others[others.partition_point(|&p| p < pivot)..];
-            let (own, rest) = numbers.split_at(others.len().min(numbers.len()));
-            others.iter().zip(own).for_each(|(&at, &x)| row[at] = x);
+        let (bits, mut numbers) = packed.split_at(places.len().div_ceil(64));
+        let is_pivot = |i: usize| bits[i / 64] >> (i % 64) & 1 == 1;
+        let (pivots, others): (Vec<usize>, Vec<usize>) =
+            (0..places.len()).partition(|&i| is_pivot(i));
+        self.data.resize(pivots.len() * width, 0);
+        for (row, &pivot) in self.data.chunks_exact_mut(width.max(1)).zip(&pivots) {
+            row[places[pivot]] = arithmetic.field.one();
+            let others = &others[others.partition_point(|&i| i < pivot)..];
+            let (own, rest) = numbers.split_at(others.len());
+            others
+                .iter()
+                .zip(own)
+                .for_each(|(&i, &x)| row[places[i]] = x);
             numbers = rest;
+        }
+        *packed = numbers;
+        if places.is_sorted() {
+            self.pivots.extend(pivots.iter().map(|&i| places[i]));
+            return;
+        }
+        // The form of the rows depends on the order of the coordinates.
+        let mut rows = std::mem::take(&mut self.data);
+        for row in rows.chunks_exact_mut(width) {
+            self.insert(arithmetic, row);
         }
     }
 
@@ -115,32 +153,6 @@ impl Rows {
             pivots: self.pivots.iter().map(|&p| places[p]).collect(),
             data,
         }
-    }
-
-    /// Drops coordinates in which every row has nothing.
-    pub(super) fn drop_empty(&mut self, coordinates: &Range<usize>) {
-        let (width, dropped) = (self.width, coordinates.len());
-        if dropped == 0 {
-            return;
-        }
-        let (rows, mut end) = (self.pivots.len(), 0);
-        for row in (0..rows).map(|r| r * width) {
-            let empty = &self.data[row..][coordinates.clone()];
-            debug_assert!(empty.iter().all(|&x| x == 0), "nothing is lost");
-            let kept = [
-                row..row + coordinates.start,
-                row + coordinates.end..row + width,
-            ];
-            for part in kept {
-                let len = part.len();
-                self.data.copy_within(part, end);
-                end += len;
-            }
-        }
-        self.data.truncate(end);
-        let after = self.pivots.iter_mut().filter(|p| **p >= coordinates.end);
-        after.for_each(|p| *p -= dropped);
-        self.width -= dropped;
     }
 
     /// What two spans have in common.

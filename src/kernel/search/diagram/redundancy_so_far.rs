@@ -1,6 +1,7 @@
 //! The redundant constraints that a partly chosen mechanism has, and how many it may have.
 
-use crate::search::diagram::state_copies::Lane;
+use crate::search::diagram::lane_stage::Role;
+use itertools::Itertools;
 
 /// When a partly built mechanism is given up, and when building stops; no number, no limit.
 #[derive(Debug, Clone)]
@@ -25,8 +26,7 @@ pub(crate) struct Limits {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(in crate::search) struct Spent {
     internal: u32,
-    external: i32,
-    /// Those of the state's lane, and of each lane of friction; at the end only the harmful ones.
+    /// Those of the lanes of a searched state, lane 1 first; at the end the external and the harmful ones.
     lanes: Vec<i32>,
 }
 
@@ -53,31 +53,27 @@ impl Spent {
         }
     }
 
-    /// Counts what a joint makes redundant in a lane.
-    pub(in crate::search) fn add(&mut self, lane: Lane, redundant: u32) {
-        let more = i32::try_from(redundant).unwrap_or(i32::MAX);
-        match lane {
-            Lane::Common => self.internal += redundant,
-            Lane::Free => {
-                self.internal += redundant;
-                self.external -= more;
-            }
-            Lane::State => {
-                self.external += more;
-                *self.lane(0) += more;
-            }
-            Lane::Friction(face) => {
-                let count = self.lane(1 + face);
+    /// Counts what a variable makes redundant in a lane; 0 is the free state's.
+    pub(in crate::search) fn add(&mut self, lane: usize, redundant: u32) {
+        match lane.checked_sub(1) {
+            None => self.internal += redundant,
+            Some(lane) => {
+                let count = self.lane(lane);
                 if *count != RULED_OUT {
-                    *count += more;
+                    *count += i32::try_from(redundant).unwrap_or(i32::MAX);
                 }
             }
         }
     }
 
-    /// Says that a lane does not apply: its face is none.
-    pub(in crate::search) fn rule_out(&mut self, face: usize) {
-        *self.lane(1 + face) = RULED_OUT;
+    /// Says that a lane of a searched state does not apply to these choices.
+    pub(in crate::search) fn rule_out(&mut self, lane: usize) {
+        *self.lane(lane - 1) = RULED_OUT;
+    }
+
+    /// Returns whether a lane does not apply.
+    pub(in crate::search) fn is_ruled_out(&self, lane: usize) -> bool {
+        lane > 0 && self.lanes.get(lane - 1) == Some(&RULED_OUT)
     }
 
     fn lane(&mut self, i: usize) -> &mut i32 {
@@ -87,12 +83,38 @@ impl Spent {
         &mut self.lanes[i]
     }
 
-    /// Ends the lanes: what is harmful is what friction alone does not explain, with moments taken up at the face that
-    /// explains most.
-    pub(in crate::search) fn settle(&mut self) {
-        let all = self.lanes.first().copied().unwrap_or(0);
-        let harmless = self.lanes.iter().skip(1).copied().max();
-        self.lanes = vec![all - harmless.unwrap_or(0).max(0)];
+    /// Returns whether no grasp has lost all the jaws that may hold it; `roles` are those of the lanes from 1 on.
+    pub(in crate::search) fn holds_all(&self, roles: &[Role]) -> bool {
+        let grasps = roles.iter().filter_map(|role| match role {
+            Role::Held(grasp) => Some(*grasp),
+            _ => None,
+        });
+        grasps.dedup().all(|grasp| {
+            let mut lanes = roles.iter().enumerate();
+            lanes.any(|(i, role)| *role == Role::Held(grasp) && !self.is_ruled_out(1 + i))
+        })
+    }
+
+    /// Ends the lanes. External is what the searched state has more than the free one. Harmful is what friction alone does not explain,
+    /// with moments taken up at the face that explains most.
+    pub(in crate::search) fn settle(&mut self, roles: &[Role]) {
+        let internal = i32::try_from(self.internal).unwrap_or(i32::MAX);
+        let (mut state, mut common, mut harmless) = (0, internal, None::<i32>);
+        for (i, role) in roles
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| !self.is_ruled_out(1 + i))
+        {
+            let count = self.lanes.get(i).copied().unwrap_or(0);
+            match role {
+                Role::State => state = count,
+                Role::Common => common = count,
+                Role::Friction(_) => harmless = harmless.max(Some(count)),
+                Role::Free | Role::Held(_) => {}
+            }
+        }
+        let harmful = state - harmless.unwrap_or(common).max(common);
+        self.lanes = vec![state - internal, harmful];
     }
 
     /// Redundant constraints within the mechanism so far.
@@ -100,35 +122,34 @@ impl Spent {
         self.internal
     }
 
-    /// Whether it is within limits; harm counts once the lanes are settled.
+    /// Returns whether no more redundant constraints are within the mechanism than there may be.
     pub(in crate::search) fn within(&self, limits: &Limits) -> bool {
-        let at_most =
-            |x: i32, limit: Option<u32>| limit.is_none_or(|l| i64::from(x) <= i64::from(l));
-        self.internal <= limits.internal && at_most(self.external, limits.external)
+        self.internal <= limits.internal
     }
 
-    /// Whether it does no more harm than it may, its lanes being settled.
-    pub(in crate::search) fn harms_within(&self, limits: &Limits) -> bool {
-        limits
-            .harmful
-            .is_none_or(|l| self.redundancy().harmful <= l)
+    /// Returns whether the state adds no more than it may, its lanes being settled.
+    pub(in crate::search) fn state_within(&self, limits: &Limits) -> bool {
+        let Redundancy {
+            external, harmful, ..
+        } = self.redundancy();
+        let at_most = |x: i64, limit: Option<u32>| limit.is_none_or(|l| x <= i64::from(l));
+        at_most(external.into(), limits.external) && at_most(harmful.into(), limits.harmful)
     }
 
-    /// The counts of a whole variant.
+    /// Returns the counts of a whole variant, its lanes being settled.
     pub(in crate::search) fn redundancy(&self) -> Redundancy {
-        let harmful = self.lanes.first().copied().unwrap_or(0);
+        let [external, harmful] = [0, 1].map(|i| self.lanes.get(i).copied().unwrap_or(0));
         Redundancy {
             internal: self.internal,
-            external: self.external,
+            external,
             harmful: u32::try_from(harmful).unwrap_or(0),
         }
     }
 
-    /// Numbers that tell it from others.
+    /// Returns numbers that tell it from others.
     pub(in crate::search) fn words(&self) -> impl Iterator<Item = u64> {
-        let two = u64::from(self.internal) << 32 | u64::from(self.external.cast_unsigned());
         let lanes = self.lanes.iter().map(|&x| u64::from(x.cast_unsigned()));
-        std::iter::once(two).chain(lanes)
+        std::iter::once(u64::from(self.internal)).chain(lanes)
     }
 }
 
@@ -141,14 +162,14 @@ mod tests {
     fn a_lane_that_does_not_apply_counts_no_more() {
         let after = |redundant: u32| {
             let mut spent = Spent::default();
-            spent.rule_out(0);
-            spent.add(Lane::Friction(0), redundant);
+            spent.rule_out(1);
+            spent.add(1, redundant);
             spent.words().collect::<Vec<_>>()
         };
         assert_eq!(after(0), after(3));
         // One that applies does count.
         let mut spent = Spent::default();
-        spent.add(Lane::Friction(0), 3);
+        spent.add(1, 3);
         assert_ne!(spent.lanes, Spent::default().lanes);
     }
 }

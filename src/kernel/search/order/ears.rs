@@ -1,10 +1,11 @@
-//! Ways to go on in an order: joints not chosen yet, one after another, that begin and end at live links.
+//! Ways to go on in an order: joints not chosen yet, one after another, that begin and end at links reached already.
 //!
 //! # Sources
 //! Ears: Whitney, "Non-separable and planar graphs", Trans. AMS 34 (1932).
 
 use crate::model::mechanism::LinkId;
-use crate::search::order::trial::{Trial, Trials};
+use crate::search::order::widths::Trial;
+use crate::search::question::Question;
 use std::collections::{BTreeSet, VecDeque};
 
 /// Ways tried for the first contour, from each of its joints and both ways round.
@@ -25,11 +26,12 @@ pub(in crate::search) struct Joined {
 
 impl Joined {
     /// Of variables in the canonical order.
-    pub(super) fn new(trials: &Trials<'_>, variables: &[usize]) -> Joined {
-        let edges: Vec<(usize, [LinkId; 2])> = variables
-            .iter()
-            .flat_map(|&v| trials.joined(v).map(move |links| (v, links)))
-            .collect();
+    pub(super) fn new(question: &Question, variables: &[usize]) -> Joined {
+        let links = |v: usize| {
+            let joints = question.space.variables[v].joints.iter();
+            joints.map(move |&j| (v, question.mechanism.joints[j].links))
+        };
+        let edges: Vec<(usize, [LinkId; 2])> = variables.iter().flat_map(|&v| links(v)).collect();
         let mut at = Vec::new();
         for (e, (_, links)) in edges.iter().enumerate() {
             for link in links.map(LinkId::index) {
@@ -55,7 +57,7 @@ impl Joined {
     }
 
     /// The variables of a trial, as bits by their places.
-    pub(super) fn taken(&self, trial: &Trial<'_>) -> Vec<u64> {
+    pub(super) fn taken(&self, trial: &Trial) -> Vec<u64> {
         let mut taken = vec![0; self.variables.len().div_ceil(64)];
         for place in trial.order.iter().map(|&v| self.places[v]) {
             taken[place / 64] |= 1 << (place % 64);
@@ -64,7 +66,7 @@ impl Joined {
     }
 
     /// Ways to go on: ears, the shortest first, or where no contour is left the next joint; nothing more for a whole order.
-    pub(super) fn ears(&self, trial: &Trial<'_>) -> Vec<Vec<usize>> {
+    pub(super) fn ears(&self, trial: &Trial) -> Vec<Vec<usize>> {
         if trial.order.len() == self.variables.len() {
             return vec![Vec::new()];
         }
@@ -73,10 +75,11 @@ impl Joined {
             let place = self.places[self.edges[e].0];
             taken[place / 64] >> (place % 64) & 1 == 0
         };
-        let left: Vec<usize> = (0..self.edges.len()).filter(|&e| is_left(e)).collect();
-        let live: Vec<bool> = (0..self.at.len())
-            .map(|l| trial.planner.is_live(LinkId::new(l)))
-            .collect();
+        let (left, done): (Vec<usize>, Vec<usize>) =
+            (0..self.edges.len()).partition(|&e| is_left(e));
+        let mut live = vec![false; self.at.len()];
+        let reached = done.iter().flat_map(|&e| self.edges[e].1);
+        reached.for_each(|l| live[l.index()] = true);
         let is_live = |l: LinkId| live[l.index()];
         let reaches = |e: &usize| self.edges[*e].1.iter().any(|&l| is_live(l));
         let begun = left.iter().any(reaches);

@@ -158,6 +158,16 @@ pub enum SearchError {
         /// How many independent motions are left.
         motions: usize,
     },
+    /// A choice without a motion of the present joint.
+    #[error(
+        "{option} at {joint} lacks a motion of the present joint, and a redesign only adds motions: choose an option that has them all"
+    )]
+    LosesMotion {
+        /// The joint.
+        joint: String,
+        /// The option.
+        option: String,
+    },
     /// Chains that close nowhere.
     #[error(
         "{open} joints are in no contour, and a search takes at most {OPEN} of them: they cannot be redundant, so leave such \

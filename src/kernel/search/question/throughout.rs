@@ -148,10 +148,10 @@ impl Throughout {
             columns.push(of_choices);
         }
         let out = Throughout {
-            model: Model::whole(space, kept),
+            model: Model::whole(space),
             columns,
         };
-        let rows = ClosingRows::new(mechanism, space.dim, contours, Some(kept));
+        let rows = ClosingRows::free(mechanism, space.dim, contours, Some(kept));
         Ok(if out.is_regular(exact.field(), &rows) {
             Ok(out)
         } else {

@@ -1,9 +1,9 @@
 //! Biconnected blocks of a mechanism: parts that share at most one link; the search takes them one after another.
 //!
-//! Contours that no chain of common joints ties together make nothing redundant in each other, so each block has its own
-//! copy of the links it shares, and a diagram forgets one before it begins the next: nodes add up where they would
-//! multiply. Only blocks on the way between links whose motion is asked for keep them; there, what hangs side by side on
-//! the frame is still taken one after another. A joint that is in no contour is a block by itself.
+//! Contours that no chain of common joints ties together make nothing redundant in each other, so a diagram forgets one block before
+//! it begins the next: nodes add up where they would multiply. Blocks that say nothing about the motion that is asked for come first;
+//! of the others, what hangs side by side on the frame is still taken one after another. A joint that is in no contour is a block by
+//! itself.
 //!
 //! # Sources
 //! Blocks and cut vertices: Harary, "Graph Theory" (1969), chapter 3.
@@ -19,8 +19,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(in crate::search) struct Block {
     /// The variables, ascending.
     pub(in crate::search) variables: Vec<usize>,
-    /// The copy of the links that it joins: 0 is the mechanism's own, which blocks share.
-    pub(in crate::search) lane: usize,
+    /// Whether it says nothing about the motion of kept links.
+    pub(in crate::search) apart: bool,
 }
 
 /// The blocks of some variables, those on the way between `pinned` links last. `contours` are a basis of the mechanism's.
@@ -75,11 +75,10 @@ pub(in crate::search) fn blocks(
     }
     let rest = left.into_iter().map(|(of, _)| of);
     let beside = tied(rest.chain(at.into_values()));
-    out.extend(
-        beside
-            .into_iter()
-            .map(|variables| Block { variables, lane: 0 }),
-    );
+    out.extend(beside.into_iter().map(|variables| Block {
+        variables,
+        apart: false,
+    }));
     out
 }
 
@@ -100,7 +99,7 @@ fn at_one_link(
                     .for_each(|l| *holds.entry(*l).or_insert(1) -= 1);
                 out.push(Block {
                     variables: of.clone(),
-                    lane: out.len() + 1,
+                    apart: true,
                 });
             }
             shared > 1
@@ -120,8 +119,8 @@ mod tests {
     use crate::rank::exact::field::exact_field;
     use crate::search::question::cost::CostTable;
 
-    /// The variables of each block and its lane, where the motion of the frame and of these links is asked for.
-    fn found(joints: &[Drawn], pinned: &[usize]) -> Vec<(Vec<usize>, usize)> {
+    /// The variables of each block and whether it is apart, where the motion of the frame and of these links is asked for.
+    fn found(joints: &[Drawn], pinned: &[usize]) -> Vec<(Vec<usize>, bool)> {
         let m = drawn(joints, &[]);
         let exact = exact_field(&m, 0).unwrap();
         let costs = CostTable::new(&m.search.costs);
@@ -130,7 +129,7 @@ mod tests {
         let pinned: Vec<LinkId> = pinned.iter().map(|&l| LinkId::new(l)).collect();
         let contours = contour_basis(&m, StateId::FREE);
         let found = blocks(&m, &space, &all, &pinned, &contours);
-        found.into_iter().map(|b| (b.variables, b.lane)).collect()
+        found.into_iter().map(|b| (b.variables, b.apart)).collect()
     }
 
     /// Two four-bars in a row share a link: each is a block, and has that link for itself.
@@ -141,8 +140,7 @@ mod tests {
         found.sort();
         let of: Vec<&Vec<usize>> = found.iter().map(|b| &b.0).collect();
         assert_eq!(of, [&vec![0, 1, 2, 3], &vec![4, 5, 6, 7]]);
-        let lanes = [found[0].1, found[1].1];
-        assert!(lanes[0] != lanes[1] && !lanes.contains(&0), "{lanes:?}");
+        assert!(found.iter().all(|b| b.1));
     }
 
     /// Side by side on the frame, both on the way to a link that is asked for, they share the frame alone, and one is taken after
@@ -150,9 +148,9 @@ mod tests {
     #[test]
     fn what_hangs_side_by_side_on_the_frame_is_taken_one_after_another() {
         let beside = [four_bar(0, 1, 0.0), four_bar(0, 4, 40.0)].concat();
-        let each = [(vec![0, 1, 2, 3], 0), (vec![4, 5, 6, 7], 0)];
+        let each = [(vec![0, 1, 2, 3], false), (vec![4, 5, 6, 7], false)];
         assert_eq!(found(&beside, &[0, 2, 5]), each);
         let in_a_row = [four_bar(0, 1, 0.0), four_bar(2, 4, 40.0)].concat();
-        assert_eq!(found(&in_a_row, &[0, 5]), [((0..8).collect(), 0)]);
+        assert_eq!(found(&in_a_row, &[0, 5]), [((0..8).collect(), false)]);
     }
 }

@@ -16,7 +16,6 @@ use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::rank::reduce::plane::{Rows, planes, seen};
-use crate::search::question::kept::Kept;
 use crate::search::question::space::{Choice, Space, Variable};
 use crate::search::reduce::self_stress_space::ClosingRows;
 
@@ -25,18 +24,15 @@ use crate::search::reduce::self_stress_space::ClosingRows;
 pub(in crate::search) struct Model {
     /// The variables and their choices in these rows.
     pub(in crate::search) space: Space,
-    /// The present motions of the kept links and drives in these rows.
-    pub(in crate::search) kept: Vec<Vec<Residue>>,
     /// Redundant constraints that every variant has in rows that the diagrams leave out.
     pub(in crate::search) already: u32,
 }
 
 impl Model {
     /// Returns all rows of a space.
-    pub(in crate::search) fn whole(space: &Space, kept: &Kept) -> Model {
+    pub(in crate::search) fn whole(space: &Space) -> Model {
         Model {
             space: space.clone(),
-            kept: kept.motion.clone(),
             already: 0,
         }
     }
@@ -53,7 +49,6 @@ impl Model {
         mechanism: &Mechanism,
         contours: &[Contour],
         space: &Space,
-        kept: &Kept,
         whole_twists: bool,
     ) -> Result<Model, ExactError> {
         let f = exact.field();
@@ -64,7 +59,7 @@ impl Model {
             || !mechanism.couplings.is_empty()
             || mechanism.locked_drives() > 0
         {
-            return Ok(Model::whole(space, kept));
+            return Ok(Model::whole(space));
         }
         let present = space
             .variables
@@ -74,8 +69,8 @@ impl Model {
             let Some(parts) = plane.rows(exact) else {
                 continue;
             };
-            let [one, other] = parts;
-            let [inside, outside] = [(one, &other), (other, &one)]
+            let [one, other] = &parts;
+            let [inside, outside] = [(one, other), (other, one)]
                 .map(|(rows, beside)| Seen::new(f, space, rows, beside));
             if !falls_apart(space, [&inside, &outside]) {
                 continue;
@@ -85,17 +80,17 @@ impl Model {
                 [false, true] => (inside, outside),
                 [false, false] => break,
             };
-            let mut model = differing.model(f, contours.len(), space, kept, mechanism);
+            let mut model = differing.model(f, contours.len(), space);
             model.already += redundant(f, mechanism, contours, &settled.present(space));
             return Ok(model);
         }
-        Ok(Model::whole(space, kept))
+        Ok(Model::whole(space))
     }
 }
 
 /// Redundant constraints among the present joints in some rows of the closure equations.
 fn redundant(f: Field, mechanism: &Mechanism, contours: &[Contour], present: &Space) -> u32 {
-    let rows = ClosingRows::new(mechanism, present.dim, contours, None);
+    let rows = ClosingRows::free(mechanism, present.dim, contours, None);
     let variables = present.variables.iter();
     let span = Echelon::of(f, variables.flat_map(|v| rows.columns(f, v, 0)));
     u32::try_from(rows.closing() - span.rank()).unwrap_or(u32::MAX)
@@ -109,18 +104,17 @@ struct Seen {
     /// For each choice of each variable, the motions of its joints that are in these rows only, each with its rates behind the three
     /// numbers: independent, in reduced form.
     spans: Vec<Vec<Vec<Span>>>,
-    rows: Rows,
 }
 
 /// Numbers of a twist in a part.
 const PART: usize = 3;
 
 impl Seen {
-    fn new(f: Field, space: &Space, rows: Rows, beside: &Rows) -> Seen {
+    fn new(f: Field, space: &Space, rows: &Rows, beside: &Rows) -> Seen {
         let of_joint = |span: &Span| -> Span {
             let both = span.iter().map(|motion| {
                 let (twist, rates) = motion.split_at(6);
-                let parts = [beside, &rows].map(|rows| seen(f, rows, twist));
+                let parts = [beside, rows].map(|rows| seen(f, rows, twist));
                 [&parts.concat(), rates].concat()
             });
             let both = Echelon::of(f, both).reduced().into_iter();
@@ -133,7 +127,6 @@ impl Seen {
             spans: variables
                 .map(|v| v.choices.iter().map(of_choice).collect())
                 .collect(),
-            rows,
         }
     }
 
@@ -160,51 +153,13 @@ impl Seen {
         space.variables.iter().zip(&self.spans).any(of_variable)
     }
 
-    /// The motions of kept links in rows that are used, and behind them the rates of kept drives that these rows have.
-    fn of_kept(
-        &self,
-        f: Field,
-        whole: &Space,
-        kept: &Kept,
-        mechanism: &Mechanism,
-        used: &[usize],
-    ) -> Vec<Vec<Residue>> {
-        let drives = mechanism.search.drives.iter();
-        let own: Vec<bool> = drives.map(|d| self.has_rate(whole, d.joint)).collect();
-        let of_motion = |motion: &Vec<Residue>| -> Vec<Residue> {
-            let (links, rates) = motion.split_at(6 * kept.links.len());
-            let of_link = |twist| {
-                let rows = seen(f, &self.rows, twist);
-                used.iter().map(move |&r| rows[r])
-            };
-            let rates = rates
-                .iter()
-                .zip(&own)
-                .map(|(&rate, own)| if *own { rate } else { 0 });
-            links
-                .chunks_exact(6)
-                .flat_map(of_link)
-                .chain(rates)
-                .collect()
-        };
-        Echelon::of(f, kept.motion.iter().map(of_motion)).reduced()
-    }
-
     /// The model of the rows that are used.
-    fn model(
-        self,
-        f: Field,
-        contours: usize,
-        whole: &Space,
-        kept: &Kept,
-        mechanism: &Mechanism,
-    ) -> Model {
+    fn model(self, f: Field, contours: usize, whole: &Space) -> Model {
         let used = self.used(f);
         // In further rows of each contour nothing moves.
         let idle = (PART - used.len()) * contours;
         Model {
             already: u32::try_from(idle).unwrap_or(u32::MAX),
-            kept: self.of_kept(f, whole, kept, mechanism, &used),
             space: self.space(whole, &used),
         }
     }

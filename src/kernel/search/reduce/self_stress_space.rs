@@ -18,6 +18,7 @@ use crate::motion::displacement_series::multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shortened};
+use std::borrow::Borrow;
 use std::ops::Range;
 
 /// A vector of the added motions of a choice.
@@ -35,6 +36,8 @@ pub(in crate::search) struct SelfStressSpace {
     pub(in crate::search) kept: Vec<Lifetime>,
     /// Self-stresses that every variant has.
     pub(in crate::search) lasting: u32,
+    /// Whether a kept link moves at present: such motions are divided out.
+    pub(in crate::search) moves_kept: bool,
 }
 
 /// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
@@ -42,42 +45,64 @@ pub(in crate::search) struct ClosingRows<'m> {
     mechanism: &'m Mechanism,
     dim: usize,
     contours: &'m [Contour],
-    /// Couplings of the free state, by their numbers.
+    /// Couplings of the state, by their numbers.
     couplings: Vec<usize>,
+    /// The joints on the way to each kept link, or from one link to another.
     paths: Vec<Vec<(JointId, bool)>>,
     /// Whether the rates of kept drives matter.
-    keeps: bool,
+    keeps_drives: bool,
 }
 
 impl<'m> ClosingRows<'m> {
     /// Returns the rows of the contours of the free state, and those of kept links and drives where these matter.
-    pub(in crate::search) fn new(
+    pub(in crate::search) fn free(
         mechanism: &'m Mechanism,
         dim: usize,
         contours: &'m [Contour],
         kept: Option<&Kept>,
     ) -> Self {
-        let free: Vec<JointId> = mechanism.joints_in(StateId::FREE).collect();
+        let tree = spanning_tree(mechanism, StateId::FREE);
+        let paths = kept.map_or_else(Vec::new, |k| {
+            k.links.iter().map(|&l| path_in(&tree, l)).collect()
+        });
+        let rows = ClosingRows::in_state(mechanism, dim, StateId::FREE, contours, paths);
+        ClosingRows {
+            keeps_drives: kept.is_some(),
+            ..rows
+        }
+    }
+
+    /// Returns the rows of the contours of a state, and those of the motion over paths of joints.
+    pub(in crate::search) fn in_state(
+        mechanism: &'m Mechanism,
+        dim: usize,
+        state: StateId,
+        contours: &'m [Contour],
+        paths: Vec<Vec<(JointId, bool)>>,
+    ) -> Self {
+        let present: Vec<JointId> = mechanism.joints_in(state).collect();
         let couplings = (0..mechanism.couplings.len()).filter(|&q| {
             let mut ends = mechanism.couplings[q].ends.iter();
-            ends.all(|e| free.binary_search(&e.joint).is_ok())
+            ends.all(|e| present.binary_search(&e.joint).is_ok())
         });
-        let tree = spanning_tree(mechanism, StateId::FREE);
         ClosingRows {
             mechanism,
             dim,
             contours,
             couplings: couplings.collect(),
-            paths: kept.map_or_else(Vec::new, |k| {
-                k.links.iter().map(|&l| path_in(&tree, l)).collect()
-            }),
-            keeps: kept.is_some(),
+            paths,
+            keeps_drives: false,
         }
+    }
+
+    /// Returns how many numbers a twist of a joint has, its rates included.
+    pub(in crate::search) fn twist_width(&self, joint: JointId) -> usize {
+        self.dim + self.mechanism.rates_of(joint)
     }
 
     /// Returns the number of rows of kept links and drives.
     pub(in crate::search) fn kept(&self) -> usize {
-        let drives = if self.keeps {
+        let drives = if self.keeps_drives {
             self.mechanism.kept_drives()
         } else {
             0
@@ -118,8 +143,13 @@ impl<'m> ClosingRows<'m> {
         both.map(|(a, b)| [a, b].concat()).collect()
     }
 
-    /// The column of a joint's twist, with its rates behind it.
-    fn column(&self, f: Field, joint: JointId, twist: &[Residue]) -> Vec<Residue> {
+    /// Returns the column of a joint's twist, with its rates behind it.
+    pub(in crate::search) fn column(
+        &self,
+        f: Field,
+        joint: JointId,
+        twist: &[Residue],
+    ) -> Vec<Residue> {
         let (d, closing) = (self.dim, self.closing());
         let mut out = vec![0; closing + self.kept()];
         let mut put = |at: usize, forward: bool| {
@@ -145,7 +175,7 @@ impl<'m> ClosingRows<'m> {
             let first = if self.mechanism.search.locks_drives {
                 Some(self.contours.len() * d + self.couplings.len())
             } else {
-                self.keeps.then_some(closing + self.paths.len() * d)
+                self.keeps_drives.then_some(closing + self.paths.len() * d)
             };
             if let Some(first) = first {
                 out[first + i] = twist[twist.len() - 1];
@@ -262,8 +292,9 @@ impl Reached {
 }
 
 impl SelfStressSpace {
-    /// Of the variables of a space in an order, where the motions of the links that `rows` has matter; `of_choice` gives the vectors of a
-    /// choice of a variable, which have each row so many `times`: once in the drawn pose, and once for each power of t along a motion.
+    /// Returns the space of the variables of `space` in an order, where the motions of the links that `rows` has matter. `of_choice` gives
+    /// the vectors of a choice of a variable, which have each row so many `times`: once in the drawn pose, and once for each power of t
+    /// along a motion. `present` gives the vectors of a variable that all its choices have.
     ///
     /// # Complexity
     /// O(n·m²) field operations for n vectors of all choices with m rows.
@@ -273,12 +304,14 @@ impl SelfStressSpace {
         times: usize,
         space: &Space,
         order: &[usize],
+        present: &dyn Fn(usize) -> Vec<Vec<Residue>>,
         of_choice: &dyn Fn(usize, usize) -> Vec<Vec<Residue>>,
     ) -> SelfStressSpace {
-        let present = order.iter().flat_map(|&v| of_choice(v, 0));
+        let present = order.iter().flat_map(|&v| present(v));
         let closing = times * rows.closing();
         let width = closing + times * rows.kept();
         let beside = BesidePresent::new(field, present, width);
+        let moves_kept = beside.present.pivots().iter().any(|&p| p >= closing);
         // Motions of the kept links, and what the choices add.
         let links = beside.units(field, closing..width);
         let left = |column| beside.left(column);
@@ -319,54 +352,21 @@ impl SelfStressSpace {
             added,
             contours,
             kept,
+            moves_kept,
         }
     }
 }
 
-/// Whether every choice of a variable has the motions of the present joints.
-pub(in crate::search) fn is_contained(field: Field, space: &Space, variable: usize) -> bool {
-    let [present, others @ ..] = &space.variables[variable].choices[..] else {
+/// Returns whether each of some spans has all of the first.
+pub(in crate::search) fn is_contained<V: Borrow<Vec<Vec<Residue>>>>(
+    field: Field,
+    spans: &[V],
+) -> bool {
+    let [present, others @ ..] = spans else {
         return true;
     };
-    others.iter().all(|choice| {
-        let mut joints = choice.spans.iter().zip(&present.spans);
-        joints.all(|(span, present)| {
-            let whole = Echelon::of(field, span);
-            present.iter().all(|t| whole.contains(t))
-        })
+    others.iter().all(|span| {
+        let whole = Echelon::of(field, span.borrow());
+        present.borrow().iter().all(|t| whole.contains(t))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::drawn::{Z, drawn};
-    use crate::model::joint_type::{Freedom, JointType};
-    use crate::rank::exact::field::exact_field;
-    use crate::search::question::cost::CostTable;
-
-    /// What slides along a hinge's axis has as many freedoms, and not the hinge's; what turns and slides has it.
-    #[test]
-    fn a_choice_must_have_the_motion_of_the_present_joint() {
-        for (option, contained) in [
-            (JointType::Prismatic, false),
-            (JointType::Planar, true),
-            (JointType::Cylindrical, true),
-            (JointType::Custom(vec![Freedom::Rx, Freedom::Tz]), false),
-        ] {
-            let mut m = drawn(&[(JointType::Revolute, [0, 1], [1.0, 2.0, 0.0], Z)], &[]);
-            let mut other = m.joints[0].options[0].clone();
-            other.joint_type = option.clone();
-            m.joints[0].options.push(other);
-            let exact = exact_field(&m, 0).unwrap();
-            let costs = CostTable::new(&m.search.costs);
-            let space = Space::new(&exact, &m, None, false, &costs).unwrap();
-            assert_eq!(space.variables[0].choices.len(), 2);
-            assert_eq!(
-                is_contained(exact.field(), &space, 0),
-                contained,
-                "{option:?}"
-            );
-        }
-    }
 }

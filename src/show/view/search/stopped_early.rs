@@ -46,16 +46,12 @@ pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     let [determinate, admissible] = outcome.estimates();
     let said = |e: &Estimate, what| {
         let [low, high] = e.between;
-        match e.drawn {
-            Drawn::Samples { of, found } => format!(
-                "{low:.3e} to {high:.3e} {what} ({} of {} samples of those not ruled out)",
-                grouped(found),
-                grouped(of)
-            ),
-            Drawn::Cuts(n) => {
-                format!("{low:.3e} to {high:.3e} {what} ({n} random cuts of the diagram)")
-            }
-        }
+        let Drawn { of, found } = e.drawn;
+        format!(
+            "{low:.3e} to {high:.3e} {what} ({} of {} samples of those not ruled out)",
+            grouped(found),
+            grouped(of)
+        )
     };
     let first = admissible.map(|e| said(e, "admissible"));
     let second = determinate.map(|e| said(e, "determinate"));
@@ -105,8 +101,7 @@ pub(in crate::view) struct EstimateData {
     /// The interval with a confidence of 95 %.
     between: [f64; 2],
     at_most: Option<String>,
-    cuts: Option<usize>,
-    samples: Option<SampleData>,
+    samples: SampleData,
     seed: u64,
 }
 
@@ -118,17 +113,13 @@ struct SampleData {
 
 impl From<&Estimate> for EstimateData {
     fn from(e: &Estimate) -> Self {
-        let (cuts, samples) = match e.drawn {
-            Drawn::Cuts(n) => (Some(n), None),
-            Drawn::Samples { of, found } => (None, Some(SampleData { of, found })),
-        };
+        let Drawn { of, found } = e.drawn;
         EstimateData {
             mean: e.mean,
             standard_error: e.standard_error,
             between: e.between,
             at_most: e.at_most.as_ref().map(ToString::to_string),
-            cuts,
-            samples,
+            samples: SampleData { of, found },
             seed: e.seed,
         }
     }

@@ -105,11 +105,6 @@ impl<'a> SetSamples<'a> {
         needed.clamp(SAMPLES[0], SAMPLES[1])
     }
 
-    /// How far the interval will reach on either side, in parts of the mean, as far as the first samples tell.
-    pub(in crate::search) fn reach(&self) -> f64 {
-        NORMAL * (self.odds / number(self.needed())).sqrt()
-    }
-
     /// Estimates how many variants there are by samples drawn afresh, as the first have said how many. None where it was cancelled.
     pub(in crate::search) fn estimate(
         mut self,
@@ -123,14 +118,9 @@ impl<'a> SetSamples<'a> {
             standard_error: self.all * deviation,
             between: interval(drawn, found).map(|x| self.all * x),
             at_most: Some(self.at_most),
-            drawn: Drawn::Samples { of: drawn, found },
+            drawn: Drawn { of: drawn, found },
             seed: self.seed,
         })
-    }
-
-    /// No more variants than so many are in the set.
-    pub(in crate::search) fn at_most(self) -> BigUint {
-        self.at_most
     }
 }
 
