@@ -77,7 +77,8 @@ impl Rows {
         self.spread(arithmetic, width, &places, &mut packed);
     }
 
-    /// Takes rows off what was packed, each coordinate at its place of those of a width, and nothing at the others.
+    /// Takes rows off what was packed, each coordinate at its place of those of a width, and nothing at the others; no rows where nothing
+    /// was packed, before the first variable of a part.
     pub(super) fn spread(
         &mut self,
         arithmetic: &mut Arithmetic,
@@ -86,6 +87,9 @@ impl Rows {
         packed: &mut &[Residue],
     ) {
         self.clear(width);
+        if packed.is_empty() {
+            return;
+        }
         let (bits, mut numbers) = packed.split_at(places.len().div_ceil(64));
         let is_pivot = |i: usize| bits[i / 64] >> (i % 64) & 1 == 1;
         let (pivots, others): (Vec<usize>, Vec<usize>) =
