@@ -167,7 +167,7 @@ fn build_lasting(
 }
 
 /// Nodes of a diagram before it is asked whether there is any variant at all, and built from both ends.
-const AT_ONCE: usize = 20_000;
+const AT_ONCE: usize = 40_000;
 
 /// Returns the diagram of a question, cut down where it does not fit the limits; from both ends where from one it grows too large.
 fn built(
