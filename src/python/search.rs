@@ -73,7 +73,7 @@ pub(crate) struct Outcome(Arc<ozols::Outcome>);
 impl Outcome {
     /// All but the variants, as JSON.
     fn counts(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| json(&data::SearchData::new(&self.0)))
+        py.detach(|| json(&data::search(&self.0)))
     }
 
     /// The same with the variants asked for and what is told of them: what the command prints, but for the seconds.

@@ -17,6 +17,7 @@ pub mod terminal;
 use crate::format::plural;
 use crate::model::mechanism::Mechanism;
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Returns the words for how sure a figure is, with the number of assumptions where there are any.
 fn as_read(m: &Mechanism, sure: String) -> String {
@@ -64,4 +65,13 @@ pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
         Some(rest) => format!("{{\n  \"format\": {FORMAT},\n{rest}"),
         None => text,
     })
+}
+
+/// Returns the entries of an object, then more of them.
+fn joined(first: &impl Serialize, more: Value) -> Value {
+    let mut out = json!(first);
+    if let (Value::Object(out), Value::Object(more)) = (&mut out, more) {
+        out.extend(more);
+    }
+    out
 }

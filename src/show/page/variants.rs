@@ -16,7 +16,7 @@ use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::{Variable, choice_name};
 use crate::view::analysis::idle;
-use crate::view::search::variant::Cost;
+use crate::view::search::variant::price;
 use crate::view::search::{text, why};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -32,7 +32,7 @@ pub(super) struct FoundColumns {
     variables: Vec<Choices>,
     /// Pairs of a variable and its choice, where that is not the present one.
     choices: Vec<Vec<usize>>,
-    cost: Vec<Cost>,
+    cost: Vec<serde_json::Value>,
     changes: Vec<u32>,
     mobility: Vec<i64>,
     redundant: Vec<u32>,
@@ -135,7 +135,7 @@ impl FoundColumns {
                 let changed = choices.filter(|(_, c)| **c != 0);
                 changed.flat_map(|(v, &c)| [v, c]).collect()
             }),
-            cost: column(r, |c| Cost::of(c.cost_milli())),
+            cost: column(r, |c| price(c.cost_milli())),
             changes: column(r, |c| c.change_count()),
             mobility: column(r, |c| c.mobility()),
             redundant: column(r, |c| c.redundant()),

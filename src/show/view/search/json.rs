@@ -7,10 +7,10 @@ use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
 use crate::search::diagram::Stop;
 use crate::view;
-use crate::view::search::data::{EndData, NoneData, SearchData, TailData};
-use crate::view::search::variant::VariantData;
-use crate::view::search::why;
-use num_traits::Zero;
+use crate::view::search::data;
+use crate::view::search::variant;
+use crate::view::search::why::Teller;
+use serde_json::Value;
 use std::io::{self, Write};
 
 /// Tells each variant of a list with its data until that fails; ideas with why they help.
@@ -20,14 +20,15 @@ use std::io::{self, Write};
 pub fn each<'a, E>(
     outcome: &Outcome,
     mut variants: impl Iterator<Item = Variant<'a>>,
-    mut tell: impl FnMut(&Variant<'a>, VariantData<'_>) -> Result<(), E>,
+    mut tell: impl FnMut(&Variant<'a>, Value) -> Result<(), E>,
 ) -> Result<(), E> {
     let whys = outcome.request.distinct.then(|| Whys::new(outcome));
-    let whys = whys.as_ref();
-    let mut why = whys.map(|w| why::teller(w, &outcome.search.mechanism));
+    let mut teller = whys.as_ref().map(|w| (Teller::new(outcome, w), w.teller()));
     variants.try_for_each(|v| {
-        let because = why.as_mut().map(|why| why(v.assignment()));
-        tell(&v, VariantData::new(outcome, &v).because(because))
+        let because = teller
+            .as_mut()
+            .map(|(teller, why)| teller.data(&why(v.assignment())));
+        tell(&v, variant::data(outcome, &v, because))
     })
 }
 
@@ -44,7 +45,7 @@ pub fn write(
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
-    let text = view::pretty(&SearchData::new(outcome))?;
+    let text = view::pretty(&data::search(outcome))?;
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"variants\": [")?;
     each(outcome, variants.by_ref(), |v, data| -> io::Result<()> {
@@ -52,11 +53,8 @@ pub fn write(
         write!(out, "{comma}\n    ")?;
         Ok(serde_json::to_writer(&mut *out, &data)?)
     })?;
-    let m = &outcome.search.mechanism;
-    let empty = outcome.listed_counts().total.is_zero();
-    let none = empty.then(|| NoneData::new(m, &remarks.eased, &remarks.hopeless));
     let seconds = seconds.map(|s| s());
-    let tail = TailData::new(&variants, none, remarks.symmetric.as_ref(), seconds);
+    let tail = data::tail(outcome, &variants, remarks, seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")
@@ -72,11 +70,11 @@ pub fn write_lines(
     mut variants: Variants<'_>,
 ) -> io::Result<()> {
     for v in variants.by_ref() {
-        serde_json::to_writer(&mut *out, &VariantData::new(outcome, &v))?;
+        serde_json::to_writer(&mut *out, &variant::data(outcome, &v, None))?;
         writeln!(out)?;
     }
     if variants.stop() != Stop::Exhausted || outcome.numeric.is_some() || !outcome.is_confirmed() {
-        serde_json::to_writer(&mut *out, &EndData::new(outcome, &variants))?;
+        serde_json::to_writer(&mut *out, &data::end(outcome, &variants))?;
         writeln!(out)?;
     }
     Ok(())

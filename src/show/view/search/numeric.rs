@@ -6,8 +6,8 @@ use crate::search::answer::counts::Counts;
 use crate::search::numeric::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
 use num_bigint::BigUint;
 use num_traits::Zero;
-use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
 /// "12", or "12 to 15".
 #[must_use]
@@ -113,81 +113,40 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
     out
 }
 
-/// A search by singular values as data.
-#[derive(Debug, Serialize)]
-pub(in crate::view) struct NumericData {
-    tolerance: f64,
-    undecided: bool,
-    looked_at: u64,
-    determinate: BracketData,
-    admissible: BracketData,
-    admissible_by_mobility: BTreeMap<i64, BracketData>,
-    sample: Option<SampleData>,
-}
-
-#[derive(Debug, Serialize)]
-struct BracketData {
-    from: String,
-    to: String,
-    doubtful: String,
-}
-
-#[derive(Debug, Serialize)]
-struct SampleData {
-    drawn: usize,
-    seed: u64,
-    confidence: f64,
-    determinate_share: [f64; 3],
-    admissible_share: [f64; 3],
-    in_order: usize,
-    all_below_cost: Option<f64>,
-}
-
-impl NumericData {
-    pub(in crate::view) fn new(found: &AtTolerance) -> NumericData {
-        let bracket = |b: &Bracket| BracketData {
-            from: b.sure.total.to_string(),
-            to: b.most.to_string(),
-            doubtful: b.doubtful.total.to_string(),
-        };
-        let unseen = {
-            let b = &found.admissible;
-            &b.most - &b.sure.total - &b.doubtful.total
-        };
-        let of = |w: i64| {
-            let one = |c: &Counts| c.by_mobility.get(&w).cloned().unwrap_or_default();
-            let (sure, doubtful) = (one(&found.admissible.sure), one(&found.admissible.doubtful));
-            let data = BracketData {
-                to: (&sure + &doubtful + &unseen).to_string(),
-                from: sure.to_string(),
-                doubtful: doubtful.to_string(),
-            };
-            (w, data)
-        };
-        let admissible = [&found.admissible.sure, &found.admissible.doubtful];
-        let mobilities: BTreeSet<i64> = admissible
-            .into_iter()
-            .flat_map(|c| c.by_mobility.keys().copied())
-            .collect();
-        let share = |s: Share| [s.mean, s.low, s.high];
-        #[allow(clippy::cast_precision_loss, reason = "costs are small")]
-        let sample = found.sampled.as_ref().map(|s| SampleData {
-            drawn: s.drawn,
-            seed: s.seed,
-            confidence: 0.95,
-            determinate_share: share(s.determinate),
-            admissible_share: share(s.admissible),
-            in_order: s.in_order,
-            all_below_cost: s.all_below.map(|milli| milli as f64 / 1000.0),
-        });
-        NumericData {
-            tolerance: found.digits.tolerance,
-            undecided: found.digits.undecided,
-            looked_at: found.looked,
-            determinate: bracket(&found.determinate),
-            admissible: bracket(&found.admissible),
-            admissible_by_mobility: mobilities.into_iter().map(of).collect(),
-            sample,
-        }
-    }
+/// Returns a search by singular values as data.
+pub(in crate::view) fn data(found: &AtTolerance) -> Value {
+    let bracket = |from: &BigUint, to: &BigUint, doubtful: &BigUint| json!({ "from": from.to_string(), "to": to.to_string(), "doubtful": doubtful.to_string() });
+    let whole = |b: &Bracket| bracket(&b.sure.total, &b.most, &b.doubtful.total);
+    let of = &found.admissible;
+    let unseen = &of.most - &of.sure.total - &of.doubtful.total;
+    let with = |w: i64| {
+        let one = |c: &Counts| c.by_mobility.get(&w).cloned().unwrap_or_default();
+        let (sure, doubtful) = (one(&of.sure), one(&of.doubtful));
+        let most = &sure + &doubtful + &unseen;
+        (w.to_string(), bracket(&sure, &most, &doubtful))
+    };
+    let keys = [&of.sure, &of.doubtful].into_iter();
+    let keys: BTreeSet<i64> = keys.flat_map(|c| c.by_mobility.keys().copied()).collect();
+    let share = |s: Share| [s.mean, s.low, s.high];
+    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
+    let sample = |s: &Sampled| {
+        json!({
+            "drawn": s.drawn,
+            "seed": s.seed,
+            "confidence": 0.95,
+            "determinate_share": share(s.determinate),
+            "admissible_share": share(s.admissible),
+            "in_order": s.in_order,
+            "all_below_cost": s.all_below.map(|milli| milli as f64 / 1000.0),
+        })
+    };
+    json!({
+        "tolerance": found.digits.tolerance,
+        "undecided": found.digits.undecided,
+        "looked_at": found.looked,
+        "determinate": whole(&found.determinate),
+        "admissible": whole(of),
+        "admissible_by_mobility": keys.into_iter().map(with).collect::<Value>(),
+        "sample": found.sampled.as_ref().map(sample),
+    })
 }

@@ -1,13 +1,13 @@
 //! A ranking in words and as data.
 
 use crate::format::{cost, grouped, plural, significant};
-use crate::model::mechanism::{Joint, Mechanism};
-use crate::model::ranking::{Order, Ranking, Term};
+use crate::model::mechanism::Mechanism;
+use crate::model::ranking::{Order, Term};
 use crate::score::evaluation::load_cases::Gripped;
-use crate::score::evaluation::terms::Scores;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
+use crate::view::joined;
 use itertools::Itertools;
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::{Value, json};
 
 /// Reasons told at most.
 const REASONS: usize = 10;
@@ -160,124 +160,61 @@ pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     out
 }
 
-/// The ranking as data.
-#[derive(Debug, serde::Serialize)]
-pub(crate) struct RankingData<'a> {
-    #[serde(flatten)]
-    ranking: &'a Ranking,
-    pool: usize,
-    scored: usize,
-    scored_elsewhere: Option<usize>,
-    poses: usize,
-    grip: Vec<GripData<'a>>,
-    no_equilibrium: usize,
-    beyond_limits: usize,
-    minimum_norm: usize,
-    proven: bool,
-    proof: &'static str,
-    missing: Option<MissingData>,
+/// Returns the ranking as data. What is missing to a proof are sums, a cost, and a count as text, since it may be large.
+#[must_use]
+pub(crate) fn data(m: &Mechanism, p: &RankedPool) -> Value {
+    let grip =
+        |g: &Gripped| json!({ "state": m.states[g.state], "held": g.held, "not_held": g.lost });
+    let more = json!({
+        "pool": p.pool,
+        "scored": p.scored,
+        "scored_elsewhere": p.elsewhere,
+        "poses": p.poses,
+        "grip": p.gripped.iter().map(grip).collect::<Value>(),
+        "no_equilibrium": p.unheld,
+        "beyond_limits": p.limited,
+        "minimum_norm": p.open,
+        "proven": p.proven,
+        "proof": p.proof,
+        "missing": p.missing.as_ref().map(|m| json!({
+            "least_sum_elsewhere": m.least,
+            "last_sum": m.last,
+            "settled_at_cost": m.settled_at_cost(),
+            "cheaper": m.cheaper.as_ref().map(ToString::to_string),
+        })),
+    });
+    joined(&p.ranking, more)
 }
 
-/// What is missing to a proof: sums, a cost, and a count as text, since it may be large.
-#[derive(Debug, serde::Serialize)]
-struct MissingData {
-    least_sum_elsewhere: f64,
-    last_sum: f64,
-    settled_at_cost: f64,
-    cheaper: Option<String>,
-}
-
-#[derive(Debug, serde::Serialize)]
-struct GripData<'a> {
-    state: &'a str,
-    held: &'a [f64],
-    not_held: &'a [f64],
-}
-
-impl<'a> RankingData<'a> {
-    /// Of a ranked pool.
-    #[must_use]
-    pub(crate) fn new(m: &'a Mechanism, p: &'a RankedPool) -> Self {
-        let grip = p.gripped.iter().map(|g| GripData {
-            state: &m.states[g.state],
-            held: &g.held,
-            not_held: &g.lost,
-        });
-        RankingData {
-            ranking: &p.ranking,
-            pool: p.pool,
-            scored: p.scored,
-            scored_elsewhere: p.elsewhere,
-            poses: p.poses,
-            grip: grip.collect(),
-            no_equilibrium: p.unheld,
-            beyond_limits: p.limited,
-            minimum_norm: p.open,
-            proven: p.proven,
-            proof: p.proof,
-            missing: p.missing.as_ref().map(|m| MissingData {
-                least_sum_elsewhere: m.least,
-                last_sum: m.last,
-                settled_at_cost: m.settled_at_cost(),
-                cheaper: m.cheaper.as_ref().map(ToString::to_string),
-            }),
+/// Returns a ranked variant's own, with the reason of its place: each term's figure (the error in m), what the most loaded joints bear
+/// (forces in N, moments in N·m), place by cost, sum, front and reason.
+#[must_use]
+pub(crate) fn scores(m: &Mechanism, r: &Ranked, reason: Option<String>) -> Value {
+    let mut out = json!({});
+    for term in Term::ALL {
+        let (key, value) = (term.about().key, r.scores.value(term));
+        #[allow(clippy::cast_possible_truncation, reason = "a count")]
+        let value = if term.about().is_count {
+            json!(value as i64)
+        } else {
+            json!(value)
+        };
+        out[key] = value;
+        if let Some(peak) = r.scores.peak(term) {
+            let unit = match term {
+                Term::PeakForce => "newton",
+                _ => "newton-metre",
+            };
+            out[format!("{key}-{unit}")] = json!(peak.value);
+            out[format!("{key}-joint")] = json!(m.joints.get(peak.joint.index()).map(|j| &j.id));
         }
     }
-}
-
-/// A ranked variant's own: each term's figure (the error in m), what the most loaded joints bear (forces in N, moments in
-/// N·m), place by cost, sum, front and reason.
-#[derive(Debug)]
-pub(crate) struct RankedData<'a> {
-    scores: &'a Scores,
-    joints: &'a [Joint],
-    by_cost: usize,
-    total: Option<f64>,
-    front: Option<usize>,
-    reason: Option<String>,
-}
-
-impl<'a> RankedData<'a> {
-    /// Of a ranked variant, with the reason of its place.
-    #[must_use]
-    pub(crate) fn new(m: &'a Mechanism, r: &'a Ranked, reason: Option<String>) -> Self {
-        RankedData {
-            scores: &r.scores,
-            joints: &m.joints,
-            by_cost: r.by_cost,
-            total: r.total,
-            front: r.front,
-            reason,
-        }
-    }
-}
-
-impl Serialize for RankedData<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for term in Term::ALL {
-            let (about, value) = (term.about(), self.scores.value(term));
-            if about.is_count {
-                #[allow(clippy::cast_possible_truncation, reason = "a count")]
-                map.serialize_entry(about.key, &(value as i64))?;
-            } else {
-                map.serialize_entry(about.key, &value)?;
-            }
-            if let Some(peak) = self.scores.peak(term) {
-                let unit = match term {
-                    Term::PeakForce => "newton",
-                    _ => "newton-metre",
-                };
-                map.serialize_entry(&format!("{}-{unit}", about.key), &peak.value)?;
-                let joint = self.joints.get(peak.joint.index());
-                map.serialize_entry(&format!("{}-joint", about.key), &joint.map(|j| &j.id))?;
-            }
-        }
-        map.serialize_entry("minimum-norm", &self.scores.minimum_norm)?;
-        map.serialize_entry("by_cost", &self.by_cost)?;
-        map.serialize_entry("total", &self.total)?;
-        map.serialize_entry("front", &self.front)?;
-        map.serialize_entry("reason", &self.reason)?;
-        map.end()
-    }
+    let more = json!({
+        "minimum-norm": r.scores.minimum_norm,
+        "by_cost": r.by_cost,
+        "total": r.total,
+        "front": r.front,
+        "reason": reason,
+    });
+    joined(&out, more)
 }

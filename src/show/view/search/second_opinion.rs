@@ -5,9 +5,9 @@ use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
-use crate::search::check::second_opinion::{Asked, Contradiction, SecondOpinion};
+use crate::search::check::second_opinion::{Contradiction, SecondOpinion};
 use crate::view::{AS_READ, with_assumptions};
-use serde::Serialize;
+use serde_json::{Value, json};
 
 /// How sure counts are that are not exact though no budget cut them short.
 pub(in crate::view) fn certainty(outcome: &Outcome) -> Option<&'static str> {
@@ -141,63 +141,34 @@ fn agreed(said: &SecondOpinion) -> String {
     )
 }
 
-/// The second opinion as data.
-#[derive(Debug, Serialize)]
-pub(in crate::view) struct SecondOpinionData {
-    agree: bool,
-    undecided: bool,
-    tolerance: f64,
-    listed: Asked,
-    admissible: Asked,
-    all: Asked,
-    /// None where no singular value was dropped.
-    narrowest_gap: Option<f64>,
-    contradiction: Option<ContradictionData>,
-    below_present: Option<String>,
-    /// The least and the most (determinate, admissible) of scenes that the digits do not rule out, where they differ.
-    scenes: Option<[[String; 2]; 2]>,
-}
-
-#[derive(Debug, Serialize)]
-struct ContradictionData {
-    changes: String,
-    mobility: i64,
-    redundant: i64,
-    svd_mobility: [i64; 2],
-    svd_redundant: [i64; 2],
-    smallest_kept: f64,
-    largest_dropped: f64,
-}
-
-impl SecondOpinionData {
-    pub(in crate::view) fn new(outcome: &Outcome) -> Option<SecondOpinionData> {
-        let said = outcome.second.as_ref()?;
-        let contradiction = said.contradiction.as_ref().map(|c| {
-            let [least, most] = c.numeric;
-            ContradictionData {
-                changes: words(outcome, &c.choices),
-                mobility: c.exact.0,
-                redundant: c.exact.1,
-                svd_mobility: [least.0, most.0],
-                svd_redundant: [least.1, most.1],
-                smallest_kept: c.gap.0,
-                largest_dropped: c.gap.1,
-            }
-        });
-        Some(SecondOpinionData {
-            agree: said.agrees() && said.undecided() == 0,
-            undecided: said.digits.undecided,
-            tolerance: said.digits.tolerance,
-            listed: said.listed,
-            admissible: said.admissible,
-            all: said.all,
-            narrowest_gap: Some(said.narrowest).filter(|g| g.is_finite()),
-            contradiction,
-            below_present: said.below_present.as_ref().map(|b| b.variants.to_string()),
-            scenes: said
-                .scenes
-                .as_ref()
-                .map(|s| s.each_ref().map(|(a, b)| [a.to_string(), b.to_string()])),
+/// Returns the second opinion as data; `scenes` are the least and the most (determinate, admissible) of those that the digits do not
+/// rule out, where they differ.
+pub(in crate::view) fn data(outcome: &Outcome) -> Option<Value> {
+    let said = outcome.second.as_ref()?;
+    let contradiction = said.contradiction.as_ref().map(|c| {
+        let [least, most] = c.numeric;
+        json!({
+            "changes": words(outcome, &c.choices),
+            "mobility": c.exact.0,
+            "redundant": c.exact.1,
+            "svd_mobility": [least.0, most.0],
+            "svd_redundant": [least.1, most.1],
+            "smallest_kept": c.gap.0,
+            "largest_dropped": c.gap.1,
         })
-    }
+    });
+    let scenes = said.scenes.as_ref();
+    Some(json!({
+        "agree": said.agrees() && said.undecided() == 0,
+        "undecided": said.digits.undecided,
+        "tolerance": said.digits.tolerance,
+        "listed": said.listed,
+        "admissible": said.admissible,
+        "all": said.all,
+        // There is none where no singular value was dropped.
+        "narrowest_gap": Some(said.narrowest).filter(|g| g.is_finite()),
+        "contradiction": contradiction,
+        "below_present": said.below_present.as_ref().map(|b| b.variants.to_string()),
+        "scenes": scenes.map(|s| s.each_ref().map(|(a, b)| [a.to_string(), b.to_string()])),
+    }))
 }

@@ -6,7 +6,7 @@ use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::singular_values::Summary;
 use crate::search::diagram::Stop;
 use num_bigint::BigUint;
-use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Why a search ended early and what its counts and its list are; nothing of one that did not.
 #[must_use]
@@ -93,34 +93,15 @@ pub(crate) fn proven(summary: &Summary) -> Option<String> {
     }
 }
 
-/// An estimate as data.
-#[derive(Debug, Serialize)]
-pub(in crate::view) struct EstimateData {
-    mean: f64,
-    standard_error: f64,
-    /// The interval with a confidence of 95 %.
-    between: [f64; 2],
-    at_most: Option<String>,
-    samples: SampleData,
-    seed: u64,
-}
-
-#[derive(Debug, Serialize)]
-struct SampleData {
-    of: usize,
-    found: usize,
-}
-
-impl From<&Estimate> for EstimateData {
-    fn from(e: &Estimate) -> Self {
-        let Drawn { of, found } = e.drawn;
-        EstimateData {
-            mean: e.mean,
-            standard_error: e.standard_error,
-            between: e.between,
-            at_most: e.at_most.as_ref().map(ToString::to_string),
-            samples: SampleData { of, found },
-            seed: e.seed,
-        }
-    }
+/// Returns an estimate as data; `between` is the interval with a confidence of 95 %.
+pub(in crate::view) fn estimate(e: &Estimate) -> Value {
+    let Drawn { of, found } = e.drawn;
+    json!({
+        "mean": e.mean,
+        "standard_error": e.standard_error,
+        "between": e.between,
+        "at_most": e.at_most.as_ref().map(ToString::to_string),
+        "samples": { "of": of, "found": found },
+        "seed": e.seed,
+    })
 }
