@@ -27,11 +27,10 @@ mod workload;
 use crate::format::plain::straight;
 use crate::redundancy::AnalysisError;
 use crate::view::analysis::Analysis;
-use data::Data;
 use maud::{Markup, PreEscaped, html};
 use policy::{POLICY, STYLE};
+use serde_json::Value;
 use symbols::Drawn;
-use variants::FoundColumns;
 
 pub use contents::{Commands, Page, Redesigns, SHOWN};
 pub use symbols::named_swaps;
@@ -81,10 +80,10 @@ const SECTIONS: [(&str, &str); 5] = [
 ];
 
 /// What the search found and what its ideas are, where there are any.
-fn found(page: &Page<'_>) -> Result<[Option<FoundColumns>; 2], AnalysisError> {
+fn found(page: &Page<'_>) -> Result<[Option<Value>; 2], AnalysisError> {
     let columns = |r: Option<&Redesigns<'_>>| {
         let some = r.filter(|r| !r.variants.is_empty());
-        some.map(|r| FoundColumns::new(page, r)).transpose()
+        some.map(|r| variants::columns(page, r)).transpose()
     };
     Ok([
         columns(page.redesigns.as_ref().ok())?,
@@ -117,7 +116,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let analysis = Analysis::new(m, page.states, &[]);
     let drawn: Vec<Drawn<'_>> = m.state_ids().map(|s| Drawn::new(page, s)).collect();
     let (store, swaps) = symbols::store(&drawn);
-    let data = Data::new(page, &analysis, found(page)?, swaps).script();
+    let data = data::script(page, &analysis, found(page)?, &swaps);
     let section = |n: usize, inside: Markup| {
         let (mark, head) = SECTIONS[n];
         html! {

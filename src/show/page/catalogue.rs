@@ -78,7 +78,6 @@ fn cards(store: &Store) -> Result<Vec<Map<String, Value>>, StoreError> {
             "ideas".to_owned(),
             of.into_iter().map(Value::Object).collect(),
         );
-        let drawn = drawn.and_then(|d| serde_json::to_value(d).ok());
         card.insert("drawing".to_owned(), drawn.unwrap_or_default());
         cards.push(card);
     }

@@ -4,58 +4,12 @@ use crate::geom::vector::{Vector, length, real, sides, turned, unit};
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, Role, StateId};
 use itertools::Itertools;
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::f64::consts::PI;
-
-/// The drawing of a mechanism as numbers.
-#[derive(Serialize)]
-pub(super) struct DrawingData {
-    /// The places of the joints, and their names.
-    pins: Vec<[f64; 2]>,
-    names: Vec<String>,
-    /// The two links of each joint.
-    ends: Vec<[usize; 2]>,
-    /// What each joint is in the plane: hinge, slide, slot (its pin on the first link).
-    kinds: Vec<&'static str>,
-    /// Which way slides and slots go.
-    along: Vec<[f64; 2]>,
-    gears: Vec<GearData>,
-    /// The pins of each link.
-    links: Vec<Vec<usize>>,
-    /// The links that are the frame, the driver and the jaws.
-    frame: usize,
-    driver: Option<usize>,
-    jaws: Vec<usize>,
-    /// The joint that drives, and whether it slides.
-    drive: Option<usize>,
-    slides: bool,
-    /// Where the jaws grip.
-    tips: Option<Vec<[f64; 2]>>,
-    /// Units of the drawing for one of the mechanism.
-    scale: f64,
-    /// Whether two of three sides are seen, one laid opposite the other.
-    folded: bool,
-}
-
-/// Two gears, or a pinion and its rack.
-#[derive(Serialize)]
-struct GearData {
-    /// The joints by which the carrier holds them.
-    joints: [usize; 2],
-    /// The rate of the second joint over that of the first.
-    ratio: f64,
-    /// The links: of the first joint, and of the second.
-    links: [usize; 2],
-    carrier: usize,
-    /// Where the pitch circles touch, or a nut is on its screw.
-    pitch: [f64; 2],
-    /// Whether it is a nut on a screw, which turns about its axis in the plane.
-    thread: bool,
-}
 
 /// The drawing of a mechanism; none of one whose pins are not all square to the plane of x and y, nor to planes at 120° through the
 /// x axis.
-pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
+pub(super) fn drawing(m: &Mechanism) -> Option<Value> {
     let view = View::of(m)?;
     let joints = &view.joints;
     let pins: Vec<[f64; 2]> = joints.iter().map(|j| j.pin).collect();
@@ -72,31 +26,38 @@ pub(super) fn drawing(m: &Mechanism) -> Option<DrawingData> {
         freedoms.iter().any(|f| f.slides())
     };
     let gears = m.couplings_in(StateId::FREE).filter(|c| c.gear);
-    let gears = gears.filter_map(|c| GearData::new(&view, c, scaled));
+    let gears = gears.filter_map(|c| geared(&view, c, scaled));
     let threads = view.threads.iter();
-    let gears = gears.chain(threads.filter_map(|t| GearData::of_thread(m, &view, t, scaled)));
+    let gears = gears.chain(threads.filter_map(|t| threaded(m, &view, t, scaled)));
     let link = |l: LinkId| view.link(l);
     let ends = joints.iter().map(|j| match j.joint.links.map(link) {
         [Some(a), Some(b)] => Some([a, b]),
         _ => None,
     });
-    Some(DrawingData {
-        gears: gears.collect(),
-        ends: ends.collect::<Option<_>>()?,
-        kinds: joints.iter().map(|j| kind(j.joint)).collect(),
-        along: joints.iter().map(|j| j.along).collect(),
-        pins: pins.iter().map(place).collect(),
-        names: joints.iter().map(|j| j.joint.id.clone()).collect(),
-        links: view.links.iter().map(|&l| of(l).collect()).collect(),
-        frame: link(m.frame())?,
-        driver: driver.and_then(link),
-        jaws: jaws.into_iter().map(link).collect::<Option<_>>()?,
-        slides: drive.is_some_and(slides),
-        drive,
-        tips: tips.map(|t| t.iter().map(place).collect()),
-        scale: scaled,
-        folded: view.folded,
-    })
+    Some(json!({
+        "pins": pins.iter().map(place).collect::<Vec<_>>(),
+        "names": joints.iter().map(|j| &j.joint.id).collect::<Vec<_>>(),
+        // The two links of each joint.
+        "ends": ends.collect::<Option<Vec<_>>>()?,
+        // What each joint is in the plane: hinge, slide, slot (its pin on the first link).
+        "kinds": joints.iter().map(|j| kind(j.joint)).collect::<Vec<_>>(),
+        // Which way slides and slots go.
+        "along": joints.iter().map(|j| j.along).collect::<Vec<_>>(),
+        "gears": gears.collect::<Vec<_>>(),
+        // The pins of each link.
+        "links": view.links.iter().map(|&l| of(l).collect::<Vec<_>>()).collect::<Vec<_>>(),
+        "frame": link(m.frame())?,
+        "driver": driver.and_then(link),
+        "jaws": jaws.into_iter().map(link).collect::<Option<Vec<_>>>()?,
+        "drive": drive,
+        "slides": drive.is_some_and(slides),
+        // Where the jaws grip.
+        "tips": tips.map(|t| t.iter().map(place).collect::<Vec<_>>()),
+        // Units of the drawing for one of the mechanism.
+        "scale": scaled,
+        // Whether two of three sides are seen, one laid opposite the other.
+        "folded": view.folded,
+    }))
 }
 
 /// A joint as it is seen in the plane.
@@ -249,79 +210,80 @@ fn kind(joint: &Joint) -> &'static str {
     }
 }
 
-impl GearData {
-    /// Of a coupling of two hinges, or of a hinge and a slide, that have a link in common.
-    fn new(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<GearData> {
-        let at = |id: JointId| view.joints.iter().position(|j| j.id == id);
-        let [a, b] = coupling.ends.map(|e| at(e.joint));
-        let joints = [a?, b?];
-        let seen = joints.map(|i| &view.joints[i]);
-        let ends = seen.map(|s| s.joint.links);
-        let carrier = *ends[0].iter().find(|l| ends[1].contains(l))?;
-        let other = |k: usize| ends[k].into_iter().find(|l| *l != carrier);
-        let links = [other(0)?, other(1)?];
-        let link = |l: LinkId| view.link(l);
-        // By how much the second goes for a turn of the first, both against the carrier.
-        let told = seen[0].way * seen[1].way * coupling.ratio.to_f64();
-        let turned = ends.iter().filter(|links| links[0] != carrier).count() == 1;
-        let rate = if turned { -told } else { told };
-        let [a, b] = seen.map(|s| s.pin);
-        let kinds = seen.map(|s| kind(s.joint));
-        let (pitch, ratio) = match kinds {
-            ["hinge", "hinge"] if rate < 0.0 => {
-                let share = rate / (rate - 1.0);
-                let pitch = [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
-                (pitch, told)
-            }
-            ["hinge", "slide"] => {
-                let [x, y] = seen[1].along;
-                ([a[0] + rate * y, a[1] - rate * x], told * scale)
-            }
-            ["slide", "hinge"] => {
-                let [x, y] = seen[0].along;
-                let radius = 1.0 / rate;
-                ([b[0] + radius * y, b[1] - radius * x], told / scale)
-            }
-            _ => return None,
-        };
-        Some(GearData {
-            joints,
-            ratio,
-            links: [link(links[0])?, link(links[1])?],
-            carrier: link(carrier)?,
-            pitch: pitch.map(|x| x * scale),
-            thread: false,
-        })
-    }
+/// Returns the gears of a coupling of two hinges, or of a hinge and a slide, that have a link in common.
+fn geared(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<Value> {
+    let at = |id: JointId| view.joints.iter().position(|j| j.id == id);
+    let [a, b] = coupling.ends.map(|e| at(e.joint));
+    let joints = [a?, b?];
+    let seen = joints.map(|i| &view.joints[i]);
+    let ends = seen.map(|s| s.joint.links);
+    let carrier = *ends[0].iter().find(|l| ends[1].contains(l))?;
+    let other = |k: usize| ends[k].into_iter().find(|l| *l != carrier);
+    let links = [other(0)?, other(1)?];
+    let link = |l: LinkId| view.link(l);
+    // By how much the second goes for a turn of the first, both against the carrier.
+    let told = seen[0].way * seen[1].way * coupling.ratio.to_f64();
+    let turned = ends.iter().filter(|links| links[0] != carrier).count() == 1;
+    let rate = if turned { -told } else { told };
+    let [a, b] = seen.map(|s| s.pin);
+    let kinds = seen.map(|s| kind(s.joint));
+    let (pitch, ratio) = match kinds {
+        ["hinge", "hinge"] if rate < 0.0 => {
+            let share = rate / (rate - 1.0);
+            let pitch = [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
+            (pitch, told)
+        }
+        ["hinge", "slide"] => {
+            let [x, y] = seen[1].along;
+            ([a[0] + rate * y, a[1] - rate * x], told * scale)
+        }
+        ["slide", "hinge"] => {
+            let [x, y] = seen[0].along;
+            let radius = 1.0 / rate;
+            ([b[0] + radius * y, b[1] - radius * x], told / scale)
+        }
+        _ => return None,
+    };
+    Some(json!({
+        // The joints by which the carrier holds them.
+        "joints": joints,
+        // The rate of the second joint over that of the first.
+        "ratio": ratio,
+        // Of the first joint, and of the second.
+        "links": [link(links[0])?, link(links[1])?],
+        "carrier": link(carrier)?,
+        // Where the pitch circles touch, or a nut is on its screw.
+        "pitch": pitch.map(|x| x * scale),
+        "thread": false,
+    }))
+}
 
-    /// Of a nut that slides along a screw which is driven in the frame.
-    fn of_thread(m: &Mechanism, view: &View<'_>, thread: &Joint, scale: f64) -> Option<GearData> {
-        let drive = view.joints.iter().position(|j| j.joint.drive)?;
-        let held = view.joints[drive].joint;
-        let screw = *held.links.iter().find(|l| thread.links.contains(l))?;
-        let nut = *thread.links.iter().find(|l| **l != screw)?;
-        let guides =
-            |j: &&SeenJoint<'_>| j.joint.links.contains(&nut) && j.joint.links.contains(&m.frame());
-        let guide = view.joints.iter().position(|j| guides(&j))?;
-        let [x, y] = flat(real(&held.frame.axis));
-        let [u, v] = flat(real(&thread.frame.axis));
-        let [p, q] = view.joints[guide].along;
-        let along = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-        // A nut that does not turn goes back where the screw turns on, each joint by the order of its own links.
-        let way = along([x, y], [u, v]).signum() * along([u, v], [p, q]).signum();
-        let order =
-            |joint: &Joint, second: LinkId| if joint.links[1] == second { 1.0 } else { -1.0 };
-        let order = order(held, screw) * order(view.joints[guide].joint, nut);
-        let link = |l: LinkId| view.link(l);
-        Some(GearData {
-            joints: [drive, guide],
-            ratio: -way * order * thread.frame.pitch.to_f64() * scale,
-            links: [link(screw)?, link(nut)?],
-            carrier: link(m.frame())?,
-            pitch: flat(real(&thread.frame.point)).map(|x| x * scale),
-            thread: true,
-        })
-    }
+/// Of a nut that slides along a screw which is driven in the frame.
+fn threaded(m: &Mechanism, view: &View<'_>, thread: &Joint, scale: f64) -> Option<Value> {
+    let drive = view.joints.iter().position(|j| j.joint.drive)?;
+    let held = view.joints[drive].joint;
+    let screw = *held.links.iter().find(|l| thread.links.contains(l))?;
+    let nut = *thread.links.iter().find(|l| **l != screw)?;
+    let guides =
+        |j: &&SeenJoint<'_>| j.joint.links.contains(&nut) && j.joint.links.contains(&m.frame());
+    let guide = view.joints.iter().position(|j| guides(&j))?;
+    let [x, y] = flat(real(&held.frame.axis));
+    let [u, v] = flat(real(&thread.frame.axis));
+    let [p, q] = view.joints[guide].along;
+    let along = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    // A nut that does not turn goes back where the screw turns on, each joint by the order of its own links.
+    let way = along([x, y], [u, v]).signum() * along([u, v], [p, q]).signum();
+    let order = |joint: &Joint, second: LinkId| if joint.links[1] == second { 1.0 } else { -1.0 };
+    let order = order(held, screw) * order(view.joints[guide].joint, nut);
+    let link = |l: LinkId| view.link(l);
+    Some(json!({
+        "joints": [drive, guide],
+        "ratio": -way * order * thread.frame.pitch.to_f64() * scale,
+        "links": [link(screw)?, link(nut)?],
+        "carrier": link(m.frame())?,
+        "pitch": flat(real(&thread.frame.point)).map(|x| x * scale),
+        "thread": true,
+    }))
 }
 
 /// How many times larger a drawing is to be made: layouts are about as large as symbols are drawn for, whatever units a

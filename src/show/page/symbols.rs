@@ -6,7 +6,7 @@ use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::score::outcome::Outcome;
 use crate::search::question::space::choice_name;
 use maud::{Markup, PreEscaped, html};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// The drawings of a state, with the symbols of [`places`] in that order.
@@ -87,17 +87,8 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// Where the symbols of a state belong: by kind of drawing, rows of variable, choice, joint and number of the symbol.
-#[derive(Serialize)]
-pub(super) struct Swaps {
-    scheme: Vec<[usize; 4]>,
-    kinematic: Vec<[usize; 4]>,
-    /// In space the symbol is that of the scene's own list.
-    space: Vec<[usize; 4]>,
-}
-
 /// The symbols as groups of an SVG that is not shown, each once, and where they belong, state by state.
-pub(super) fn store(drawn: &[Drawn<'_>]) -> (Markup, Vec<Swaps>) {
+pub(super) fn store(drawn: &[Drawn<'_>]) -> (Markup, Value) {
     let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
     let mut store: Vec<&str> = Vec::new();
     let mut states = Vec::new();
@@ -110,20 +101,17 @@ pub(super) fn store(drawn: &[Drawn<'_>]) -> (Markup, Vec<Swaps>) {
                 });
                 [*v, *c, swap.joint.index(), number]
             });
-            rows.collect()
+            rows.collect::<Vec<_>>()
         });
         let space = d.places.iter().enumerate();
         let space = space.map(|(n, (v, c, swap))| [*v, *c, swap.joint.index(), n]);
-        states.push(Swaps {
-            scheme,
-            kinematic,
-            space: space.collect(),
-        });
+        let space = space.collect::<Vec<_>>();
+        states.push(json!({ "scheme": scheme, "kinematic": kinematic, "space": space }));
     }
     let store = html! {
         @for (number, symbol) in store.iter().enumerate() {
             g data-symbol=(number) { (PreEscaped(symbol)) }
         }
     };
-    (store, states)
+    (store, Value::from(states))
 }

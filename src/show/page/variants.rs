@@ -1,7 +1,7 @@
 //! The variants as columns for the script.
 
 use super::contents::{Page, Redesigns};
-use super::workload::{PageNumber, WorkloadColumns, workload};
+use super::workload::{measured, workload};
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
@@ -14,72 +14,15 @@ use crate::score::outcome::variant::Variant;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::singular_values::CHECKED;
 use crate::search::check::variant_mechanism;
-use crate::search::question::space::{Variable, choice_name};
+use crate::search::question::space::{Choice, Variable, choice_name};
 use crate::view::analysis::idle;
 use crate::view::search::variant::price;
 use crate::view::search::{text, why};
 use rayon::prelude::*;
-use serde::Serialize;
-
-/// Everything the script knows of the search: counts, what can be chosen, and a column for each figure of the variants.
-#[derive(Serialize)]
-pub(super) struct FoundColumns {
-    space: String,
-    determinate: String,
-    admissible: String,
-    max_redundant: u32,
-    state: Option<usize>,
-    variables: Vec<Choices>,
-    /// Pairs of a variable and its choice, where that is not the present one.
-    choices: Vec<Vec<usize>>,
-    cost: Vec<serde_json::Value>,
-    changes: Vec<u32>,
-    mobility: Vec<i64>,
-    redundant: Vec<u32>,
-    external: Option<Vec<Option<i32>>>,
-    idle: Option<Vec<Option<i64>>>,
-    /// Idle motions repeat: each text once, and its number by variant.
-    idle_words: Vec<String>,
-    idle_word: Vec<usize>,
-    /// The states but the free one.
-    states: Vec<InState>,
-    contours: Vec<Option<Vec<usize>>>,
-    conditioning: Vec<Option<PageNumber>>,
-    agree: Vec<Option<bool>>,
-    lucky: Vec<Option<bool>>,
-    notes: Vec<Option<String>>,
-    /// Whether everything was looked at, so that what ideas stand for is counted and no lower bound.
-    exact: bool,
-    /// What each idea adds in words, and how many variants it stands for; nothing for single variants.
-    adds: Vec<Option<String>>,
-    stands_for: Vec<Option<String>>,
-    /// Of the first ideas, line by line, what `ozols search` says of them.
-    why: Vec<Vec<(String, String)>>,
-    workload: Option<WorkloadColumns>,
-}
+use serde_json::{Value, json};
 
 /// Ideas that a page says why of: two pages of its table. `ozols search --format json` says it of all.
 const TOLD: usize = 50;
-
-/// What can be put at a variable.
-#[derive(Serialize)]
-struct Choices {
-    joints: Vec<usize>,
-    choices: Vec<ChoiceData>,
-}
-
-#[derive(Serialize)]
-struct ChoiceData {
-    names: Vec<String>,
-    class: Option<&'static str>,
-    unloading: bool,
-}
-
-#[derive(Serialize)]
-struct InState {
-    mobility: Vec<usize>,
-    redundant: Vec<usize>,
-}
 
 /// What takes a computation of its own.
 struct Further {
@@ -109,75 +52,62 @@ fn further(r: &Redesigns<'_>) -> Result<Vec<Further>, AnalysisError> {
     r.variants.par_iter().enumerate().map(one).collect()
 }
 
-impl FoundColumns {
-    pub(super) fn new(page: &Page<'_>, r: &Redesigns<'_>) -> Result<FoundColumns, AnalysisError> {
-        let search = &r.found.search;
-        let further = further(r)?;
-        let working = page.states.first().map(|s| s.working_mobility);
-        let working = working.and_then(|w| i64::try_from(w).ok());
-        let (idle_words, idle_word) = idle_words(&further);
-        let states = (1..search.mechanism.states.len()).map(|s| InState::new(&further, s));
-        let conditions = &search.conditions;
-        Ok(FoundColumns {
-            space: search.size().to_string(),
-            determinate: r.found.determinate.total.to_string(),
-            admissible: r.found.listed_counts().total.to_string(),
-            max_redundant: conditions.max_redundant,
-            state: conditions.state.map(|s| s.state.index()),
-            variables: search
-                .space
-                .variables
-                .iter()
-                .map(|v| Choices::new(&search.mechanism, v))
-                .collect(),
-            choices: column(r, |c| {
-                let choices = c.assignment().choices.iter().enumerate();
-                let changed = choices.filter(|(_, c)| **c != 0);
-                changed.flat_map(|(v, &c)| [v, c]).collect()
-            }),
-            cost: column(r, |c| price(c.cost_milli())),
-            changes: column(r, |c| c.change_count()),
-            mobility: column(r, |c| c.mobility()),
-            redundant: column(r, |c| c.redundant()),
-            external: conditions
-                .state
-                .map(|_| column(r, |c| c.external_redundant())),
-            idle: conditions
-                .keep_output
-                .then(|| column(r, |c| working.map(|w| c.mobility() - w))),
-            idle_words,
-            idle_word,
-            states: states.collect(),
-            contours: further.iter().map(|f| f.contours.clone()).collect(),
-            conditioning: column(r, |c| {
-                let opinion = c.second().opinion();
-                opinion.map(|o| PageNumber::measured(o.conditioning))
-            }),
-            agree: column(r, |c| c.second().opinion().map(|o| o.agree)),
-            lucky: column(r, |c| c.over_stroke().and_then(|s| s.lucky())),
-            notes: column(r, text::note),
-            exact: r.found.is_exact(),
-            adds: column(r, |c| {
-                let added = c.idea().map(|i| &i.added);
-                added.map(|a| freedom_patterns::in_words(&search.mechanism, a))
-            }),
-            stands_for: column(r, |c| c.idea().map(|i| i.variants.to_string())),
-            why: why(r),
-            workload: workload(r),
-        })
-    }
-}
-
-impl InState {
-    /// The figures of the variants in a state other than the free one.
-    fn new(further: &[Further], state: usize) -> InState {
-        let of = further.iter().map(|f| f.states[state - 1]);
-        let (mobility, redundant) = of.unzip();
-        InState {
-            mobility,
-            redundant,
-        }
-    }
+/// Returns everything the script knows of the search: counts, what can be chosen, and a column for each figure of the variants.
+pub(super) fn columns(page: &Page<'_>, r: &Redesigns<'_>) -> Result<Value, AnalysisError> {
+    let search = &r.found.search;
+    let further = further(r)?;
+    let working = page.states.first().map(|s| s.working_mobility);
+    let working = working.and_then(|w| i64::try_from(w).ok());
+    let (idle_words, idle_word) = idle_words(&further);
+    let state = |s: usize| {
+        let of = further.iter().map(|f| f.states[s - 1]);
+        let (mobility, redundant): (Vec<_>, Vec<_>) = of.unzip();
+        json!({ "mobility": mobility, "redundant": redundant })
+    };
+    let changed = |c: &Variant<'_>| {
+        let choices = c.assignment().choices.iter().enumerate();
+        let changed = choices.filter(|(_, c)| **c != 0);
+        changed.flat_map(|(v, &c)| [v, c]).collect::<Vec<_>>()
+    };
+    let added = |c: &Variant<'_>| {
+        let idea = c.idea();
+        idea.map(|i| freedom_patterns::in_words(&search.mechanism, &i.added))
+    };
+    let variables = search.space.variables.iter();
+    let (conditions, mechanism) = (&search.conditions, &search.mechanism);
+    Ok(json!({
+        "space": search.size().to_string(),
+        "determinate": r.found.determinate.total.to_string(),
+        "admissible": r.found.listed_counts().total.to_string(),
+        "max_redundant": conditions.max_redundant,
+        "state": conditions.state.map(|s| s.state.index()),
+        "variables": variables.map(|v| choices(mechanism, v)).collect::<Value>(),
+        // Pairs of a variable and its choice, where that is not the present one.
+        "choices": column(r, changed),
+        "cost": column(r, |c| price(c.cost_milli())),
+        "changes": column(r, |c| c.change_count()),
+        "mobility": column(r, |c| c.mobility()),
+        "redundant": column(r, |c| c.redundant()),
+        "external": conditions.state.map(|_| column(r, |c| c.external_redundant())),
+        "idle": conditions.keep_output.then(|| column(r, |c| working.map(|w| c.mobility() - w))),
+        // Idle motions repeat: each text once, and its number by variant.
+        "idle_words": idle_words,
+        "idle_word": idle_word,
+        // The states but the free one.
+        "states": (1..mechanism.states.len()).map(state).collect::<Value>(),
+        "contours": further.iter().map(|f| f.contours.as_ref()).collect::<Vec<_>>(),
+        "conditioning": column(r, |c| c.second().opinion().map(|o| measured(o.conditioning))),
+        "agree": column(r, |c| c.second().opinion().map(|o| o.agree)),
+        "lucky": column(r, |c| c.over_stroke().and_then(|s| s.lucky())),
+        "notes": column(r, text::note),
+        // Whether everything was looked at, so that what ideas stand for is counted and no lower bound.
+        "exact": r.found.is_exact(),
+        "adds": column(r, added),
+        "stands_for": column(r, |c| c.idea().map(|i| i.variants.to_string())),
+        // Of the first ideas, line by line, what `ozols search` says of them.
+        "why": why(r),
+        "workload": workload(r),
+    }))
 }
 
 /// The texts on idle motions, each once, and the number of its text by variant.
@@ -204,22 +134,21 @@ fn column<T>(r: &Redesigns<'_>, of: impl Fn(&Variant<'_>) -> T) -> Vec<T> {
     r.variants.iter().map(of).collect()
 }
 
-impl Choices {
-    fn new(m: &Mechanism, v: &Variable) -> Choices {
-        let choices = v.choices.iter().map(|c| {
-            let first = v.joints.first();
-            let option = first.and_then(|&j| m.joints[j].options.get(c.option));
-            ChoiceData {
-                names: v.joints.iter().map(|&j| choice_name(m, j, c)).collect(),
-                class: option.map(|o| o.joint_type.class()),
-                unloading: c.unloading.is_some(),
-            }
-        });
-        Choices {
-            joints: v.joints.iter().map(|j| j.index()).collect(),
-            choices: choices.collect(),
-        }
-    }
+/// Returns what can be put at a variable.
+fn choices(m: &Mechanism, v: &Variable) -> Value {
+    let choice = |c: &Choice| {
+        let first = v.joints.first();
+        let option = first.and_then(|&j| m.joints[j].options.get(c.option));
+        json!({
+            "names": v.joints.iter().map(|&j| choice_name(m, j, c)).collect::<Value>(),
+            "class": option.map(|o| o.joint_type.class()),
+            "unloading": c.unloading.is_some(),
+        })
+    };
+    json!({
+        "joints": v.joints.iter().map(|j| j.index()).collect::<Value>(),
+        "choices": v.choices.iter().map(choice).collect::<Value>(),
+    })
 }
 
 /// W and σ of a state of a mechanism.
