@@ -7,7 +7,7 @@ use crate::drive::driving::drive;
 use crate::drive::shares;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
-use crate::view::drive::{charts::cam, charts::charts, charts::motion, samples::Samples, text};
+use crate::view::drive::{charts::cam, charts::charts, charts::motion, text};
 use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
@@ -57,7 +57,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
             let (module, programme) = (&design.module, &file.spec.programme);
             let shares = shares(module, programme, t, a.samples, args.seed)
                 .context("a sample does not swing; lower --tolerance")?;
-            shown.samples = Some(Samples::new(&shares));
+            shown.samples = Some(shares);
         }
     }
     if let (Some(folder), true) = (&a.svg, shown.design.is_some()) {
@@ -76,7 +76,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Json => output::json(out, &shown.json())?,
             TextOrJson::Text => {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", text::drive(&shown, width))?;
@@ -87,7 +87,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
                 }
             }
         }
-        Ok(if shown.complete {
+        Ok(if shown.complete() {
             Done::Found
         } else {
             Done::Nothing

@@ -4,7 +4,7 @@ use crate::chart::{Axis, Chart, Outline, Scale, Series, Style};
 use crate::drive::driving::PROFILE_POINTS;
 use crate::drive::programme::RunMoment;
 use crate::format::csv;
-use crate::view::drive::Drive;
+use crate::view::drive::{Drive, feed_moments};
 
 /// Points drawn of a swing.
 const PER_SWING: u32 = 48;
@@ -12,7 +12,7 @@ const PER_SWING: u32 = 48;
 /// The cam's profile, where the cam's and the roller's radius are stated; in the file's unit.
 #[must_use]
 pub fn cam(d: &Drive<'_>) -> Option<Outline> {
-    let cam = d.design.as_ref()?.cam.as_ref()?;
+    let cam = d.design?.cam.as_ref()?;
     let (profile, unit) = (cam.profile.as_ref()?, d.file.length_unit);
     let (_, roller) = d.file.spec.cam?.profile?;
     let own = |p: [f64; 2]| p.map(|x| x / unit.metres);
@@ -37,10 +37,10 @@ pub fn cam(d: &Drive<'_>) -> Option<Outline> {
         curves.push((format!("roller in groove {}", i + 1), round.collect()));
     }
     Some(Outline {
-        title: format!("{}: profile of the cam", d.mechanism),
+        title: format!("{}: profile of the cam", d.file.name),
         subtitle: format!(
             "{} on the flanks; grooves as the roller is round, to be cut as deep as the latch wants them.",
-            match d.design.as_ref()?.feed_moments.len() {
+            match feed_moments(d.design?).len() {
                 0 | 1 => "An even moment",
                 _ => "The moments that the file states",
             }
@@ -54,7 +54,7 @@ pub fn cam(d: &Drive<'_>) -> Option<Outline> {
 /// outwards from the axis (its x), the part along the axis (its z).
 #[must_use]
 pub fn motion(d: &Drive<'_>) -> Option<String> {
-    let (found, payload) = (d.found?, d.file.spec.payload?);
+    let (found, payload) = (d.design?, d.file.spec.payload?);
     let rows = found
         .module
         .samples(&found.run, PER_SWING)
@@ -72,7 +72,7 @@ pub fn motion(d: &Drive<'_>) -> Option<String> {
 /// Both charts with the names of their files; none without a bar.
 #[must_use]
 pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
-    let Some(found) = d.found else {
+    let Some(found) = d.design else {
         return Vec::new();
     };
     let samples = found.module.samples(&found.run, PER_SWING);
@@ -82,7 +82,7 @@ pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
         style,
     };
     let chart = |title: &str, y: &str, series| Chart {
-        title: format!("{}: {title}", d.mechanism),
+        title: format!("{}: {title}", d.file.name),
         subtitle: String::new(),
         x: Axis {
             label: "time, s".to_owned(),

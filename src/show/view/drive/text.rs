@@ -1,12 +1,13 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
-use crate::drive::driving::{CamDesign, DampingFrom};
-use crate::drive::programme::{Event, PATIENCE};
+use crate::drive::driving::{CamDesign, DampingFrom, Design};
+use crate::drive::programme::{Endurance, Event, PATIENCE};
 use crate::drive::swing::End;
-use crate::drive::torsion::{Remedy, stored_energy};
+use crate::drive::torsion::{Remedy, decrement, stored_energy};
 use crate::format::{plural, significant};
-use crate::view::claims;
-use crate::view::drive::{Design, Drive, Endurance, FeedMoment};
+use crate::model::claim::Topic;
+use crate::view::claims::{self, about};
+use crate::view::drive::{Drive, feed_moments, samples};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
@@ -20,11 +21,11 @@ const PIECES: usize = 6;
 pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = match &d.design {
+    let _ = match d.design {
         Some(design) => designed(&mut out, d, design, width),
         None => refused(&mut out, d, width),
     };
-    out += &claims::text(&d.claims, width);
+    out += &claims::text(&about(&d.file.claims, Topic::Drive), width);
     fit(&out, width)
 }
 
@@ -42,9 +43,9 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
     writeln!(
         out,
         "{}: no torsion bar swings {} in {} s\n",
-        d.mechanism,
-        degrees(2.0 * d.half_swing),
-        significant(d.period / 2.0)
+        d.file.name,
+        degrees(2.0 * d.file.spec.twist),
+        significant(d.file.spec.period / 2.0)
     )?;
     if let Some(t) = d.sizing.trials.last() {
         if t.strong {
@@ -65,7 +66,7 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
                 length(d, t.bar.diameter),
                 length(d, t.bar.length),
                 degrees(t.allowable_twist),
-                degrees(d.half_swing)
+                degrees(d.file.spec.twist)
             )?
         }
     }
@@ -105,7 +106,7 @@ fn trials(d: &Drive<'_>, width: Option<u16>) -> String {
             t.bar.length / metres,
             t.bar.diameter / metres,
             t.allowable_twist.to_degrees(),
-            d.half_swing.to_degrees(),
+            d.file.spec.twist.to_degrees(),
         ]
         .map(significant)
         .to_vec();
@@ -123,23 +124,22 @@ fn designed(
     width: Option<u16>,
 ) -> std::fmt::Result {
     let spec = &d.file.spec;
-    let wanted = plural(design.wanted, "swing");
-    let verdict = if d.complete {
+    let wanted = plural(design.run.wanted, "swing");
+    let verdict = if d.complete() {
         format!("all {wanted} latched")
     } else {
-        format!("fails after {} of {wanted}", design.latched)
+        format!("fails after {} of {wanted}", design.run.latched)
     };
     writeln!(
         out,
         "{}: torsion bar d = {}, l = {}; swings {} in {} s, {verdict}\n",
-        d.mechanism,
-        length(d, design.diameter),
-        length(d, design.length),
-        degrees(2.0 * d.half_swing),
-        significant(d.period / 2.0)
+        d.file.name,
+        length(d, design.bar.diameter),
+        length(d, design.bar.length),
+        degrees(2.0 * d.file.spec.twist),
+        significant(d.file.spec.period / 2.0)
     )?;
-    let last = d.found.and_then(|f| f.run.swings().last());
-    if let Some((disc, swing)) = last.filter(|_| !d.complete) {
+    if let Some((disc, swing)) = design.run.swings().last().filter(|_| !d.complete()) {
         let why = match swing.end {
             End::Stuck => "is stuck: friction is stronger than the wound bar".to_owned(),
             End::Missed { missing } => format!(
@@ -151,32 +151,32 @@ fn designed(
         };
         writeln!(out, "  disc {} {why}\n", disc + 1)?;
     }
-    let second = if d.inertias[1] == d.inertias[0] {
+    let second = if d.file.spec.inertias[1] == d.file.spec.inertias[0] {
         String::new()
     } else {
-        format!(" and {} kg·m²", significant(d.inertias[1]))
+        format!(" and {} kg·m²", significant(d.file.spec.inertias[1]))
     };
     writeln!(
         out,
         "  I = {} kg·m²{second}, k = {} N·m/rad, wound by {} at {} MPa of {}: {} J",
-        significant(d.inertias[0]),
+        significant(d.file.spec.inertias[0]),
         significant(design.stiffness),
-        degrees(d.half_swing),
-        significant(design.stress * 1e-6),
+        degrees(d.file.spec.twist),
+        significant(design.bar.stress(spec.twist) * 1e-6),
         significant(spec.allowable_stress * 1e-6),
-        significant(stored_energy(design.stiffness, d.half_swing))
+        significant(stored_energy(design.stiffness, d.file.spec.twist))
     )?;
     losses(out, d, design)?;
     motions(out, d, design)?;
     if let Some(samples) = &d.samples {
-        samples.write(out)?;
+        samples::write(out, samples)?;
     }
     writeln!(out, "\n  Sizing, (10) and (11):\n\n{}", trials(d, width))?;
     writeln!(out, "\n  Programme:\n\n{}", programme(d, width))
 }
 
 fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
-    let from = match design.damping.from {
+    let from = match design.damping_from {
         DampingFrom::Stated => "as stated",
         DampingFrom::MissingAngle => "viscous, from the missing angle",
         DampingFrom::None => "none stated",
@@ -187,20 +187,23 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
         significant(design.damping.viscous),
         significant(design.damping.coulomb)
     )?;
-    if design.missing_angle > 0.0 {
+    if design.missing > 0.0 {
         writeln!(
             out,
             "  without the cam a swing ends Δφ = {} short: δ = {} a swing (6), E_fr = {} J (12)",
-            degrees(design.missing_angle),
-            significant(design.decrement),
+            degrees(design.missing),
+            significant(decrement(
+                d.file.spec.twist,
+                d.file.spec.twist - design.missing
+            )),
             significant(design.friction_energy)
         )?;
     }
     needed_feed(out, design)?;
-    if design.feed_moments.len() > 1 {
-        feed_pieces(out, &design.feed_moments)?;
+    if let pieces @ [_, _, ..] = &*feed_moments(design) {
+        feed_pieces(out, pieces)?;
     }
-    if d.complete {
+    if d.complete() {
         endurance(out, &design.endurance)?;
     }
     if let Some(cam) = &design.cam {
@@ -220,7 +223,7 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
 
 /// The work that the cam must give for the disc to arrive.
 fn needed_feed(out: &mut String, design: &Design) -> std::fmt::Result {
-    let arrive = match design.feed_moments.len() {
+    let arrive = match feed_moments(design).len() {
         0 | 1 => "to arrive at rest",
         _ => "to arrive",
     };
@@ -245,10 +248,9 @@ fn needed_feed(out: &mut String, design: &Design) -> std::fmt::Result {
 }
 
 /// The push of a cam that differs from piece to piece.
-fn feed_pieces(out: &mut String, all: &[FeedMoment]) -> std::fmt::Result {
-    let piece = |p: &FeedMoment| {
-        let (from, moment) = (degrees(p.from), significant(p.moment));
-        format!("{moment} N·m from {from}")
+fn feed_pieces(out: &mut String, all: &[(f64, f64)]) -> std::fmt::Result {
+    let piece = |(from, moment): &(f64, f64)| {
+        format!("{} N·m from {}", significant(*moment), degrees(*from))
     };
     let pieces: Vec<String> = all.iter().take(PIECES).map(piece).collect();
     write!(out, "  the cam pushes with {}", pieces.join(", "))?;
@@ -265,23 +267,17 @@ fn feed_pieces(out: &mut String, all: &[FeedMoment]) -> std::fmt::Result {
 /// Whether the programme could go on for ever.
 fn endurance(out: &mut String, endurance: &Endurance) -> std::fmt::Result {
     match *endurance {
-        Endurance::Going {
-            lasts: Some(_),
-            missing,
-        } => writeln!(
+        Endurance::Lasts { missing } => writeln!(
             out,
             "  repeated as it stands, the programme latches every swing in the long run, at most {} short",
             degrees(missing)
         ),
-        Endurance::Going {
-            lasts: None,
-            missing,
-        } => writeln!(
+        Endurance::Drifts { missing } => writeln!(
             out,
             "  repeated as it stands, the programme still drifts after {PATIENCE} swings, {} short by then",
             degrees(missing)
         ),
-        Endurance::Failing { after, .. } => writeln!(
+        Endurance::Fails { after } => writeln!(
             out,
             "  BUT NOT FOR LONG: of the programme repeated as it stands, {after} swings are latched and the next one misses; the cam must give more"
         ),
@@ -339,7 +335,7 @@ fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamDesign) -> std::fmt::
         writeln!(
             out,
             "    {} does not divide a turn: stepwise rotation finds no groove after {} of a disc",
-            degrees(2.0 * d.half_swing),
+            degrees(2.0 * d.file.spec.twist),
             plural(p.grooves.len(), "swing")
         )?;
     }
@@ -347,7 +343,7 @@ fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamDesign) -> std::fmt::
 }
 
 fn motions(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
-    let same = d.inertias[0] == d.inertias[1];
+    let same = d.file.spec.inertias[0] == d.file.spec.inertias[1];
     for (i, m) in design
         .motions
         .iter()
@@ -381,7 +377,7 @@ fn motions(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result
 
 fn programme(d: &Drive<'_>, width: Option<u16>) -> String {
     let mut rows = Vec::new();
-    for s in d.found.iter().flat_map(|f| &f.run.steps) {
+    for s in d.design.iter().flat_map(|f| &f.run.steps) {
         let mut row = vec![significant(s.start), significant(s.duration)];
         match &s.event {
             Event::Dwell => row.extend(["dwell", "", "", "", ""].map(str::to_owned)),
