@@ -45,13 +45,17 @@ pub(crate) fn analyze(
         let Some(rank) = Method::of(by, tolerance) else {
             let answer = |&s| Ok((s, by.answer(m, s).map_err(failed)?));
             let answers = states.iter().map(answer).collect::<PyResult<Vec<_>>>()?;
-            let found = ByMethod::new(m, by, &answers);
-            return Ok((json(&found)?, found.text(), None, None));
+            let found = ByMethod {
+                mechanism: m,
+                method: by,
+                answers,
+            };
+            return Ok((json(&found.json())?, found.text(), None, None));
         };
         let found = analyse(m, &states, rank).map_err(failed)?;
         let advice = advise(m, &states, &found).map_err(failed)?;
         let told = Analysis::new(m, &found, &advice);
-        Ok((json(&told)?, told.text(None), None, None))
+        Ok((json(&told.json())?, told.text(None), None, None))
     })
 }
 
@@ -74,7 +78,7 @@ pub(crate) fn stroke(
             AskedStroke::new(m, state, range, read, drive, &verdict, tolerance).map_err(failed)?;
         let told = StrokeData::of(&asked);
         Ok((
-            json(&told)?,
+            json(&told.json())?,
             told.text(None),
             None,
             Some(told.chart().svg()),

@@ -107,7 +107,7 @@ pub(super) fn judged(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> 
     json!({
         "format": FORMAT,
         "revision": revision,
-        "analysis": analysis,
+        "analysis": analysis.json(),
         "words": words,
         "scenes": scenes,
     })

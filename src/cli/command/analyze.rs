@@ -12,7 +12,6 @@ use crate::rank::method::{MobilityMethod, RankOfJ};
 use crate::rank::rounded::verdict::verdict;
 use crate::rank::stroke::request::AskedStroke;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
-use crate::view::analysis::link_motions::LinkMotionData;
 use crate::view::analysis::mobility::ByMethod;
 use crate::view::analysis::next::next as steps;
 use crate::view::analysis::suggestions;
@@ -155,8 +154,7 @@ fn add_motions<'m>(
     let to = to.unwrap_or(mechanism.frame());
     for (state, found) in analysis.states.iter_mut().zip(found) {
         let all = found.link_motions(mechanism, &links, to)?;
-        let all = all.iter().map(|of| LinkMotionData::new(mechanism, of));
-        state.motions.extend(all);
+        state.asked.extend(all);
     }
     Ok(())
 }
@@ -186,7 +184,7 @@ fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::
     let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            TextOrJson::Json => output::json(out, analysis)?,
+            TextOrJson::Json => output::json(out, &analysis.json())?,
             TextOrJson::Text => {
                 let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
                 let text = toned(analysis.text(width), a.output.as_deref(), verdicts);
@@ -199,14 +197,14 @@ fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::
             }
         }
         // A stroke that could not be finished is no success.
-        let stopped = analysis.stroke.as_ref().is_some_and(|s| s.stop.is_some());
+        let stopped = analysis.stroke.as_ref().is_some_and(StrokeData::stops);
         Ok(if stopped { Done::Nothing } else { Done::Found })
     })
 }
 
 /// Whether a verdict is good news.
 fn tone(s: &State<'_>) -> Tone {
-    match (s.redundant, s.redundant_at_most) {
+    match (s.found.redundant, s.found.at_most()) {
         (_, Some(_)) => Tone::Doubtful,
         (0, None) => Tone::Good,
         _ => Tone::Bad,
@@ -233,10 +231,14 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
         .map(|&s| Ok((s, method.answer(mechanism, s)?)))
         .collect::<anyhow::Result<Vec<_>>>()
         .with_context(|| format!("{} by {}", mechanism.name, method.about().title))?;
-    let found = ByMethod::new(mechanism, method, &answers);
+    let found = ByMethod {
+        mechanism,
+        method,
+        answers,
+    };
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            TextOrJson::Json => output::json(out, &found)?,
+            TextOrJson::Json => output::json(out, &found.json())?,
             TextOrJson::Text => write!(out, "{}", found.text())?,
         }
         Ok(Done::Found)

@@ -195,8 +195,7 @@ fn stressed(
 ) -> anyhow::Result<Drawing> {
     let all = found.first().map_or(&[][..], |s| &s.self_stresses);
     let told = Analysis::new(subject.mechanism, found, &[]);
-    let told = told.states.first().map_or(&[][..], |s| &s.self_stresses);
-    let (Some(stress), Some(words)) = (all.get(k), told.get(k)) else {
+    let (Some(stress), Some(told)) = (all.get(k), told.states.first()) else {
         bail!(
             "state {} has {}",
             a.state,
@@ -215,7 +214,7 @@ fn stressed(
         subject,
         sight,
         stress,
-        &words.name(k),
+        &told.name(k),
     ))
 }
 

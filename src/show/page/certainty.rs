@@ -3,7 +3,7 @@
 use super::contents::{Page, Redesigns};
 use crate::format::plural;
 use crate::search::check::second_prime::{PrimeCheck, Verdict};
-use crate::view::analysis::{Analysis, LeftOut, State};
+use crate::view::analysis::{Analysis, State};
 use crate::view::search::stopped_early;
 use crate::view::search::text;
 use maud::{Markup, html};
@@ -11,7 +11,7 @@ use maud::{Markup, html};
 pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     let head = |s: &State<'_>| match analysis.states.len() {
         1 => "The mechanism".to_owned(),
-        _ => format!("State {}", s.state),
+        _ => format!("State {}", s.found.state),
     };
     html! {
         dl.facts {
@@ -42,10 +42,10 @@ fn row(head: &str, lines: &[String]) -> Markup {
 }
 
 fn state(s: &State<'_>) -> Vec<String> {
-    let mut lines = vec![s.certainty.clone()];
+    let mut lines = vec![s.certainty()];
     lines.extend(s.method_lines());
     lines.push(s.finite());
-    lines.extend(s.left_out.iter().map(LeftOut::words));
+    lines.extend(s.left_out());
     lines
 }
 

@@ -3,7 +3,8 @@
 use super::contents::Page;
 use crate::format::plain::turns;
 use crate::model::mechanism::Joint;
-use crate::view::analysis::{Analysis, Contour, State};
+use crate::redundancy::analysis::{ContourShare, StateAnalysis};
+use crate::view::analysis::Analysis;
 use serde_json::{Value, json};
 
 /// Returns all of it, ready to stand in a script element.
@@ -14,8 +15,8 @@ pub(super) fn script(
     swaps: &Value,
 ) -> String {
     let m = page.mechanism;
-    let contour = |c: &Contour<'_>| json!({ "name": c.contour, "redundant": c.redundant });
-    let state = |s: &State<'_>| {
+    let contour = |c: &ContourShare| json!({ "name": c.contour.name(m), "redundant": c.redundant });
+    let state = |s: &StateAnalysis| {
         json!({
             "name": s.state,
             "links": s.links,
@@ -24,7 +25,7 @@ pub(super) fn script(
             "freedoms": s.freedoms,
             "mobility": s.mobility,
             "redundant": s.redundant,
-            "external": s.external.as_ref().map(|e| e.counted.redundant),
+            "external": s.external.as_ref().map(|e| e.redundant),
             "contours": s.per_contour.iter().map(contour).collect::<Value>(),
         })
     };
@@ -41,7 +42,7 @@ pub(super) fn script(
         "format": 1,
         "mechanism": m.name,
         "length_unit": m.length_unit.symbol,
-        "states": analysis.states.iter().map(state).collect::<Value>(),
+        "states": analysis.states.iter().map(|s| state(s.found)).collect::<Value>(),
         "joints": m.joints.iter().map(joint).collect::<Value>(),
         "search": search,
         "ideas": ideas,

@@ -57,8 +57,8 @@ fn player(analysis: &Analysis<'_>) -> Markup {
             span.help role="status" data-part="say" data-moves {}
             @for (i, s) in analysis.states.iter().enumerate() {
                 @for (n, what, flags) in [
-                    (s.idle.len(), "idle freedoms", "--motion --idle K"),
-                    (s.self_stresses.len(), "self-stresses", "--self-stress K"),
+                    (s.found.idle.len(), "idle freedoms", "--motion --idle K"),
+                    (s.found.self_stresses.len(), "self-stresses", "--self-stress K"),
                 ] {
                     @if n > SHOWN {
                         span.help data-state-help=(i) {

@@ -39,14 +39,10 @@ pub fn moving_scene(
     let idle =
         (0..found.idle.len().min(SHOWN)).filter_map(|k| Moving::idle(m, found, state, k).ok());
     let mut moving: Vec<Moving> = drive.into_iter().chain(idle).collect();
-    let stresses = told
-        .self_stresses
-        .iter()
-        .zip(&found.self_stresses)
-        .enumerate();
     let known = |s: &SelfStress| s.joints.iter().any(|w| w.borne.is_some());
-    let stresses = stresses.filter(|(_, (_, s))| known(s)).take(SHOWN);
-    let stresses: Vec<_> = stresses.map(|(k, (words, s))| (words.name(k), s)).collect();
+    let stresses = found.self_stresses.iter().enumerate();
+    let stresses = stresses.filter(|(_, s)| known(s)).take(SHOWN);
+    let stresses: Vec<_> = stresses.map(|(k, s)| (told.name(k), s)).collect();
     if moving.is_empty() {
         if stresses.is_empty() && !still {
             return None;

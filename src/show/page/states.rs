@@ -4,7 +4,11 @@ use super::symbols::Drawn;
 use super::verdict;
 use crate::format::plural;
 use crate::model::mechanism::{Mechanism, Mode};
-use crate::view::analysis::{Analysis, Contour, External, SelfStress, State};
+use crate::redundancy::analysis::{ContourShare, External};
+use crate::redundancy::stress::SelfStress;
+use crate::view::analysis::text::{formula, in_any_basis, in_any_order};
+use crate::view::analysis::{Analysis, State, agrees, harm};
+use itertools::Itertools;
 use maud::{Markup, PreEscaped, html};
 
 /// The mechanism's size in a line.
@@ -14,7 +18,9 @@ pub(super) fn facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
         Mode::Spatial => "spatial, six equations a contour",
     };
     let first = analysis.states.first();
-    let [links, joints, contours] = first.map_or([0; 3], |s| [s.links, s.joints, s.contours]);
+    let [links, joints, contours] = first.map_or([0; 3], |s| {
+        [s.found.links, s.found.joints, s.found.contours]
+    });
     [
         plural(links, "link"),
         plural(joints, "joint"),
@@ -30,7 +36,7 @@ pub(super) fn html(analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
     html! {
         @for (i, (s, d)) in analysis.states.iter().zip(drawn).enumerate() {
             @if several {
-                h3 id={ "state-" (i) } { "State " (s.state) ": " (verdict::head(s).to_lowercase()) }
+                h3 id={ "state-" (i) } { "State " (s.found.state) ": " (verdict::head(s).to_lowercase()) }
             }
             (figures(s))
             div.drawings {
@@ -45,14 +51,15 @@ pub(super) fn html(analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
 fn drawing(i: usize, s: &State<'_>, kind: &str, name: &str, svg: &str) -> Markup {
     html! {
         figure.drawing data-state=(i) data-kind=(kind) tabindex="0" role="group"
-            aria-label={ (name) ", state " (s.state) } {
+            aria-label={ (name) ", state " (s.found.state) } {
             "\n" (PreEscaped(svg))
         }
     }
 }
 
 /// The figures with where they come from.
-fn figures(s: &State<'_>) -> Markup {
+fn figures(state: &State<'_>) -> Markup {
+    let (s, finite) = (state.found, state.finite_mobility());
     let row = |sign: &str, value: i64, words: &str| {
         html! { div { dt { (sign) } dd { b { (value) } " " (words) } } }
     };
@@ -64,34 +71,35 @@ fn figures(s: &State<'_>) -> Markup {
                 "mobility = {} - rank {}; working {}, idle {}",
                 plural(s.freedoms, "freedom"), s.rank, s.working_mobility, s.local_mobility
             )))
-            @if s.finite_mobility != Some(s.mobility) {
-                (row("", int(s.finite_mobility_at_least), &match s.finite_mobility {
+            @if finite != Some(s.mobility) {
+                (row("", int(s.finite.mobility), &match finite {
                     Some(_) => "finite mobility".to_owned(),
-                    None => format!("finite mobility at least, {} at most", s.finite_mobility_at_most),
+                    None => format!("finite mobility at least, {} at most", s.finite.at_most()),
                 }))
             }
-            @if s.counting_is_wrong() {
+            @if state.counting_is_wrong() {
                 (row("", s.formula_mobility,
                     "is what counting alone (Malyshev's formula) gives, wrong by the redundant constraints"))
             }
-            @if let Some(e) = &s.external { (row("σ ext.", e.counted.redundant, &external(e))) }
+            @if let Some(e) = &s.external { (row("σ ext.", e.redundant, &external(e))) }
         }
     }
 }
 
 fn external(e: &External) -> String {
-    let disagree = if e.agree { "" } else { ": THESE DISAGREE" };
-    let (formula, by_rank) = (e.formula(), e.counted.by_rank);
+    let disagree = if agrees(e) { "" } else { ": THESE DISAGREE" };
+    let (formula, by_rank) = (formula(e), e.by_rank);
     format!("external = {formula}; by rank {by_rank}{disagree}")
 }
 
 /// The contours, each with the self-stresses that end in it.
 fn contours(s: &State<'_>) -> Markup {
-    if s.per_contour.is_empty() {
+    let all = &s.found.per_contour;
+    if all.is_empty() {
         return html! { p { "There is no closed contour, so nothing can be redundant." } };
     }
     html! {
-        div.wide tabindex="0" role="group" aria-label={ "Contours, state " (s.state) } {
+        div.wide tabindex="0" role="group" aria-label={ "Contours, state " (s.found.state) } {
             table.contours {
                 caption {
                     "Contours and the self-stresses in them: loads that parts out of true cause by themselves. σ of a contour \
@@ -108,50 +116,53 @@ fn contours(s: &State<'_>) -> Markup {
                         th scope="col" { "Self-stresses: where each is simplest, as what there, and the share that each joint bears" }
                     }
                 }
-                tbody { @for (i, c) in s.per_contour.iter().enumerate() { (contour(s, i, c)) } }
+                tbody { @for (i, c) in all.iter().enumerate() { (contour(s, i, c)) } }
             }
         }
     }
 }
 
-fn contour(s: &State<'_>, i: usize, c: &Contour<'_>) -> Markup {
-    let ending = s.self_stresses.iter().filter(|t| t.ends_in == Some(i));
-    let ending: Vec<Markup> = ending.map(stress).collect();
+fn contour(s: &State<'_>, i: usize, c: &ContourShare) -> Markup {
+    let m = s.mechanism;
+    let joints = c.contour.joints.iter().map(|(j, _)| &m.joints[*j].id);
+    let ending = s.found.self_stresses.iter();
+    let ending = ending.filter(|t| t.contours.last() == Some(&i));
+    let ending: Vec<Markup> = ending.map(|t| stress(s, t)).collect();
     html! {
         tr {
             th scope="row" {
                 span class={ "tint t" (c.redundant.min(6)) } { (i + 1) }
-                " " (c.contour)
+                " " (c.contour.name(m))
             }
-            td { (c.joints.join(", ")) }
+            td { (joints.format(", ")) }
             td.n { (c.redundant) }
-            td.n { (c.range()) }
-            td.n { (c.over_bases()) }
+            td.n { (in_any_order(c)) }
+            td.n { (in_any_basis(c)) }
             td { @if !ending.is_empty() { ul { @for t in &ending { (t) } } } }
         }
     }
 }
 
 /// A self-stress where it has the fewest components, and who bears it.
-fn stress(t: &SelfStress<'_>) -> Markup {
-    let what = match &t.simplest {
+fn stress(s: &State<'_>, t: &SelfStress) -> Markup {
+    let what = match s.simplest(t) {
         Some((joint, what)) => format!("{what} at {joint}"),
         None => "none".to_owned(),
     };
-    let with = match t.contours.split_last() {
+    let with = match s.contours_of(t).split_last() {
         Some((_, others)) if !others.is_empty() => {
             format!(", together with {}", others.join(", "))
         }
         _ => String::new(),
     };
-    let (class, why) = match t.verdict {
+    let (class, why) = match harm(t) {
         "harmless" => ("good", ": friction shared by the contacts"),
         _ => ("bad", ""),
     };
     html! {
         li {
-            (what) (with) " " span class={ "tag " (class) } { (t.verdict) (why) }
-            br; small { "borne by " (t.borne()) }
+            (what) (with) " " span class={ "tag " (class) } { (harm(t)) (why) }
+            br; small { "borne by " (s.borne(t)) }
         }
     }
 }

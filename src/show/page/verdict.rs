@@ -3,6 +3,7 @@
 use super::contents::{Page, Redesigns};
 use crate::format::{cost, grouped, list, plural};
 use crate::model::mechanism::{Mechanism, Role};
+use crate::redundancy::stress::StressVerdict;
 use crate::score::outcome::variant::Variant;
 use crate::search::answer::k_best::Assignment;
 use crate::view::analysis::{Analysis, State};
@@ -22,8 +23,8 @@ pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     let several = analysis.states.len() > 1;
     html! {
         @for (i, s) in analysis.states.iter().enumerate() {
-            div class={ "verdict " (if s.redundant == 0 && s.redundant_at_most.is_none() { "good" } else { "bad" }) } {
-                @if several { p.label { "State " (s.state) } }
+            div class={ "verdict " (if s.found.redundant == 0 && s.found.at_most().is_none() { "good" } else { "bad" }) } {
+                @if several { p.label { "State " (s.found.state) } }
                 p.head { (head(s)) }
                 p {
                     (state(s).join(" "))
@@ -46,10 +47,11 @@ fn capitalised(text: &str) -> String {
 }
 
 /// What that means, in sentences.
-pub fn state(s: &State<'_>) -> Vec<String> {
+pub fn state(told: &State<'_>) -> Vec<String> {
+    let s = told.found;
     let mut out = Vec::new();
-    if s.redundant_at_most.is_some() {
-        return vec![format!("{}.", s.choice.unwrap_or_default())];
+    if s.at_most().is_some() {
+        return vec![format!("{}.", s.choice.as_deref().unwrap_or_default())];
     }
     out.push(
         if s.redundant == 0 {
@@ -60,12 +62,12 @@ pub fn state(s: &State<'_>) -> Vec<String> {
         }
         .to_owned(),
     );
-    if let Some(e) = s.external.as_ref().filter(|e| e.counted.redundant > 0) {
-        let of = |v: &str| {
+    if let Some(e) = s.external.as_ref().filter(|e| e.redundant > 0) {
+        let of = |v: StressVerdict| {
             let external = s.self_stresses.iter().filter(|t| t.external);
             external.filter(|t| t.verdict == v).count()
         };
-        let (harmless, harmful) = (of("harmless"), of("harmful"));
+        let (harmless, harmful) = (of(StressVerdict::Harmless), of(StressVerdict::Harmful));
         let split = if harmless + harmful == 0 {
             String::new()
         } else {
@@ -73,16 +75,12 @@ pub fn state(s: &State<'_>) -> Vec<String> {
         };
         out.push(format!(
             "{} of them {} from the joints of this state alone{split}.",
-            e.counted.redundant,
-            if e.counted.redundant == 1 {
-                "comes"
-            } else {
-                "come"
-            }
+            e.redundant,
+            if e.redundant == 1 { "comes" } else { "come" }
         ));
     }
-    out.push(moves(s));
-    let idle = s.idle_motions();
+    out.push(moves(told));
+    let idle = told.idle_motions();
     let more = idle.len().saturating_sub(TOLD);
     if !idle.is_empty() {
         let list = idle.iter().take(TOLD).join("; ");
@@ -96,12 +94,15 @@ pub fn state(s: &State<'_>) -> Vec<String> {
     out
 }
 
-fn moves(s: &State<'_>) -> String {
+fn moves(told: &State<'_>) -> String {
+    let s = told.found;
     let ways = |n: usize| plural(n, "way");
-    let Some(finite) = s.finite_mobility else {
+    let Some(finite) = told.finite_mobility() else {
         return format!(
             "W = {} in this pose; how much of that is really there is undecided: between {} and {}.",
-            s.mobility, s.finite_mobility_at_least, s.finite_mobility_at_most
+            s.mobility,
+            s.finite.mobility,
+            s.finite.at_most()
         );
     };
     match (s.mobility, finite) {
@@ -144,7 +145,9 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
     let request = &found.search.conditions;
     let one = good.is_one();
     let goal = match (request.max_redundant, one) {
-        (0, _) if s.redundant == 0 => (if one { "is" } else { "are" }).to_owned() + " determinate",
+        (0, _) if s.found.redundant == 0 => {
+            (if one { "is" } else { "are" }).to_owned() + " determinate"
+        }
         (0, false) => "remove them all".to_owned(),
         (0, true) => "removes them all".to_owned(),
         (n, false) => format!("leave at most {n}"),
@@ -175,7 +178,7 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
     };
     let out = format!("{words} of {all} variants {goal}{conditions}");
     let out = capitalised(&out) + &by_values;
-    if s.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
+    if s.found.redundant == 0 && r.variants.iter().any(|c| c.change_count() == 0) {
         return format!("Nothing needs changing. {out}.");
     }
     out + &best(r) + "."

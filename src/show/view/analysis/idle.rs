@@ -2,10 +2,9 @@
 
 use crate::format::{plural, plural_of};
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::drives;
+use crate::redundancy::drives::DriveFault;
 use crate::redundancy::local_mobility::Idle;
 use itertools::Itertools;
-use serde::Serialize;
 
 /// "link 5 spins about the line through 4-5 and 5-1".
 #[must_use]
@@ -49,52 +48,43 @@ pub(crate) fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
         .collect()
 }
 
-/// A fault of the drives.
-#[derive(Debug, Serialize)]
-pub struct DriveFault<'a> {
-    /// `immobile`, `surplus`, `dependent`, `locked` or `dead-point`.
-    pub kind: &'static str,
-    /// The joint of a locked drive.
-    pub joint: Option<&'a str>,
-    pub text: String,
-}
-
-impl<'a> DriveFault<'a> {
-    pub(super) fn new(mechanism: &'a Mechanism, fault: &drives::DriveFault) -> DriveFault<'a> {
-        let (kind, joint, text) = match *fault {
-            drives::DriveFault::Immobile => (
-                "immobile",
-                None,
-                "the mechanism is driven and cannot move".to_owned(),
-            ),
-            drives::DriveFault::Surplus { drives, mobility } => {
-                let freedom = plural_of(&mobility.to_string(), "degree");
-                let text = format!(
-                    "{} for {freedom} of freedom: more drives than degrees of freedom work against each other",
-                    plural(drives, "drive")
-                );
-                ("surplus", None, text)
-            }
-            drives::DriveFault::Dependent {
-                drives,
-                independent,
-            } => {
-                let text = format!(
-                    "{drives} drives move and {independent} of their speeds can be chosen in this pose: the drives work against each other"
-                );
-                ("dependent", None, text)
-            }
-            drives::DriveFault::Locked(joint) => {
-                let id = mechanism.joints[joint].id.as_str();
-                let text = format!("drive {id} is locked: it cannot move in this pose");
-                ("locked", Some(id), text)
-            }
-            drives::DriveFault::DeadPoint => (
-                "dead-point",
-                None,
-                "dead point: the outputs stand still to first order while a drive moves".to_owned(),
-            ),
-        };
-        DriveFault { kind, joint, text }
+/// Returns a fault of the drives: `immobile`, `surplus`, `dependent`, `locked` or `dead-point`, the joint of a locked drive, and all that
+/// in words.
+pub(super) fn fault<'a>(
+    mechanism: &'a Mechanism,
+    fault: &DriveFault,
+) -> (&'static str, Option<&'a str>, String) {
+    match *fault {
+        DriveFault::Immobile => {
+            let text = "the mechanism is driven and cannot move".to_owned();
+            ("immobile", None, text)
+        }
+        DriveFault::Surplus { drives, mobility } => {
+            let freedom = plural_of(&mobility.to_string(), "degree");
+            let text = format!(
+                "{} for {freedom} of freedom: more drives than degrees of freedom work against each other",
+                plural(drives, "drive")
+            );
+            ("surplus", None, text)
+        }
+        DriveFault::Dependent {
+            drives,
+            independent,
+        } => {
+            let text = format!(
+                "{drives} drives move and {independent} of their speeds can be chosen in this pose: the drives work against each other"
+            );
+            ("dependent", None, text)
+        }
+        DriveFault::Locked(joint) => {
+            let id = mechanism.joints[joint].id.as_str();
+            let text = format!("drive {id} is locked: it cannot move in this pose");
+            ("locked", Some(id), text)
+        }
+        DriveFault::DeadPoint => {
+            let text =
+                "dead point: the outputs stand still to first order while a drive moves".to_owned();
+            ("dead-point", None, text)
+        }
     }
 }

@@ -5,33 +5,14 @@ use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use crate::redundancy::analysis::StateAnalysis;
 use itertools::Itertools;
-use serde::Serialize;
+use serde_json::{Value, json};
 
-/// Rows of some contours for some motions.
-#[derive(Debug, Serialize)]
-pub struct ContourRows {
-    /// The contours.
-    pub contours: Vec<String>,
-    /// `any`, `group`, `in plane` or `out of plane`.
-    pub motions: &'static str,
-    /// The group with its dimension, or the plane's normal.
-    pub of: Option<String>,
-    /// Rows that are enough.
-    pub rows: usize,
-    /// Rows that J has for such motions.
-    pub rows_in_all: usize,
-    /// Their rank.
-    pub rank: usize,
-    /// σ of such motions.
-    pub redundant: usize,
-}
-
-/// Those of a state; none where all rows are taken as they are, and where rounded coordinates do not decide the rank.
+/// Returns those of a state as data: rows of some contours for some motions; none where all rows are taken as they are, and where rounded coordinates do not decide the rank.
 #[must_use]
-pub(crate) fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<ContourRows> {
+pub(crate) fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
     let found = s.least_rows.as_ref().filter(|l| !LeastRows::is_all(l));
     let Some(found) = found.filter(|_| s.at_most().is_none()) else {
-        return Vec::new();
+        return json!([]);
     };
     let blocks = found.blocks.iter().filter(|b| !b.contours.is_empty());
     let parts = blocks.flat_map(|b| {
@@ -45,15 +26,17 @@ pub(crate) fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Vec<Contou
                 Motions::InPlane(d) => ("in plane", normal(d)),
                 Motions::OutOfPlane(d) => ("out of plane", normal(d)),
             };
-            ContourRows {
-                contours: contours.clone(),
-                motions,
-                of,
-                rows: part.rows,
-                rows_in_all: part.of,
-                rank: part.rank,
-                redundant: part.redundant(),
-            }
+            json!({
+                "contours": contours,
+                // `any`, `group`, `in plane` or `out of plane`.
+                "motions": motions,
+                // The group with its dimension, or the plane's normal.
+                "of": of,
+                "rows": part.rows,
+                "rows_in_all": part.of,
+                "rank": part.rank,
+                "redundant": part.redundant(),
+            })
         })
     });
     parts.collect()

@@ -3,45 +3,28 @@
 use crate::geom::vector::{Vector, cross};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::link_motion::LinkMotion;
-use serde::Serialize;
+use serde_json::{Value, json};
 
 /// A component of a direction, or a part of a length, below this is rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// The motion of a link relative to another one.
-#[derive(Debug, Clone, Serialize)]
-pub struct LinkMotionData<'a> {
-    link: &'a str,
-    relative_to: &'a str,
-    /// How many independent motions it has.
-    dimension: usize,
-    /// All that in words.
-    text: String,
-    /// A basis of its twists (ω; v) about the origin, in the file's unit of length.
-    twists: Vec<[f64; 6]>,
+/// Returns the motion of a link relative to another one as data; the twists (ω; v) are about the origin, in the file's unit of length.
+#[must_use]
+pub(super) fn json(m: &Mechanism, of: &LinkMotion) -> Value {
+    json!({
+        "link": m.links[of.link].id,
+        "relative_to": m.links[of.relative_to].id,
+        "dimension": of.dimension(),
+        "text": words(m, of),
+        "twists": of.twists().into_iter().map(|t| t.map(clean)).collect::<Vec<_>>(),
+    })
 }
 
-impl<'a> LinkMotionData<'a> {
-    /// Returns a motion as data.
-    #[must_use]
-    pub fn new(mechanism: &'a Mechanism, of: &LinkMotion) -> Self {
-        LinkMotionData {
-            link: &mechanism.links[of.link].id,
-            relative_to: &mechanism.links[of.relative_to].id,
-            dimension: of.dimension(),
-            text: words(mechanism, of),
-            twists: of.twists().into_iter().map(|t| t.map(clean)).collect(),
-        }
-    }
-
-    /// Returns the line about it: "p relative to 0 (in this pose): three translations".
-    #[must_use]
-    pub(super) fn line(&self) -> String {
-        format!(
-            "{} relative to {} (in this pose): {}",
-            self.link, self.relative_to, self.text
-        )
-    }
+/// Returns the line about it: "p relative to 0 (in this pose): three translations".
+#[must_use]
+pub(super) fn line(m: &Mechanism, of: &LinkMotion) -> String {
+    let [link, to] = [of.link, of.relative_to].map(|l| &m.links[l].id);
+    format!("{link} relative to {to} (in this pose): {}", words(m, of))
 }
 
 /// Returns a motion in words: "three translations and rotation about z".

@@ -4,90 +4,76 @@ use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
-use serde::Serialize;
-use std::fmt::Write;
+use serde_json::{Value, json};
 
-/// What a method says of a mechanism.
-#[derive(Debug, Serialize)]
+/// What a method says of states of a mechanism.
+#[derive(Debug)]
 pub struct ByMethod<'a> {
-    /// The mechanism's name.
-    pub mechanism: &'a str,
-    /// Symbol of the file's unit of length.
-    pub length_unit: &'static str,
-    /// Its states.
-    pub states: Vec<StateByMethod<'a>>,
-    /// What the method is called in a sentence.
-    #[serde(skip)]
-    title: &'static str,
-    /// What its answers are worth, where it is from and what it takes.
-    #[serde(skip)]
-    about: String,
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// The method.
+    pub method: &'a dyn MobilityMethod,
+    /// Its answers.
+    pub answers: Vec<(StateId, Answer)>,
 }
 
-/// What it says of a state.
-#[derive(Debug, Serialize)]
-#[allow(missing_docs, reason = "named as in StateAnalysis")]
-pub struct StateByMethod<'a> {
-    pub state: &'a str,
-    #[serde(flatten)]
-    pub size: StructureSize,
-    pub mobility: i64,
-    pub redundant: i64,
-    pub method: &'static str,
-    pub certainty: &'static str,
-}
-
-impl<'a> ByMethod<'a> {
-    /// The answers of a method about states of a mechanism.
-    #[must_use]
-    pub fn new(
-        mechanism: &'a Mechanism,
-        method: &dyn MobilityMethod,
-        answers: &[(StateId, Answer)],
-    ) -> ByMethod<'a> {
-        let states = answers.iter().map(|(s, answer)| {
-            let size = StructureSize::of(mechanism, *s);
-            StateByMethod {
-                state: &mechanism.states[*s],
-                redundant: answer.mobility + size.rows - size.freedoms,
+impl ByMethod<'_> {
+    /// Returns the name of each state, its size, its mobility and its redundant constraints.
+    fn states(&self) -> impl Iterator<Item = (&str, StructureSize, [i64; 2])> {
+        self.answers.iter().map(|(s, answer)| {
+            let size = StructureSize::of(self.mechanism, *s);
+            let redundant = answer.mobility + size.rows - size.freedoms;
+            (
+                &*self.mechanism.states[*s],
                 size,
-                mobility: answer.mobility,
-                method: method.name(),
-                certainty: method.about().guarantee,
-            }
-        });
-        ByMethod {
-            mechanism: &mechanism.name,
-            length_unit: mechanism.length_unit.symbol,
-            states: states.collect(),
-            title: method.about().title,
-            about: format!(
-                "{} ({}; {})",
-                method.about().guarantee,
-                method.about().source,
-                method.about().complexity
-            ),
-        }
+                [answer.mobility, redundant],
+            )
+        })
     }
 
-    /// For people.
+    /// Returns it as data.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let state = |(name, size, [mobility, redundant]): (&str, StructureSize, [i64; 2])| {
+            json!({
+                "state": name,
+                "links": size.links,
+                "joints": size.joints,
+                "contours": size.contours,
+                "freedoms": size.freedoms,
+                "mobility": mobility,
+                "redundant": redundant,
+                "method": self.method.name(),
+                "certainty": self.method.about().guarantee,
+            })
+        };
+        json!({
+            "mechanism": self.mechanism.name,
+            "length_unit": self.mechanism.length_unit.symbol,
+            "states": self.states().map(state).collect::<Value>(),
+        })
+    }
+
+    /// Returns it for people, with what the answers are worth, where the method is from and what it takes.
     #[must_use]
     pub fn text(&self) -> String {
-        let mut out = String::new();
-        for s in &self.states {
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                out,
-                "{}, state {}: mobility {} by {}, so σ = W + {} - f = {}",
-                self.mechanism, s.state, s.mobility, self.title, s.size.rows, s.redundant
-            );
-        }
-        out + &format!("  {}\n", self.about)
+        let (name, about) = (&self.mechanism.name, self.method.about());
+        let line = |(state, size, [mobility, redundant]): (&str, StructureSize, [i64; 2])| {
+            format!(
+                "{name}, state {state}: mobility {mobility} by {}, so σ = W + {} - f = {redundant}\n",
+                about.title, size.rows
+            )
+        };
+        let lines: String = self.states().map(line).collect();
+        format!(
+            "{lines}  {} ({}; {})\n",
+            about.guarantee, about.source, about.complexity
+        )
     }
 }
 
 /// The numbers of a structure that need no rank.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy)]
 pub struct StructureSize {
     /// n.
     pub links: i64,
@@ -98,7 +84,6 @@ pub struct StructureSize {
     /// f, in the plane those of the plane.
     pub freedoms: i64,
     /// 6k, or 3k in the plane, and one for each coupling.
-    #[serde(skip)]
     pub rows: i64,
 }
 

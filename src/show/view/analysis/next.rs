@@ -3,7 +3,7 @@
 use super::State;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::search::answer::single_changes::USUAL_UNLOADING;
-use crate::view::analysis::suggestions::Suggestions;
+use crate::view::analysis::suggestions::{Advice, concerned};
 use crate::view::terminal::next_commands::{NextCommand, file_name, word};
 
 /// What to do after an analysis of `file`.
@@ -35,11 +35,11 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand>
 /// What finds the redesigns that remove what is redundant in a state, or gives joints a choice; nothing where no change is
 /// known that removes any.
 fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
-    let Some(Suggestions::Found(found)) = &s.suggestions else {
+    let Some(Advice::Changes(found)) = s.advice else {
         return None;
     };
-    let of = found.of;
-    match (found.options == "usual", found.state) {
+    let of = concerned(s.found);
+    match (found.usual, found.state) {
         (_, StateId::FREE) => Some(NextCommand::new(
             "search",
             file,
@@ -47,11 +47,12 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
             &format!("every redesign that removes all {of}, cheapest first"),
         )),
         (false, n) => {
-            let left = found.changes.first().map_or(of, |x| x.remaining);
+            let best = found.list.first();
+            let left = best.map_or(of, |x| of.saturating_sub(x.removes));
             let state = if n == StateId::new(1) {
                 String::new()
             } else {
-                format!(" --state {}", word(s.state))
+                format!(" --state {}", word(&s.found.state))
             };
             Some(NextCommand::new(
                 "search",
@@ -60,10 +61,10 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
                 &format!("redesigns that leave at most {left} of the {of} external, too"),
             ))
         }
-        (true, _) if !found.changes.is_empty() => Some(NextCommand {
+        (true, _) if !found.list.is_empty() => Some(NextCommand {
             command: format!(
                 "Write at a contact of state {}: unloading = [\"{}\"]",
-                s.state,
+                s.found.state,
                 USUAL_UNLOADING.name()
             ),
             gives: "so that `ozols search` may insert it; --max-external N asks for it".to_owned(),

@@ -1,10 +1,13 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
-use super::{Analysis, AsWritten, Contour, Coupling, External, LeftOut, SelfStress, State, Wrench};
+use super::{Analysis, State, agrees, axes, harm};
 use crate::format::{list, plural, plural_of};
-use crate::view::analysis::idle;
-use crate::view::claims;
+use crate::model::claim::Topic;
+use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
+use crate::redundancy::stress::{JointWrench, SelfStress};
+use crate::view::analysis::{idle, link_motions, suggestions};
 use crate::view::terminal::layout::{fit, table};
+use crate::view::{as_read, claims};
 use itertools::Itertools;
 use std::fmt::Write;
 
@@ -18,57 +21,64 @@ impl Analysis<'_> {
         let states = self.states.iter().map(|s| {
             let mut out = String::new();
             // Writing to a string cannot fail.
-            let _ = s.write(&mut out, self.mechanism, width);
-            if let Some(suggestions) = &s.suggestions {
-                out += &suggestions.text(width);
+            let _ = s.write(&mut out, width);
+            if let Some(advice) = s.advice {
+                out += &suggestions::text(s.mechanism, s.found, advice, width);
             }
             out
         });
         fit(
-            &(states.collect_vec().join("\n") + &claims::text(&self.claims, width)),
+            &(states.collect_vec().join("\n")
+                + &claims::text(
+                    &claims::about(&self.mechanism.claims, Topic::Structure),
+                    width,
+                )),
             width,
         )
     }
 }
 
 impl State<'_> {
-    fn write(&self, out: &mut String, mechanism: &str, width: Option<u16>) -> std::fmt::Result {
+    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+        let (m, s) = (self.mechanism, self.found);
         writeln!(
             out,
-            "{mechanism}, state {}: {}, mobility {}\n",
-            self.state,
+            "{}, state {}: {}, mobility {}\n",
+            m.name,
+            s.state,
             self.verdict(),
             self.mobility_figure()
         )?;
         self.write_counts(out)?;
-        for fault in &self.drives {
-            writeln!(out, "  {}", fault.text)?;
+        for fault in &s.drives {
+            writeln!(out, "  {}", idle::fault(m, fault).2)?;
         }
-        for motion in self.motions.iter().take(MOTIONS) {
-            writeln!(out, "  motion of {}", motion.line())?;
+        let motions = self.motions();
+        for motion in motions.iter().take(MOTIONS) {
+            writeln!(out, "  motion of {}", link_motions::line(m, motion))?;
         }
-        if let Some(more) = self.motions.len().checked_sub(MOTIONS).filter(|n| *n > 0) {
+        if let Some(more) = motions.len().checked_sub(MOTIONS).filter(|n| *n > 0) {
             writeln!(out, "  and of {more} more outputs (--format json has all)")?;
         }
         for motion in self.idle_motions() {
             writeln!(out, "  idle: {motion}")?;
         }
-        for line in self.left_out.iter().map(LeftOut::words) {
+        for line in self.left_out() {
             writeln!(out, "  {line}")?;
         }
-        writeln!(out, "  {}", self.certainty)?;
+        writeln!(out, "  {}", self.certainty())?;
         for line in self.method_lines() {
             writeln!(out, "  {line}")?;
         }
         self.write_shares(out, width)?;
-        if let Some(e) = &self.external {
-            let disagree = if e.agree { "" } else { "  -- THESE DISAGREE" };
+        if let Some(e) = &s.external {
+            let disagree = if agrees(e) { "" } else { "  -- THESE DISAGREE" };
             writeln!(
                 out,
                 "\n  External: σ = {} = {}; by rank {}{disagree}",
-                e.formula(),
-                e.counted.redundant,
-                e.counted.by_rank
+                formula(e),
+                e.redundant,
+                e.by_rank
             )?;
         }
         self.write_self_stresses(out, width)
@@ -76,8 +86,9 @@ impl State<'_> {
 
     /// What was counted, and W and σ from that.
     fn write_counts(&self, out: &mut String) -> std::fmt::Result {
-        let (rows, f) = (self.rows, self.freedoms);
-        let couplings = match self.per_coupling.len() {
+        let s = self.found;
+        let (rows, f) = (s.rows, s.freedoms);
+        let couplings = match s.per_coupling.len() {
             0 => String::new(),
             c => format!(", c = {}", plural(c, "coupling")),
         };
@@ -88,22 +99,22 @@ impl State<'_> {
              W = f - rank = {} (in this pose): working {}, local {}\n  \
              {}\n  \
              σ = {rows} - rank = {}  (= W + {rows} - f)",
-            plural(self.links, "link"),
-            plural(self.joints, "joint"),
-            plural(self.contours, "contour"),
+            plural(s.links, "link"),
+            plural(s.joints, "joint"),
+            plural(s.contours, "contour"),
             plural(f, "freedom"),
-            self.rank,
-            self.mobility,
-            self.working_mobility,
-            self.local_mobility,
+            s.rank,
+            s.mobility,
+            s.working_mobility,
+            s.local_mobility,
             self.finite(),
-            self.redundant
+            s.redundant
         )?;
         if self.counting_is_wrong() {
             writeln!(
                 out,
                 "  counting alone (Malyshev's formula) says {}, wrong by the redundant constraints",
-                self.formula_mobility
+                s.formula_mobility
             )?;
         }
         Ok(())
@@ -111,10 +122,29 @@ impl State<'_> {
 
     /// The shares of contours and couplings in σ.
     fn write_shares(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
-        let shares = self.per_contour.iter().map(Contour::row);
-        let shares = shares
-            .chain(self.per_coupling.iter().map(Coupling::row))
-            .collect_vec();
+        let contour = |c: &ContourShare| {
+            let joints = c.contour.joints.iter();
+            vec![
+                c.contour.name(self.mechanism),
+                joints.map(|(j, _)| self.joint(*j)).join(", "),
+                c.redundant.to_string(),
+                in_any_order(c),
+                in_any_basis(c),
+            ]
+        };
+        let coupling = |c: &CouplingShare| {
+            let [redundant, any] = [c.redundant.to_string(), range(0, c.most)];
+            vec![
+                "coupling".to_owned(),
+                c.name.clone(),
+                redundant,
+                any.clone(),
+                any,
+            ]
+        };
+        let (contours, couplings) = (&self.found.per_contour, &self.found.per_coupling);
+        let shares = contours.iter().map(contour);
+        let shares = shares.chain(couplings.iter().map(coupling)).collect_vec();
         if shares.is_empty() {
             return Ok(());
         }
@@ -129,7 +159,8 @@ impl State<'_> {
     }
 
     fn write_self_stresses(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
-        if self.self_stresses.is_empty() {
+        let stresses = &self.found.self_stresses;
+        if stresses.is_empty() {
             return Ok(());
         }
         let head = [
@@ -139,7 +170,19 @@ impl State<'_> {
             "",
             "borne by, share of Σ |F|² + |M|²/ℓ²",
         ];
-        let rows = self.self_stresses.iter().map(SelfStress::row).collect();
+        let row = |t: &SelfStress| {
+            let (contours, couplings) = (self.contours_of(t), self.couplings_of(t));
+            let mut contours = contours.iter().map(String::as_str).chain(couplings);
+            let (joint, what) = self.simplest(t).unwrap_or_default();
+            vec![
+                contours.join(" + "),
+                joint.to_owned(),
+                what,
+                harm(t).to_owned(),
+                self.borne(t),
+            ]
+        };
+        let rows = stresses.iter().map(row).collect();
         writeln!(
             out,
             "\n{}\n  harmful: loads joints when parts are out of true; harmless: friction shared by the contacts",
@@ -150,22 +193,18 @@ impl State<'_> {
     /// W, a range where rounded coordinates do not decide.
     #[must_use]
     pub(crate) fn mobility_figure(&self) -> String {
-        range(
-            self.mobility,
-            self.mobility_at_most.unwrap_or(self.mobility),
-        )
+        let (s, most) = (self.found, self.found.at_most());
+        range(s.mobility, most.map_or(s.mobility, |(w, _)| w))
     }
 
     /// The answer in a few words.
     #[must_use]
     pub fn verdict(&self) -> String {
-        if let Some(most) = self.redundant_at_most {
-            return format!(
-                "undecided, {} to {most} redundant constraints",
-                self.redundant
-            );
+        let least = self.found.redundant;
+        if let Some((_, most)) = self.found.at_most() {
+            return format!("undecided, {least} to {most} redundant constraints");
         }
-        match self.redundant {
+        match least {
             0 => "statically determinate".to_owned(),
             n => plural(n, "redundant constraint"),
         }
@@ -174,53 +213,89 @@ impl State<'_> {
     /// The finite mobility and how it is known.
     #[must_use]
     pub fn finite(&self) -> String {
-        let [figure, certainty] = &self.finite;
-        format!("finite mobility {figure}: {certainty}")
+        let finite = &self.found.finite;
+        let certainty = as_read(self.mechanism, finite.describe());
+        format!("finite mobility {}: {certainty}", finite.figure())
     }
 
     /// Whether Malyshev's formula gives another mobility than the rank.
     #[must_use]
     pub(crate) fn counting_is_wrong(&self) -> bool {
-        i64::try_from(self.mobility) != Ok(self.formula_mobility)
+        i64::try_from(self.found.mobility) != Ok(self.found.formula_mobility)
     }
 
     /// Idle motions in words, those that read alike told once.
     #[must_use]
     pub(crate) fn idle_motions(&self) -> Vec<String> {
-        idle::told_once(self.idle.iter().map(|i| i.text.clone()))
+        let words = |i| idle::words(self.mechanism, i);
+        idle::told_once(self.found.idle.iter().map(words))
     }
 
     /// Which method was chosen and why, what it did to the coordinates, and last the primes.
     pub(crate) fn method_lines(&self) -> impl Iterator<Item = String> {
-        let choice = self.choice.iter().map(|c| format!("method: {c}"));
-        let snapped = self.snapped.iter().map(|moved| format!("snapped: {moved}"));
-        let written = self.as_written.iter().map(AsWritten::words);
-        let primes = self
-            .primes
-            .iter()
-            .map(|p| format!("primes: {}", p.join(" and ")));
+        let s = self.found;
+        let choice = s.choice.iter().map(|c| format!("method: {c}"));
+        let snapped = s.snapped.iter().map(|moved| format!("snapped: {moved}"));
+        let written = s.as_written.iter().map(|rank| {
+            let (w, sigma) = (s.freedoms - rank, s.rows - rank);
+            format!("as written, every digit at its word: mobility {w}, σ = {sigma}")
+        });
+        let primes = s
+            .certainty
+            .primes()
+            .map(|[a, b]| format!("primes: {a} and {b}"));
         choice.chain(snapped).chain(written).chain(primes)
     }
-}
 
-impl LeftOut<'_> {
-    /// "left out in the plane: 1 freedom of joint 3-0".
-    #[must_use]
-    pub fn words(&self) -> String {
-        format!(
-            "left out in the plane: {} of joint {}",
-            plural(self.freedoms, "freedom"),
-            self.joint
-        )
+    /// Returns what planar mode leaves out: "left out in the plane: 1 freedom of joint 3-0".
+    pub(crate) fn left_out(&self) -> impl Iterator<Item = String> {
+        self.found.left_out.iter().map(|&(j, freedoms)| {
+            let freedoms = plural(freedoms, "freedom");
+            format!(
+                "left out in the plane: {freedoms} of joint {}",
+                self.joint(j)
+            )
+        })
     }
-}
 
-impl AsWritten {
-    fn words(&self) -> String {
-        format!(
-            "as written, every digit at its word: mobility {}, σ = {}",
-            self.mobility, self.redundant
-        )
+    /// Returns the joint where a self-stress has the fewest components, of the contacts where they have any, since that is where external
+    /// redundancy is felt, and which these are: "moments about x and y, force along z".
+    pub(crate) fn simplest(&self, t: &SelfStress) -> Option<(&str, String)> {
+        let joints = &self.mechanism.joints;
+        let felt = t.joints.iter();
+        let felt = felt.filter(|w| !t.external || joints[w.joint].states.is_some());
+        let count = |w: &&JointWrench| w.moments.iter().chain(&w.forces).filter(|x| **x).count();
+        let w = felt.min_by_key(count)?;
+        let part = |noun: &str, along: &str, axes: &[&str]| {
+            let s = if axes.len() == 1 { "" } else { "s" };
+            (!axes.is_empty()).then(|| format!("{noun}{s} {along} {}", list(axes)))
+        };
+        let parts = [
+            part("moment", "about", &axes(w.moments)),
+            part("force", "along", &axes(w.forces)),
+        ];
+        Some((self.joint(w.joint), parts.into_iter().flatten().join(", ")))
+    }
+
+    /// Returns what a self-stress is called in a drawing, counted from 0: "self-stress 1: moment about y at 0-1 (harmful)".
+    #[must_use]
+    pub fn name(&self, place: usize) -> String {
+        let t = &self.found.self_stresses[place];
+        let (joint, what) = self.simplest(t).unwrap_or_default();
+        format!("self-stress {}: {what} at {joint} ({})", place + 1, harm(t))
+    }
+
+    /// Returns every joint that bears a self-stress with its share, where that is known, the greatest first: "4-5 52 %, 5-1 48 %".
+    pub(crate) fn borne(&self, t: &SelfStress) -> String {
+        let share = |w: &JointWrench| w.borne.as_ref().map(|b| b.share());
+        let mut all: Vec<&JointWrench> = t.joints.iter().collect();
+        all.sort_by(|a, b| share(b).unwrap_or(0.0).total_cmp(&share(a).unwrap_or(0.0)));
+        let told = |w: &JointWrench| match (self.joint(w.joint), share(w).map(|s| 100.0 * s)) {
+            (joint, None) => joint.to_owned(),
+            (joint, Some(share)) if share < 1.0 => format!("{joint} <1 %"),
+            (joint, Some(share)) => format!("{joint} {share:.0} %"),
+        };
+        all.into_iter().map(told).join(", ")
     }
 }
 
@@ -233,125 +308,34 @@ fn range(least: usize, greatest: usize) -> String {
     }
 }
 
-impl Contour<'_> {
-    /// σ over all orders of these contours.
-    #[must_use]
-    pub fn range(&self) -> String {
-        range(self.least, self.greatest)
-    }
+/// Returns σ of a contour over all orders of these contours.
+pub(crate) fn in_any_order(c: &ContourShare) -> String {
+    range(c.range.0, c.range.1)
+}
 
-    /// σ over all bases of contours that it is part of.
-    #[must_use]
-    pub fn over_bases(&self) -> String {
-        let reached = range(self.least, self.greatest_over_bases);
-        match self.greatest_over_bases_at_most {
-            Some(most) => format!("{reached} or more, at most {most}"),
-            None => reached,
+/// Returns σ of a contour over all bases of contours that it is part of.
+pub(crate) fn in_any_basis(c: &ContourShare) -> String {
+    let (reached, most) = c.over_bases;
+    let words = range(c.range.0, reached);
+    if most > reached {
+        format!("{words} or more, at most {most}")
+    } else {
+        words
+    }
+}
+
+/// Returns where the σ that a state adds comes from: "12 constraints - (1 - 0) - 0 lost mobilities".
+pub(crate) fn formula(e: &External) -> String {
+    format!(
+        "{} - ({} - {}) - {} lost {}",
+        plural_of(&e.constraints.to_string(), "constraint"),
+        e.actual_mobility,
+        e.working_mobility,
+        e.lost_mobility,
+        if e.lost_mobility == 1 {
+            "mobility"
+        } else {
+            "mobilities"
         }
-    }
-
-    fn row(&self) -> Vec<String> {
-        vec![
-            self.contour.clone(),
-            self.joints.join(", "),
-            self.redundant.to_string(),
-            self.range(),
-            self.over_bases(),
-        ]
-    }
-}
-
-impl Coupling<'_> {
-    fn row(&self) -> Vec<String> {
-        vec![
-            "coupling".to_owned(),
-            self.coupling.to_owned(),
-            self.redundant.to_string(),
-            range(self.least, self.greatest),
-            range(self.least, self.greatest),
-        ]
-    }
-}
-
-impl External {
-    /// Where its σ comes from: "12 constraints - (1 - 0) - 0 lost mobilities".
-    #[must_use]
-    pub(crate) fn formula(&self) -> String {
-        format!(
-            "{} - ({} - {}) - {} lost {}",
-            plural_of(&self.counted.constraints.to_string(), "constraint"),
-            self.counted.actual_mobility,
-            self.counted.working_mobility,
-            self.counted.lost_mobility,
-            if self.counted.lost_mobility == 1 {
-                "mobility"
-            } else {
-                "mobilities"
-            }
-        )
-    }
-}
-
-impl SelfStress<'_> {
-    fn row(&self) -> Vec<String> {
-        let contours = self.contours.iter().map(String::as_str);
-        let (joint, what) = self.simplest.clone().unwrap_or_default();
-        vec![
-            contours
-                .chain(self.couplings.iter().flatten().copied())
-                .join(" + "),
-            joint.to_owned(),
-            what,
-            self.verdict.to_owned(),
-            self.borne(),
-        ]
-    }
-
-    /// What it is called in a drawing, counted from 0: "self-stress 1: moment about y at 0-1 (harmful)".
-    #[must_use]
-    pub fn name(&self, place: usize) -> String {
-        let (joint, what) = self.simplest.clone().unwrap_or_default();
-        format!(
-            "self-stress {}: {what} at {joint} ({})",
-            place + 1,
-            self.verdict
-        )
-    }
-
-    /// Every joint that bears it with its share, the greatest first: "4-5 52 %, 5-1 48 %".
-    #[must_use]
-    pub fn borne(&self) -> String {
-        let mut all: Vec<&Wrench> = self.joints.iter().collect();
-        all.sort_by(|a, b| {
-            let share = |w: &Wrench| w.share.unwrap_or(0.0);
-            share(b).total_cmp(&share(a))
-        });
-        all.iter().map(|w| w.borne()).join(", ")
-    }
-}
-
-impl Wrench<'_> {
-    /// The joint with its share, where that is known.
-    fn borne(&self) -> String {
-        match self.share.map(|s| 100.0 * s) {
-            None => self.joint.to_owned(),
-            Some(share) if share < 1.0 => format!("{} <1 %", self.joint),
-            Some(share) => format!("{} {share:.0} %", self.joint),
-        }
-    }
-
-    /// Which components it has: "moments about x and y, force along z".
-    #[must_use]
-    pub fn words(&self) -> String {
-        let part = |what: &str, axes: &[&str]| {
-            let (noun, along) = what.split_once(' ')?;
-            let s = if axes.len() == 1 { "" } else { "s" };
-            (!axes.is_empty()).then(|| format!("{noun}{s} {along} {}", list(axes)))
-        };
-        let parts = [
-            part("moment about", &self.moments),
-            part("force along", &self.forces),
-        ];
-        parts.into_iter().flatten().join(", ")
-    }
+    )
 }
