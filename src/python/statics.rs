@@ -10,7 +10,7 @@ use ozols::redundancy::stress::exact_self_stresses;
 use ozols::statics::contour_group::solutions::GroupMethod;
 use ozols::statics::reactions::Unsolved;
 use ozols::statics::solve::{Model, SolvedReactions, StaticsError, solve};
-use ozols::view::grip::clamped::{Clamped, Gripped, NotHeld, pose};
+use ozols::view::grip::clamped::{Clamped, NotHeld, pose};
 use ozols::view::reactions::stroke::ReactionsOverStroke;
 use ozols::view::reactions::{Reactions, text::reactions};
 use ozols::view::statics::{StaticsData, csv::csv, text};
@@ -87,27 +87,24 @@ fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Told> {
     let Some(found) = clamped(g, row, spatial).map_err(failed)? else {
         return not_held(&NotHeld::new(g));
     };
-    let (m, grip) = (&found.mechanism, Clamped::new(g, row, &found));
+    let (m, found) = (&found.mechanism, &found);
+    let grip = Clamped {
+        grip: g,
+        row,
+        found,
+    };
     let head = grip.text(matches!(found.found, ClampingReactions::Planar(_)), None);
     match &found.found {
         ClampingReactions::Planar(s) => {
             let told = StaticsData::new(m, s, &GroupMethod::ALL);
             let (body, csv) = (text::statics(&told, None), csv(&told));
-            let told = Gripped {
-                reactions: told,
-                state: Some(&m.states[g.state]),
-                grip,
-            };
+            let told = grip.beside(&told, Some(&m.states[g.state]));
             Ok((json(&told)?, head + &body, Some(csv), None))
         }
         ClampingReactions::Spatial(s) => {
             let told = Reactions::new(m, g.state, s);
             let (body, csv) = (reactions(&told, &pose(g, row), None), told.csv());
-            let told = Gripped {
-                reactions: told,
-                state: None,
-                grip,
-            };
+            let told = grip.beside(&told, None);
             Ok((json(&told)?, head + &body, Some(csv), None))
         }
     }

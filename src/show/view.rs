@@ -17,7 +17,7 @@ pub mod terminal;
 use crate::format::plural;
 use crate::model::mechanism::Mechanism;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// Returns the words for how sure a figure is, with the number of assumptions where there are any.
 fn as_read(m: &Mechanism, sure: String) -> String {
@@ -67,11 +67,11 @@ pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
     })
 }
 
-/// Returns the entries of an object, then more of them.
-fn joined(first: &impl Serialize, more: Value) -> Value {
-    let mut out = json!(first);
-    if let (Value::Object(out), Value::Object(more)) = (&mut out, more) {
-        out.extend(more);
-    }
-    out
+/// Returns one object with the entries of all.
+fn joined<const N: usize>(parts: [Value; N]) -> Value {
+    let entries = parts.into_iter().filter_map(|part| match part {
+        Value::Object(entries) => Some(entries),
+        _ => None,
+    });
+    entries.flatten().collect()
 }

@@ -7,11 +7,10 @@ use crate::grip::clamped::{ClampingReactions, clamped};
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
 use crate::statics::contour_group::solutions::GroupMethod;
-use crate::view::grip::clamped::{Clamped, Gripped, NotHeld, pose};
+use crate::view::grip::clamped::{Clamped, NotHeld, pose};
 use crate::view::reactions::{Reactions, text::reactions};
 use crate::view::statics::{StaticsData, csv::csv, text::statics};
 use anyhow::{Context, ensure};
-use std::io::Write;
 
 /// The diameter asked for, or the hardest; none where it is not held.
 fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
@@ -64,65 +63,41 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let Some(found) = clamped(g, row, a.spatial)? else {
         return not_held(g, a);
     };
-    let (m, grip) = (&found.mechanism, Clamped::new(g, row, &found));
+    let (m, found) = (&found.mechanism, &found);
+    let grip = Clamped {
+        grip: g,
+        row,
+        found,
+    };
+    let width = output::width(a.output.as_deref());
     output::to(a.output.as_deref(), |out| {
         match &found.found {
             ClampingReactions::Planar(s) => {
-                let gripped = Gripped {
-                    reactions: StaticsData::new(m, s, &GroupMethod::ALL),
-                    state: Some(m.states[g.state].as_str()),
-                    grip,
-                };
-                planar(out, &gripped, a)?;
+                let shown = StaticsData::new(m, s, &GroupMethod::ALL);
+                let state = Some(&*m.states[g.state]);
+                match a.format {
+                    StaticsFormat::Json => output::json(out, &grip.beside(&shown, state))?,
+                    StaticsFormat::Csv => write!(out, "{}", csv(&shown))?,
+                    StaticsFormat::Text => {
+                        let text = statics(&shown, width);
+                        write!(out, "{}{text}", grip.text(true, width))?;
+                    }
+                }
             }
             ClampingReactions::Spatial(s) => {
-                let gripped = Gripped {
-                    reactions: Reactions::new(m, g.state, s),
-                    state: None,
-                    grip,
-                };
-                spatial(out, &gripped, &pose(g, row), a)?;
+                let shown = Reactions::new(m, g.state, s);
+                match a.format {
+                    StaticsFormat::Json => output::json(out, &grip.beside(&shown, None))?,
+                    StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+                    StaticsFormat::Text => {
+                        let text = reactions(&shown, &pose(g, row), width);
+                        write!(out, "{}{text}", grip.text(false, width))?;
+                    }
+                }
             }
         }
         Ok(Done::Found)
     })
-}
-
-/// Writes the reactions in the plane.
-fn planar(
-    out: &mut dyn Write,
-    gripped: &Gripped<'_, StaticsData<'_>>,
-    a: &Statics,
-) -> anyhow::Result<()> {
-    let (shown, width) = (&gripped.reactions, output::width(a.output.as_deref()));
-    match a.format {
-        StaticsFormat::Json => output::json(out, gripped)?,
-        StaticsFormat::Csv => write!(out, "{}", csv(shown))?,
-        StaticsFormat::Text => {
-            let grip = gripped.grip.text(true, width);
-            write!(out, "{grip}{}", statics(shown, width))?;
-        }
-    }
-    Ok(())
-}
-
-/// Writes the reactions in space.
-fn spatial(
-    out: &mut dyn Write,
-    gripped: &Gripped<'_, Reactions<'_>>,
-    pose: &str,
-    a: &Statics,
-) -> anyhow::Result<()> {
-    let (shown, width) = (&gripped.reactions, output::width(a.output.as_deref()));
-    match a.format {
-        StaticsFormat::Json => output::json(out, gripped)?,
-        StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-        StaticsFormat::Text => {
-            let text = reactions(shown, pose, width);
-            write!(out, "{}{text}", gripped.grip.text(false, width))?;
-        }
-    }
-    Ok(())
 }
 
 /// Says why there are no forces: exit code 1.

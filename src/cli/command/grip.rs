@@ -14,7 +14,7 @@ use crate::grip::motion::along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::contact::object_at;
-use crate::view;
+use crate::view::grip::GripReport;
 use crate::view::grip::charts::charts;
 use crate::view::grip::closure::ClosureData;
 use crate::view::grip::motion::GripMotion;
@@ -84,17 +84,24 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
         None => None,
     };
     let found = grip(&file.spec, file.mechanism.as_ref())?;
-    let mut shown = view::grip::GripReport::new(&file, &found);
-    if let Some(steps) = steps {
-        let along = along(&file.spec, &found, &steps)?;
-        shown.motion = Some(GripMotion::new(&along, file.length_unit));
-    }
+    let motion = match steps {
+        None => None,
+        Some(steps) => Some(GripMotion {
+            steps: along(&file.spec, &found, &steps)?,
+            unit: file.length_unit,
+        }),
+    };
+    let shown = GripReport {
+        file: &file,
+        found: &found,
+        motion,
+    };
     if let Some(folder) = &a.svg {
         charts::write(folder, None, &charts(&shown), &[])?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Json => output::json(out, &shown.json())?,
             TextOrJson::Text => {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", text::grip(&shown, width))?;
@@ -105,8 +112,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
                 }
             }
         }
-        let held_along = shown.motion.as_ref().is_none_or(|m| m.holds);
-        Ok(if shown.holds && held_along {
+        Ok(if shown.holds() {
             Done::Found
         } else {
             Done::Nothing
@@ -190,15 +196,21 @@ fn run_closure(args: &Global, a: &Grip) -> anyhow::Result<Done> {
             )?)
         }
     };
-    let shown = ClosureData::new(&m, &part, [&force, &form], samples.as_ref());
+    let shown = ClosureData {
+        mechanism: &m,
+        part: &part,
+        force,
+        form,
+        samples,
+    };
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            TextOrJson::Json => output::json(out, &shown)?,
+            TextOrJson::Json => output::json(out, &shown.json())?,
             TextOrJson::Text => {
                 write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
             }
         }
-        Ok(match shown.force_closure.closed {
+        Ok(match shown.force.closed {
             Some(true) => Done::Found,
             Some(false) => Done::Nothing,
             None => Done::Partly,

@@ -40,6 +40,17 @@ pub struct Hardest {
     pub verdict: HoldVerdict,
 }
 
+impl Hardest {
+    /// Returns the forces that hold the part, where it is held.
+    #[must_use]
+    pub fn held(&self) -> Option<&Holding> {
+        match &self.verdict {
+            HoldVerdict::Held(held) => Some(held),
+            HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => None,
+        }
+    }
+}
+
 /// One diameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiameterRow {
@@ -63,20 +74,14 @@ impl DiameterRow {
     /// The drive moment per lever, where the part is held against a load. `[N·m]`
     #[must_use]
     pub fn drive(&self) -> Option<f64> {
-        match &self.hardest.as_ref()?.verdict {
-            HoldVerdict::Held(h) => Some(h.drive),
-            HoldVerdict::Slips(_) | HoldVerdict::Undecided(_) => None,
-        }
+        Some(self.hardest.as_ref()?.held()?.drive)
     }
 
     /// Whether the part is held in every case stated.
     #[must_use]
     pub fn holds(&self) -> bool {
-        let forces = self
-            .hardest
-            .as_ref()
-            .is_none_or(|h| matches!(h.verdict, HoldVerdict::Held(_)));
-        self.obstacles.is_empty() && forces
+        let forces = self.hardest.as_ref();
+        self.obstacles.is_empty() && forces.is_none_or(|h| h.held().is_some())
     }
 }
 

@@ -258,7 +258,7 @@ pub(crate) fn agrees(e: &External) -> bool {
 }
 
 fn external(e: &External) -> Value {
-    joined(e, json!({ "agree": agrees(e) }))
+    joined([json!(e), json!({ "agree": agrees(e) })])
 }
 
 fn coupling(c: &CouplingShare) -> Value {

@@ -118,7 +118,7 @@ fn step(s: &Ran) -> Value {
                 End::Stuck => ("stuck", 0.0),
             };
             let residual = json!({ "residual": swing.balance.residual() });
-            let energy = joined(&swing.balance, residual);
+            let energy = joined([json!(swing.balance), residual]);
             json!({ "disc": disc + 1, "end": end, "missing": missing, "energy": energy })
         }
     };

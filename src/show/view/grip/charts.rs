@@ -3,27 +3,30 @@
 use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::significant;
 use crate::grip::arm_curves::{Varied, arm_curve};
+use crate::grip::clamping::DiameterRow;
 use crate::grip::lever_arm::Arms;
-use crate::view::grip::{Diameter, GripReport};
+use crate::view::grip::GripReport;
 
 /// Every chart with the name of its file.
 #[must_use]
 pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
     let (metres, symbol) = (g.file.length_unit.metres, g.file.length_unit.symbol);
-    let series = |name: &str, style, y: &dyn Fn(&Diameter) -> Option<f64>| Series {
+    let series = |name: &str, style, y: &dyn Fn(&DiameterRow) -> Option<f64>| Series {
         name: name.to_owned(),
         points: g
-            .diameters
+            .found
+            .study
+            .rows
             .iter()
             .filter_map(|d| Some((d.diameter / metres, y(d)?)))
             .collect(),
         style,
     };
-    let held = |d: &Diameter, arm: f64| d.obstacles.is_empty().then_some(arm / metres);
+    let held = |d: &DiameterRow, arm: f64| d.obstacles.is_empty().then_some(arm / metres);
     let mut out = vec![(
         "arms".to_owned(),
         Chart {
-            title: format!("{}: arms of the clamping forces", g.mechanism),
+            title: format!("{}: arms of the clamping forces", g.file.name),
             subtitle: "Points: what the jaws can hold.".to_owned(),
             x: linear(format!("D, {symbol}")),
             y: linear(format!("arm, {symbol}")),
@@ -37,22 +40,21 @@ pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
     )];
     out.extend(Varied::ALL.map(|v| arms_over(g, v)));
     if g.file.spec.load.is_some() {
-        let moment = |d: &Diameter| d.load.as_ref()?.drive_moment_per_lever;
         out.push((
             "drive-moment".to_owned(),
             Chart {
-                title: format!("{}: least drive moment per lever", g.mechanism),
+                title: format!("{}: least drive moment per lever", g.file.name),
                 subtitle: "In the hardest case of each diameter.".to_owned(),
                 x: linear(format!("D, {symbol}")),
                 y: linear("moment, N·m".to_owned()),
-                series: vec![series("drive moment", Style::Line, &moment)],
+                series: vec![series("drive moment", Style::Line, &DiameterRow::drive)],
             },
         ));
     }
     out.extend(
         g.motion
             .as_ref()
-            .map(|m| ("motion".to_owned(), m.chart(g.mechanism))),
+            .map(|m| ("motion".to_owned(), m.chart(&g.file.name))),
     );
     out
 }
@@ -101,7 +103,7 @@ fn arms_over(g: &GripReport<'_>, varied: Varied) -> (String, Chart) {
         }
     }
     let chart = Chart {
-        title: format!("{}: arms of the clamping forces over {what}", g.mechanism),
+        title: format!("{}: arms of the clamping forces over {what}", g.file.name),
         subtitle: "All else as stated; where such a gripper can hold the part.".to_owned(),
         x: linear(label),
         y: linear(format!("arm, {}", unit.symbol)),

@@ -3,57 +3,28 @@
 
 use crate::format::significant;
 use crate::grip::clamped;
-use crate::grip::clamping::{DiameterRow, Hardest, HoldVerdict};
+use crate::grip::clamping::{DiameterRow, Hardest};
 use crate::grip::holding::ContactForce;
 use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::GripLoad;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::view::grip::reason;
+use crate::view::grip::reasons;
 use crate::view::grip::text::effort_of_drive;
+use crate::view::joined;
 use crate::view::terminal::layout::table;
 use serde::Serialize;
+use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// The loads from a grip round one part.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub struct Clamped<'a> {
-    /// Of the part `[m]`.
-    pub diameter: f64,
-    /// The hardest case in words.
-    pub case: Option<&'a str>,
-    /// Gravity less acceleration in that case `[m/s²]`.
-    pub pull: Option<[f64; 3]>,
-    /// The factor that the load is multiplied by.
-    pub safety: f64,
-    /// Position of the first drive since the pose of the file: `[rad]`, or the file's unit.
-    pub drive_position: f64,
-    /// What the grip asks of each lever `[N·m]`.
-    pub drive_moment_per_lever: Option<f64>,
-    /// Moments on the upper and the lower lever `[N·m]`.
-    pub lever_moments: Option<[f64; 2]>,
-    /// What one drive of both levers takes, `[N]` or `[N·m]`.
-    pub drive_effort: Option<f64>,
-    /// The contact forces.
-    pub contacts: Option<Vec<JointContact<'a>>>,
-    #[serde(skip)]
-    grip: &'a Gripping,
-    #[serde(skip)]
-    row: &'a DiameterRow,
-    /// Whether that drive slides.
-    #[serde(skip)]
-    slides: bool,
-}
-
-/// A contact as a joint of the mechanism, and its force on the part.
-#[derive(Debug, Serialize)]
-pub struct JointContact<'a> {
-    /// The joint.
-    pub contact: &'a str,
-    /// The link that touches.
-    pub jaw: &'a str,
-    /// The force.
-    #[serde(flatten)]
-    pub force: ContactForce,
+    /// The grip.
+    pub grip: &'a Gripping,
+    /// The part.
+    pub row: &'a DiameterRow,
+    /// The mechanism round it.
+    pub found: &'a clamped::Clamped,
 }
 
 /// A part that is not held.
@@ -67,19 +38,6 @@ pub struct NotHeld<'a> {
     pub held: bool,
     /// Why, by diameter.
     pub reasons: Vec<String>,
-}
-
-/// Reactions with the grip that causes them.
-#[derive(Debug, Serialize)]
-pub struct Gripped<'a, T> {
-    /// The reactions.
-    #[serde(flatten)]
-    pub reactions: T,
-    /// The state, where the reactions do not name it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub state: Option<&'a str>,
-    /// The grip.
-    pub grip: Clamped<'a>,
 }
 
 fn load(g: &Gripping) -> Option<&GripLoad> {
@@ -101,9 +59,7 @@ pub fn pose(g: &Gripping, row: &DiameterRow) -> String {
 /// Every reason why a part is not held, one a line.
 #[must_use]
 pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
-    let friction = load(g).map_or(0.0, |l| l.friction);
-    let forces = row.hardest.as_ref().and_then(|h| reason(h, friction));
-    let all = row.obstacles.iter().map(ToString::to_string).chain(forces);
+    let all = reasons(row, load(g).map_or(0.0, |l| l.friction));
     let lines = all.map(|why| format!("  {} cannot be held: {why}\n", diameter(g, row)));
     lines.collect()
 }
@@ -146,42 +102,46 @@ impl<'a> NotHeld<'a> {
     }
 }
 
-impl<'a> Clamped<'a> {
-    /// The grip's loads on a mechanism round the part of a row.
+impl Clamped<'_> {
+    /// Returns the contacts as joints of the mechanism: the joint, the link that touches, and the force on the part; nothing where it is
+    /// not held.
+    fn contacts(&self) -> Option<impl Iterator<Item = (&str, &str, &ContactForce)>> {
+        let (g, held) = (self.grip, self.row.hardest.as_ref()?.held()?);
+        let each = g.contacts.iter().enumerate().zip(&held.forces);
+        Some(each.map(|((i, &j), force)| {
+            let jaw = &g.mechanism.links[g.levers[i / 2]].id;
+            (&*g.mechanism.joints[j].id, &**jaw, force)
+        }))
+    }
+
+    /// Returns the reactions with the grip that causes them as data; with the state, where they do not name it.
     #[must_use]
-    pub fn new(g: &'a Gripping, row: &'a DiameterRow, found: &clamped::Clamped) -> Self {
-        let m = &g.mechanism;
-        let hardest = row.hardest.as_ref();
-        let held = match hardest {
-            Some(Hardest {
-                verdict: HoldVerdict::Held(held),
-                ..
-            }) => Some(held),
-            _ => None,
+    pub fn beside(&self, reactions: &impl Serialize, state: Option<&str>) -> Value {
+        let hardest = self.row.hardest.as_ref();
+        let held = hardest.and_then(Hardest::held);
+        let contact = |(contact, jaw, force): (&str, &str, &ContactForce)| {
+            joined([json!({ "contact": contact, "jaw": jaw }), json!(force)])
         };
-        let contacts = held.map(|h| {
-            let each = g.contacts.iter().enumerate().zip(&h.forces);
-            each.map(|((i, &j), f)| JointContact {
-                contact: &m.joints[j].id,
-                jaw: &m.links[g.levers[i / 2]].id,
-                force: *f,
-            })
-            .collect()
+        let grip = json!({
+            "diameter": self.row.diameter,
+            "case": hardest.map(|h| &h.case),
+            // Gravity less acceleration in that case.
+            "pull": hardest.map(|h| h.pull),
+            "safety": self.safety(),
+            // Since the pose of the file: `[rad]`, or the file's unit.
+            "drive_position": self.found.fit.drive,
+            "drive_moment_per_lever": held.map(|h| h.drive),
+            "lever_moments": held.map(|h| h.moments),
+            "drive_effort": self.found.effort.map(|e| e.0),
+            "contacts": self.contacts().map(|all| all.map(contact).collect::<Value>()),
         });
-        Clamped {
-            diameter: row.diameter,
-            case: hardest.map(|h| h.case.as_str()),
-            pull: hardest.map(|h| h.pull),
-            safety: load(g).map_or(1.0, |l| l.safety),
-            drive_position: found.fit.drive,
-            drive_moment_per_lever: held.map(|h| h.drive),
-            lever_moments: held.map(|h| h.moments),
-            drive_effort: found.effort.map(|e| e.0),
-            contacts,
-            grip: g,
-            row,
-            slides: found.effort.is_some_and(|e| e.1),
-        }
+        let state = state.map_or(Value::Null, |state| json!({ "state": state }));
+        joined([json!(reactions), state, json!({ "grip": grip })])
+    }
+
+    /// Returns the factor that the load is multiplied by.
+    fn safety(&self) -> f64 {
+        load(self.grip).map_or(1.0, |l| l.safety)
     }
 
     /// The same for people, fitted to a terminal of `width` columns where one is given; `flat` where forces across the plane
@@ -198,12 +158,13 @@ impl<'a> Clamped<'a> {
     }
 
     fn write(&self, out: &mut String, flat: bool, width: Option<u16>) -> std::fmt::Result {
-        let (Some(moment), Some(contacts)) = (self.drive_moment_per_lever, &self.contacts) else {
+        let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) else {
             return Ok(());
         };
+        let contacts: Vec<_> = contacts.collect();
         let (g, m) = (self.grip, &self.grip.mechanism);
         let choice = match g.study.hardest() {
-            Some(hardest) if hardest.diameter == self.diameter => "the worst case",
+            Some(hardest) if hardest.diameter == self.row.diameter => "the worst case",
             _ => "the worst case of this diameter",
         };
         writeln!(
@@ -215,20 +176,20 @@ impl<'a> Clamped<'a> {
             out,
             "{}, {}, safety factor {}",
             diameter(g, self.row),
-            self.case.unwrap_or(""),
-            significant(self.safety)
+            self.row.hardest.as_ref().map_or("", |h| &h.case),
+            significant(self.safety())
         )?;
         write!(out, "The grip asks {} N·m per lever", significant(moment))?;
-        if let Some(effort) = self.drive_effort {
-            write!(out, ", {}", effort_of_drive(effort, self.slides))?;
+        if let Some((effort, slides)) = self.found.effort {
+            write!(out, ", {}", effort_of_drive(effort, slides))?;
         }
         writeln!(
             out,
             "; its drive below bears that and the loads of the links\n"
         )?;
-        let rows = contacts.iter().map(|c| {
-            let mut row = vec![c.contact.to_owned(), c.jaw.to_owned()];
-            row.extend([c.force.normal, c.force.along, c.force.axial].map(significant));
+        let rows = contacts.iter().map(|(contact, jaw, force)| {
+            let mut row = vec![contact.to_string(), jaw.to_string()];
+            row.extend([force.normal, force.along, force.axial].map(significant));
             row
         });
         let head = [
@@ -240,7 +201,7 @@ impl<'a> Clamped<'a> {
         ];
         writeln!(out, "{}\n", table(&head, rows.collect(), width))?;
         let mut each = contacts.iter();
-        if flat && each.any(|c| c.force.axial.abs() > 1e-6 * c.force.normal) {
+        if flat && each.any(|(.., f)| f.axial.abs() > 1e-6 * f.normal) {
             writeln!(
                 out,
                 "Forces along the part are across the plane of motion and left out below; --spatial takes them.\n"

@@ -4,229 +4,177 @@
 use crate::format::{plural, significant};
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
-use crate::grip::faces::PressureArea;
-use crate::grip::force_closure::{self, NOTHING};
+use crate::grip::faces::{JawFace, PressureArea};
+use crate::grip::force_closure::{ClosureShares, ForceClosure, NOTHING};
 use crate::model::mechanism::Mechanism;
 use crate::view::terminal::layout::{fit, table};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// What the contacts of a state hold.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub struct ClosureData<'a> {
-    /// Name of the mechanism.
-    pub mechanism: &'a str,
-    /// Its state.
-    pub state: &'a str,
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
     /// The part.
-    pub object: &'a str,
-    /// Middle of its contacts `[m]`.
-    pub middle: [f64; 3],
-    /// What moments are divided by: root mean square distance of the contacts from the middle `[m]`.
-    pub size: f64,
-    /// Motions of the jaws with drives held and contacts let go.
-    pub loose: usize,
-    /// The contacts.
-    pub contacts: Vec<ClosureContact<'a>>,
+    pub part: &'a ClampedPart,
     /// With friction.
-    pub force_closure: Margin,
+    pub force: ForceClosure,
     /// Without.
-    pub form_closure: Margin,
+    pub form: ForceClosure,
     /// Of parts out of true, where they were asked for.
-    pub samples: Option<Samples>,
-    #[serde(skip)]
-    unit: (f64, &'static str),
+    pub samples: Option<ClosureShares>,
 }
 
-/// A contact.
-#[derive(Debug, Serialize)]
-pub struct ClosureContact<'a> {
-    /// The joint.
-    pub contact: &'a str,
-    /// `disc`, `line` or `point`.
-    pub shape: &'static str,
-    /// Radius of a disc, half length of a line `[m]`; nothing where it has no end.
-    pub reach: Option<f64>,
-    /// Coefficient of friction; nothing where it is as much as it takes.
-    pub friction: Option<f64>,
+/// A load on the part: the moment over the part's size, and the force.
+fn split(d: &[f64; 6]) -> ([f64; 3], [f64; 3]) {
+    ([d[0], d[1], d[2]], [d[3], d[4], d[5]])
 }
 
-/// Closure, and how far from its loss.
-#[derive(Debug, Serialize)]
-pub struct Margin {
-    /// Whether every small load is resisted; nothing where that is within the accuracy of the programmes.
-    pub closed: Option<bool>,
-    /// Radius of the greatest ball of loads resisted, at least.
-    pub at_least: f64,
-    /// At most; nothing where no load has a limit.
-    pub at_most: Option<f64>,
-    /// The load resisted least, of size 1; nothing where no load has a limit.
-    pub weakest: Option<PartLoad>,
-    /// Loads along the axes.
-    pub along: Vec<PartLoad>,
+/// How much of a load is resisted by normal forces of 1 in all; nothing where there is no limit.
+fn load(d: &[f64; 6], resisted: f64) -> Value {
+    let (moment, force) = split(d);
+    let resisted = Some(resisted).filter(|x| x.is_finite());
+    json!({ "force": force, "moment": moment, "resisted": resisted })
 }
 
-/// A load on the part.
-#[derive(Debug, Serialize)]
-pub struct PartLoad {
-    /// Its direction: force.
-    pub force: [f64; 3],
-    /// Moment over the size.
-    pub moment: [f64; 3],
-    /// How much of it is resisted by normal forces of 1 in all; nothing where there is no limit.
-    pub resisted: Option<f64>,
-}
-
-/// Of parts out of true.
-#[derive(Debug, Serialize)]
-pub struct Samples {
-    /// How many.
-    pub samples: usize,
-    /// By how much points and rims are out at most `[m]`.
-    pub tolerance: f64,
-    /// How many have force closure.
-    pub force_closed: usize,
-    /// Their share.
-    pub force_closed_share: f64,
-    /// How many have form closure.
-    pub form_closed: usize,
-    /// Their share.
-    pub form_closed_share: f64,
-    /// Of how many force closure is within the accuracy of the programmes.
-    pub force_undecided: usize,
-    /// Of how many form closure is.
-    pub form_undecided: usize,
-}
-
-impl PartLoad {
-    fn new(d: &[f64; 6], resisted: f64) -> PartLoad {
-        PartLoad {
-            force: [d[3], d[4], d[5]],
-            moment: [d[0], d[1], d[2]],
-            resisted: Some(resisted).filter(|x| x.is_finite()),
+/// A load in words: along which axis, where it is one.
+fn words(d: &[f64; 6]) -> String {
+    let (moment, force) = split(d);
+    let axis = |v: [f64; 3]| {
+        let unit = scale(v, 1.0 / length(v));
+        let mut parts = ["x", "y", "z"].into_iter().zip(unit);
+        match parts.find(|(_, c)| c.abs() > 0.9999) {
+            Some((name, c)) => format!("{}{name}", if c < 0.0 { "-" } else { "" }),
+            None => format!("({})", unit.map(|c| format!("{c:.3}")).join(", ")),
         }
+    };
+    let (f, m) = (length(force), length(moment));
+    match (f > 1e-3, m > 1e-3) {
+        (true, false) => format!("force along {}", axis(force)),
+        (false, true) => format!("moment about {}", axis(moment)),
+        _ => format!(
+            "force {f:.2} along {}, moment {m:.2} about {}",
+            axis(force),
+            axis(moment)
+        ),
     }
+}
 
-    /// In words: along which axis, where it is one.
-    fn words(&self) -> String {
-        let axis = |v: [f64; 3]| {
-            let unit = scale(v, 1.0 / length(v));
-            let mut parts = ["x", "y", "z"].into_iter().zip(unit);
-            match parts.find(|(_, c)| c.abs() > 0.9999) {
-                Some((name, c)) => format!("{}{name}", if c < 0.0 { "-" } else { "" }),
-                None => format!("({})", unit.map(|c| format!("{c:.3}")).join(", ")),
-            }
-        };
-        let (f, m) = (length(self.force), length(self.moment));
-        match (f > 1e-3, m > 1e-3) {
-            (true, false) => format!("force along {}", axis(self.force)),
-            (false, true) => format!("moment about {}", axis(self.moment)),
-            _ => format!(
-                "force {f:.2} along {}, moment {m:.2} about {}",
-                axis(self.force),
-                axis(self.moment)
-            ),
+fn amount(resisted: f64) -> String {
+    match resisted {
+        x if !x.is_finite() => "no limit".to_owned(),
+        x if x <= NOTHING => "nothing".to_owned(),
+        x => significant(x),
+    }
+}
+
+/// Closure, and how far from its loss, as data: the radius of the greatest ball of loads resisted, and the load resisted least; nothing
+/// where no load has a limit.
+fn margin(c: &ForceClosure) -> Value {
+    let finite = c.at_most.is_finite();
+    let least = if c.at_least.is_finite() {
+        c.at_least
+    } else {
+        0.0
+    };
+    json!({
+        "closed": c.closed,
+        "at_least": least,
+        "at_most": finite.then_some(c.at_most),
+        "weakest": finite.then(|| load(&c.weakest, c.at_most)),
+        "along": c.along.iter().map(|(d, x)| load(d, *x)).collect::<Value>(),
+    })
+}
+
+/// The verdict in a line.
+fn verdict(c: &ForceClosure, name: &str) -> String {
+    match c.closed {
+        Some(true) if c.at_most.is_finite() => {
+            let margin = match [c.at_least, c.at_most].map(significant) {
+                [least, most] if least == most => most,
+                [least, most] => format!("{least} to {most}"),
+            };
+            let weakest = words(&c.weakest);
+            format!("{name}: yes, margin {margin}; weakest against {weakest}")
         }
-    }
-
-    fn amount(&self) -> String {
-        match self.resisted {
-            None => "no limit".to_owned(),
-            Some(x) if x <= NOTHING => "nothing".to_owned(),
-            Some(x) => significant(x),
+        Some(true) => format!("{name}: yes, against loads of any size"),
+        None => format!("{name}: undecided, the margin is within the accuracy of the programmes"),
+        Some(false) => {
+            let open = c.along.iter().filter(|(_, x)| *x <= NOTHING);
+            let open: Vec<String> = open.map(|(d, _)| words(d)).collect();
+            format!("{name}: no, nothing resists {}", open.join(", "))
         }
     }
 }
 
-impl Margin {
-    fn new(c: &force_closure::ForceClosure) -> Margin {
-        let finite = c.at_most.is_finite();
-        Margin {
-            closed: c.closed,
-            at_least: if c.at_least.is_finite() {
-                c.at_least
-            } else {
-                0.0
-            },
-            at_most: finite.then_some(c.at_most),
-            weakest: finite.then(|| PartLoad::new(&c.weakest, c.at_most)),
-            along: c.along.iter().map(|(d, x)| PartLoad::new(d, *x)).collect(),
-        }
-    }
-
-    /// The verdict in a line.
-    fn verdict(&self, name: &str) -> String {
-        match (self.closed, self.at_most, &self.weakest) {
-            (Some(true), Some(most), Some(weakest)) => {
-                let margin = match [self.at_least, most].map(significant) {
-                    [least, most] if least == most => most,
-                    [least, most] => format!("{least} to {most}"),
-                };
-                format!(
-                    "{name}: yes, margin {margin}; weakest against {}",
-                    weakest.words()
-                )
-            }
-            (Some(true), ..) => format!("{name}: yes, against loads of any size"),
-            (None, ..) => {
-                format!("{name}: undecided, the margin is within the accuracy of the programmes")
-            }
-            (Some(false), ..) => {
-                let all = self.along.iter();
-                let open: Vec<String> = all
-                    .filter(|l| l.resisted.is_some_and(|x| x <= NOTHING))
-                    .map(PartLoad::words)
-                    .collect();
-                format!("{name}: no, nothing resists {}", open.join(", "))
-            }
-        }
+fn shape(f: &JawFace) -> &'static str {
+    match f.shape {
+        PressureArea::Disc(_) => "disc",
+        PressureArea::Line(_) => "line",
+        PressureArea::Point => "point",
     }
 }
 
-impl<'a> ClosureData<'a> {
-    /// What was found of a part of a mechanism, with friction and without, and of parts out of true.
+#[allow(clippy::cast_precision_loss, reason = "counts of samples")]
+fn share(n: usize, of: usize) -> f64 {
+    n as f64 / of as f64
+}
+
+impl ClosureData<'_> {
+    /// Returns what moments are divided by: root mean square distance of the contacts from their middle `[m]`.
+    fn size(&self) -> f64 {
+        self.part.size * self.part.geometry.size
+    }
+
+    /// Returns how many motions the jaws have with drives held and contacts let go.
+    fn loose(&self) -> usize {
+        self.part.motions.len() - self.part.axes.len()
+    }
+
+    /// Returns the radius of a disc, the half length of a line `[m]`; nothing where it has no end.
+    fn reach(&self, f: &JawFace) -> Option<f64> {
+        f.reach().map(|r| r * self.part.geometry.size)
+    }
+
+    /// Returns all of it as data.
     #[must_use]
-    pub fn new(
-        m: &'a Mechanism,
-        part: &ClampedPart,
-        [force, form]: [&force_closure::ForceClosure; 2],
-        samples: Option<&force_closure::ClosureShares>,
-    ) -> Self {
-        let g = &part.geometry;
-        let contact = |f: &crate::grip::faces::JawFace| ClosureContact {
-            contact: &m.joints[f.joint].id,
-            shape: match f.shape {
-                PressureArea::Disc(_) => "disc",
-                PressureArea::Line(_) => "line",
-                PressureArea::Point => "point",
-            },
-            reach: f.reach().map(|r| r * g.size),
-            friction: f.friction,
+    pub fn json(&self) -> Value {
+        let (m, part, g) = (self.mechanism, self.part, &self.part.geometry);
+        let contact = |f: &JawFace| {
+            json!({
+                "contact": m.joints[f.joint].id,
+                "shape": shape(f),
+                "reach": self.reach(f),
+                // Nothing where it is as much as it takes.
+                "friction": f.friction,
+            })
         };
-        #[allow(clippy::cast_precision_loss, reason = "counts of samples")]
-        let share = |n: usize, of: usize| n as f64 / of as f64;
-        ClosureData {
-            mechanism: &m.name,
-            state: &m.states[part.state],
-            object: &m.links[part.object].id,
-            middle: [0, 1, 2].map(|i| g.middle[i] + g.size * part.middle[i]),
-            size: part.size * g.size,
-            loose: part.motions.len() - part.axes.len(),
-            contacts: part.faces.iter().map(contact).collect(),
-            force_closure: Margin::new(force),
-            form_closure: Margin::new(form),
-            samples: samples.map(|s| Samples {
-                samples: s.samples,
-                tolerance: s.tolerance,
-                force_closed: s.force_closed,
-                force_closed_share: share(s.force_closed, s.samples),
-                form_closed: s.form_closed,
-                form_closed_share: share(s.form_closed, s.samples),
-                force_undecided: s.force_undecided,
-                form_undecided: s.form_undecided,
-            }),
-            unit: (m.length_unit.metres, m.length_unit.symbol),
-        }
+        let samples = self.samples.as_ref().map(|s| {
+            json!({
+                "samples": s.samples,
+                "tolerance": s.tolerance,
+                "force_closed": s.force_closed,
+                "force_closed_share": share(s.force_closed, s.samples),
+                "form_closed": s.form_closed,
+                "form_closed_share": share(s.form_closed, s.samples),
+                "force_undecided": s.force_undecided,
+                "form_undecided": s.form_undecided,
+            })
+        });
+        let middle = [0, 1, 2].map(|i| g.middle[i] + g.size * part.middle[i]);
+        json!({
+            "mechanism": m.name,
+            "state": m.states[part.state],
+            "object": m.links[part.object].id,
+            "middle": middle,
+            "size": self.size(),
+            "loose": self.loose(),
+            "contacts": part.faces.iter().map(contact).collect::<Value>(),
+            "force_closure": margin(&self.force),
+            "form_closure": margin(&self.form),
+            "samples": samples,
+        })
     }
 
     /// The report, fitted to a terminal of `width` columns where one is given.
@@ -240,55 +188,53 @@ impl<'a> ClosureData<'a> {
 
     /// A length in the file's unit, with its symbol.
     fn long(&self, x: f64) -> String {
-        let (metres, symbol) = self.unit;
-        format!("{} {symbol}", significant(x / metres))
+        let unit = self.mechanism.length_unit;
+        format!("{} {}", significant(x / unit.metres), unit.symbol)
     }
 
     fn contact_table(&self, width: Option<u16>) -> String {
-        let rows = self.contacts.iter().map(|c| {
-            let reach = match (c.shape, c.reach) {
+        let rows = self.part.faces.iter().map(|c| {
+            let reach = match (shape(c), self.reach(c)) {
                 ("point", _) => "-".to_owned(),
                 (_, Some(r)) => self.long(r),
                 (_, None) => "no end stated".to_owned(),
             };
             let friction = c.friction.map_or("as it takes".to_owned(), significant);
-            vec![c.contact.to_owned(), c.shape.to_owned(), reach, friction]
+            let contact = &self.mechanism.joints[c.joint].id;
+            vec![contact.clone(), shape(c).to_owned(), reach, friction]
         });
         let head = ["contact", "shape", "radius or half length", "friction"];
         table(&head, rows.collect(), width)
     }
 
     fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+        let (m, part) = (self.mechanism, self.part);
         writeln!(
             out,
             "{}, state {}: {}\n{}\n",
-            self.mechanism,
-            self.state,
-            self.force_closure.verdict("force closure"),
-            self.form_closure.verdict("form closure")
+            m.name,
+            m.states[part.state],
+            verdict(&self.force, "force closure"),
+            verdict(&self.form, "form closure")
         )?;
         writeln!(
             out,
             "  part {} between {}, drives held; loads by the sum of the normal forces, moments over {}\n  \
              (root mean square distance of the contacts from their middle)",
-            self.object,
-            plural(self.contacts.len(), "contact"),
-            self.long(self.size)
+            m.links[part.object].id,
+            plural(part.faces.len(), "contact"),
+            self.long(self.size())
         )?;
-        if self.loose > 0 {
+        if self.loose() > 0 {
             writeln!(
                 out,
                 "  with drives held and contacts let go the jaws have {}, which limit what they can bear",
-                plural(self.loose, "free motion")
+                plural(self.loose(), "free motion")
             )?;
         }
         writeln!(out, "\n{}", self.contact_table(width))?;
-        let pairs = self
-            .force_closure
-            .along
-            .iter()
-            .zip(&self.form_closure.along);
-        let rows = pairs.map(|(a, b)| vec![a.words(), a.amount(), b.amount()]);
+        let pairs = self.force.along.iter().zip(&self.form.along);
+        let rows = pairs.map(|((d, a), (_, b))| vec![words(d), amount(*a), amount(*b)]);
         let head = ["load on the part", "resisted", "without friction"];
         writeln!(out, "\n{}", table(&head, rows.collect(), width))?;
         if let Some(s) = &self.samples {
@@ -298,9 +244,9 @@ impl<'a> ClosureData<'a> {
                 plural(s.samples, "sample"),
                 self.long(s.tolerance),
                 s.force_closed,
-                100.0 * s.force_closed_share,
+                100.0 * share(s.force_closed, s.samples),
                 s.form_closed,
-                100.0 * s.form_closed_share
+                100.0 * share(s.form_closed, s.samples)
             )?;
             if s.force_undecided + s.form_undecided > 0 {
                 writeln!(

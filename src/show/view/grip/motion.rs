@@ -3,91 +3,69 @@
 use crate::chart::{Axis, Chart, Scale, Series, Style};
 use crate::format::{plural, significant};
 use crate::grip::clamping::HoldVerdict;
-use crate::grip::motion::StepTaken as Found;
+use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;
 use crate::view::terminal::layout::{fit, table};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Rows shown before the rest is left out.
 const SHOWN: usize = 40;
 
 /// A motion, step by step.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub struct GripMotion {
-    /// Whether the part can be held at every step.
-    pub holds: bool,
-    /// The steps.
-    pub steps: Vec<ClampingStep>,
-    #[serde(skip)]
-    unit: LengthUnit,
+    /// The steps and the clamping they take.
+    pub steps: Vec<StepTaken>,
+    /// The file's unit.
+    pub unit: LengthUnit,
 }
 
-/// A step and the clamping it takes.
-#[derive(Debug, Serialize)]
-pub struct ClampingStep {
-    /// `[s]`, where stated.
-    pub time: Option<f64>,
-    /// `[m]`
-    pub diameter: f64,
-    /// Of the gripper `[m/s²]`.
-    pub acceleration: [f64; 3],
-    /// Gravity less acceleration `[m/s²]`.
-    pub pull: [f64; 3],
-    /// `can hold`, `slips`, `cannot be held` or `undecided`.
-    pub verdict: &'static str,
-    /// The least drive moment per lever `[N·m]`.
-    pub drive_moment_per_lever: Option<f64>,
-    /// No smaller one holds `[N·m]`.
-    pub lower_bound: Option<f64>,
-    /// What one drive of both levers takes, `[N]` or `[N·m]`.
-    pub drive_effort: Option<f64>,
-    /// Whether that drive slides.
-    #[serde(skip)]
-    slides: bool,
+fn word(s: &StepTaken) -> &'static str {
+    match &s.verdict {
+        Some(HoldVerdict::Held(_)) => "can hold",
+        Some(HoldVerdict::Slips(_)) => "slips",
+        Some(HoldVerdict::Undecided(_)) => "undecided",
+        None => "cannot be held",
+    }
 }
 
 impl GripMotion {
-    /// What was found of a motion.
+    /// Returns whether the part can be held at every step.
     #[must_use]
-    pub fn new(found: &[Found], unit: LengthUnit) -> Self {
-        let step = |s: &Found| {
-            let (verdict, bound) = match &s.verdict {
-                Some(HoldVerdict::Held(h)) => ("can hold", Some(h.lower_bound)),
-                Some(HoldVerdict::Slips(_)) => ("slips", None),
-                Some(HoldVerdict::Undecided(_)) => ("undecided", None),
-                None => ("cannot be held", None),
+    pub fn holds(&self) -> bool {
+        self.steps.iter().all(|s| s.drive().is_some())
+    }
+
+    /// Returns it as data.
+    #[must_use]
+    pub(super) fn json(&self) -> Value {
+        let step = |s: &StepTaken| {
+            let bound = match &s.verdict {
+                Some(HoldVerdict::Held(h)) => Some(h.lower_bound),
+                _ => None,
             };
-            ClampingStep {
-                time: s.of.time,
-                diameter: s.diameter,
-                acceleration: s.of.acceleration,
-                pull: s.pull,
-                verdict,
-                drive_moment_per_lever: s.drive(),
-                lower_bound: bound,
-                drive_effort: s.effort.map(|e| e.0),
-                slides: s.effort.is_some_and(|e| e.1),
-            }
+            json!({
+                "time": s.of.time,
+                "diameter": s.diameter,
+                "acceleration": s.of.acceleration,
+                // Gravity less acceleration.
+                "pull": s.pull,
+                "verdict": word(s),
+                "drive_moment_per_lever": s.drive(),
+                "lower_bound": bound,
+                "drive_effort": s.effort.map(|e| e.0),
+            })
         };
-        GripMotion {
-            holds: found.iter().all(|s| s.drive().is_some()),
-            steps: found.iter().map(step).collect(),
-            unit,
-        }
+        json!({ "holds": self.holds(), "steps": self.steps.iter().map(step).collect::<Value>() })
     }
 
     /// Whether it can hold, and with what moments.
     fn verdict(&self) -> String {
-        let moments = self.steps.iter().filter_map(|s| s.drive_moment_per_lever);
+        let moments = self.steps.iter().filter_map(StepTaken::drive);
         let least = moments.clone().fold(f64::INFINITY, f64::min);
-        let most = moments.fold(0.0, f64::max);
-        let lost = self
-            .steps
-            .iter()
-            .filter(|s| s.drive_moment_per_lever.is_none())
-            .count();
-        match lost {
+        let most = moments.clone().fold(0.0, f64::max);
+        match self.steps.len() - moments.clone().count() {
             0 => format!(
                 "can hold at every step, with {} to {} N·m per lever",
                 significant(least),
@@ -109,11 +87,8 @@ impl GripMotion {
             self.verdict()
         );
         let symbol = self.unit.symbol;
-        let effort = if self
-            .steps
-            .iter()
-            .any(|s| s.drive_effort.is_some() && !s.slides)
-        {
+        let turns = |s: &StepTaken| s.effort.is_some_and(|(_, slides)| !slides);
+        let effort = if self.steps.iter().any(turns) {
             "drive, N·m"
         } else {
             "drive, N"
@@ -132,12 +107,12 @@ impl GripMotion {
         let rows = self.steps.iter().take(SHOWN).enumerate().map(|(i, s)| {
             vec![
                 (i + 1).to_string(),
-                number(s.time),
+                number(s.of.time),
                 significant(s.diameter / self.unit.metres),
-                s.acceleration.map(significant).join(", "),
-                number(s.drive_moment_per_lever),
-                number(s.drive_effort),
-                s.verdict.to_owned(),
+                s.of.acceleration.map(significant).join(", "),
+                number(s.drive()),
+                number(s.effort.map(|e| e.0)),
+                word(s).to_owned(),
             ]
         });
         let _ = writeln!(out, "{}", table(&head, rows.collect(), width));
@@ -151,11 +126,11 @@ impl GripMotion {
     /// The moment, and the drive's effort where it is known, over the motion.
     #[must_use]
     pub fn chart(&self, mechanism: &str) -> Chart {
-        let timed = self.steps.iter().all(|s| s.time.is_some());
+        let timed = self.steps.iter().all(|s| s.of.time.is_some());
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]
-        let at = |i: usize, s: &ClampingStep| s.time.filter(|_| timed).unwrap_or(i as f64 + 1.0);
+        let at = |i: usize, s: &StepTaken| s.of.time.filter(|_| timed).unwrap_or(i as f64 + 1.0);
         let points = self.steps.iter().enumerate();
-        let points = points.map(|(i, s)| (at(i, s), s.drive_moment_per_lever.unwrap_or(f64::NAN)));
+        let points = points.map(|(i, s)| (at(i, s), s.drive().unwrap_or(f64::NAN)));
         let linear = |label: &str| Axis {
             label: label.to_owned(),
             scale: Scale::Linear,

@@ -1,9 +1,13 @@
 //! A gripper for people: whether it holds, with what drive, and why.
 
 use crate::format::{plural, significant};
+use crate::grip::clamping::DiameterRow;
+use crate::grip::contact::TouchingPose;
+use crate::grip::holding::Holding;
+use crate::model::claim::Topic;
 use crate::model::grip::{LeverDrive, PartMass, Pivots, Toward};
 use crate::view::claims;
-use crate::view::grip::{Diameter, GripReport, PartContact};
+use crate::view::grip::{GripReport, reasons};
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
@@ -21,9 +25,9 @@ fn length(g: &GripReport<'_>, x: f64) -> String {
     significant(x / g.file.length_unit.metres)
 }
 
-fn range(g: &GripReport<'_>, rows: &[&Diameter<'_>]) -> String {
+fn range(g: &GripReport<'_>, rows: &[&DiameterRow]) -> String {
     let symbol = g.file.length_unit.symbol;
-    let d = |r: &Diameter| length(g, r.diameter);
+    let d = |r: &DiameterRow| length(g, r.diameter);
     match rows {
         [] => "nothing".to_owned(),
         [one] => format!("D = {} {symbol}", d(one)),
@@ -33,10 +37,11 @@ fn range(g: &GripReport<'_>, rows: &[&Diameter<'_>]) -> String {
 
 fn write(out: &mut String, g: &GripReport<'_>, width: Option<u16>) -> std::fmt::Result {
     let symbol = g.file.length_unit.symbol;
-    let (held, lost): (Vec<&Diameter>, Vec<&Diameter>) = g.diameters.iter().partition(|d| d.holds);
+    let rows = &g.found.study.rows;
+    let (held, lost): (Vec<_>, Vec<_>) = rows.iter().partition(|d| d.holds());
     verdict(out, g, &held, &lost)?;
     for d in &lost {
-        for reason in d.reasons() {
+        for reason in reasons(d, g.friction()) {
             let at = length(g, d.diameter);
             writeln!(out, "  D = {at} {symbol} cannot be held: {reason}")?;
         }
@@ -51,32 +56,33 @@ fn write(out: &mut String, g: &GripReport<'_>, width: Option<u16>) -> std::fmt::
         "\n  The arms and their parts, l1 = l11 + l12 and l2 = l21 - l22:\n\n{}",
         parts(g, width)
     )?;
-    let hardest = g.hardest.as_ref().and_then(|d| d.load.as_ref());
-    if let Some(forces) = hardest.and_then(|l| l.contacts.as_ref()) {
+    let hardest = g.hardest().map(|at| &rows[at]);
+    let held = hardest.and_then(|d| Some((d.hardest.as_ref()?.held()?, d.pose.as_ref()?)));
+    if let Some((held, pose)) = held {
         writeln!(
             out,
             "\n  The four contact forces in that case:\n\n{}",
-            contacts(
-                forces,
-                g.file.spec.load.as_ref().map_or(0.0, |l| l.friction),
-                width
-            )
+            contacts(held, pose, g.friction(), width)
         )?;
     }
     if let Some(motion) = &g.motion {
         write!(out, "{}", motion.text(width))?;
     }
-    write!(out, "{}", claims::text(&g.claims, width))
+    write!(
+        out,
+        "{}",
+        claims::text(&claims::about(&g.file.claims, Topic::Grip), width)
+    )
 }
 
 /// What can be held, and what the hardest of it takes.
 fn verdict(
     out: &mut String,
     g: &GripReport<'_>,
-    held: &[&Diameter<'_>],
-    lost: &[&Diameter<'_>],
+    held: &[&DiameterRow],
+    lost: &[&DiameterRow],
 ) -> std::fmt::Result {
-    let (name, symbol) = (g.mechanism, g.file.length_unit.symbol);
+    let (name, symbol) = (&g.file.name, g.file.length_unit.symbol);
     // The forces found can balance the load; others may arise, and the safety factor is for those.
     let verb = if g.file.spec.load.is_some() {
         "can hold"
@@ -90,17 +96,18 @@ fn verdict(
             out,
             "{name}: {verb} {} of {} diameters, not all",
             held.len(),
-            g.diameters.len()
+            g.found.study.rows.len()
         )?,
     }
-    if let Some((d, load)) = g.hardest.as_ref().and_then(|d| Some((d, d.load.as_ref()?))) {
+    let hardest = g.hardest().map(|at| (at, &g.found.study.rows[at]));
+    if let Some((at, d, load)) = hardest.and_then(|(at, d)| Some((at, d, d.hardest.as_ref()?))) {
         write!(out, "; hardest at {} {symbol}", length(g, d.diameter))?;
-        if let Some(moment) = load.drive_moment_per_lever {
+        if let Some(moment) = d.drive() {
             let moment = significant(moment);
             write!(out, ", {}: drive moment {moment} N·m per lever", load.case)?;
         }
-        if let (Some(effort), Some(t)) = (load.drive_effort, d.transmission) {
-            write!(out, ", {}", effort_of_drive(effort, t.drive == "slides"))?;
+        if let (Some(effort), Some(t)) = (g.effort(at), g.rates(at)) {
+            write!(out, ", {}", effort_of_drive(effort, t.slides))?;
         }
     }
     writeln!(out, "\n")
@@ -118,15 +125,12 @@ pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
 /// Where the pivots are.
 fn pivots(g: &GripReport<'_>) -> String {
     let symbol = g.file.length_unit.symbol;
-    match (g.file.spec.pivots, g.diameters.first()) {
+    match (g.file.spec.pivots, g.found.study.rows.first()) {
         (Pivots::Nominal, _) | (_, None) => "pivots set for each diameter".to_owned(),
         (Pivots::Fixed(_) | Pivots::FixedForDiameter, Some(d)) => {
-            let sign = if d.levers_cross { -1.0 } else { 1.0 };
-            let nominal = g.lever.nominal_diameter(sign * d.pivot_distance);
-            let at = format!(
-                "pivots fixed at a = {} {symbol}",
-                length(g, d.pivot_distance)
-            );
+            let pivot = d.gripper.pivot;
+            let nominal = g.found.study.lever.nominal_diameter(pivot);
+            let at = format!("pivots fixed at a = {} {symbol}", length(g, pivot.abs()));
             if nominal > 0.0 {
                 format!("{at}, nominal for D = {} {symbol}", length(g, nominal))
             } else {
@@ -189,8 +193,8 @@ fn diameters(g: &GripReport<'_>, width: Option<u16>) -> String {
     let mut head: Vec<String> = ["D", "l1", "l2"].map(|n| format!("{n}, {symbol}")).to_vec();
     head.extend(["l1/l2".to_owned(), "turn, °".to_owned()]);
     let load = g.file.spec.load.as_ref();
-    let one_drive =
-        g.transmission.is_some() && load.is_some_and(|l| l.levers != LeverDrive::Independent);
+    let one_drive = g.rates(g.hardest().unwrap_or(0)).is_some()
+        && load.is_some_and(|l| l.levers != LeverDrive::Independent);
     if load.is_some() {
         head.extend(["mass, kg", "moment per lever, N·m", "both levers, N·m"].map(str::to_owned));
         if one_drive {
@@ -201,41 +205,42 @@ fn diameters(g: &GripReport<'_>, width: Option<u16>) -> String {
         head.push("held".to_owned());
     }
     let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
-    let line = |d: &Diameter| {
+    let line = |(at, d): (usize, &DiameterRow)| {
         let mut cells = [d.diameter, d.arms.l1, d.arms.l2]
             .map(|x| length(g, x))
             .to_vec();
         cells.push(significant(d.arms.l1 / d.arms.l2));
-        cells.push(number(d.turn.map(f64::to_degrees)));
+        cells.push(number(d.pose.as_ref().map(|p| p.turn.to_degrees())));
         if load.is_none() {
-            cells.push(if d.holds { "yes" } else { "no" }.to_owned());
+            cells.push(if d.holds() { "yes" } else { "no" }.to_owned());
             return cells;
         }
         cells.push(significant(d.mass));
-        let hardest = d.load.as_ref();
-        cells.push(number(hardest.and_then(|l| l.drive_moment_per_lever)));
-        let both = hardest.and_then(|l| l.lever_moments);
+        let hardest = d.hardest.as_ref();
+        cells.push(number(d.drive()));
+        let both = hardest.and_then(|l| Some(l.held()?.moments));
         cells.push(both.map_or_else(|| "-".to_owned(), |m| m.map(significant).join(", ")));
         if one_drive {
-            cells.push(number(hardest.and_then(|l| l.drive_effort)));
+            cells.push(number(g.effort(at)));
         }
-        cells.push(hardest.map_or("cannot be held", |l| l.case).to_owned());
+        cells.push(hardest.map_or("cannot be held", |l| &l.case).to_owned());
         cells
     };
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    table(&head, g.diameters.iter().map(line).collect(), width)
+    let rows = g.found.study.rows.iter().enumerate();
+    table(&head, rows.map(line).collect(), width)
 }
 
 /// Each arm as the part of the lever and the part of the prism.
 fn parts(g: &GripReport<'_>, width: Option<u16>) -> String {
     let symbol = g.file.length_unit.symbol;
     let head = ["D", "l11", "l12", "l1", "l21", "l22", "l2"].map(|n| format!("{n}, {symbol}"));
-    let line = |d: &Diameter| {
+    let line = |d: &DiameterRow| {
         let a = d.arms;
         let all = [d.diameter, a.l11, a.l12, a.l1, a.l21, a.l22, a.l2];
         all.map(|x| length(g, x)).to_vec()
     };
-    let rows = g.diameters.iter().map(line).collect();
+    let rows = g.found.study.rows.iter().map(line).collect();
     table(&head.each_ref().map(String::as_str), rows, width)
 }
 
@@ -250,16 +255,15 @@ fn at_most(ratio: f64, limit: f64) -> String {
     }
 }
 
-fn contacts(all: &[PartContact], limit: f64, width: Option<u16>) -> String {
-    let line = |c: &PartContact| {
-        let mut cells = vec![c.contact.to_owned()];
-        cells.extend([c.force.normal, c.force.along, c.force.axial].map(significant));
-        cells.push(
-            c.friction()
-                .map_or_else(|| "-".to_owned(), |f| at_most(f, limit)),
-        );
+fn contacts(held: &Holding, pose: &TouchingPose, limit: f64, width: Option<u16>) -> String {
+    let rows = pose.contacts.iter().zip(&held.forces).map(|(c, f)| {
+        let mut cells = vec![c.name.to_owned()];
+        cells.extend([f.normal, f.along, f.axial].map(significant));
+        // A face that does not press has no friction.
+        let friction = (f.normal > 0.0).then(|| f.along.hypot(f.axial) / f.normal);
+        cells.push(friction.map_or_else(|| "-".to_owned(), |f| at_most(f, limit)));
         cells
-    };
+    });
     let head = [
         "contact",
         "normal, N",
@@ -267,5 +271,5 @@ fn contacts(all: &[PartContact], limit: f64, width: Option<u16>) -> String {
         "along the part, N",
         "friction/normal",
     ];
-    table(&head, all.iter().map(line).collect(), width)
+    table(&head, rows.collect(), width)
 }

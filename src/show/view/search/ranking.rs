@@ -183,7 +183,7 @@ pub(crate) fn data(m: &Mechanism, p: &RankedPool) -> Value {
             "cheaper": m.cheaper.as_ref().map(ToString::to_string),
         })),
     });
-    joined(&p.ranking, more)
+    joined([json!(p.ranking), more])
 }
 
 /// Returns a ranked variant's own, with the reason of its place: each term's figure (the error in m), what the most loaded joints bear
@@ -216,5 +216,5 @@ pub(crate) fn scores(m: &Mechanism, r: &Ranked, reason: Option<String>) -> Value
         "front": r.front,
         "reason": reason,
     });
-    joined(&out, more)
+    joined([out, more])
 }
