@@ -10,7 +10,7 @@ use super::arrow::Arrow;
 use super::moving::{Moved, flag_row, poses};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::moving::sliding::Carried;
-use crate::draw::kinematic::scene::part::{Pair, SymbolPart, Tie, tidy};
+use crate::draw::kinematic::scene::part::tidy;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{Vector, sub};
 use crate::draw::sheet::{Caption, Drawing, Sheet, Swatch, plan};
@@ -22,6 +22,7 @@ use crate::motion::pose::Pose;
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect};
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// A scheme in space.
 #[derive(Debug, Clone, Serialize)]
@@ -42,14 +43,16 @@ pub struct Scene {
     /// The link that rests.
     frame: usize,
     /// The pieces of each symbol.
-    symbols: Vec<Vec<SymbolPart>>,
-    joints: Vec<SceneJoint>,
-    couplings: Vec<Tie>,
-    wires: Vec<Wire>,
-    moves: Vec<Move>,
-    stresses: Vec<Stress>,
-    /// What redesigns put at its joints, in the order they were given.
-    swaps: Vec<Swapped>,
+    symbols: Vec<Vec<Value>>,
+    /// Symbols at their places.
+    joints: Vec<Value>,
+    couplings: Vec<Value>,
+    /// Shapes fixed to links.
+    wires: Vec<Value>,
+    moves: Vec<Value>,
+    stresses: Vec<Value>,
+    /// What redesigns put at its joints, in the order they were given: the number of the joint among those of the scene, and its symbol.
+    swaps: Vec<Value>,
 }
 
 /// What a scene shows besides the mechanism.
@@ -61,68 +64,6 @@ pub struct Shown<'a> {
     pub stresses: &'a [(String, &'a SelfStress)],
     /// What redesigns may put at its joints.
     pub swaps: &'a [Swap<'a>],
-}
-
-/// What stands at a joint of a scene instead of what is there.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct Swapped {
-    /// The joint, by its number among those of the scene.
-    pub(super) joint: usize,
-    pub(super) axes: [Vector; 3],
-    pub(super) symbol: usize,
-}
-
-/// A symbol at its place.
-#[derive(Debug, Clone, Serialize)]
-struct SceneJoint {
-    at: Vector,
-    axes: [Vector; 3],
-    /// The link that carries its place, and the one that carries its axes.
-    links: [usize; 2],
-    symbol: usize,
-    /// Whether it is there in turned views only.
-    turned: bool,
-    /// What it leaves free; nothing for what is no joint.
-    pair: Option<Pair>,
-    /// The id of the joint or of the point of interest; nothing for what is neither.
-    id: Option<String>,
-}
-
-/// A shape fixed to a link.
-#[derive(Debug, Clone, Serialize)]
-struct Wire {
-    link: usize,
-    class: String,
-    form: &'static str,
-    points: Vec<Vector>,
-    /// The motion it belongs to, where it is not there in all.
-    of: Option<usize>,
-    /// Whether it is there in turned views only.
-    turned: bool,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct Move {
-    name: String,
-    closed: bool,
-    start: usize,
-    /// By pose and link a rotation vector and where the origin goes; nothing where the link rests.
-    poses: Vec<Vec<Vec<f64>>>,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct Stress {
-    name: String,
-    arrows: Vec<LinkArrow>,
-}
-
-/// An arrow on a link.
-#[derive(Debug, Clone, Serialize)]
-struct LinkArrow {
-    at: Vector,
-    along: Vector,
-    turns: bool,
-    tip: String,
 }
 
 /// Draws the kinematic scheme at the pose of its first motion, in groups that a program may put another picture in place of
@@ -152,10 +93,10 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     for (name, stress) in shown.stresses {
         let own = rest.arrows_of(stress);
         area = rest.arrow_room(&own).map_or(area, |r| area.with(&r));
-        scene.stresses.push(Stress {
-            name: name.clone(),
-            arrows: own.iter().map(|a| rest.load(a)).collect(),
-        });
+        let arrows_of: Value = own.iter().map(|a| rest.load(a)).collect();
+        scene
+            .stresses
+            .push(json!({ "name": name, "arrows": arrows_of }));
         arrows.extend(own);
     }
     let mut legend = rest.legend();
@@ -183,12 +124,13 @@ impl Scene {
             self.wire(rest, frame, "trace", form, &trace, Some(n));
         }
         let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
-        self.moves.push(Move {
-            name: name.to_owned(),
-            closed: way.closed,
-            start: way.start,
-            poses: carried.collect(),
-        });
+        self.moves.push(json!({
+            "name": name,
+            "closed": way.closed,
+            "start": way.start,
+            // By pose and link a rotation vector and where the origin goes; nothing where the link rests.
+            "poses": carried.collect::<Vec<_>>(),
+        }));
     }
 
     fn wire(
@@ -200,19 +142,20 @@ impl Scene {
         points: &[Vector],
         motion: Option<usize>,
     ) {
-        let points = points.iter().map(|&p| pixels(of, p));
-        self.wires.push(Wire {
-            link,
-            class: class.to_owned(),
-            form,
-            points: points.collect(),
-            of: motion,
-            turned: false,
-        });
+        self.wires.push(json!({
+            "link": link,
+            "class": class,
+            "form": form,
+            "points": points.iter().map(|&p| pixels(of, p)).collect::<Vec<_>>(),
+            // The motion it belongs to, where it is not there in all.
+            "of": motion,
+            // Whether it is there in turned views only.
+            "turned": false,
+        }));
     }
 
     /// The number of a symbol of some pieces.
-    pub(super) fn symbol(&mut self, parts: Vec<SymbolPart>) -> usize {
+    pub(super) fn symbol(&mut self, parts: Vec<Value>) -> usize {
         let known = self.symbols.iter().position(|s| *s == parts);
         known.unwrap_or_else(|| {
             self.symbols.push(parts);
@@ -245,13 +188,8 @@ impl Kinematic<'_> {
         self.links.iter().map(one).collect()
     }
 
-    fn load(&self, a: &Arrow) -> LinkArrow {
-        LinkArrow {
-            at: pixels(self, a.at),
-            along: a.along.map(tidy),
-            turns: a.turns,
-            tip: a.tip.clone(),
-        }
+    fn load(&self, a: &Arrow) -> Value {
+        json!({ "at": pixels(self, a.at), "along": a.along.map(tidy), "turns": a.turns, "tip": a.tip })
     }
 
     /// A picture of a scene in groups, which learns where on the sheet it is.

@@ -1,16 +1,17 @@
 //! What stands on the links of a scheme in space, and what a redesign puts there.
 
-use crate::draw::kinematic::scene::part::{SymbolPart, below, flat, paper, part};
-use crate::draw::kinematic::scene::{Scene, SceneJoint, Swapped, fine, pixels};
+use crate::draw::kinematic::scene::part::{below, flat, paper, part};
+use crate::draw::kinematic::scene::{Scene, fine, pixels};
 use crate::draw::kinematic::{Kinematic, marked};
 use crate::draw::place::projection::{self, Vector, View, add, cross, dot, norm, scale, sub};
 use crate::draw::subject::Mark;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::placed::{self, Swap, Symbol, one_place};
 use crate::draw::symbol::symbols;
-use crate::geom::vector::Z;
+use crate::geom::vector::{X, Y, Z};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::JointId;
+use serde_json::{Value, json};
 
 /// Half the length of the guide that a ground shows in turned views, in pixels.
 const HALF_GUIDE: f64 = 34.0;
@@ -94,13 +95,12 @@ impl Kinematic<'_> {
     /// The points of interest, which come before the joints.
     fn add_points(&self, out: &mut Scene) {
         for p in &self.points {
-            let corners = marked::corners([0.0; 2]).to_vec();
-            let symbol = out.symbol(vec![paper("ink", corners, true)]);
+            let corners = marked::corners([0.0; 2]);
+            let symbol = out.symbol(vec![paper("ink", &corners, true)]);
             let row = self.row(p.link);
-            out.joints.push(SceneJoint {
-                id: Some(p.id.clone()),
-                ..self.standing(p.place, [row; 2], symbol)
-            });
+            let mut point = self.standing(p.place, [row; 2], symbol);
+            point["id"] = json!(p.id);
+            out.joints.push(point);
         }
     }
 
@@ -114,12 +114,11 @@ impl Kinematic<'_> {
             let (rides, guides) = self.carriers(i);
             let place = &self.places[i];
             let links = [rides, guides].map(|l| self.row(l));
-            out.joints.push(SceneJoint {
-                axes: [place.x, place.y, place.z].map(fine),
-                pair: Some(self.pair(i, of)),
-                id: Some(m.joints[spot.joint].id.clone()),
-                ..self.standing(place.point, links, symbol)
-            });
+            let mut joint = self.standing(place.point, links, symbol);
+            joint["axes"] = json!([place.x, place.y, place.z].map(fine));
+            joint["pair"] = self.pair(i, of);
+            joint["id"] = json!(m.joints[spot.joint].id);
+            out.joints.push(joint);
         }
     }
 
@@ -141,31 +140,34 @@ impl Kinematic<'_> {
         let frame = self.row(self.subject.mechanism.frame());
         let place = self.places[i].point;
         let symbol = out.symbol(below(self.spots[i].symbol.reach() + 6.0));
-        out.joints.push(SceneJoint {
-            turned: true,
-            ..self.standing(place, [frame; 2], symbol)
-        });
+        let mut below = self.standing(place, [frame; 2], symbol);
+        below["turned"] = json!(true);
+        out.joints.push(below);
         if let Some(axis) = self.slide_axis(i) {
             let half = scale(axis, HALF_GUIDE / self.projection.scale);
             let ends = [sub(place, half), add(place, half)];
             out.wire(self, frame, "guide", "line", &ends, None);
             if let Some(guide) = out.wires.last_mut() {
-                guide.turned = true;
+                guide["turned"] = json!(true);
             }
         }
     }
 
     /// A symbol with the axes of the file, in every view.
-    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize) -> SceneJoint {
-        SceneJoint {
-            at: pixels(self, at),
-            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z],
-            links,
-            symbol,
-            turned: false,
-            pair: None,
-            id: None,
-        }
+    fn standing(&self, at: Vector, links: [usize; 2], symbol: usize) -> Value {
+        json!({
+            "at": pixels(self, at),
+            "axes": [X, Y, Z],
+            // The link that carries its place, and the one that carries its axes.
+            "links": links,
+            "symbol": symbol,
+            // Whether it is there in turned views only.
+            "turned": false,
+            // What it leaves free; nothing for what is no joint.
+            "pair": null,
+            // Of the joint or of the point of interest; nothing for what is neither.
+            "id": null,
+        })
     }
 
     /// The pieces of a joint's symbol, with what stands round it.
@@ -175,7 +177,7 @@ impl Kinematic<'_> {
         of: &JointType,
         symbol: &Symbol,
         mark: Mark,
-    ) -> Vec<SymbolPart> {
+    ) -> Vec<Value> {
         let (below, above) = symbol.round(self.subject, joint, mark);
         let own = [symbols::pieces(of), symbol.arrow()].concat();
         let own = own.iter().map(|p| part(p, mark.class(), symbol.size));
@@ -188,14 +190,15 @@ impl Kinematic<'_> {
         &mut self,
         scene: &mut Scene,
         swaps: &[Swap<'_>],
-    ) -> Vec<Swapped> {
+    ) -> Vec<Value> {
         let order = self.outer_first();
         let mut out = Vec::new();
         for swap in swaps {
-            let there = order.iter().enumerate();
-            let there = there.map(|(n, &i)| (n, i));
-            let mut there = there.filter(|&(_, i)| self.spots[i].joint == swap.joint);
-            let Some((n, i)) = there.next() else { continue };
+            let own = |i: &usize| self.spots[*i].joint == swap.joint;
+            let Some(n) = order.iter().position(own) else {
+                continue;
+            };
+            let i = order[n];
             let (place, of) = (
                 projection::turned(&swap.option.frame),
                 &swap.option.joint_type,
@@ -209,11 +212,12 @@ impl Kinematic<'_> {
             }
             let spot = &mut self.spots[i];
             spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
-            out.push(Swapped {
-                joint: self.points.len() + n,
-                axes: [place.x, place.y, place.z].map(fine),
-                symbol: scene.symbol(parts),
-            });
+            let axes = [place.x, place.y, place.z].map(fine);
+            out.push(json!({
+                "joint": self.points.len() + n,
+                "axes": axes,
+                "symbol": scene.symbol(parts),
+            }));
         }
         out
     }
