@@ -1,5 +1,6 @@
 //! The validated mechanism and its parts.
 
+use crate::format::significant;
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
@@ -158,6 +159,14 @@ pub struct LengthUnit {
     pub symbol: &'static str,
     /// Metres in one unit.
     pub metres: f64,
+}
+
+impl LengthUnit {
+    /// Returns a length in metres in this unit, with its symbol: "12.5 mm".
+    #[must_use]
+    pub fn words(&self, metres: f64) -> String {
+        format!("{} {}", significant(metres / self.metres), self.symbol)
+    }
 }
 
 /// What a file says a mechanism's figures are, with where that is published.

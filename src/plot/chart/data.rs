@@ -24,6 +24,14 @@ pub struct Axis {
     pub scale: Scale,
 }
 
+impl Axis {
+    /// Returns an axis whose values are spaced evenly.
+    pub fn linear(label: impl Into<String>) -> Axis {
+        let (label, scale) = (label.into(), Scale::Linear);
+        Axis { label, scale }
+    }
+}
+
 /// How the values of an axis are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {

@@ -219,6 +219,7 @@ impl<'a> StrokeData<'a> {
                 .collect(),
             style,
         };
+        let unit = if self.turns() { "°" } else { self.unit };
         let places = self.found.changes.iter().map(|c| self.place(middle(c), 3));
         let changes = if self.found.changes.is_empty() {
             "No change of the rank was found on the way, at the poses and between them".to_owned()
@@ -231,14 +232,7 @@ impl<'a> StrokeData<'a> {
         Chart {
             title: format!("{}: conditioning over the stroke", self.mechanism.name),
             subtitle: changes + &stop,
-            x: Axis {
-                label: format!(
-                    "{}, {}",
-                    self.drive,
-                    if self.turns() { "°" } else { self.unit }
-                ),
-                scale: Scale::Linear,
-            },
+            x: Axis::linear(format!("{}, {unit}", self.drive)),
             y: Axis {
                 label: "smallest kept singular value over the largest; drive share".to_owned(),
                 scale: Scale::Log,

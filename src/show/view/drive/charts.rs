@@ -1,6 +1,6 @@
 //! Charts of a drive's programme: angles and energies over time.
 
-use crate::chart::{Axis, Chart, Outline, Scale, Series, Style};
+use crate::chart::{Axis, Chart, Outline, Series, Style};
 use crate::drive::driving::PROFILE_POINTS;
 use crate::drive::programme::RunMoment;
 use crate::format::csv;
@@ -84,14 +84,8 @@ pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
     let chart = |title: &str, y: &str, series| Chart {
         title: format!("{}: {title}", d.file.name),
         subtitle: String::new(),
-        x: Axis {
-            label: "time, s".to_owned(),
-            scale: Scale::Linear,
-        },
-        y: Axis {
-            label: y.to_owned(),
-            scale: Scale::Linear,
-        },
+        x: Axis::linear("time, s"),
+        y: Axis::linear(y),
         series,
     };
     let angles = vec![

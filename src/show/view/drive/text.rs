@@ -31,8 +31,7 @@ pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
 
 /// A length in the file's unit, with its symbol.
 fn length(d: &Drive<'_>, x: f64) -> String {
-    let unit = d.file.length_unit;
-    format!("{} {}", significant(x / unit.metres), unit.symbol)
+    d.file.length_unit.words(x)
 }
 
 fn degrees(x: f64) -> String {
@@ -40,6 +39,7 @@ fn degrees(x: f64) -> String {
 }
 
 fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Result {
+    let spec = &d.file.spec;
     writeln!(
         out,
         "{}: no torsion bar swings {} in {} s\n",
@@ -54,10 +54,7 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
                 "  no room: the bar that satisfies (11), d = {}, must be l = {} long; there are {}",
                 length(d, t.bar.diameter),
                 length(d, t.bar.length),
-                d.file
-                    .spec
-                    .max_length
-                    .map_or_else(String::new, |l| length(d, l))
+                spec.max_length.map_or_else(String::new, |l| length(d, l))
             )?
         } else {
             writeln!(
@@ -362,13 +359,10 @@ fn motions(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result
             significant(m.angular_speed)
         )?;
         if let (Some(a), Some(p)) = (m.acceleration, d.file.spec.payload) {
-            let radius = significant(p.radius / d.file.length_unit.metres);
+            let (radius, shown) = (length(d, p.radius), significant(a));
             writeln!(
                 out,
-                "    at {radius} {} from the axis {} m/s²; a grip there must hold: ozols grip FILE --any-acceleration {:.3}",
-                d.file.length_unit.symbol,
-                significant(a),
-                a
+                "    at {radius} from the axis {shown} m/s²; a grip there must hold: ozols grip FILE --any-acceleration {a:.3}"
             )?;
         }
     }

@@ -1,6 +1,6 @@
 //! Charts of a gripper: its arms and its drive moments over its diameters, and its arms over each figure of its levers.
 
-use crate::chart::{Axis, Chart, Scale, Series, Style};
+use crate::chart::{Axis, Chart, Series, Style};
 use crate::format::significant;
 use crate::grip::arm_curves::{Varied, arm_curve};
 use crate::grip::clamping::DiameterRow;
@@ -28,8 +28,8 @@ pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
         Chart {
             title: format!("{}: arms of the clamping forces", g.file.name),
             subtitle: "Points: what the jaws can hold.".to_owned(),
-            x: linear(format!("D, {symbol}")),
-            y: linear(format!("arm, {symbol}")),
+            x: Axis::linear(format!("D, {symbol}")),
+            y: Axis::linear(format!("arm, {symbol}")),
             series: vec![
                 series("l1", Style::Line, &|d| Some(d.arms.l1 / metres)),
                 series("l2", Style::Line, &|d| Some(d.arms.l2 / metres)),
@@ -45,8 +45,8 @@ pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
             Chart {
                 title: format!("{}: least drive moment per lever", g.file.name),
                 subtitle: "In the hardest case of each diameter.".to_owned(),
-                x: linear(format!("D, {symbol}")),
-                y: linear("moment, N·m".to_owned()),
+                x: Axis::linear(format!("D, {symbol}")),
+                y: Axis::linear("moment, N·m"),
                 series: vec![series("drive moment", Style::Line, &DiameterRow::drive)],
             },
         ));
@@ -57,13 +57,6 @@ pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
             .map(|m| ("motion".to_owned(), m.chart(&g.file.name))),
     );
     out
-}
-
-fn linear(label: String) -> Axis {
-    Axis {
-        label,
-        scale: Scale::Linear,
-    }
 }
 
 /// The arms over one figure of the levers, on the smallest, the nominal and the largest part; on the nominal one with the parts
@@ -105,8 +98,8 @@ fn arms_over(g: &GripReport<'_>, varied: Varied) -> (String, Chart) {
     let chart = Chart {
         title: format!("{}: arms of the clamping forces over {what}", g.file.name),
         subtitle: "All else as stated; where such a gripper can hold the part.".to_owned(),
-        x: linear(label),
-        y: linear(format!("arm, {}", unit.symbol)),
+        x: Axis::linear(label),
+        y: Axis::linear(format!("arm, {}", unit.symbol)),
         series,
     };
     (format!("arms-over-{name}"), chart)

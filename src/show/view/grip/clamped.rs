@@ -45,9 +45,7 @@ fn load(g: &Gripping) -> Option<&GripLoad> {
 }
 
 fn diameter(g: &Gripping, row: &DiameterRow) -> String {
-    let unit = g.mechanism.length_unit;
-    let figure = significant(row.diameter / unit.metres);
-    format!("D = {figure} {}", unit.symbol)
+    format!("D = {}", g.mechanism.length_unit.words(row.diameter))
 }
 
 /// The pose in a few words.

@@ -188,8 +188,7 @@ impl ClosureData<'_> {
 
     /// A length in the file's unit, with its symbol.
     fn long(&self, x: f64) -> String {
-        let unit = self.mechanism.length_unit;
-        format!("{} {}", significant(x / unit.metres), unit.symbol)
+        self.mechanism.length_unit.words(x)
     }
 
     fn contact_table(&self, width: Option<u16>) -> String {

@@ -1,6 +1,6 @@
 //! The clamping force along a motion: one value from which text, JSON and a chart are made. SI units.
 
-use crate::chart::{Axis, Chart, Scale, Series, Style};
+use crate::chart::{Axis, Chart, Series, Style};
 use crate::format::{plural, significant};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken;
@@ -131,15 +131,11 @@ impl GripMotion {
         let at = |i: usize, s: &StepTaken| s.of.time.filter(|_| timed).unwrap_or(i as f64 + 1.0);
         let points = self.steps.iter().enumerate();
         let points = points.map(|(i, s)| (at(i, s), s.drive().unwrap_or(f64::NAN)));
-        let linear = |label: &str| Axis {
-            label: label.to_owned(),
-            scale: Scale::Linear,
-        };
         Chart {
             title: format!("{mechanism}: least drive moment per lever along the motion"),
             subtitle: "Broken where the part cannot be held.".to_owned(),
-            x: linear(if timed { "time, s" } else { "step" }),
-            y: linear("moment, N·m"),
+            x: Axis::linear(if timed { "time, s" } else { "step" }),
+            y: Axis::linear("moment, N·m"),
             series: vec![Series {
                 name: "drive moment".to_owned(),
                 points: points.collect(),

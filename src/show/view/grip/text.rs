@@ -20,30 +20,31 @@ pub fn grip(g: &GripReport<'_>, width: Option<u16>) -> String {
     fit(&out, width)
 }
 
-/// A length in the file's unit.
+/// A length in the file's unit, with its symbol.
 fn length(g: &GripReport<'_>, x: f64) -> String {
-    significant(x / g.file.length_unit.metres)
+    g.file.length_unit.words(x)
 }
 
 fn range(g: &GripReport<'_>, rows: &[&DiameterRow]) -> String {
-    let symbol = g.file.length_unit.symbol;
     let d = |r: &DiameterRow| length(g, r.diameter);
     match rows {
         [] => "nothing".to_owned(),
-        [one] => format!("D = {} {symbol}", d(one)),
-        [first, .., last] => format!("D = {} to {} {symbol}", d(first), d(last)),
+        [one] => format!("D = {}", d(one)),
+        [first, .., last] => {
+            let from = significant(first.diameter / g.file.length_unit.metres);
+            format!("D = {from} to {}", d(last))
+        }
     }
 }
 
 fn write(out: &mut String, g: &GripReport<'_>, width: Option<u16>) -> std::fmt::Result {
-    let symbol = g.file.length_unit.symbol;
     let rows = &g.found.study.rows;
     let (held, lost): (Vec<_>, Vec<_>) = rows.iter().partition(|d| d.holds());
     verdict(out, g, &held, &lost)?;
     for d in &lost {
         for reason in reasons(d, g.friction()) {
             let at = length(g, d.diameter);
-            writeln!(out, "  D = {at} {symbol} cannot be held: {reason}")?;
+            writeln!(out, "  D = {at} cannot be held: {reason}")?;
         }
     }
     if !lost.is_empty() {
@@ -82,7 +83,7 @@ fn verdict(
     held: &[&DiameterRow],
     lost: &[&DiameterRow],
 ) -> std::fmt::Result {
-    let (name, symbol) = (&g.file.name, g.file.length_unit.symbol);
+    let name = &g.file.name;
     // The forces found can balance the load; others may arise, and the safety factor is for those.
     let verb = if g.file.spec.load.is_some() {
         "can hold"
@@ -101,7 +102,7 @@ fn verdict(
     }
     let hardest = g.hardest().map(|at| (at, &g.found.study.rows[at]));
     if let Some((at, d, load)) = hardest.and_then(|(at, d)| Some((at, d, d.hardest.as_ref()?))) {
-        write!(out, "; hardest at {} {symbol}", length(g, d.diameter))?;
+        write!(out, "; hardest at {}", length(g, d.diameter))?;
         if let Some(moment) = d.drive() {
             let moment = significant(moment);
             write!(out, ", {}: drive moment {moment} N·m per lever", load.case)?;
@@ -124,15 +125,14 @@ pub(super) fn effort_of_drive(effort: f64, slides: bool) -> String {
 
 /// Where the pivots are.
 fn pivots(g: &GripReport<'_>) -> String {
-    let symbol = g.file.length_unit.symbol;
     match (g.file.spec.pivots, g.found.study.rows.first()) {
         (Pivots::Nominal, _) | (_, None) => "pivots set for each diameter".to_owned(),
         (Pivots::Fixed(_) | Pivots::FixedForDiameter, Some(d)) => {
             let pivot = d.gripper.pivot;
             let nominal = g.found.study.lever.nominal_diameter(pivot);
-            let at = format!("pivots fixed at a = {} {symbol}", length(g, pivot.abs()));
+            let at = format!("pivots fixed at a = {}", length(g, pivot.abs()));
             if nominal > 0.0 {
-                format!("{at}, nominal for D = {} {symbol}", length(g, nominal))
+                format!("{at}, nominal for D = {}", length(g, nominal))
             } else {
                 format!("{at}, nominal for no diameter")
             }
@@ -141,10 +141,10 @@ fn pivots(g: &GripReport<'_>) -> String {
 }
 
 fn inputs(out: &mut String, g: &GripReport<'_>) -> std::fmt::Result {
-    let (spec, symbol) = (&g.file.spec, g.file.length_unit.symbol);
+    let spec = &g.file.spec;
     writeln!(
         out,
-        "  levers: L = {} {symbol}, α = {}°, γ = {}°; {}",
+        "  levers: L = {}, α = {}°, γ = {}°; {}",
         length(g, spec.lever_length),
         significant(spec.prism_angle.to_degrees()),
         significant(spec.mounting_angle.to_degrees()),
@@ -156,7 +156,7 @@ fn inputs(out: &mut String, g: &GripReport<'_>) -> std::fmt::Result {
     let mass = match load.mass {
         PartMass::Constant(m) => format!("{} kg", significant(m)),
         PartMass::Cylinder { density, length: l } => format!(
-            "a cylinder of {} kg/m³, {} {symbol} long",
+            "a cylinder of {} kg/m³, {} long",
             significant(density),
             length(g, l)
         ),
@@ -207,7 +207,7 @@ fn diameters(g: &GripReport<'_>, width: Option<u16>) -> String {
     let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
     let line = |(at, d): (usize, &DiameterRow)| {
         let mut cells = [d.diameter, d.arms.l1, d.arms.l2]
-            .map(|x| length(g, x))
+            .map(|x| significant(x / g.file.length_unit.metres))
             .to_vec();
         cells.push(significant(d.arms.l1 / d.arms.l2));
         cells.push(number(d.pose.as_ref().map(|p| p.turn.to_degrees())));
@@ -238,7 +238,8 @@ fn parts(g: &GripReport<'_>, width: Option<u16>) -> String {
     let line = |d: &DiameterRow| {
         let a = d.arms;
         let all = [d.diameter, a.l11, a.l12, a.l1, a.l21, a.l22, a.l2];
-        all.map(|x| length(g, x)).to_vec()
+        all.map(|x| significant(x / g.file.length_unit.metres))
+            .to_vec()
     };
     let rows = g.found.study.rows.iter().map(line).collect();
     table(&head.each_ref().map(String::as_str), rows, width)

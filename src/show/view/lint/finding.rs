@@ -52,37 +52,23 @@ pub(super) struct LintWords<'a> {
     pub(super) found: &'a HeldTwice,
 }
 
-/// A constraint in words.
-struct ConstraintWords {
-    /// The joint or coupling.
-    constraint: String,
-    row: String,
-    /// Whether it is one of the rows of a joint.
-    of_joint: bool,
-    /// What an inexact part makes.
-    assembly: String,
-}
-
-impl ConstraintWords {
-    /// What it duplicates, in a sentence.
-    fn message(&self, duplicates: &[String], lasts: bool) -> String {
-        let ConstraintWords {
-            constraint,
-            row,
-            of_joint,
-            assembly,
-        } = self;
-        let more = match duplicates.len().saturating_sub(JOINTS) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        let shown = duplicates.iter().take(JOINTS).join(" / ");
-        let a_row = if *of_joint { "row " } else { "" };
-        if lasts {
-            format!("{constraint}, {a_row}{row} duplicates {shown}{more}; assembly {assembly}")
-        } else {
-            format!("{constraint}, {a_row}{row} duplicates {shown}{more} at this pose only")
-        }
+/// What a constraint duplicates, in a sentence; `row` is that of a joint where `a_row` says so.
+fn message(
+    constraint: &str,
+    [a_row, row, assembly]: [&str; 3],
+    duplicates: &[String],
+    lasts: bool,
+) -> String {
+    let more = match duplicates.len().saturating_sub(JOINTS) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    let shown = duplicates.iter().take(JOINTS).join(" / ");
+    let head = format!("{constraint}, {a_row}{row} duplicates {shown}{more}");
+    if lasts {
+        format!("{head}; assembly {assembly}")
+    } else {
+        format!("{head} at this pose only")
     }
 }
 
@@ -98,7 +84,7 @@ impl LintWords<'_> {
 
     /// A finding of what a row of a joint or a coupling holds twice; `lasts` where it does so over the motion.
     pub(super) fn finding(&self, d: &Duplicate, lasts: bool, origin: Option<&Origin>) -> Finding {
-        let named = self.constraint(d.row);
+        let (constraint, [a_row, row, assembly]) = self.constraint(d.row);
         let joints = d.by.iter().map(|&j| self.joint(j).to_owned());
         let itself = |q: &&usize| d.row != Release::Coupling(**q);
         let couplings = d.couplings.iter().filter(itself).map(|&q| self.coupling(q));
@@ -114,7 +100,7 @@ impl LintWords<'_> {
         let open = origin.and_then(|o| o.open_by(of_joint?));
         let open = open.map_or(String::new(), |o| format!("; its frames are {o} apart"));
         Finding {
-            message: named.message(&duplicates, lasts) + &open,
+            message: message(&constraint, [&a_row, &row, &assembly], &duplicates, lasts) + &open,
             misfit: origin.and_then(|o| self.misfit(o, of_joint?)),
             lasts,
             file: place.as_ref().map(|p| p.file.clone()),
@@ -122,22 +108,23 @@ impl LintWords<'_> {
             column: place.as_ref().map(|p| p.at[1]),
             contours: contours.map(|c| c.contour.name(self.m)).collect(),
             remedies: remedies.map(|&i| self.remedy(i, origin)).collect(),
-            constraint: named.constraint,
-            row: named.row,
+            constraint,
+            row,
             duplicates,
-            assembly: named.assembly,
+            assembly,
         }
     }
 
-    /// A row of a joint, or a coupling, in words.
-    fn constraint(&self, row: Release) -> ConstraintWords {
+    /// A row of a joint, or a coupling, in words: its name, "row " where it is of a joint, the row, and what an inexact part makes.
+    fn constraint(&self, row: Release) -> (String, [String; 3]) {
         match row {
-            Release::Coupling(q) => ConstraintWords {
-                constraint: self.coupling(q),
-                row: "the coupling".to_owned(),
-                of_joint: false,
-                assembly: "a force or moment through the coupling".to_owned(),
-            },
+            Release::Coupling(q) => {
+                let assembly = "a force or moment through the coupling".to_owned();
+                (
+                    self.coupling(q),
+                    [String::new(), "the coupling".to_owned(), assembly],
+                )
+            }
             Release::Freedom {
                 joint,
                 slides,
@@ -149,12 +136,10 @@ impl LintWords<'_> {
                 } else {
                     (format!("turn about {line}"), format!("moment about {line}"))
                 };
-                ConstraintWords {
-                    constraint: self.joint(joint).to_owned(),
-                    row,
-                    of_joint: true,
-                    assembly,
-                }
+                (
+                    self.joint(joint).to_owned(),
+                    ["row ".to_owned(), row, assembly],
+                )
             }
         }
     }
