@@ -8,7 +8,6 @@ mod facets;
 mod gears;
 mod legend;
 mod loads;
-mod marked;
 pub(super) mod moving;
 mod naming;
 mod on_paper;
@@ -17,7 +16,7 @@ pub(super) mod scene;
 
 use self::arrow::Arrow;
 use self::body::Body;
-use self::marked::Marked;
+use self::points::Marked;
 use super::subject::{Mark, Subject};
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{self, JointInSpace, Projection, Vector, bounds};

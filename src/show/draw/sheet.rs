@@ -3,7 +3,7 @@
 pub(in crate::draw) mod labels;
 pub(in crate::draw) mod shapes;
 
-use crate::svg::plane::{Point, Rect, add, polyline};
+use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
 use crate::svg::text::{cut, width};
 use crate::svg::xml::{Xml, number};
 
@@ -344,6 +344,16 @@ impl Sheet {
     /// A segment.
     pub(super) fn line(&mut self, class: &str, a: Point, b: Point) {
         self.path(class, &polyline(&[a, b], false));
+    }
+
+    /// An arrow with a head of some length.
+    pub(super) fn arrow(&mut self, class: &str, from: Point, to: Point, head: f64) {
+        self.line(class, from, to);
+        let along = sub(to, from);
+        let back = scale(along, -head / norm(along));
+        let side = [-back[1] * 0.42, back[0] * 0.42];
+        let corners = [to, add(add(to, back), side), sub(add(to, back), side)];
+        self.path("ink", &polyline(&corners, true));
     }
 
     /// A circle.

@@ -1,7 +1,6 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
 pub(crate) mod idle;
-pub(crate) mod least_rows;
 pub mod link_motions;
 pub mod mechanism;
 pub mod mobility;
@@ -12,15 +11,17 @@ pub(crate) mod text;
 use crate::geom::expr::PI_DIGITS;
 use crate::model::claim::Topic;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
+use crate::rank::reduce::axis_names::Direction;
+use crate::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External, StateAnalysis};
 use crate::redundancy::link_motion::LinkMotion;
 use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
-use crate::view::analysis::least_rows::least_rows;
 use crate::view::analysis::suggestions::Advice;
 use crate::view::claims::about;
 use crate::view::stroke::StrokeData;
 use crate::view::{as_read, joined, kind};
+use itertools::Itertools;
 use serde_json::{Value, json};
 
 /// The analysis of a mechanism.
@@ -263,4 +264,39 @@ fn external(e: &External) -> Value {
 
 fn coupling(c: &CouplingShare) -> Value {
     json!({ "coupling": c.name, "redundant": c.redundant, "least": 0, "greatest": c.most })
+}
+
+/// Returns the rows of the closure equations that are enough for their rank, of some contours for some motions; none where all rows are
+/// taken as they are, and where rounded coordinates do not decide the rank.
+fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
+    let found = s.least_rows.as_ref().filter(|l| !LeastRows::is_all(l));
+    let Some(found) = found.filter(|_| s.at_most().is_none()) else {
+        return json!([]);
+    };
+    let blocks = found.blocks.iter().filter(|b| !b.contours.is_empty());
+    let parts = blocks.flat_map(|b| {
+        let name = |&c: &usize| s.per_contour.get(c).map(|c| c.contour.name(mechanism));
+        let contours = b.contours.iter().filter_map(name).collect_vec();
+        b.parts.iter().map(move |part| {
+            let normal = |d: &Option<Direction>| d.map(|d| d.words(mechanism));
+            let (motions, of) = match &part.motions {
+                Motions::All => ("any", None),
+                Motions::Group(name) => ("group", Some(name.clone())),
+                Motions::InPlane(d) => ("in plane", normal(d)),
+                Motions::OutOfPlane(d) => ("out of plane", normal(d)),
+            };
+            json!({
+                "contours": contours,
+                // `any`, `group`, `in plane` or `out of plane`.
+                "motions": motions,
+                // The group with its dimension, or the plane's normal.
+                "of": of,
+                "rows": part.rows,
+                "rows_in_all": part.of,
+                "rank": part.rank,
+                "redundant": part.redundant(),
+            })
+        })
+    });
+    parts.collect()
 }

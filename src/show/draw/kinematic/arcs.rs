@@ -3,9 +3,8 @@
 
 use super::Kinematic;
 use super::body::Body;
-use crate::draw::place::projection::{
-    JointInSpace, Vector, add, cross, dot, norm, scale as times, sub,
-};
+use crate::draw::place::projection::places::meet;
+use crate::draw::place::projection::{Vector, add, cross, dot, norm, scale as times, sub};
 use crate::geom::vector::unit;
 use crate::svg::plane::Point;
 
@@ -56,7 +55,9 @@ impl Kinematic<'_> {
         if !(a.moved && b.moved) || self.is_frame(*link) || self.points_of(*link).next().is_some() {
             return None;
         }
-        let centre = meeting(a, b)?;
+        let near = MEET * norm(sub(b.point, a.point));
+        let on = meet(a.point, a.z, b.point, b.z, near)?;
+        let centre = add(a.point, times(a.z, on));
         let [from, to] = [a, b].map(|p| sub(p.point, centre));
         let angle = norm(cross(from, to)).atan2(dot(from, to));
         let (near, far) = (norm(from), norm(to));
@@ -82,20 +83,4 @@ impl Kinematic<'_> {
             plate: false,
         })
     }
-}
-
-/// Where two axes meet.
-fn meeting(a: &JointInSpace, b: &JointInSpace) -> Option<Vector> {
-    let n = cross(a.z, b.z);
-    let nn = dot(n, n);
-    if nn < 1e-12 {
-        return None;
-    }
-    let apart = sub(b.point, a.point);
-    let on = |z: Vector| dot(cross(apart, z), n) / nn;
-    let [p, q] = [
-        add(a.point, times(a.z, on(b.z))),
-        add(b.point, times(b.z, on(a.z))),
-    ];
-    (norm(sub(p, q)) <= MEET * norm(apart)).then_some(p)
 }

@@ -4,7 +4,7 @@ use super::Kinematic;
 use crate::draw::place::projection;
 use crate::draw::sheet::labels::{self, Wish};
 use crate::draw::sheet::{Anchor, PAD, Sheet};
-use crate::svg::plane::{Rect, add, norm, polyline, scale, sub};
+use crate::svg::plane::{Rect, add, norm, scale};
 
 impl Kinematic<'_> {
     /// The directions of the coordinates.
@@ -27,30 +27,19 @@ impl Kinematic<'_> {
                     sheet.line("line", add(origin, [-d, d]), add(origin, [d, -d]));
                 }
             } else {
-                let end = add(origin, tip);
-                sheet.line("line", origin, end);
-                let back = scale(tip, -6.5 / length);
-                let side = [-back[1] * 0.42, back[0] * 0.42];
-                let corners = [end, add(add(end, back), side), sub(add(end, back), side)];
-                sheet.path("ink", &polyline(&corners, true));
+                sheet.arrow("line", origin, add(origin, tip), 6.5);
                 taken.push(Rect::around(
                     add(origin, scale(tip, 0.5)),
                     tip[0].abs() + 3.0,
                     tip[1].abs() + 3.0,
                 ));
             }
-            wishes.push((axis, add(origin, tip), length));
-        }
-        let wishes: Vec<Wish> = wishes
-            .into_iter()
-            .map(|(_, anchor, length)| Wish {
-                width: 0.6 * 12.0,
+            let clear = if length < 4.0 { 5.0 } else { 1.0 };
+            wishes.push(Wish {
                 height: 12.0,
-                anchor,
-                clear: if length < 4.0 { 5.0 } else { 1.0 },
-                first: Vec::new(),
-            })
-            .collect();
+                ..Wish::of("x", 12.0, add(origin, tip), clear)
+            });
+        }
         for (place, name) in labels::place(&wishes, &mut taken, &[])
             .iter()
             .zip(["x", "y", "z"])

@@ -9,13 +9,7 @@ use crate::svg::text::{names, width};
 
 /// A small label, so far from what it names at least.
 fn small(class: String, text: String, anchor: Point, clear: f64) -> (Wish, LabelText) {
-    let wish = Wish {
-        width: width(&text, SMALL),
-        height: 12.0,
-        anchor,
-        clear,
-        first: Vec::new(),
-    };
+    let wish = Wish::of(&text, SMALL, anchor, clear);
     let label = LabelText {
         class,
         size: SMALL,
@@ -86,11 +80,8 @@ impl Kinematic<'_> {
             let size = [width(&text, 12.0), 13.0];
             let (anchor, first) = self.link_places(n, size);
             let wish = Wish {
-                width: size[0],
-                height: size[1],
-                anchor,
-                clear: 2.0,
                 first,
+                ..Wish::of(&text, 12.0, anchor, 2.0)
             };
             let mark = self.subject.link_mark(self.links[n].0).class();
             let label = LabelText {

@@ -62,11 +62,8 @@ impl Scheme<'_> {
             .collect();
         let one = |(l, text): (usize, String)| {
             let wish = Wish {
-                width: width(&text, 12.0),
-                height: 13.0,
-                anchor: self.at.hubs[l],
-                clear: HALF,
                 first: self.inside_link(l),
+                ..Wish::of(&text, 12.0, self.at.hubs[l], HALF)
             };
             (wish, text)
         };
@@ -98,13 +95,7 @@ impl Scheme<'_> {
             .map(|&j| self.subject.mechanism.joints[j].id.as_str())
             .collect();
         let one = |(i, text): (usize, String)| {
-            let wish = Wish {
-                width: width(&text, SMALL),
-                height: 12.0,
-                anchor: self.at.joints[i],
-                clear: self.radius(i),
-                first: Vec::new(),
-            };
+            let wish = Wish::of(&text, SMALL, self.at.joints[i], self.radius(i));
             (wish, text)
         };
         let texts = names(&ids, SMALL, 150.0).into_iter();

@@ -1,6 +1,7 @@
 //! Where labels go so that none touches another or a symbol.
 
 use crate::svg::plane::{Point, Rect, norm, segments_cross, sub};
+use crate::svg::text::width;
 
 /// A label that wants a place.
 #[derive(Clone, Debug)]
@@ -15,6 +16,19 @@ pub(in crate::draw) struct Wish {
     pub(in crate::draw) clear: f64,
     /// Middles to try first, with their costs.
     pub(in crate::draw) first: Vec<(Point, f64)>,
+}
+
+impl Wish {
+    /// Returns the wish of a text for a place so far from what it names at least.
+    pub(in crate::draw) fn of(text: &str, size: f64, anchor: Point, clear: f64) -> Wish {
+        Wish {
+            width: width(text, size),
+            height: size + 1.0,
+            anchor,
+            clear,
+            first: Vec::new(),
+        }
+    }
 }
 
 /// Where a label went.

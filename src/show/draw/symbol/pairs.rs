@@ -5,7 +5,7 @@ use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use crate::draw::symbol::pieces::PaperPose;
 use crate::draw::symbol::symbols;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
+use crate::svg::plane::{Point, Rect, add, norm, scale};
 use itertools::Itertools;
 
 /// How many times the size in a scheme.
@@ -58,7 +58,7 @@ fn draw(sheet: &mut Sheet, of: &JointType, view: &View, at: Point) {
     for (n, axis) in axes.into_iter().enumerate() {
         let tip = scale(view.flat(axis), AXIS);
         if norm(tip) > 4.0 {
-            arrow(sheet, add(at, scale(tip, -0.55)), add(at, tip));
+            sheet.arrow("fine", add(at, scale(tip, -0.55)), add(at, tip), 8.0);
         }
         let name = ["x", "y", "z"][n];
         let own = of.freedoms().iter().filter(|f| axis_of(**f) == n);
@@ -82,15 +82,6 @@ fn draw(sheet: &mut Sheet, of: &JointType, view: &View, at: Point) {
     }
     sheet.shapes(&shapes, at);
     sheet.symbol(symbols::extent(&shapes).moved(at));
-}
-
-fn arrow(sheet: &mut Sheet, from: Point, to: Point) {
-    sheet.line("fine", from, to);
-    let along = sub(to, from);
-    let back = scale(along, -8.0 / norm(along));
-    let side = [-back[1] * 0.42, back[0] * 0.42];
-    let corners = [to, add(add(to, back), side), sub(add(to, back), side)];
-    sheet.path("ink", &polyline(&corners, true));
 }
 
 /// The axis of the frame that a freedom is about or along.

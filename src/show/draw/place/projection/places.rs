@@ -111,7 +111,7 @@ fn between(
 }
 
 /// Where on the line p + t·z the line q + s·w meets it.
-fn meet(p: Vector, z: Vector, q: Vector, w: Vector, near: f64) -> Option<f64> {
+pub(in crate::draw) fn meet(p: Vector, z: Vector, q: Vector, w: Vector, near: f64) -> Option<f64> {
     let n = cross(z, w);
     let nn = dot(n, n);
     if nn < 1e-12 {
