@@ -15,8 +15,7 @@ mod points;
 pub(super) mod scene;
 
 use self::arrow::Arrow;
-use self::body::Body;
-use self::points::Marked;
+use self::body::{Body, Marked};
 use super::subject::{Mark, Subject};
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{self, JointInSpace, Projection, Vector, bounds};

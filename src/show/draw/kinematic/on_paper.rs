@@ -1,7 +1,6 @@
 //! Where a kinematic scheme has its joints on paper, and how its links and its grounds keep clear of each other there.
 
-use crate::draw::kinematic::body::{self, Body};
-use crate::draw::kinematic::points::marked;
+use crate::draw::kinematic::body::{self, Body, marked};
 use crate::draw::kinematic::{Kinematic, Spot};
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::places::places;

@@ -1,9 +1,8 @@
 //! One picture of a moving scheme: where a pose has carried everything.
 
 use crate::draw::kinematic::Kinematic;
-use crate::draw::kinematic::body::Body;
+use crate::draw::kinematic::body::{Body, draw_mark};
 use crate::draw::kinematic::moving::sliding::Carried;
-use crate::draw::kinematic::points::draw_mark;
 use crate::draw::place::projection::{
     JointInSpace, Vector, add as add3, cross, norm, scale as times, sub,
 };

@@ -2,7 +2,7 @@
 
 use crate::draw::kinematic::scene::part::{below, flat, paper, part};
 use crate::draw::kinematic::scene::{Scene, fine, pixels};
-use crate::draw::kinematic::{Kinematic, points};
+use crate::draw::kinematic::{Kinematic, body};
 use crate::draw::place::projection::{self, Vector, View, add, cross, dot, norm, scale, sub};
 use crate::draw::subject::Mark;
 use crate::draw::symbol::ground::Ground;
@@ -95,7 +95,7 @@ impl Kinematic<'_> {
     /// The points of interest, which come before the joints.
     fn add_points(&self, out: &mut Scene) {
         for p in &self.points {
-            let corners = points::corners([0.0; 2]);
+            let corners = body::corners([0.0; 2]);
             let symbol = out.symbol(vec![paper("ink", &corners, true)]);
             let row = self.row(p.link);
             let mut point = self.standing(p.place, [row; 2], symbol);
