@@ -148,7 +148,7 @@ impl Variants {
                     name: v.name(),
                     position: v.position(),
                     text: v.to_string(),
-                    data: serde_json::to_string(&data).ok(),
+                    data: serde_json::to_string(data).ok(),
                 };
                 tell.send(told).map_err(drop)
             });

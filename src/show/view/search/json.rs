@@ -8,9 +8,8 @@ use crate::score::outcome::why::Whys;
 use crate::search::diagram::Stop;
 use crate::view;
 use crate::view::search::data;
-use crate::view::search::variant;
+use crate::view::search::variant::VariantData;
 use crate::view::search::why::Teller;
-use serde_json::Value;
 use std::io::{self, Write};
 
 /// Tells each variant of a list with its data until that fails; ideas with why they help.
@@ -20,15 +19,21 @@ use std::io::{self, Write};
 pub fn each<'a, E>(
     outcome: &Outcome,
     mut variants: impl Iterator<Item = Variant<'a>>,
-    mut tell: impl FnMut(&Variant<'a>, Value) -> Result<(), E>,
+    mut tell: impl FnMut(&Variant<'a>, &VariantData<'_, 'a>) -> Result<(), E>,
 ) -> Result<(), E> {
     let whys = outcome.request.distinct.then(|| Whys::new(outcome));
     let mut teller = whys.as_ref().map(|w| (Teller::new(outcome, w), w.teller()));
     variants.try_for_each(|v| {
-        let because = teller
-            .as_mut()
-            .map(|(teller, why)| teller.data(&why(v.assignment())));
-        tell(&v, variant::data(outcome, &v, because))
+        let why = teller.as_mut();
+        let why = why.map(|(teller, why)| teller.data(&why(v.assignment())));
+        tell(
+            &v,
+            &VariantData {
+                outcome,
+                variant: &v,
+                why,
+            },
+        )
     })
 }
 
@@ -51,7 +56,7 @@ pub fn write(
     each(outcome, variants.by_ref(), |v, data| -> io::Result<()> {
         let comma = if v.position() == 1 { "" } else { "," };
         write!(out, "{comma}\n    ")?;
-        Ok(serde_json::to_writer(&mut *out, &data)?)
+        Ok(serde_json::to_writer(&mut *out, data)?)
     })?;
     let seconds = seconds.map(|s| s());
     let tail = data::tail(outcome, &variants, remarks, seconds);
@@ -70,7 +75,13 @@ pub fn write_lines(
     mut variants: Variants<'_>,
 ) -> io::Result<()> {
     for v in variants.by_ref() {
-        serde_json::to_writer(&mut *out, &variant::data(outcome, &v, None))?;
+        let (variant, why) = (&v, None);
+        let data = VariantData {
+            outcome,
+            variant,
+            why,
+        };
+        serde_json::to_writer(&mut *out, &data)?;
         writeln!(out)?;
     }
     if variants.stop() != Stop::Exhausted || outcome.numeric.is_some() || !outcome.is_confirmed() {

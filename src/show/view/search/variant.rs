@@ -10,19 +10,62 @@ use crate::search::answer::freedom_patterns;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::{Figures, OverStroke};
 use crate::view::search::ranking;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Returns a variant of an outcome as data; `why` an idea helps, where that was asked.
-#[must_use]
-pub(in crate::view) fn data(outcome: &Outcome, v: &Variant<'_>, why: Option<Value>) -> Value {
-    let mechanism = &outcome.search.mechanism;
-    let opinion = v.second().opinion();
-    // With the range over all orders of these contours.
-    let contour = |(contour, share): (String, ContourShare)| {
-        let (least, greatest) = share.range;
-        json!({ "contour": contour, "redundant": share.redundant, "least": least, "greatest": greatest })
-    };
+/// One variant of an outcome, written key by key, since there may be millions.
+#[derive(Debug)]
+pub struct VariantData<'a, 'v> {
+    pub(super) outcome: &'a Outcome,
+    pub(super) variant: &'a Variant<'v>,
+    /// Why it helps, where it is an idea and that was asked.
+    pub(super) why: Option<Value>,
+}
+
+impl Serialize for VariantData<'_, '_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (outcome, v) = (self.outcome, self.variant);
+        let mechanism = &outcome.search.mechanism;
+        let opinion = v.second().opinion();
+        // With the range over all orders of these contours.
+        let contour = |(contour, share): (String, ContourShare)| {
+            let (least, greatest) = share.range;
+            json!({ "contour": contour, "redundant": share.redundant, "least": least, "greatest": greatest })
+        };
+        let contours = v.redundant_by_contour().into_iter().flatten();
+        let idea = v.idea().map(|i| {
+            json!({
+                "variants": i.variants.to_string(),
+                "exact": outcome.is_exact(),
+                "adds": freedom_patterns::in_words(mechanism, &i.added),
+                "why": self.why,
+            })
+        });
+        let scores = v
+            .ranked()
+            .map(|r| ranking::scores(mechanism, r, v.reason()));
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("position", &v.position())?;
+        map.serialize_entry("cost", &price(v.cost_milli()))?;
+        map.serialize_entry("mobility", &v.mobility())?;
+        map.serialize_entry("redundant", &v.redundant())?;
+        map.serialize_entry("external_redundant", &v.external_redundant())?;
+        map.serialize_entry("external_harmful", &v.external_harmful())?;
+        map.serialize_entry("per_contour", &contours.map(contour).collect::<Value>())?;
+        map.serialize_entry("changes", &changed(mechanism, v.changes()))?;
+        map.serialize_entry("idea", &idea)?;
+        map.serialize_entry("scores", &scores.unwrap_or(json!({})))?;
+        map.serialize_entry("conditioning", &opinion.map(|o| o.conditioning))?;
+        map.serialize_entry("agree", &opinion.map(|o| o.agree))?;
+        map.serialize_entry("svd", &opinion)?;
+        map.serialize_entry("lucky", &v.over_stroke().and_then(OverStroke::lucky))?;
+        map.serialize_entry("stroke", &v.over_stroke().map(other_poses))?;
+        map.end()
+    }
+}
+
+fn other_poses(s: &OverStroke) -> Value {
     let other = |(f, present): (Figures, Option<i64>)| {
         json!({
             "mobility": f.mobility,
@@ -31,32 +74,15 @@ pub(in crate::view) fn data(outcome: &Outcome, v: &Variant<'_>, why: Option<Valu
             "present_output_mobility": present,
         })
     };
-    let contours = v.redundant_by_contour().into_iter().flatten();
-    let scores = v
-        .ranked()
-        .map(|r| ranking::scores(mechanism, r, v.reason()));
-    json!({
-        "position": v.position(),
-        "cost": price(v.cost_milli()),
-        "mobility": v.mobility(),
-        "redundant": v.redundant(),
-        "external_redundant": v.external_redundant(),
-        "external_harmful": v.external_harmful(),
-        "per_contour": contours.map(contour).collect::<Value>(),
-        "changes": changed(mechanism, v.changes()),
-        "idea": v.idea().map(|i| json!({
-            "variants": i.variants.to_string(),
-            "exact": outcome.is_exact(),
-            "adds": freedom_patterns::in_words(mechanism, &i.added),
-            "why": why,
-        })),
-        "scores": scores.unwrap_or(json!({})),
-        "conditioning": opinion.map(|o| o.conditioning),
-        "agree": opinion.map(|o| o.agree),
-        "svd": opinion,
-        "lucky": v.over_stroke().and_then(OverStroke::lucky),
-        "stroke": v.over_stroke().map(|s| json!({ "poses": s.poses, "other": s.other.map(other) })),
-    })
+    json!({ "poses": s.poses, "other": s.other.map(other) })
+}
+
+/// A joint that another takes the place of.
+#[derive(serde::Serialize)]
+struct ChangeData<'a> {
+    joint: &'a str,
+    from: String,
+    to: String,
 }
 
 /// Returns a cost given in thousandths.
@@ -69,8 +95,11 @@ pub(crate) fn price(milli: i64) -> Value {
 }
 
 /// Returns changes of a mechanism as data.
-fn changed(m: &Mechanism, changes: Vec<Change>) -> Value {
-    let one = |c: Change| json!({ "joint": m.joints[c.joint].id, "from": c.from, "to": c.to });
+fn changed(m: &Mechanism, changes: Vec<Change>) -> Vec<ChangeData<'_>> {
+    let one = |Change { joint, from, to }| {
+        let joint = &m.joints[joint].id;
+        ChangeData { joint, from, to }
+    };
     changes.into_iter().map(one).collect()
 }
 
