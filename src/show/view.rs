@@ -18,6 +18,7 @@ use crate::format::plural;
 use crate::model::mechanism::Mechanism;
 use serde::Serialize;
 use serde_json::Value;
+use std::fmt::Display;
 
 /// Returns the words for how sure a figure is, with the number of assumptions where there are any.
 fn as_read(m: &Mechanism, sure: String) -> String {
@@ -65,6 +66,15 @@ pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
         Some(rest) => format!("{{\n  \"format\": {FORMAT},\n{rest}"),
         None => text,
     })
+}
+
+/// Returns "2", or "0 to 2".
+fn span<T: PartialEq + Display>(least: T, most: T) -> String {
+    if least == most {
+        least.to_string()
+    } else {
+        format!("{least} to {most}")
+    }
 }
 
 /// Returns one object with the entries of all.

@@ -3,6 +3,7 @@
 use crate::format::{grouped, plural, significant};
 use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
 use crate::view::analysis::mobility::StructureSize;
+use crate::view::span;
 use itertools::Itertools;
 use num_bigint::BigUint;
 
@@ -94,8 +95,11 @@ fn search(m: &Mechanism) -> String {
     let variants: BigUint = options.into_iter().map(BigUint::from).product();
     let mut parts = vec![match open.iter().minmax().into_option() {
         None => "no joint to change".to_owned(),
-        Some((a, b)) if a == b => format!("{} with {a} options", plural(open.len(), "joint")),
-        Some((a, b)) => format!("{} with {a} to {b} options", plural(open.len(), "joint")),
+        Some((a, b)) => format!(
+            "{} with {} options",
+            plural(open.len(), "joint"),
+            span(a, b)
+        ),
     }];
     if places > 0 {
         parts.push(plural(places, "place") + " for an unloading joint");

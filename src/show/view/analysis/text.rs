@@ -7,7 +7,7 @@ use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress};
 use crate::view::analysis::{idle, link_motions, suggestions};
 use crate::view::terminal::layout::{fit, table};
-use crate::view::{as_read, claims};
+use crate::view::{as_read, claims, span};
 use itertools::Itertools;
 use std::fmt::Write;
 
@@ -133,7 +133,7 @@ impl State<'_> {
             ]
         };
         let coupling = |c: &CouplingShare| {
-            let [redundant, any] = [c.redundant.to_string(), range(0, c.most)];
+            let [redundant, any] = [c.redundant.to_string(), span(0, c.most)];
             vec![
                 "coupling".to_owned(),
                 c.name.clone(),
@@ -194,7 +194,7 @@ impl State<'_> {
     #[must_use]
     pub(crate) fn mobility_figure(&self) -> String {
         let (s, most) = (self.found, self.found.at_most());
-        range(s.mobility, most.map_or(s.mobility, |(w, _)| w))
+        span(s.mobility, most.map_or(s.mobility, |(w, _)| w))
     }
 
     /// The answer in a few words.
@@ -299,24 +299,15 @@ impl State<'_> {
     }
 }
 
-/// "2" or "0 to 2".
-fn range(least: usize, greatest: usize) -> String {
-    if least == greatest {
-        least.to_string()
-    } else {
-        format!("{least} to {greatest}")
-    }
-}
-
 /// Returns σ of a contour over all orders of these contours.
 pub(crate) fn in_any_order(c: &ContourShare) -> String {
-    range(c.range.0, c.range.1)
+    span(c.range.0, c.range.1)
 }
 
 /// Returns σ of a contour over all bases of contours that it is part of.
 pub(crate) fn in_any_basis(c: &ContourShare) -> String {
     let (reached, most) = c.over_bases;
-    let words = range(c.range.0, reached);
+    let words = span(c.range.0, reached);
     if most > reached {
         format!("{words} or more, at most {most}")
     } else {

@@ -8,6 +8,7 @@ use crate::format::{plural, significant};
 use crate::model::claim::Topic;
 use crate::view::claims::{self, about};
 use crate::view::drive::{Drive, feed_moments, samples};
+use crate::view::span;
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
@@ -287,11 +288,7 @@ fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamDesign) -> std::fmt::
     let times = m.pulses.iter().map(|p| p.off - p.on);
     let least = times.clone().fold(f64::INFINITY, f64::min);
     let most = times.fold(0.0, f64::max);
-    let on = if significant(least) == significant(most) {
-        significant(most)
-    } else {
-        format!("{} to {}", significant(least), significant(most))
-    };
+    let on = span(significant(least), significant(most));
     writeln!(
         out,
         "  electromagnet: on at each release for {on} s, up to where the push begins; lifts the follower by {} against {} to {} N: {} J a swing, {} J a cycle, {} W on average; spring c = {} N/m for this run",

@@ -7,6 +7,7 @@ use crate::grip::clamped_part::ClampedPart;
 use crate::grip::faces::{JawFace, PressureArea};
 use crate::grip::force_closure::{ClosureShares, ForceClosure, NOTHING};
 use crate::model::mechanism::Mechanism;
+use crate::view::span;
 use crate::view::terminal::layout::{fit, table};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -91,10 +92,7 @@ fn margin(c: &ForceClosure) -> Value {
 fn verdict(c: &ForceClosure, name: &str) -> String {
     match c.closed {
         Some(true) if c.at_most.is_finite() => {
-            let margin = match [c.at_least, c.at_most].map(significant) {
-                [least, most] if least == most => most,
-                [least, most] => format!("{least} to {most}"),
-            };
+            let margin = span(significant(c.at_least), significant(c.at_most));
             let weakest = words(&c.weakest);
             format!("{name}: yes, margin {margin}; weakest against {weakest}")
         }

@@ -4,6 +4,7 @@ use crate::format::grouped;
 use crate::score::outcome::Outcome;
 use crate::search::answer::counts::Counts;
 use crate::search::numeric::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
+use crate::view::span;
 use num_bigint::BigUint;
 use num_traits::Zero;
 use serde_json::{Value, json};
@@ -33,11 +34,7 @@ pub(crate) fn admissible(outcome: &Outcome) -> String {
 pub(in crate::view) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
     let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
-    if doubtful.is_zero() {
-        grouped(&sure)
-    } else {
-        format!("{} to {}", grouped(&sure), grouped(&(&sure + doubtful)))
-    }
+    span(grouped(&sure), grouped(&sure + doubtful))
 }
 
 /// The mobilities that some variant has or may have.

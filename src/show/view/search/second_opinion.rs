@@ -6,7 +6,7 @@ use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Contradiction, SecondOpinion};
-use crate::view::{AS_READ, with_assumptions};
+use crate::view::{AS_READ, span, with_assumptions};
 use serde_json::{Value, json};
 
 /// How sure counts are that are not exact though no budget cut them short.
@@ -32,14 +32,6 @@ fn words(outcome: &Outcome, choices: &[usize]) -> String {
     in_words(search, &changes(search, &variant))
 }
 
-fn range([a, b]: [i64; 2]) -> String {
-    if a == b {
-        a.to_string()
-    } else {
-        format!("{a} to {b}")
-    }
-}
-
 fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
     let [least, most] = c.numeric;
     let what = if c.elsewhere {
@@ -47,8 +39,8 @@ fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
     } else {
         format!(
             "W = {}, σ = {}",
-            range([least.0, most.0]),
-            range([least.1, most.1])
+            span(least.0, most.0),
+            span(least.1, most.1)
         )
     };
     format!(
@@ -91,15 +83,11 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
         ));
     }
     if let Some([least, most]) = &said.scenes {
-        let range = |a: &num_bigint::BigUint, b: &num_bigint::BigUint| {
-            let [a, b] = [a, b].map(grouped);
-            if a == b { a } else { format!("{a} to {b}") }
-        };
         out.push(format!(
             "Not exact: the digits allow scenes with {} determinate and {} admissible variants; give more digits, or state \
              [tolerance]",
-            range(&least.0, &most.0),
-            range(&least.1, &most.1)
+            span(grouped(&least.0), grouped(&most.0)),
+            span(grouped(&least.1), grouped(&most.1))
         ));
     }
     if out.is_empty() && !said.confirms() {
