@@ -18,14 +18,13 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::catalog::general::{General, InputPair};
 use ozols::catalog::row::row_of_pair;
 use ozols::catalog::spec::{Spec, range};
-use ozols::chains::Chain;
+use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
-use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::Subject;
 use ozols::chart::{Axis, Chart, Scale, Series, Style};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::layout;
-use ozols::synthesis::structure::{Structure, structures};
+use ozols::synthesis::structure::{Structure, hinged_structures};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -54,13 +53,10 @@ impl Kind {
     fn of_chain(&self, (chain, automorphisms): &Named) -> Vec<Structure> {
         let forms = self.spec.forms().expect("forms");
         let subject = Subject::new(chain, automorphisms);
-        let mut all = structures(&subject, self.spec.jaws, &forms);
+        let mut all = hinged_structures(&subject, self.spec.jaws, &forms);
         // Nearly all generic ones move, of symmetric ones few.
         if self.name != "all" {
-            all.retain(|s| {
-                let (symmetry, input) = (s.form.symmetry, s.form.input);
-                working_swap(&subject, &s.roles, symmetry, input).is_ok()
-            });
+            all.retain(|s| s.hinged_lay().is_ok());
         }
         all
     }
@@ -142,7 +138,7 @@ fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
         if general.is_some() {
             of_pair.push(since(begun));
         }
-        let (times, counts) = one(&all[of], &structure, &kind.spec, general.as_ref());
+        let (times, counts) = one(&structure, &kind.spec, general.as_ref());
         each.push(times);
         laid += usize::from(counts.is_some());
         exact += usize::from(counts == Some(true));
@@ -162,15 +158,9 @@ fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
 }
 
 /// What a structure takes, and where it has a layout, whether its counts are exact.
-fn one(
-    (chain, automorphisms): &Named,
-    structure: &Structure,
-    spec: &Spec,
-    general: Option<&General>,
-) -> ([f64; 3], Option<bool>) {
-    let subject = Subject::new(chain, automorphisms);
+fn one(structure: &Structure, spec: &Spec, general: Option<&General>) -> ([f64; 3], Option<bool>) {
     let begun = now();
-    let Ok(laid) = layout(&subject, structure, &spec.limits(), spec.seed) else {
+    let Ok(laid) = layout(structure, &spec.limits(), spec.seed) else {
         return ([since(begun), 0.0, 0.0], None);
     };
     let to_lay = since(begun);
@@ -178,7 +168,7 @@ fn one(
     figures(structure, &laid).expect("a regular pose");
     let to_follow = since(begun);
     let begun = now();
-    let row = row_of_pair(&subject, structure, spec, general).expect("a row");
+    let row = row_of_pair(structure, spec, general).expect("a row");
     let rest = since(begun) - to_lay - to_follow;
     let exact = row.laid.ok().map(|l| l.exact);
     ([to_lay, to_follow, rest.max(0.0)], exact)

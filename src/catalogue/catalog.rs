@@ -12,7 +12,6 @@ pub mod general;
 mod insert;
 #[cfg(feature = "store")]
 pub mod neighbours;
-pub(crate) mod paired_row;
 pub mod row;
 pub mod spec;
 #[cfg(feature = "store")]

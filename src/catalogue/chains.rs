@@ -1,130 +1,155 @@
-//! Kinematic chains: which links may be joined to which, before anything has a place. Links are vertices, joints edges.
+//! Kinematic chains: which links are joined to which, and by what, before anything has a place; and the grippers that their links make.
 //!
-//! A planar chain of n links and e hinges has the mobility W = 3(n - 1) - 2e; it has no rigid part if every part of two
-//! links or more has a mobility of at least 1. Chains are listed without two that differ only in numbering.
+//! A [`PairKind`] leaves one freedom (hinge, slide) or two (gear pair or rack; pin in a slot, cam, wedge), so that a planar chain of
+//! n links has the mobility W = 3(n - 1) - 2(R + P) - (G + S). Of hinges alone it has no rigid part if every part of two links
+//! or more has a mobility of at least 1. Otherwise a chain counts where in nearly all places of its joints W is 1
+//! in truth and every two links move against each other. Between hinges and pairs of two freedoms a count of every part tells
+//! that; with slides the rank decides (loops of slides alone, hinges locked by slides), see [`motion`].
+//! Chains are listed without two that differ only in numbering.
+//!
+//! Conventions: two links have one pair at most and every link has two or more; no hinge joins three links; a gear pair needs
+//! a carrier, a link that is hinged to both gears, or to the pinion and slides on the rack. The input is a hinge or a slide,
+//! at the frame or between two moving links; a jaw is never the frame, and *driven* where it is a link of the input joint.
 
 pub mod canonical;
 pub mod census;
+pub mod chain;
+pub mod classics;
 pub(crate) mod contracted;
 pub mod enumerate;
 pub mod graph6;
 pub mod layout_symmetry;
-pub mod pairs;
+pub mod motion;
 pub mod roles;
+pub mod sharing;
 mod strings;
+pub mod structure;
+pub mod symmetric_census;
+pub mod visit;
 
-use crate::chains::canonical::{Canonical, Weighted, canonical};
-
-/// Most links of a chain: sets of links are the bits of a word, and tables of all of them are made.
-pub(crate) const MOST_LINKS: usize = 20;
-
-/// A chain: links 0..n, and which are joined.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Chain {
-    /// For each link, the links it is joined to, as bits.
-    pub neighbours: Vec<u32>,
+/// A pair of links in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PairKind {
+    /// They turn about a pin.
+    Hinge = 1,
+    /// One slides along the other.
+    Slide,
+    /// Teeth: two gears, or a rack and its pinion. They roll, and their centres do not keep their distance by it.
+    Gear,
+    /// A pin in a slot, a cam and its follower, a wedge: they touch along a line of action.
+    Slot,
+    /// Two pins in two slots: they turn about where the lines of action meet, as about a hinge that goes elsewhere as they move.
+    TwoSlots,
 }
 
-impl Chain {
-    /// A chain of so many links with these joints.
+impl PairKind {
+    /// Every kind with the word and the letter it has in codes.
+    pub const ALL: [(PairKind, &'static str, char); 5] = [
+        (PairKind::Hinge, "hinge", 'R'),
+        (PairKind::Slide, "slide", 'P'),
+        (PairKind::Gear, "gear", 'G'),
+        (PairKind::Slot, "slot", 'S'),
+        (PairKind::TwoSlots, "two-slots", 'D'),
+    ];
+
+    /// The word used for it.
     #[must_use]
-    pub fn new(links: usize, joints: impl IntoIterator<Item = (usize, usize)>) -> Chain {
-        let mut neighbours = vec![0; links];
-        for (u, v) in joints {
-            neighbours[u] |= 1 << v;
-            neighbours[v] |= 1 << u;
+    pub fn name(self) -> &'static str {
+        PairKind::ALL[self as usize - 1].1
+    }
+
+    /// Its letter in codes.
+    #[must_use]
+    pub fn letter(self) -> char {
+        PairKind::ALL[self as usize - 1].2
+    }
+
+    /// The kind of a weight of a graph's edge, where there is an edge.
+    #[must_use]
+    pub(crate) fn of_weight(weight: u8) -> Option<PairKind> {
+        let at = usize::from(weight).checked_sub(1)?;
+        PairKind::ALL.get(at).map(|kind| kind.0)
+    }
+
+    /// Whether it is a hinge or a slide, which may be driven or carry gears.
+    #[must_use]
+    pub(crate) fn is_lower(self) -> bool {
+        matches!(self, PairKind::Hinge | PairKind::Slide)
+    }
+
+    /// Whether it leaves two freedoms; the others leave one.
+    #[must_use]
+    pub(crate) fn leaves_two(self) -> bool {
+        matches!(self, PairKind::Gear | PairKind::Slot)
+    }
+}
+
+/// How a structure lies on itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Symmetry {
+    /// Not at all: every pin where it likes.
+    Generic,
+    /// Across a line, along which the driver slides.
+    Mirror,
+    /// By half a turn about a centre, about which the driver turns.
+    HalfTurn,
+    /// By a third of a turn about a centre, about which the driver turns: three jaws.
+    Threefold,
+}
+
+impl Symmetry {
+    /// Every symmetry with its word.
+    pub const ALL: [(Symmetry, &'static str); 4] = [
+        (Symmetry::Generic, "generic"),
+        (Symmetry::Mirror, "mirror"),
+        (Symmetry::HalfTurn, "half-turn"),
+        (Symmetry::Threefold, "threefold"),
+    ];
+
+    /// The word used for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Symmetry::ALL[self as usize].1
+    }
+
+    /// Whether the input joint may move so: a mirror image needs a slide, half a turn or a third a hinge, since in the plane no
+    /// slide is its own image then.
+    #[must_use]
+    pub fn suits(self, input: Input) -> bool {
+        match self {
+            Symmetry::Generic => true,
+            Symmetry::Mirror => input == Input::Slide,
+            Symmetry::HalfTurn | Symmetry::Threefold => input == Input::Turn,
         }
-        Chain { neighbours }
     }
 
-    /// The links of a contracted graph with its strings, each with its number of joints and so with one binary link fewer.
-    pub(crate) fn of_strings(links: usize, ends: &[(usize, usize)], joints: &[u8]) -> Chain {
-        let binary: usize = joints.iter().map(|&x| usize::from(x) - 1).sum();
-        let mut next = links;
-        let mut all = Vec::with_capacity(links + binary);
-        for (&(u, v), &x) in ends.iter().zip(joints) {
-            let mut at = u;
-            for _ in 1..x {
-                all.push((at, next));
-                (at, next) = (next, next + 1);
-            }
-            all.push((at, v));
+    /// How many jaws it carries to each other, where it does.
+    #[must_use]
+    pub fn jaws(self) -> Option<usize> {
+        match self {
+            Symmetry::Generic => None,
+            Symmetry::Mirror | Symmetry::HalfTurn => Some(2),
+            Symmetry::Threefold => Some(3),
         }
-        Chain::new(links + binary, all)
     }
+}
 
-    /// Number of links.
-    #[must_use]
-    pub fn links(&self) -> usize {
-        self.neighbours.len()
-    }
+/// How the driver moves in the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Input {
+    /// It slides.
+    Slide,
+    /// It turns.
+    Turn,
+}
 
-    /// Whether two links are joined.
-    #[must_use]
-    pub fn joined(&self, u: usize, v: usize) -> bool {
-        self.neighbours[u] >> v & 1 == 1
-    }
+impl Input {
+    /// Every input with its word.
+    pub const ALL: [(Input, &'static str); 2] = [(Input::Slide, "slide"), (Input::Turn, "turn")];
 
-    /// The joints, each by its links, the lesser first.
+    /// The word used for it.
     #[must_use]
-    pub fn joints(&self) -> Vec<(usize, usize)> {
-        let n = self.links();
-        let pairs = (0..n).flat_map(|v| (0..v).map(move |u| (u, v)));
-        pairs.filter(|&(u, v)| self.joined(u, v)).collect()
-    }
-
-    /// Number of joints.
-    #[must_use]
-    pub fn joint_count(&self) -> usize {
-        let ends: u32 = self.neighbours.iter().map(|x| x.count_ones()).sum();
-        ends as usize / 2
-    }
-
-    /// The mobility 3(n - 1) - 2e of the links of a set, given as bits, with the joints between them.
-    #[must_use]
-    pub(crate) fn mobility_of(&self, part: u32) -> i64 {
-        let inside = |v: &usize| part >> v & 1 == 1;
-        let ends = (0..self.links())
-            .filter(inside)
-            .map(|v| (self.neighbours[v] & part).count_ones());
-        3 * (i64::from(part.count_ones()) - 1) - i64::from(ends.sum::<u32>())
-    }
-
-    /// The mobility of the chain.
-    #[must_use]
-    pub fn mobility(&self) -> i64 {
-        self.mobility_of(self.all())
-    }
-
-    /// All links, as bits.
-    #[must_use]
-    pub fn all(&self) -> u32 {
-        (1 << self.links()) - 1
-    }
-
-    /// The chain in its canonical numbering, with its automorphisms.
-    ///
-    /// # Complexity
-    /// One refinement for each automorphism, and some.
-    #[must_use]
-    pub fn canonical(&self) -> (Chain, Vec<Vec<usize>>) {
-        let n = self.links();
-        let mut graph = Weighted::new(n);
-        self.joints()
-            .into_iter()
-            .for_each(|(u, v)| graph.set(u, v, 1));
-        let Canonical {
-            order,
-            automorphisms,
-            ..
-        } = canonical(&graph);
-        let mut place = vec![0; n];
-        order.iter().enumerate().for_each(|(at, &v)| place[v] = at);
-        let joints = self.joints().into_iter().map(|(u, v)| (place[u], place[v]));
-        let renumbered = |a: &Vec<usize>| order.iter().map(|&v| place[a[v]]).collect();
-        (
-            Chain::new(n, joints),
-            automorphisms.iter().map(renumbered).collect(),
-        )
+    pub fn name(self) -> &'static str {
+        Input::ALL[self as usize].1
     }
 }

@@ -8,21 +8,26 @@
 mod annealing;
 pub(crate) mod beside;
 pub(crate) mod bones;
+pub mod direction;
 pub(crate) mod elimination;
+pub(crate) mod equations;
 pub mod figures;
 pub mod layout;
 pub mod layout_quality;
 pub mod mechanism;
-pub mod paired;
+mod moves;
 pub mod place;
+pub mod places;
+pub(crate) mod pose_forces;
 pub mod recognize;
+pub(crate) mod rows;
 pub mod rules;
 pub(crate) mod seen_sides;
-pub mod skeleton;
 pub mod sketch;
 pub mod stroke;
 pub mod structure;
 pub mod task;
+pub(crate) mod threefold;
 pub(crate) mod velocities;
 pub mod workload;
 

@@ -29,21 +29,57 @@ use itertools::Itertools;
 use ozols::catalog::row::{Laid, StructureRow, row};
 use ozols::catalog::spec::Spec;
 use ozols::chains::enumerate::chains;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
+use ozols::chains::{Input, Symmetry};
 use ozols::file::schema::{Coordinate, DriveWord};
 use ozols::geom::vector::real;
 use ozols::model::{joint_type::JointType, mechanism::Mechanism};
 use ozols::synthesis::figures::figures;
-use ozols::synthesis::structure::{Form, Structure, structures};
+use ozols::synthesis::layout::{Layout, NoLayout};
+use ozols::synthesis::mechanism::mechanism_file;
+use ozols::synthesis::place::Place;
+use ozols::synthesis::structure::{Form, Structure, hinged_structures};
 use ozols::synthesis::task::Limits;
 use ozols::synthesis::workload::Workload;
-use ozols::synthesis::{layout, mechanism::mechanism_file};
 use ozols::{Request, analyze};
 use std::collections::BTreeMap;
+use std::ops::Deref;
+
+/// A layout of hinges alone as pins at exact places.
+struct Drawn {
+    pins: Vec<(usize, usize)>,
+    at: Vec<Place>,
+    tips: Vec<Place>,
+    layout: Layout,
+}
+
+impl Drawn {
+    fn new(s: &Structure, layout: Layout) -> Drawn {
+        let joints = layout.rules.joints.iter();
+        Drawn {
+            pins: joints.map(|j| (j.links[0], j.links[1])).collect(),
+            at: layout.places(),
+            tips: s.tips(&layout.limits.task),
+            layout,
+        }
+    }
+}
+
+impl Deref for Drawn {
+    type Target = Layout;
+
+    fn deref(&self) -> &Layout {
+        &self.layout
+    }
+}
+
+fn layout(s: &Structure, limits: &Limits, seed: u64) -> Result<Drawn, NoLayout> {
+    let found = ozols::synthesis::layout::layout(s, limits, seed);
+    found.map(|l| Drawn::new(s, l))
+}
 
 /// Calls with every structure of two jaws and some forms of all chains of so many links.
-fn each(links: usize, forms: &[Form], with: impl FnMut(&Subject<'_>, Structure)) {
+fn each(links: usize, forms: &[(Input, Form)], with: impl FnMut(&Subject<'_>, Structure)) {
     each_of(links, 2, forms, with);
 }
 
@@ -51,24 +87,26 @@ fn each(links: usize, forms: &[Form], with: impl FnMut(&Subject<'_>, Structure))
 fn each_of(
     links: usize,
     jaws: usize,
-    forms: &[Form],
+    forms: &[(Input, Form)],
     mut with: impl FnMut(&Subject<'_>, Structure),
 ) {
     for chain in chains(links, 1).unwrap() {
         let (chain, automorphisms) = chain.canonical();
         let subject = Subject::new(&chain, &automorphisms);
-        for s in structures(&subject, jaws, forms) {
+        for s in hinged_structures(&subject, jaws, forms) {
             with(&subject, s);
         }
     }
 }
 
-fn form(input: Input, symmetry: Symmetry, parallel: bool) -> Form {
-    Form {
-        input,
-        symmetry,
+fn form(input: Input, symmetry: Symmetry, parallel: bool) -> (Input, Form) {
+    let of = Form::of(symmetry);
+    let form = Form {
         parallel,
-    }
+        hinges: true,
+        ..of
+    };
+    (input, form)
 }
 
 fn plain(ideas: usize) -> Spec {
@@ -79,8 +117,7 @@ fn plain(ideas: usize) -> Spec {
 }
 
 /// A structure a test lays out: places by joint.
-fn places(s: &Structure, l: &layout::Layout) -> BTreeMap<(usize, usize), [i32; 2]> {
-    assert_eq!(l.pins, s.chain.joints());
+fn places(l: &Drawn) -> BTreeMap<(usize, usize), [i32; 2]> {
     assert!(l.at.iter().all(|p| p.thirds == 0));
     let whole = l.at.iter().map(|p| p.whole);
     l.pins.iter().copied().zip(whole).collect()
@@ -100,13 +137,13 @@ fn symmetric_layouts_are_as_many_as_can_be_and_exactly_symmetric() {
     ] {
         let mut laid = 0;
         each(links, &[form], |subject, s| {
-            let Ok(l) = layout::layout(subject, &s, &Limits::default(), 1) else {
+            let Ok(l) = layout(&s, &Limits::default(), 1) else {
                 return;
             };
             laid += 1;
             // Whichever way round: some automorphism that swaps the jaws carries every pin to its image.
-            let at = places(&s, &l);
-            let image = |[x, y]: [i32; 2]| match form.symmetry {
+            let at = places(&l);
+            let image = |[x, y]: [i32; 2]| match form.1.symmetry {
                 Symmetry::Mirror => [x, -y],
                 _ => [-x, -y],
             };
@@ -116,7 +153,11 @@ fn symmetric_layouts_are_as_many_as_can_be_and_exactly_symmetric() {
                     at[&(p.min(q), p.max(q))] == image(place)
                 })
             };
-            assert!(subject.swaps(&s.roles).any(carries), "{}", s.name());
+            assert!(
+                subject.swaps(&s.structure.roles).any(carries),
+                "{}",
+                s.name()
+            );
         });
         assert_eq!(laid, possible, "{links} {form:?}");
     }
@@ -127,9 +168,9 @@ fn parallelograms_are_exact_and_their_jaws_do_not_turn() {
     let mut seen = 0;
     each(
         6,
-        &Form::all().filter(|f| f.parallel).collect_vec(),
-        |subject, s| {
-            let Ok(row) = row(subject, &s, &plain(0)) else {
+        &Form::of_hinges().filter(|(_, f)| f.parallel).collect_vec(),
+        |_, s| {
+            let Ok(row) = row(&s, &plain(0)) else {
                 panic!("{}", s.name())
             };
             let Ok(Laid {
@@ -139,14 +180,12 @@ fn parallelograms_are_exact_and_their_jaws_do_not_turn() {
                 return;
             };
             seen += 1;
-            let at = places(&s, &layout);
+            let at = places(&Drawn::new(&s, layout));
             let pin = |u: usize, v: usize| at[&(u.min(v), u.max(v))];
             for r in s.rings().unwrap() {
-                let side = |l: usize| {
-                    let (a, b) = (pin(l, r.base), pin(l, r.jaw));
-                    [b[0] - a[0], b[1] - a[1]]
-                };
-                assert_eq!(side(r.rods[0]), side(r.rods[1]), "{}", s.name());
+                let [a, b, c, d] = r.map(|[u, v]| pin(u, v));
+                let side = |a: [i32; 2], b: [i32; 2]| [b[0] - a[0], b[1] - a[1]];
+                assert_eq!(side(a, c), side(b, d), "{}", s.name());
             }
             assert!(figures.turns.iter().all(|t| *t < 1e-6), "{figures:?}");
         },
@@ -163,18 +202,13 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
         form(Input::Turn, Symmetry::Generic, false),
     ];
     let (mut n, mut ways) = (0, Vec::new());
-    each(6, &forms, |subject, s| {
+    each(6, &forms, |_, s| {
         n += 1;
         if n % 8 != 0 {
             return;
         }
-        let l = layout::layout(subject, &s, &Limits::default(), 1).unwrap();
-        let step = 1e-5
-            * if s.form.input == Input::Slide {
-                1.0
-            } else {
-                0.02
-            };
+        let l = layout(&s, &Limits::default(), 1).unwrap();
+        let step = 1e-5 * if s.input() == Input::Slide { 1.0 } else { 0.02 };
         let gap = |drive: f64| -> f64 {
             let tips = moved(&s, &l, drive);
             tips[0][1] - tips[1][1]
@@ -199,8 +233,8 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
 }
 
 /// Where the tips are when the drive has moved.
-fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> Vec<[f64; 2]> {
-    let tips = s.roles.jaws.iter().zip(&l.tips);
+fn moved(s: &Structure, l: &Drawn, drive: f64) -> Vec<[f64; 2]> {
+    let tips = s.structure.roles.jaws.iter().zip(&l.tips);
     let tips: Vec<_> = tips.map(|(&jaw, tip)| (jaw, tip.real())).collect();
     moved_points(s, l, drive, &tips)
 }
@@ -208,13 +242,13 @@ fn moved(s: &Structure, l: &layout::Layout, drive: f64) -> Vec<[f64; 2]> {
 /// Where points of links are when the drive has moved: unknown are a turn and a shift of each link.
 fn moved_points(
     s: &Structure,
-    l: &layout::Layout,
+    l: &Drawn,
     drive: f64,
     points: &[(usize, [f64; 2])],
 ) -> Vec<[f64; 2]> {
-    let n = s.chain.links();
+    let n = s.structure.chain.links();
     let place = |x: &[f64], link: usize, p: [f64; 2]| {
-        if link == s.roles.frame {
+        if link == s.structure.roles.frame {
             return p;
         }
         let [t, u, v] = [x[3 * link], x[3 * link + 1], x[3 * link + 2]];
@@ -226,9 +260,10 @@ fn moved_points(
     let residuals = |x: &[f64]| {
         let mut out = Vec::new();
         for (&(u, v), at) in l.pins.iter().zip(&l.at) {
-            let input = [(u, v), (v, u)].contains(&(s.roles.frame, s.roles.driver));
-            if input && s.form.input == Input::Slide {
-                let d = s.roles.driver;
+            let input =
+                [(u, v), (v, u)].contains(&(s.structure.roles.frame, s.structure.roles.drive()[1]));
+            if input && s.input() == Input::Slide {
+                let d = s.structure.roles.drive()[1];
                 out.extend([50.0 * x[3 * d], x[3 * d + 1] - drive, x[3 * d + 2]]);
                 continue;
             }
@@ -236,11 +271,11 @@ fn moved_points(
             let (a, b) = (place(x, u, p), place(x, v, p));
             out.extend([a[0] - b[0], a[1] - b[1]]);
         }
-        if s.form.input == Input::Turn {
-            out.push(50.0 * (x[3 * s.roles.driver] - drive));
+        if s.input() == Input::Turn {
+            out.push(50.0 * (x[3 * s.structure.roles.drive()[1]] - drive));
         }
         // The frame stands still.
-        out.extend((0..3).map(|k| x[3 * s.roles.frame + k]));
+        out.extend((0..3).map(|k| x[3 * s.structure.roles.frame + k]));
         out
     };
     let mut x = vec![0.0; 3 * n];
@@ -286,7 +321,7 @@ fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 
 /// The mechanism with its pins moved by less than half a millimetre, so that no two axes through them coincide: the
 /// published counts are those of generic places, and whole millimetres may be special.
-fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
+fn generic(s: &Structure, l: &Drawn, change_input: bool) -> Mechanism {
     let mut file = mechanism_file(s, l, &Spec::default().menu().unwrap(), &Workload::default());
     for (i, (joint, at)) in file.joint.iter_mut().zip(&l.at).enumerate() {
         // The golden ratio's multiples are spread evenly.
@@ -301,14 +336,14 @@ fn generic(s: &Structure, l: &layout::Layout, change_input: bool) -> Mechanism {
 
 #[test]
 fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
-    let forms = Form::all().collect_vec();
+    let forms = Form::of_hinges().collect_vec();
     let mut n = 0;
-    each(6, &forms, |subject, s| {
+    each(6, &forms, |_, s| {
         n += 1;
         if n % 9 != 0 {
             return;
         }
-        let StructureRow { laid: Ok(laid), .. } = row(subject, &s, &plain(3)).unwrap() else {
+        let StructureRow { laid: Ok(laid), .. } = row(&s, &plain(3)).unwrap() else {
             return;
         };
         let again = ozols::from_toml(&laid.file).unwrap();
@@ -330,7 +365,7 @@ fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
         assert_eq!(best.cost_milli(), laid.ideas[0].cost_milli);
         // Every joint is a hinge square to the plane but the input, and no place is off the thousandth of a millimetre.
         for j in &again.joints {
-            let slides = j.drive && s.form.input == Input::Slide;
+            let slides = j.drive && s.input() == Input::Slide;
             assert_eq!(j.joint_type == JointType::Prismatic, slides);
             let thousandths = real(&j.frame.point).map(|x| (1000.0 * x).round() / 1000.0);
             assert_eq!(thousandths, real(&j.frame.point));
@@ -342,8 +377,8 @@ fn the_mechanism_of_a_row_has_the_figures_of_the_row_when_it_is_read_again() {
 fn why_a_structure_has_no_layout_is_said() {
     let mirror = form(Input::Slide, Symmetry::Mirror, false);
     let mut whys = BTreeMap::new();
-    each(8, &[mirror], |subject, s| {
-        if let Err(why) = layout::layout(subject, &s, &Limits::default(), 1) {
+    each(8, &[mirror], |_, s| {
+        if let Err(why) = layout(&s, &Limits::default(), 1) {
             *whys.entry(why.to_string()).or_insert(0) += 1;
         }
     });
@@ -356,8 +391,8 @@ fn why_a_structure_has_no_layout_is_said() {
     };
     let turning = form(Input::Turn, Symmetry::Generic, false);
     let mut refused = 0;
-    each(6, &[turning], |subject, s| {
-        let found = layout::layout(subject, &s, &strict, 1);
+    each(6, &[turning], |_, s| {
+        let found = layout(&s, &strict, 1);
         refused += usize::from(found.is_err_and(|e| e.to_string().contains("transmission angle")));
     });
     assert!(refused > 0);

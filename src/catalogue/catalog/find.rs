@@ -1,11 +1,11 @@
 //! The structures of a catalogue that are a given one.
 
 use crate::catalog::store::{Store, StoreError};
-use crate::chains::graph6;
-use crate::chains::pairs::chain::{PairChain, ordered};
-use crate::chains::pairs::classics::MadeAs;
-use crate::chains::pairs::roles::PairRoles;
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::chain::{Chain, ordered};
+use crate::chains::classics::MadeAs;
+use crate::chains::roles::Roles;
+use crate::chains::structure::PairStructure;
+use crate::chains::{PairKind, graph6};
 use itertools::Itertools;
 use serde_json::Value;
 
@@ -78,10 +78,13 @@ pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     let jaws = [link(6)?, link(7)?].into_iter().chain(link(8));
     Some(PairStructure {
         chain: match row.get(9)?.as_str() {
-            Some(code) => PairChain::of_code(chain.links(), code)?,
-            None => PairChain::hinged(&chain, slides.then_some(input)),
+            Some(code) => Chain::of_code(chain.links(), code)?,
+            None => match slides {
+                true => chain.with(input, PairKind::Slide),
+                false => chain,
+            },
         },
-        roles: PairRoles {
+        roles: Roles {
             frame,
             input,
             jaws: jaws.sorted().collect(),

@@ -8,17 +8,19 @@
 
 use crate::catalog::spec::Spec;
 use crate::catalog::{RowError, mechanism, search};
-use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::chain::Chain;
 use crate::chains::roles::Roles;
-use crate::chains::{Chain, graph6};
+use crate::chains::structure::PairStructure;
+use crate::chains::{Symmetry, graph6};
 use crate::model::mechanism::Mechanism;
 use crate::search::Search;
 use crate::search::answer::ideas::{Idea, IdeaBasis};
 use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Stop};
 use crate::synthesis::mechanism::bare_file;
-use crate::synthesis::place::Place;
-use crate::synthesis::structure::{Form, Structure};
+use crate::synthesis::places::Places;
+use crate::synthesis::rules::Rules;
+use crate::synthesis::structure::{Form, Lay, Structure};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
@@ -46,56 +48,60 @@ pub struct General {
     pub counts: BTreeMap<(i64, u32), BigUint>,
 }
 
-/// What tells the structures of a chain apart whose layouts in general position have their determinate variants in common.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+/// What tells the structures of hinges apart whose layouts in general position have their determinate variants in common.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct InputPair {
+    /// The chain, with a slide where the driver slides.
+    chain: Chain,
     /// The links of the input joint, the lesser number first.
-    links: [usize; 2],
-    /// How the driver moves, without symmetry and parallelograms.
-    form: Form,
+    input: [usize; 2],
 }
 
 impl InputPair {
-    /// The pair of a structure; `None` where its layouts are special on purpose.
+    /// The pair of a structure; `None` where its layouts are special on purpose, or it is not of hinges alone.
     #[must_use]
     pub fn of(structure: &Structure) -> Option<InputPair> {
-        let (form, r) = (structure.form, &structure.roles);
-        let general = form.symmetry == Symmetry::Generic && !form.parallel;
+        let form = structure.form;
+        let general = form.hinges && form.symmetry == Symmetry::Generic && !form.parallel;
+        let PairStructure { chain, roles } = &structure.structure;
         general.then(|| InputPair {
-            links: [r.frame.min(r.driver), r.frame.max(r.driver)],
-            form,
+            chain: chain.clone(),
+            input: roles.input,
         })
     }
 
     /// A structure of the pair that does not depend on which are asked for: it stands for all.
-    fn structure(self, chain: &Chain) -> Structure {
-        let [frame, driver] = self.links;
-        let jaws = (0..chain.links()).filter(|l| !self.links.contains(l));
-        Structure {
-            chain: chain.clone(),
-            roles: Roles {
-                frame,
-                driver,
-                jaws: jaws.take(2).collect(),
-            },
-            form: self.form,
-        }
+    fn structure(self, form: Form) -> Structure {
+        let jaws = (0..self.chain.links()).filter(|l| !self.input.contains(l));
+        let roles = Roles {
+            frame: self.input[0],
+            input: self.input,
+            jaws: jaws.take(2).collect(),
+        };
+        let chain = self.chain;
+        Structure::new(PairStructure { chain, roles }, form)
     }
 }
 
 /// A structure with its pins at random places, the same for the same number.
 fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechanism, RowError> {
-    let r = &structure.roles;
-    let code = graph6::write(&structure.chain);
-    let digest = Sha256::digest(format!("{code} {}-{} {number}", r.frame, r.driver));
+    let PairStructure { chain, roles } = &structure.structure;
+    let [u, v] = roles.input;
+    let digest = Sha256::digest(format!("{} {u}-{v} {number}", graph6::write(chain)));
     let mut key = [0; 32];
     key.copy_from_slice(&digest);
     let mut random = ChaCha8Rng::from_seed(key);
     // Halved, so that differences of places are as small.
-    let mut coordinate = || random.next_u32().cast_signed() / 2;
-    let place = |_| Place::from([coordinate(), coordinate()]);
-    let at: Vec<Place> = structure.chain.joints().into_iter().map(place).collect();
-    mechanism(&structure.name(), &bare_file(structure, &at, &spec.menu()?))
+    let mut coordinate = || f64::from(random.next_u32().cast_signed() / 2);
+    let swap = (0..chain.links()).collect();
+    let rules = Rules::new(structure, &Lay { swap, bits: 0 }).map_err(|why| RowError::File {
+        structure: structure.name(),
+        why: why.to_string(),
+    })?;
+    let points = rules.joints.iter().map(|_| [coordinate(), coordinate()]);
+    let at = Places::of_hinges(points.collect());
+    let file = bare_file(structure, &rules, &at, &spec.menu()?);
+    mechanism(&structure.name(), &file)
 }
 
 /// Whether two diagrams in the same order have the same variants.
@@ -126,7 +132,7 @@ impl General {
         let Some(pair) = InputPair::of(structure) else {
             return Ok(None);
         };
-        let first = pair.structure(&structure.chain);
+        let first = pair.structure(structure.form);
         for number in 0..PAIRS_OF_PLACES {
             let over = |prime: usize| {
                 let places = at_random(&first, spec, 2 * number + prime)?;

@@ -1,7 +1,7 @@
 //! A row as entries of the tables.
 
 use crate::catalog::drawn::{DrawnMechanism, known};
-use crate::catalog::entered::{Entered, LaidOut, StructureColumns};
+use crate::catalog::entered::StructureColumns;
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
 use crate::format;
 use crate::geom::vector::sides;
@@ -15,11 +15,8 @@ use rusqlite::{ToSql, Transaction};
 use std::collections::BTreeMap;
 
 /// Enters a row.
-pub(super) fn row<S: Entered, L: LaidOut>(
-    t: &Transaction<'_>,
-    row: &StructureRow<S, L>,
-) -> rusqlite::Result<()> {
-    let columns = row.structure.columns();
+pub(super) fn row(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
+    let columns = StructureColumns::of(&row.structure);
     structure(t, row, &columns)?;
     if let Some(pairs) = &columns.pairs {
         put(
@@ -74,9 +71,9 @@ fn put(t: &Transaction<'_>, table: &str, row: &[(&str, &dyn ToSql)]) -> rusqlite
     Ok(())
 }
 
-fn structure<S, L>(
+fn structure(
     t: &Transaction<'_>,
-    row: &StructureRow<S, L>,
+    row: &StructureRow,
     s: &StructureColumns,
 ) -> rusqlite::Result<()> {
     put(
@@ -113,11 +110,11 @@ fn rounded(x: f64) -> f64 {
     format::rounded(if x.abs() < 1e-9 { 0.0 } else { x }, 4)
 }
 
-fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
-    let (l, f) = (laid.layout.taken().looks, &laid.figures);
+fn layout(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
+    let (l, f) = (&laid.layout.looks, &laid.figures);
     let end = |w: Option<StrokeEnd>| w.map(StrokeEnd::word);
     // Tips and drive as they grip: as they open, in a hole.
-    let grips = laid.layout.taken().limits.task.grip.sign();
+    let grips = laid.layout.limits.task.grip.sign();
     let tip = |n: usize, k: usize| l.tips.get(n).map(|t| rounded(grips * t[k]));
     let turn = f.turns.iter().fold(0.0, |m: f64, t| m.max(*t));
     put(
@@ -126,7 +123,7 @@ fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite
         &[
             ("structure", &id),
             ("mechanism", &laid.file),
-            ("start", &laid.layout.taken().start),
+            ("start", &laid.layout.start),
             ("crossings", &number(l.crossings)),
             ("link_ratio", &rounded(l.ratio)),
             ("transmission", &rounded(l.transmission)),
@@ -169,8 +166,8 @@ fn layout<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite
 }
 
 /// Enters what a layout does of its task.
-fn stroke<L: LaidOut>(t: &Transaction<'_>, id: &str, laid: &Laid<L>) -> rusqlite::Result<()> {
-    let (task, f) = (&laid.layout.taken().limits.task, &laid.figures);
+fn stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
+    let (task, f) = (&laid.layout.limits.task, &laid.figures);
     let reached = !f.shortfall.is_some_and(|s| s.is_of_reach());
     put(
         t,
@@ -307,7 +304,7 @@ fn milli(cost: i64) -> f64 {
 }
 
 /// Area of the box round joints and tips, in square millimetres.
-fn area<L: LaidOut>(laid: &Laid<L>) -> f64 {
-    let [width, height] = sides(&laid.layout.points());
+fn area(laid: &Laid) -> f64 {
+    let [width, height] = sides(&laid.layout.at.points);
     width * height
 }

@@ -2,10 +2,10 @@
 
 use crate::catalog::find::{Entry, read};
 use crate::catalog::store::{Store, StoreError};
+use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::PairChain;
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::chain::Chain;
+use crate::chains::structure::PairStructure;
 use itertools::Itertools;
 use std::collections::HashSet;
 
@@ -169,7 +169,7 @@ impl Figure {
 /// A structure, and what is left of it without two links and without four.
 struct Own {
     links: usize,
-    chain: PairChain,
+    chain: Chain,
     key: Weighted,
     less: [HashSet<Weighted>; 2],
 }
@@ -219,14 +219,12 @@ impl Own {
 }
 
 /// The chain in canonical numbering, its input a hinge: forms differ in how the input moves.
-fn hinged(structure: &PairStructure) -> PairChain {
-    let joints = structure.chain.joints().into_iter().map(|mut joint| {
-        if joint.links == structure.roles.input {
-            joint.pair = PairKind::Hinge;
-        }
-        joint
-    });
-    PairChain::new(structure.chain.links(), joints).canonical()
+fn hinged(structure: &PairStructure) -> Chain {
+    let chain = structure.chain.clone();
+    chain
+        .with(structure.roles.input, PairKind::Hinge)
+        .canonical()
+        .0
 }
 
 fn keys<'a>(all: impl Iterator<Item = &'a PairStructure>) -> HashSet<Weighted> {

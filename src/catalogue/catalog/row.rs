@@ -4,6 +4,7 @@ use crate::catalog::general::General;
 use crate::catalog::spec::Spec;
 use crate::catalog::{RowError, mechanism, request};
 use crate::chains::roles::Subject;
+use crate::chains::structure::PairStructure;
 use crate::file::schema::MechanismFile;
 use crate::file::write;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -31,11 +32,11 @@ use crate::synthesis::structure::Structure;
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
 
-/// A structure of a catalogue, `S`, that lies as an `L` says.
+/// A structure of a catalogue.
 #[derive(Debug, Clone)]
-pub struct StructureRow<S = Structure, L = Layout> {
+pub struct StructureRow {
     /// The structure.
-    pub structure: S,
+    pub structure: Structure,
     /// How many of the jaws are joined to the frame.
     pub jaws_at_frame: usize,
     /// Whether it makes a truss with a part hinged to both jaws, where there are two and all its joints are hinges but the input.
@@ -43,14 +44,14 @@ pub struct StructureRow<S = Structure, L = Layout> {
     /// Whether its graph is symmetric, jaw for jaw.
     pub graph_symmetric: bool,
     /// What it is when laid out, or why it is not.
-    pub laid: Result<Laid<L>, NoLayout>,
+    pub laid: Result<Laid, NoLayout>,
 }
 
 /// A structure laid out, searched and scored.
 #[derive(Debug, Clone)]
-pub struct Laid<L = Layout> {
+pub struct Laid {
     /// Where it is.
-    pub layout: L,
+    pub layout: Layout,
     /// What it does over its stroke.
     pub figures: LayoutFigures,
     /// The mechanism as a file in TOML.
@@ -151,13 +152,9 @@ pub struct IdeaRow {
 ///
 /// # Complexity
 /// A search for places, one of the variants, and what [`General::of`] takes.
-pub fn row(
-    subject: &Subject<'_>,
-    structure: &Structure,
-    spec: &Spec,
-) -> Result<StructureRow, RowError> {
+pub fn row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError> {
     let general = General::of(structure, spec)?;
-    row_of_pair(subject, structure, spec, general.as_ref())
+    row_of_pair(structure, spec, general.as_ref())
 }
 
 /// The row of a structure whose chain and input are searched already, as far as they are.
@@ -168,21 +165,20 @@ pub fn row(
 /// # Complexity
 /// A search for places, and a diagram of the variants for each of the places that are looked at.
 pub fn row_of_pair(
-    subject: &Subject<'_>,
     structure: &Structure,
     spec: &Spec,
     general: Option<&General>,
 ) -> Result<StructureRow, RowError> {
-    let laid = regular(spec, |seed| {
-        match layout(subject, structure, &spec.limits(), seed) {
-            Ok(layout) => lay(structure, layout, spec, general),
-            Err(why) => Ok(Err(why)),
-        }
+    let laid = regular(spec, |seed| match layout(structure, &spec.limits(), seed) {
+        Ok(layout) => lay(structure, layout, spec, general),
+        Err(why) => Ok(Err(why)),
     })?;
+    let PairStructure { chain, roles } = structure.whole();
+    let subject = Subject::new(&chain, []);
     Ok(StructureRow {
-        jaws_at_frame: subject.jaws_at_frame(&structure.roles),
-        truss: subject.is_truss(&structure.roles),
-        graph_symmetric: subject.swaps(&structure.roles).next().is_some(),
+        jaws_at_frame: subject.jaws_at_frame(&roles),
+        truss: structure.form.hinges && subject.is_truss(&roles),
+        graph_symmetric: structure.is_graph_symmetric(),
         structure: structure.clone(),
         laid,
     })
@@ -192,10 +188,10 @@ pub fn row_of_pair(
 const SEEDS: u64 = 6;
 
 /// The first layout of some seeds whose pose is proven to be a regular one; what keeps it from being laid out otherwise.
-pub(super) fn regular<L>(
+fn regular(
     spec: &Spec,
-    lay: impl Fn(u64) -> Result<Result<L, NoLayout>, RowError>,
-) -> Result<Result<L, NoLayout>, RowError> {
+    lay: impl Fn(u64) -> Result<Result<Laid, NoLayout>, RowError>,
+) -> Result<Result<Laid, NoLayout>, RowError> {
     let seeds = (1..SEEDS).map(|n| spec.seed.wrapping_add(n << 32));
     let mut laid = lay(spec.seed)?;
     for seed in seeds {
@@ -226,7 +222,7 @@ impl AsFile {
 }
 
 /// The variants of a layout.
-pub(super) struct Variants {
+struct Variants {
     counts: BTreeMap<(i64, u32), BigUint>,
     symmetric: Symmetric,
     exact: bool,
@@ -248,7 +244,7 @@ fn in_general_position(
     general: &General,
 ) -> Result<Option<(AsFile, Variants)>, RowError> {
     let moved = (0..BESIDE).filter_map(|n| beside(structure, &found.layout, spec.seed, n));
-    let first = structure.chain.links() <= ON_MILLIMETRES;
+    let first = structure.links() <= ON_MILLIMETRES;
     let own = |now: bool| now.then(|| found.layout.clone());
     for layout in own(first).into_iter().chain(moved).chain(own(!first)) {
         let as_file = AsFile::new(structure, layout, spec)?;
@@ -266,7 +262,7 @@ fn in_general_position(
 }
 
 /// The variants of a layout in special places, by a search of its own.
-pub(super) fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
+fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
     let symmetric = Symmetric::of(built, &request(spec))?;
     let outcome = run(built.clone(), &request(spec), &|| false, &mut |_| {})?;
     Ok(Variants {
@@ -290,64 +286,32 @@ fn lay(
     {
         (as_file, variants) = (found.0, Some(found.1));
     }
-    let AsFile {
-        layout,
-        file,
-        built,
-    } = as_file;
-    let as_file = LaidFile {
-        name: structure.name(),
-        figures: figures(structure, &layout),
-        file,
-        built,
+    let built = &as_file.built;
+    let Some(figures) = figures(structure, &as_file.layout) else {
+        return Ok(Err(NoLayout::NotRegular));
     };
-    as_file.searched(layout, |built| {
-        variants.map_or_else(|| of_its_own(built, spec), Ok)
-    })
-}
-
-/// A layout as a file, before it is searched.
-pub(super) struct LaidFile {
-    pub(super) name: String,
-    pub(super) file: MechanismFile,
-    pub(super) built: Mechanism,
-    pub(super) figures: Option<LayoutFigures>,
-}
-
-impl LaidFile {
-    /// The layout with its variants; why it counts as none where its pose is not proven to be a regular one.
-    pub(super) fn searched<L>(
-        self,
-        layout: L,
-        variants: impl FnOnce(&Mechanism) -> Result<Variants, RowError>,
-    ) -> Result<Result<Laid<L>, NoLayout>, RowError> {
-        let Some(figures) = self.figures else {
-            return Ok(Err(NoLayout::NotRegular));
-        };
-        let decided = decide(&self.built, StateId::FREE);
-        let Decision {
-            verdict, finite, ..
-        } = decided.map_err(AnalysisError::from)?;
-        if !finite.is_proven() || finite.figure() != "1" {
-            return Ok(Err(NoLayout::NotRegular));
-        }
-        let variants = variants(&self.built)?;
-        let text = write::toml(&self.file, &[]).map_err(|e| RowError::File {
-            structure: self.name,
-            why: e.to_string(),
-        })?;
-        Ok(Ok(Laid {
-            layout,
-            figures,
-            file: text,
-            as_built: verdict.figures(verdict.rank()),
-            finite,
-            counts: variants.counts,
-            exact: variants.exact,
-            symmetric: variants.symmetric,
-            ideas: variants.ideas,
-        }))
+    let Decision {
+        verdict, finite, ..
+    } = decide(built, StateId::FREE).map_err(AnalysisError::from)?;
+    if !finite.is_proven() || finite.figure() != "1" {
+        return Ok(Err(NoLayout::NotRegular));
     }
+    let variants = variants.map_or_else(|| of_its_own(built, spec), Ok)?;
+    let text = write::toml(&as_file.file, &[]).map_err(|e| RowError::File {
+        structure: structure.name(),
+        why: e.to_string(),
+    })?;
+    Ok(Ok(Laid {
+        layout: as_file.layout,
+        figures,
+        file: text,
+        as_built: verdict.figures(verdict.rank()),
+        finite,
+        counts: variants.counts,
+        exact: variants.exact,
+        symmetric: variants.symmetric,
+        ideas: variants.ideas,
+    }))
 }
 
 /// The first ideas of what was found.
@@ -378,7 +342,7 @@ fn rows(search: &Search, ideas: Vec<Idea>) -> Vec<IdeaRow> {
     ideas.into_iter().map(row).collect()
 }
 
-impl<L> Laid<L> {
+impl Laid {
     /// Orbits of determinate variants of W = 1.
     #[must_use]
     pub fn orbits(&self) -> BigUint {

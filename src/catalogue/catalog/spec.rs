@@ -5,12 +5,10 @@ mod error;
 pub use error::SpecError;
 pub(crate) use error::{MOST_LINKS, MOST_PAIRED};
 
-use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::chains::pairs::PairKind;
+use crate::chains::{Input, PairKind, Symmetry};
 use crate::file::schema::{OptionEntry, OptionTable};
 use crate::synthesis::mechanism::Menu;
-use crate::synthesis::paired::structure::PairedForm;
-use crate::synthesis::structure::{Form, suits};
+use crate::synthesis::structure::Form;
 use crate::synthesis::task::{Limits, Task};
 use crate::synthesis::workload::Workload;
 use itertools::Itertools;
@@ -187,7 +185,7 @@ impl Spec {
     ///
     /// # Errors
     /// Where a word means nothing.
-    pub(crate) fn paired_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
+    pub(crate) fn paired_forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
         if self.pairs()?.is_empty() && self.one_pin()? == Some(false) {
             return Ok(Vec::new());
         }
@@ -198,12 +196,12 @@ impl Spec {
             Symmetry::Generic => self.generic_pairs,
             Symmetry::Threefold => false,
         };
-        let forms = symmetries.into_iter().filter(asked).map(PairedForm::of);
+        let forms = symmetries.into_iter().filter(asked).map(Form::of);
         let forms = forms.cartesian_product([false, true]);
-        let forms = forms.map(|(f, parallel)| PairedForm { parallel, ..f });
+        let forms = forms.map(|(f, parallel)| Form { parallel, ..f });
         let forms = forms.filter(|f| parallel.is_none_or(|p| p == f.parallel));
-        let forms = forms.filter(|f| suits(f.symmetry, f.parallel, self.jaws));
-        let forms: Vec<PairedForm> = forms.collect();
+        let forms = forms.filter(|f| f.suits(self.jaws));
+        let forms: Vec<Form> = forms.collect();
         Ok(inputs.into_iter().cartesian_product(forms).collect())
     }
 
@@ -212,20 +210,20 @@ impl Spec {
     ///
     /// # Errors
     /// Where a word means nothing.
-    pub(crate) fn threefold_forms(&self) -> Result<Vec<(Input, PairedForm)>, SpecError> {
+    pub(crate) fn threefold_forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
         let (inputs, symmetries) = self.words()?;
         if self.jaws != 3 || !symmetries.contains(&Symmetry::Threefold) {
             return Ok(Vec::new());
         }
         let pairs = !self.pairs()?.is_empty();
         let parallel = self.parallelograms()?;
-        let turning = (Input::Turn, PairedForm::of(Symmetry::HalfTurn));
+        let turning = (Input::Turn, Form::of(Symmetry::HalfTurn));
         let sliding = [false, true].map(|parallel| {
-            let form = PairedForm::of(Symmetry::Mirror);
-            (Input::Slide, PairedForm { parallel, ..form })
+            let form = Form::of(Symmetry::Mirror);
+            (Input::Slide, Form { parallel, ..form })
         });
         let all = std::iter::once(turning).filter(|_| pairs).chain(sliding);
-        let asked = |(input, form): &(Input, PairedForm)| {
+        let asked = |(input, form): &(Input, Form)| {
             inputs.contains(input) && parallel.is_none_or(|p| p == form.parallel)
         };
         Ok(all.filter(asked).collect())
@@ -260,22 +258,22 @@ impl Spec {
         Ok((inputs, symmetries.try_collect()?))
     }
 
-    /// The forms that structures are laid out in.
+    /// The forms that structures of hinges alone are laid out in, with how they are driven.
     ///
     /// # Errors
     /// Where a word means nothing, or no form is left.
-    pub fn forms(&self) -> Result<Vec<Form>, SpecError> {
+    pub fn forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
         let (inputs, symmetries) = self.words()?;
         let parallel = self.parallelograms()?;
         let alone = [self.one_pin()?, self.flat_faces()?].contains(&Some(true));
-        let asked = |f: &Form| {
+        let asked = |(input, f): &(Input, Form)| {
             !alone
-                && inputs.contains(&f.input)
+                && inputs.contains(input)
                 && symmetries.contains(&f.symmetry)
                 && parallel.is_none_or(|p| p == f.parallel)
                 && f.suits(self.jaws)
         };
-        let forms: Vec<Form> = Form::all().filter(asked).collect();
+        let forms: Vec<(Input, Form)> = Form::of_hinges().filter(asked).collect();
         if forms.is_empty() && !self.has_paired_forms()? {
             return Err(SpecError::Nothing);
         }

@@ -1,69 +1,193 @@
 //! How many chains there are, and in how many ways their links make grippers.
 
-use crate::chains::Chain;
+use crate::chains::chain::Chain;
 use crate::chains::enumerate::{ChainsError, visit_chains};
-use crate::chains::layout_symmetry::{Input, Symmetry, working_swap};
-use crate::chains::roles::Subject;
-use std::ops::AddAssign;
+use crate::chains::layout_symmetry::working_swap;
+use crate::chains::roles::{Roles, Subject};
+use crate::chains::sharing::Menu;
+use crate::chains::visit::visit_pair_chains;
+use crate::chains::{Input, PairKind, Symmetry};
+use std::collections::BTreeMap;
+use std::ops::{AddAssign, Index};
 use std::sync::{Mutex, PoisonError};
 
-/// Counts over all chains of a number of links, everything up to automorphism.
+/// How many pairs of each kind that is no hinge a chain has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Kinds {
+    /// Slides.
+    pub slides: usize,
+    /// Gear pairs and racks.
+    pub gears: usize,
+    /// Slots, cams and wedges.
+    pub slots: usize,
+    /// Two slots between the same links.
+    pub two_slots: usize,
+}
+
+impl Kinds {
+    /// Of a chain.
+    #[must_use]
+    pub fn of(chain: &Chain) -> Kinds {
+        Kinds {
+            slides: chain.count(PairKind::Slide),
+            gears: chain.count(PairKind::Gear),
+            slots: chain.count(PairKind::Slot),
+            two_slots: chain.count(PairKind::TwoSlots),
+        }
+    }
+
+    /// Slots in all.
+    #[must_use]
+    pub fn slots_made(self) -> usize {
+        self.slots + 2 * self.two_slots
+    }
+
+    /// The same with so many slots made of flat faces, which are slides.
+    #[must_use]
+    pub fn with_flat(self, flat: usize) -> Kinds {
+        Kinds {
+            slides: self.slides + flat,
+            slots: self.slots - flat,
+            ..self
+        }
+    }
+}
+
+/// What grippers are counted by: essential ones alone, but for all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Counted {
+    /// All.
+    All,
+    /// Those of which no smaller moving part holds all roles.
+    Essential,
+    /// No jaw is joined to the frame.
+    Floating,
+    /// One jaw is joined to the frame.
+    OneAtFrame,
+    /// Both are.
+    BothAtFrame,
+    /// They make a truss with a part hinged to both jaws.
+    Truss,
+    /// All jaws keep their attitude.
+    Translating,
+    /// An automorphism keeps frame and input joint and swaps the jaws, or carries three round.
+    GraphSymmetric,
+    /// They move so in places that mirror each other; of hinges alone with a sliding input.
+    Mirror,
+    /// The same without the demand on the input joint.
+    MirrorButInput,
+    /// They move so in places that half a turn carries to each other.
+    HalfTurn,
+    /// The same without the demand on the input joint.
+    HalfTurnButInput,
+    /// They move so in places that a third of a turn carries to each other.
+    Threefold,
+}
+
+/// Counts of choices of jaws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Grippers([u64; 13]);
+
+impl Index<Counted> for Grippers {
+    type Output = u64;
+
+    fn index(&self, of: Counted) -> &u64 {
+        &self.0[of as usize]
+    }
+}
+
+impl AddAssign for Grippers {
+    fn add_assign(&mut self, o: Grippers) {
+        self.0.iter_mut().zip(o.0).for_each(|(a, b)| *a += b);
+    }
+}
+
+impl Grippers {
+    fn take(&mut self, of: Counted, holds: bool) {
+        self.0[of as usize] += u64::from(holds);
+    }
+
+    /// Takes what is counted of a gripper of hinges alone, driven from the frame.
+    fn take_hinged(&mut self, subject: &Subject<'_>, roles: &Roles) {
+        let essential = subject.is_essential(roles);
+        self.take(Counted::All, true);
+        self.take(Counted::Essential, essential);
+        if !essential {
+            return;
+        }
+        let at_frame = [Counted::Floating, Counted::OneAtFrame, Counted::BothAtFrame];
+        if let Some(&at_frame) = at_frame.get(subject.jaws_at_frame(roles)) {
+            self.take(at_frame, true);
+        }
+        self.take(Counted::Truss, subject.is_truss(roles));
+        if subject.is_graph_symmetric(roles) {
+            self.take(Counted::GraphSymmetric, true);
+            let works = |symmetry, input| working_swap(subject, roles, symmetry, input).is_ok();
+            self.take(Counted::Mirror, works(Symmetry::Mirror, Input::Slide));
+            self.take(Counted::HalfTurn, works(Symmetry::HalfTurn, Input::Turn));
+            self.take(Counted::Threefold, works(Symmetry::Threefold, Input::Turn));
+        }
+    }
+
+    /// Takes what is counted of a gripper of any pairs.
+    fn take_paired(&mut self, subject: &Subject<'_>, roles: &Roles) {
+        let essential = subject.is_essential(roles);
+        self.take(Counted::All, true);
+        self.take(Counted::Essential, essential);
+        if !essential {
+            return;
+        }
+        let s = subject.symmetries(roles);
+        self.take(Counted::Translating, subject.is_translating(roles));
+        self.take(Counted::GraphSymmetric, s.graph);
+        self.take(Counted::Mirror, s.mirror);
+        self.take(Counted::MirrorButInput, s.mirror_but_input);
+        self.take(Counted::HalfTurn, s.half_turn);
+        self.take(Counted::HalfTurnButInput, s.half_turn_but_input);
+    }
+}
+
+/// How many jaws there are, where the input joint is, what it is, and whether a jaw is one of its links.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct DriveKind {
+    /// Jaws.
+    pub jaws: usize,
+    /// Between two moving links; otherwise at the frame.
+    pub between: bool,
+    /// A jaw is a link of it; otherwise the jaws are apart.
+    pub jaw: bool,
+    /// It slides; otherwise it turns.
+    pub slides: bool,
+}
+
+impl DriveKind {
+    /// From the frame, apart from so many jaws, by a hinge: grippers of hinges alone.
+    #[must_use]
+    pub fn of_hinges(jaws: usize) -> DriveKind {
+        DriveKind {
+            jaws,
+            between: false,
+            jaw: false,
+            slides: false,
+        }
+    }
+}
+
+/// Counts of the chains of some links and kinds, everything up to automorphism.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Census {
     /// Chains.
     pub chains: u64,
     /// Choices of a frame.
     pub frames: u64,
-    /// Choices of an input joint.
+    /// Choices of an input joint, with no frame; of hinges alone.
     pub inputs: u64,
-    /// Choices of a frame and of a driver joined to it.
-    pub drives: u64,
-    /// Grippers, where they were asked for.
-    pub grippers: Option<Grippers>,
-}
-
-/// Counts of choices of frame, driver and jaws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Grippers {
-    /// With two jaws.
-    pub two_jaws: u64,
-    /// Of these, those of which no smaller moving part holds all roles. The rest counts such alone.
-    pub essential: u64,
-    /// By how many jaws are joined to the frame: none, one, both.
-    pub jaws_at_frame: [u64; 3],
-    /// Those that make a truss with a part hinged to both jaws.
-    pub truss: u64,
-    /// Those with an automorphism of order two that keeps frame and driver and swaps the jaws.
-    pub symmetric: u64,
-    /// Those that move in mirror-symmetric places with a sliding input.
-    pub mirror: u64,
-    /// Those that move in places symmetric by half a turn with a turning input.
-    pub half_turn: u64,
-    /// With three jaws, essential or not.
-    pub three_jaws: u64,
-    /// Of these, the essential ones.
-    pub three_essential: u64,
-    /// Of the essential ones, those with an automorphism that keeps frame and driver and carries the jaws round.
-    pub three_symmetric: u64,
-    /// Those that move in places symmetric by a third of a turn with a turning input.
-    pub threefold: u64,
-}
-
-impl AddAssign for Grippers {
-    fn add_assign(&mut self, o: Grippers) {
-        self.two_jaws += o.two_jaws;
-        self.essential += o.essential;
-        let both = self.jaws_at_frame.iter_mut().zip(o.jaws_at_frame);
-        both.for_each(|(a, b)| *a += b);
-        self.truss += o.truss;
-        self.symmetric += o.symmetric;
-        self.mirror += o.mirror;
-        self.half_turn += o.half_turn;
-        self.three_jaws += o.three_jaws;
-        self.three_essential += o.three_essential;
-        self.three_symmetric += o.three_symmetric;
-        self.threefold += o.threefold;
-    }
+    /// Choices of a frame and an input joint at it.
+    pub inputs_at_frame: u64,
+    /// Choices of a frame and an input joint between two other links.
+    pub inputs_between: u64,
+    /// Choices of jaws with them.
+    pub grippers: BTreeMap<DriveKind, Grippers>,
 }
 
 impl AddAssign for Census {
@@ -71,84 +195,92 @@ impl AddAssign for Census {
         self.chains += o.chains;
         self.frames += o.frames;
         self.inputs += o.inputs;
-        self.drives += o.drives;
-        if let Some(more) = o.grippers {
-            *self.grippers.get_or_insert_default() += more;
+        self.inputs_at_frame += o.inputs_at_frame;
+        self.inputs_between += o.inputs_between;
+        for (drive, counts) in o.grippers {
+            *self.grippers.entry(drive).or_default() += counts;
         }
     }
 }
 
-impl Grippers {
-    /// Of one chain.
+impl Census {
+    fn of_chain(subject: &Subject<'_>) -> Census {
+        let (between, at_frame): (Vec<_>, Vec<_>) =
+            (subject.drives().into_iter()).partition(|(frame, input)| !input.is_at(*frame));
+        Census {
+            chains: 1,
+            frames: subject.frames() as u64,
+            inputs: subject.inputs().count() as u64,
+            inputs_at_frame: at_frame.len() as u64,
+            inputs_between: between.len() as u64,
+            grippers: BTreeMap::new(),
+        }
+    }
+
+    /// Of one chain of hinges alone: grippers of two and three jaws apart from a driver at the frame.
     ///
     /// # Complexity
     /// A step for each choice of roles, and an elimination for each symmetric one.
     #[must_use]
-    pub fn of(subject: &Subject<'_>) -> Grippers {
-        let mut out = Grippers::default();
-        for roles in subject.grippers(2) {
-            out.two_jaws += 1;
-            if !subject.is_essential(&roles) {
-                continue;
-            }
-            out.essential += 1;
-            out.jaws_at_frame[subject.jaws_at_frame(&roles)] += 1;
-            out.truss += u64::from(subject.is_truss(&roles));
-            if subject.swaps(&roles).next().is_some() {
-                out.symmetric += 1;
-                let works = |symmetry, input| {
-                    u64::from(working_swap(subject, &roles, symmetry, input).is_ok())
-                };
-                out.mirror += works(Symmetry::Mirror, Input::Slide);
-                out.half_turn += works(Symmetry::HalfTurn, Input::Turn);
-            }
+    pub fn of_hinges(subject: &Subject<'_>, grippers: bool) -> Census {
+        let mut out = Census::of_chain(subject);
+        for jaws in (2..=3).filter(|_| grippers) {
+            let counts = out.grippers.entry(DriveKind::of_hinges(jaws)).or_default();
+            let all = subject.grippers_apart(jaws);
+            all.for_each(|roles| counts.take_hinged(subject, &roles));
         }
-        for roles in subject.grippers(3) {
-            out.three_jaws += 1;
-            if !subject.is_essential(&roles) {
-                continue;
-            }
-            out.three_essential += 1;
-            if subject.swaps(&roles).next().is_some() {
-                out.three_symmetric += 1;
-                let swap = working_swap(subject, &roles, Symmetry::Threefold, Input::Turn);
-                out.threefold += u64::from(swap.is_ok());
+        out
+    }
+
+    /// Of one chain with its automorphisms: grippers of two jaws.
+    ///
+    /// # Complexity
+    /// A step for each choice of roles and each smaller moving part.
+    #[must_use]
+    pub fn of(subject: &Subject<'_>, grippers: bool) -> Census {
+        let mut out = Census::of_chain(subject);
+        for (frame, input) in subject.drives().into_iter().filter(|_| grippers) {
+            for roles in subject.grippers(frame, &input, 2) {
+                let drive = DriveKind {
+                    jaws: 2,
+                    between: !input.is_at(frame),
+                    jaw: roles.has_driven_jaw(),
+                    slides: input.pair == PairKind::Slide,
+                };
+                let counts = out.grippers.entry(drive).or_default();
+                counts.take_paired(subject, &roles);
             }
         }
         out
     }
 }
 
-impl Census {
-    /// Of one chain.
-    #[must_use]
-    pub fn of(chain: &Chain, grippers: bool) -> Census {
-        let (chain, automorphisms) = chain.canonical();
-        Census::of_subject(&Subject::new(&chain, &automorphisms), grippers)
-    }
-
-    /// Of one chain whose automorphisms are known.
-    #[must_use]
-    pub fn of_subject(subject: &Subject<'_>, grippers: bool) -> Census {
-        Census {
-            chains: 1,
-            frames: subject.frames().len() as u64,
-            inputs: subject.inputs().len() as u64,
-            drives: subject.drives().len() as u64,
-            grippers: grippers.then(|| Grippers::of(subject)),
-        }
-    }
-}
-
-/// Counts over all chains of so many links and this mobility; grippers are counted of chains with a mobility of 1.
+/// Counts over all chains of so many hinges and this mobility; grippers are counted of chains with a mobility of 1.
 ///
 /// # Errors
 /// As [`visit_chains`].
 pub fn census(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
     let all = Mutex::new(Census::default());
     visit_chains(links, mobility, &|chain| {
-        let one = Census::of(chain, grippers && mobility == 1);
+        let (chain, automorphisms) = chain.canonical();
+        let subject = Subject::new(&chain, &automorphisms);
+        let one = Census::of_hinges(&subject, grippers && mobility == 1);
         *all.lock().unwrap_or_else(PoisonError::into_inner) += one;
     })?;
     Ok(all.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// Counts over all chains of so many links, by how many pairs of each kind they have.
+///
+/// # Complexity
+/// As [`visit_pair_chains`].
+#[must_use]
+pub fn pair_census(links: usize, menu: Menu<'_>, grippers: bool) -> BTreeMap<Kinds, Census> {
+    let all = Mutex::new(BTreeMap::<Kinds, Census>::new());
+    visit_pair_chains(links, menu, &|subject| {
+        let (kinds, one) = (Kinds::of(subject.chain), Census::of(subject, grippers));
+        let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
+        *all.entry(kinds).or_default() += one;
+    });
+    all.into_inner().unwrap_or_else(PoisonError::into_inner)
 }

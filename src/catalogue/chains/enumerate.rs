@@ -3,9 +3,10 @@
 //! A chain is a contracted graph whose edges are strings of joints. Of each contracted graph the ways to share out the
 //! joints are found once up to its symmetries, so that no two chains are isomorphic and none needs to be compared.
 
+use crate::chains::chain::Chain;
 use crate::chains::contracted::contracted_graphs;
+use crate::chains::graph6;
 use crate::chains::strings::Strings;
-use crate::chains::{Chain, graph6};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -69,7 +70,7 @@ pub fn visit_chains(
     };
     if loops == 1 {
         let ring = (0..links).map(|v| (v, (v + 1) % links));
-        visit(&Chain::new(links, ring));
+        visit(&Chain::hinged(links, ring));
         return Ok(());
     }
     let most = u8::try_from(mobility + 2).unwrap_or(u8::MAX);

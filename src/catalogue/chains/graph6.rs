@@ -1,8 +1,11 @@
 //! Chains in graph6, the usual text of small graphs: the number of vertices and the columns of the upper half of the
 //! adjacency matrix, six bits a character.
 
-use crate::chains::{Chain, MOST_LINKS};
+use crate::chains::chain::Chain;
 use thiserror::Error;
+
+/// Most links of a chain.
+const MOST_LINKS: usize = 20;
 
 /// Characters stand for their code less this.
 const FIRST: u8 = 63;
@@ -54,7 +57,7 @@ pub fn code(chain: &Chain) -> String {
     write(&chain.canonical().0)
 }
 
-/// The chain of a text.
+/// The chain of hinges of a text.
 ///
 /// # Errors
 /// Where it is not graph6, or of another size than chains have.
@@ -89,5 +92,5 @@ pub fn read(text: &str) -> Result<Chain, Graph6Error> {
     }
     let bits = values.flat_map(|x| (0..6).map(move |at| x >> (5 - at) & 1 == 1));
     let joints = pairs.into_iter().zip(bits).filter(|(_, joined)| *joined);
-    Ok(Chain::new(n, joints.map(|(pair, _)| pair)))
+    Ok(Chain::hinged(n, joints.map(|(pair, _)| pair)))
 }

@@ -3,81 +3,11 @@
 //! A symmetric graph is not enough: with pins in places that mirror each other the motion is often another, or the drive is
 //! dead.
 
-use crate::chains::pairs::chain::{PairChain, ordered};
-use crate::chains::pairs::motion::{Image, Swap, generic_motions, motions_in_way};
+use crate::chains::motion::{Swap, motions_in_way};
 use crate::chains::roles::{Roles, Subject};
+use crate::chains::{Input, PairKind, Symmetry};
 use itertools::Itertools;
 use thiserror::Error;
-
-/// How a structure lies on itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Symmetry {
-    /// Not at all: every pin where it likes.
-    Generic,
-    /// Across a line, along which the driver slides.
-    Mirror,
-    /// By half a turn about a centre, about which the driver turns.
-    HalfTurn,
-    /// By a third of a turn about a centre, about which the driver turns: three jaws.
-    Threefold,
-}
-
-impl Symmetry {
-    /// Every symmetry with its word.
-    pub const ALL: [(Symmetry, &'static str); 4] = [
-        (Symmetry::Generic, "generic"),
-        (Symmetry::Mirror, "mirror"),
-        (Symmetry::HalfTurn, "half-turn"),
-        (Symmetry::Threefold, "threefold"),
-    ];
-
-    /// The word used for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        Symmetry::ALL[self as usize].1
-    }
-
-    /// Whether the input joint may move so: a mirror image needs a slide, half a turn or a third a hinge, since in the plane no
-    /// slide is its own image then.
-    #[must_use]
-    pub fn suits(self, input: Input) -> bool {
-        match self {
-            Symmetry::Generic => true,
-            Symmetry::Mirror => input == Input::Slide,
-            Symmetry::HalfTurn | Symmetry::Threefold => input == Input::Turn,
-        }
-    }
-
-    /// How many jaws it carries to each other, where it does.
-    #[must_use]
-    pub fn jaws(self) -> Option<usize> {
-        match self {
-            Symmetry::Generic => None,
-            Symmetry::Mirror | Symmetry::HalfTurn => Some(2),
-            Symmetry::Threefold => Some(3),
-        }
-    }
-}
-
-/// How the driver moves in the frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Input {
-    /// It slides.
-    Slide,
-    /// It turns.
-    Turn,
-}
-
-impl Input {
-    /// Every input with its word.
-    pub const ALL: [(Input, &'static str); 2] = [(Input::Slide, "slide"), (Input::Turn, "turn")];
-
-    /// The word used for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        Input::ALL[self as usize].1
-    }
-}
 
 /// Why a structure is no gripper in nearly all places of a symmetry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -108,31 +38,29 @@ pub enum NoGripper {
 ///
 /// # Complexity
 /// An elimination of 3n columns.
-pub fn moves(
+fn moves(
     subject: &Subject<'_>,
     roles: &Roles,
     symmetry: Symmetry,
     input: Input,
     swap: &[usize],
 ) -> Result<(), NoGripper> {
-    let slide = (input == Input::Slide).then(|| ordered([roles.frame, roles.driver]));
-    let chain = PairChain::hinged(subject.chain, slide);
-    let placed = |image| {
-        let swap = Swap { links: swap, image };
-        motions_in_way(&chain, swap, roles.frame, 0)
+    let pair = match input {
+        Input::Slide => PairKind::Slide,
+        Input::Turn => PairKind::Hinge,
     };
-    let found = match symmetry {
-        Symmetry::Generic => generic_motions(&chain),
-        Symmetry::Mirror => placed(Image::Mirror),
-        Symmetry::HalfTurn => placed(Image::HalfTurn),
-        Symmetry::Threefold => placed(Image::ThirdTurn),
+    let chain = subject.chain.clone().with(roles.input, pair);
+    let swap = Swap {
+        links: swap,
+        image: symmetry,
     };
+    let found = motions_in_way(&chain, swap, roles.frame, 0);
     let [motion] = &found[..] else {
         return Err(NoGripper::Motions(found.len()));
     };
     let rest = motion[roles.frame];
     let jaws = || roles.jaws.iter().map(|&l| motion[l]);
-    if motion[roles.driver] == rest {
+    if motion[roles.drive()[1]] == rest {
         Err(NoGripper::DeadDrive)
     } else if jaws().any(|j| j == rest) {
         Err(NoGripper::DeadJaw)

@@ -1,40 +1,28 @@
-//! What links of a chain do in a gripper: frame, driver and jaws, each choice once up to the chain's automorphisms.
+//! What links of a chain of pairs do in a gripper: frame, input joint and jaws, each choice once up to the chain's automorphisms.
 
-use crate::chains::Chain;
+use crate::chains::chain::{Chain, Joint, carried};
+use crate::chains::motion::{Swap, Velocity, motion, symmetric_motions};
+use crate::chains::{PairKind, Symmetry};
 use itertools::Itertools;
 use std::cell::OnceCell;
 
-/// A chain with its automorphisms, and its smaller moving parts.
-#[derive(Debug, Clone)]
-pub struct Subject<'a> {
-    /// The chain.
-    pub chain: &'a Chain,
-    /// Its automorphisms as the images of the links, the identity among them.
-    pub automorphisms: &'a [Vec<usize>],
-    /// Parts of mobility 1, as bits, without the whole; looked for when grippers are asked about.
-    moving_parts: OnceCell<Vec<u32>>,
-}
-
-/// Frame, driver and jaws of a gripper.
+/// Frame, input joint and jaws of a gripper.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Roles {
     /// The link that stands still.
     pub frame: usize,
-    /// The link that is driven, next to the frame.
-    pub driver: usize,
-    /// The jaws, in order of their numbers.
+    /// The links of the driven joint, the lesser first.
+    pub input: [usize; 2],
+    /// The jaws, two or three, in order of their numbers.
     pub jaws: Vec<usize>,
 }
 
-/// Where an automorphism takes jaws, in order of their numbers.
-#[must_use]
-pub(crate) fn jaws_carried(jaws: &[usize], by: &[usize]) -> Vec<usize> {
+/// Where an automorphism takes jaws, in order.
+fn jaws_carried(jaws: &[usize], by: &[usize]) -> Vec<usize> {
     jaws.iter().map(|&j| by[j]).sorted_unstable().collect()
 }
 
-/// Whether an automorphism carries each jaw to the next and the last to the first, and changes nothing when it is done as often as
-/// there are jaws.
-#[must_use]
+/// Whether an automorphism carries each jaw to the next, and everything back after as many times as there are jaws.
 pub(crate) fn carries_round(jaws: &[usize], by: &[usize]) -> bool {
     let next = jaws.iter().cycle().skip(1);
     let back = |l: usize| jaws.iter().fold(l, |l, _| by[l]) == l;
@@ -42,124 +30,304 @@ pub(crate) fn carries_round(jaws: &[usize], by: &[usize]) -> bool {
 }
 
 impl Roles {
-    fn image(&self, by: &[usize]) -> Roles {
+    /// Where an automorphism takes them.
+    #[must_use]
+    pub fn image(&self, by: &[usize]) -> Roles {
         Roles {
             frame: by[self.frame],
-            driver: by[self.driver],
+            input: carried(self.input, by),
             jaws: jaws_carried(&self.jaws, by),
         }
     }
 
-    fn links(&self) -> u32 {
-        let all = self.jaws.iter().chain([&self.frame, &self.driver]);
+    /// Whether the frame is a link of the input joint.
+    #[must_use]
+    pub fn is_driven_from_frame(&self) -> bool {
+        self.input.contains(&self.frame)
+    }
+
+    /// The link against which the driver moves, the frame where it is one of the two, and the driver.
+    #[must_use]
+    pub fn drive(&self) -> [usize; 2] {
+        let [u, v] = self.input;
+        if v == self.frame { [v, u] } else { [u, v] }
+    }
+
+    /// Whether a jaw is a link of the input joint.
+    #[must_use]
+    pub fn has_driven_jaw(&self) -> bool {
+        self.jaws.iter().any(|j| self.input.contains(j))
+    }
+
+    /// Whether input and jaws move in a motion, the jaws also against each other.
+    #[must_use]
+    pub(crate) fn moves_in(&self, motion: &[Velocity]) -> bool {
+        let apart = self.jaws.iter().chain([&self.frame]);
+        let [u, v] = self.input;
+        apart.map(|&l| motion[l]).all_unique() && motion[u] != motion[v]
+    }
+
+    fn links(&self) -> usize {
+        let all = self.input.iter().chain(&self.jaws).chain([&self.frame]);
         all.fold(0, |bits, &l| bits | 1 << l)
     }
 }
 
+/// How a gripper is symmetric.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Symmetries {
+    /// Whether an automorphism of order two keeps the frame and the input joint and swaps the jaws.
+    pub graph: bool,
+    /// Whether it moves so in places that mirror each other.
+    pub mirror: bool,
+    /// The same without the demand on the input joint.
+    pub mirror_but_input: bool,
+    /// Whether it moves so in places that half a turn carries to each other.
+    pub half_turn: bool,
+    /// The same without the demand on the input joint.
+    pub half_turn_but_input: bool,
+}
+
+/// An automorphism of order two, with the motions that are their own images.
+#[derive(Debug, Clone)]
+struct Involution<'a> {
+    links: &'a [usize],
+    mirror: Vec<Vec<Velocity>>,
+    half_turn: Vec<Vec<Velocity>>,
+}
+
+/// A chain with what is asked of it again and again.
+#[derive(Debug, Clone)]
+pub struct Subject<'a> {
+    /// The chain.
+    pub chain: &'a Chain,
+    /// Its automorphisms as the images of the links, the identity among them.
+    pub automorphisms: Vec<&'a Vec<usize>>,
+    joints: Vec<Joint>,
+    moving_parts: OnceCell<Vec<usize>>,
+    motion: OnceCell<Vec<Velocity>>,
+    involutions: OnceCell<Vec<Involution<'a>>>,
+}
+
 impl<'a> Subject<'a> {
-    /// A chain to be looked at.
+    /// A chain to be looked at, with its automorphisms.
     #[must_use]
-    pub fn new(chain: &'a Chain, automorphisms: &'a [Vec<usize>]) -> Subject<'a> {
+    pub fn new(
+        chain: &'a Chain,
+        automorphisms: impl IntoIterator<Item = &'a Vec<usize>>,
+    ) -> Subject<'a> {
         Subject {
             chain,
-            automorphisms,
+            automorphisms: automorphisms.into_iter().collect(),
+            joints: chain.joints(),
             moving_parts: OnceCell::new(),
+            motion: OnceCell::new(),
+            involutions: OnceCell::new(),
         }
     }
 
-    /// One step for each set of links, the first time.
-    fn moving_parts(&self) -> &[u32] {
-        let moving = |&part: &u32| self.chain.mobility_of(part) == 1 && part.count_ones() > 2;
-        self.moving_parts
-            .get_or_init(|| (0..self.chain.all()).filter(moving).collect())
+    /// Parts of mobility 1 of more than two links, without the whole: the rows of a chain are independent, and so are those
+    /// of its parts, so that counting tells.
+    fn moving_parts(&self) -> &[usize] {
+        self.moving_parts.get_or_init(|| {
+            let mobilities = self.chain.mobilities();
+            let part = |p: &(usize, &i16)| *p.1 == 1;
+            let parts = mobilities.iter().enumerate().filter(part).map(|p| p.0);
+            let all = mobilities.len() - 1;
+            let small = |&p: &usize| p != all && p.count_ones() > 2;
+            parts.filter(small).collect()
+        })
     }
 
-    /// How many of some things there are up to automorphism.
-    fn up_to_symmetry<T: Ord>(
-        &self,
-        all: impl IntoIterator<Item = T>,
-        image: impl Fn(&T, &[usize]) -> T,
-    ) -> Vec<T> {
-        let first = |x: &T| self.automorphisms.iter().all(|a| image(x, a) >= *x);
-        all.into_iter().filter(first).collect()
+    fn is_first<T: Ord>(&self, x: &T, image: impl Fn(&T, &[usize]) -> T) -> bool {
+        self.automorphisms.iter().all(|a| image(x, a) >= *x)
     }
 
     /// Frames.
     #[must_use]
-    pub fn frames(&self) -> Vec<usize> {
-        self.up_to_symmetry(0..self.chain.links(), |&l, a| a[l])
+    pub fn frames(&self) -> usize {
+        let all = 0..self.chain.links();
+        all.filter(|l| self.is_first(l, |&l, a| a[l])).count()
     }
 
-    /// Input joints, each by its links.
-    #[must_use]
-    pub fn inputs(&self) -> Vec<(usize, usize)> {
-        self.up_to_symmetry(self.chain.joints(), |&(u, v), a| {
-            (a[u].min(a[v]), a[u].max(a[v]))
-        })
+    /// Joints that may be driven.
+    pub fn inputs(&self) -> impl Iterator<Item = &Joint> {
+        let lower = self.joints.iter().filter(|j| j.pair.is_lower());
+        lower.filter(|j| self.is_first(&j.links, |&links, a| carried(links, a)))
     }
 
-    /// Drives: a frame and a driver joined to it.
+    /// Frames with an input joint, a hinge or a slide.
     #[must_use]
-    pub fn drives(&self) -> Vec<(usize, usize)> {
-        let both = |(u, v)| [(u, v), (v, u)];
-        let all = self.chain.joints().into_iter().flat_map(both).sorted();
-        self.up_to_symmetry(all, |&(r, d), a| (a[r], a[d]))
+    pub fn drives(&self) -> Vec<(usize, Joint)> {
+        let lower = self.joints.iter().filter(|j| j.pair.is_lower());
+        let all = lower.cartesian_product(0..self.chain.links());
+        let first = |&(j, frame): &(&Joint, usize)| {
+            self.is_first(&(frame, j.links), |&(f, links), a| {
+                (a[f], carried(links, a))
+            })
+        };
+        all.filter(first).map(|(j, frame)| (frame, *j)).collect()
     }
 
-    /// Grippers of so many jaws. Neither frame nor driver is a jaw.
-    ///
-    /// # Complexity
-    /// One look at each image of each choice.
+    /// Every choice of so many jaws with a drive.
     #[must_use]
-    pub fn grippers(&self, jaws: usize) -> Vec<Roles> {
-        let mut out = Vec::new();
-        for (frame, driver) in self.drives() {
-            // Images that keep frame and driver: of the others the drives are chosen already.
-            let keeps = |a: &&Vec<usize>| a[frame] == frame && a[driver] == driver;
-            let keeping: Vec<_> = self.automorphisms.iter().filter(keeps).collect();
-            let free = (0..self.chain.links()).filter(|&l| l != frame && l != driver);
-            let all = free.combinations(jaws).map(|jaws| Roles {
-                frame,
-                driver,
-                jaws,
-            });
-            out.extend(all.filter(|r| keeping.iter().all(|a| r.image(a) >= *r)));
-        }
-        out
+    pub fn grippers(&self, frame: usize, input: &Joint, jaws: usize) -> Vec<Roles> {
+        let keeps = |a: &&&Vec<usize>| a[frame] == frame && carried(input.links, a) == input.links;
+        let keeping: Vec<_> = self.automorphisms.iter().filter(keeps).collect();
+        let others = (0..self.chain.links()).filter(|&l| l != frame);
+        let all = others.combinations(jaws).map(|jaws| Roles {
+            frame,
+            input: input.links,
+            jaws,
+        });
+        all.filter(|r| keeping.iter().all(|a| r.image(a) >= *r))
+            .collect()
+    }
+
+    /// Grippers driven from the frame by a link that is no jaw.
+    pub fn grippers_apart(&self, jaws: usize) -> impl Iterator<Item = Roles> {
+        let drives = self
+            .drives()
+            .into_iter()
+            .sorted_by_key(|(frame, input)| (*frame, input.links));
+        let drives = drives.filter(|(frame, input)| input.is_at(*frame));
+        let all = drives.flat_map(move |(frame, input)| self.grippers(frame, &input, jaws));
+        all.filter(|r| !r.has_driven_jaw())
+    }
+
+    /// Every choice of roles that an involution keeps: frame and input joint are their own images, the jaws change places.
+    #[must_use]
+    pub(crate) fn symmetric_roles(&self, swap: &[usize]) -> Vec<Roles> {
+        let n = swap.len();
+        let own = |j: &&Joint| j.pair.is_lower() && carried(j.links, swap) == j.links;
+        let inputs = self.joints.iter().filter(own);
+        let frames = (0..n).filter(|&l| swap[l] == l);
+        let jaws = (0..n).filter(|&l| l < swap[l]);
+        let jaws = jaws.map(|l| vec![l, swap[l]]);
+        let all = inputs.cartesian_product(frames).cartesian_product(jaws);
+        let roles = all.map(|((input, frame), jaws)| Roles {
+            frame,
+            input: input.links,
+            jaws,
+        });
+        roles.filter(|r| self.is_first(r, Roles::image)).collect()
+    }
+
+    /// The smaller moving parts that hold all roles, as bits.
+    pub(super) fn moving_parts_with(&self, roles: &Roles) -> impl Iterator<Item = usize> {
+        let links = roles.links();
+        let parts = self.moving_parts().iter().copied();
+        parts.filter(move |part| part & links == links)
     }
 
     /// Whether no smaller moving part holds all roles.
     #[must_use]
     pub fn is_essential(&self, roles: &Roles) -> bool {
-        let links = roles.links();
-        self.moving_parts().iter().all(|part| part & links != links)
+        self.moving_parts_with(roles).next().is_none()
     }
 
-    /// Whether the part, hinged to both jaws, makes a truss of the whole and of nothing less; hinged to three, it is held more
-    /// than once.
+    /// Whether all jaws keep their attitude in nearly all places.
     #[must_use]
-    pub(crate) fn is_truss(&self, roles: &Roles) -> bool {
-        let jaws = roles.jaws.iter().fold(0, |bits, &l| bits | 1 << l);
-        let &[a, b] = &roles.jaws[..] else {
-            return false;
-        };
-        let both = |part: &u32| part & jaws == jaws;
-        !self.chain.joined(a, b) && !self.moving_parts().iter().any(both)
+    pub fn is_translating(&self, roles: &Roles) -> bool {
+        let motion = self
+            .motion
+            .get_or_init(|| motion(self.chain).expect("a chain has one motion"));
+        let turning = |link: usize| motion[link][0];
+        roles
+            .jaws
+            .iter()
+            .all(|&j| turning(j) == turning(roles.frame))
     }
 
-    /// How many of the jaws are joined to the frame; the others float.
+    /// Whether an automorphism keeps frame and input joint and carries each jaw to the next, back after as many times as there are
+    /// jaws.
+    #[must_use]
+    pub fn is_graph_symmetric(&self, roles: &Roles) -> bool {
+        self.swaps(roles).next().is_some()
+    }
+
+    /// The automorphisms that keep frame and input joint and carry each jaw to the next, and everything back after as many times
+    /// as there are jaws.
+    pub fn swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
+        let all = self.automorphisms.iter().copied();
+        all.filter(|s| {
+            let kept = s[roles.frame] == roles.frame && carried(roles.input, s) == roles.input;
+            kept && carries_round(&roles.jaws, s)
+        })
+    }
+
+    /// How many jaws are joined to the frame.
     #[must_use]
     pub fn jaws_at_frame(&self, roles: &Roles) -> usize {
         let joined = |&&j: &&usize| self.chain.joined(roles.frame, j);
         roles.jaws.iter().filter(joined).count()
     }
 
-    /// The automorphisms that keep frame and driver, carry each jaw to the next and the last to the first, and change nothing
-    /// when they are done as often as there are jaws: those that swap two.
-    pub fn swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
-        self.automorphisms.iter().filter(move |s| {
-            let kept = s[roles.frame] == roles.frame && s[roles.driver] == roles.driver;
-            kept && carries_round(&roles.jaws, s)
+    /// Whether a part hinged to both jaws makes a truss with them: nothing moves any more, and no smaller part is rigid.
+    #[must_use]
+    pub fn is_truss(&self, roles: &Roles) -> bool {
+        let &[a, b] = &roles.jaws[..] else {
+            return false;
+        };
+        let both = |part: &usize| part >> a & part >> b & 1 == 1;
+        !self.chain.joined(a, b) && !self.moving_parts().iter().any(both)
+    }
+
+    /// How one of two jaws is symmetric; nothing carries one of three to itself so.
+    #[must_use]
+    pub fn symmetries(&self, roles: &Roles) -> Symmetries {
+        let mut out = Symmetries::default();
+        let &[a, b] = &roles.jaws[..] else {
+            return out;
+        };
+        for s in self.involutions() {
+            if s.links[roles.frame] != roles.frame || s.links[a] != b {
+                continue;
+            }
+            let keeps_input = carried(roles.input, s.links) == roles.input;
+            let works = |motions: &[Vec<Velocity>]| motions.iter().any(|m| roles.moves_in(m));
+            let (mirror, half_turn) = (works(&s.mirror), works(&s.half_turn));
+            out.graph |= keeps_input;
+            out.mirror |= mirror && keeps_input;
+            out.mirror_but_input |= mirror;
+            out.half_turn |= half_turn && keeps_input;
+            out.half_turn_but_input |= half_turn;
+        }
+        out
+    }
+
+    /// The automorphisms of order two that keep a link at least.
+    fn involutions(&self) -> &[Involution<'a>] {
+        self.involutions.get_or_init(|| {
+            let twice = |s: &&&Vec<usize>| {
+                let back = (0..s.len()).all(|l| s[s[l]] == l);
+                back && (0..s.len()).any(|l| s[l] != l)
+            };
+            let of = |s: &&'a Vec<usize>| {
+                let frame = s.iter().enumerate().position(|(l, &to)| l == to)?;
+                let motions = |image| {
+                    let links = s.as_slice();
+                    symmetric_motions(self.chain, Swap { links, image }, frame)
+                };
+                Some(Involution {
+                    links: s,
+                    mirror: motions(Symmetry::Mirror),
+                    half_turn: motions(Symmetry::HalfTurn),
+                })
+            };
+            self.automorphisms
+                .iter()
+                .filter(twice)
+                .filter_map(of)
+                .collect()
         })
+    }
+
+    /// Pairs that are not hinges, those that `swap` carries to each other as one.
+    #[must_use]
+    pub(crate) fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
+        let others = self.joints.iter().filter(|j| j.pair != PairKind::Hinge);
+        let first = |j: &&Joint| carried(j.links, swap) >= j.links;
+        others.filter(first).count()
     }
 }

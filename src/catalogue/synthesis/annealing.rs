@@ -1,10 +1,10 @@
 //! A place for every joint, found by simulated annealing. [Kirkpatrick, Gelatt & Vecchi 1983]
 
 use crate::synthesis::layout_quality::Looks;
+use crate::synthesis::places::Places;
 use crate::synthesis::seen_sides::SeenSides;
-use crate::synthesis::sketch::LayoutSketch;
-use crate::synthesis::stroke::judge::{Judge, PlacesOf};
-use crate::synthesis::stroke::motion::StrokeMotion;
+use crate::synthesis::sketch::Sketch;
+use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::task::Aim;
 use crate::synthesis::{below, random, unit};
@@ -12,7 +12,7 @@ use chacha20::ChaCha8Rng;
 use std::cmp::Ordering;
 
 /// Places at the end of a start.
-pub(super) struct FoundPlaces<P> {
+pub(super) struct FoundPlaces {
     /// Whether the drawn pose keeps the limits, or links that cross pass each other in planes of their own.
     pub(super) within: bool,
     /// Whether the stroke does what the task asks.
@@ -22,33 +22,33 @@ pub(super) struct FoundPlaces<P> {
     pub(super) looks: Looks,
     /// What drawn pose and stroke cost.
     pub(super) cost: f64,
-    pub(super) at: P,
+    pub(super) at: Places,
     pub(super) start: u32,
     /// Whether the search was given up before its end.
     given_up: bool,
 }
 
-impl<P> FoundPlaces<P> {
+impl FoundPlaces {
     /// Whether they are worth no other start but for what they cost.
     fn will_do(&self) -> bool {
         self.within && self.does && !self.meets
     }
 
     /// Limits first, then the task, then whether it can be built, then what all costs.
-    fn compare(&self, other: &FoundPlaces<P>) -> Ordering {
-        let misses = |of: &FoundPlaces<P>| (!of.within, !of.does, of.meets);
+    fn compare(&self, other: &FoundPlaces) -> Ordering {
+        let misses = |of: &FoundPlaces| (!of.within, !of.does, of.meets);
         let cost = || self.cost.total_cmp(&other.cost);
         misses(self).cmp(&misses(other)).then_with(cost)
     }
 
     /// Whether no better ones need be looked for.
-    pub(super) fn are_good(&self, sketch: &impl LayoutSketch) -> bool {
-        let enough = sketch.limits().task.aim == Aim::Balanced && self.cost < sketch.good();
+    pub(super) fn are_good(&self, sketch: &Sketch<'_>) -> bool {
+        let enough = sketch.limits.task.aim == Aim::Balanced && self.cost < sketch.good();
         self.will_do() && enough
     }
 
     /// Whether they are better than others, where there are any.
-    pub(super) fn is_better_than(&self, best: Option<&FoundPlaces<P>>) -> bool {
+    pub(super) fn is_better_than(&self, best: Option<&FoundPlaces>) -> bool {
         best.is_none_or(|b| self.compare(b).is_lt())
     }
 }
@@ -60,19 +60,19 @@ pub(super) const STARTS: u32 = 12;
 ///
 /// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task and can
 /// be built, and then others are tried.
-pub(super) fn best_of_starts<M: StrokeMotion>(
-    sketch: &M::Of,
-    judge: &mut Judge<M>,
+pub(super) fn best_of_starts<'a>(
+    sketch: &Sketch<'a>,
+    judge: &mut Judge<'a>,
     name: &str,
     seed: u64,
     first: u32,
-) -> Option<FoundPlaces<PlacesOf<M>>> {
+) -> Option<FoundPlaces> {
     let mut search = |start, patience| {
         let random = random(name, seed, start);
         search_from(sketch, judge, random, start, patience)
     };
     let end = first + STARTS;
-    let (racing, patience) = match sketch.limits().task.aim {
+    let (racing, patience) = match sketch.limits.task.aim {
         Aim::Balanced => (first..first + STARTS / 2, Patience::Racing),
         Aim::Force => (first..end, Patience::Whole),
     };
@@ -111,13 +111,13 @@ enum Patience {
 }
 
 /// What a search for places from one start ends with; `None` where that is a singular pose.
-fn search_from<M: StrokeMotion>(
-    sketch: &M::Of,
-    judge: &mut Judge<M>,
+fn search_from<'a>(
+    sketch: &Sketch<'a>,
+    judge: &mut Judge<'a>,
     random: ChaCha8Rng,
     start: u32,
     patience: Patience,
-) -> Option<FoundPlaces<PlacesOf<M>>> {
+) -> Option<FoundPlaces> {
     let (at, given_up) = anneal(sketch, judge, random, start, patience);
     let looks = sketch.looks(&at)?;
     // Of what is given up some poses say enough, and whether it can be built is not asked.
@@ -128,7 +128,7 @@ fn search_from<M: StrokeMotion>(
         judge.fine(&at)
     };
     let (stroke, stacking) = (stroke?, judge.stacking());
-    let limits = sketch.limits();
+    let limits = &sketch.limits;
     Some(FoundPlaces {
         cost: match limits.task.aim {
             Aim::Balanced => looks.penalty + limits.stroke_cost(&stroke),
@@ -136,7 +136,7 @@ fn search_from<M: StrokeMotion>(
                 sketch.breaks(&at, &mut SeenSides::default()) + limits.force_cost(&stroke, WITHIN)
             }
         },
-        does: limits.shortfall(&stroke, sketch.bones().swings()).is_none(),
+        does: limits.shortfall(&stroke, sketch.bones.swings()).is_none(),
         within: looks.keep(limits, stacking.is_known()),
         meets: stacking == Stacking::Meets,
         looks,
@@ -204,22 +204,22 @@ const FOR_FORCE: [Phase; 2] = [
 ];
 
 /// A search for places from one start.
-struct Annealing<'s, 'j, M: StrokeMotion> {
-    sketch: &'s M::Of,
-    judge: &'j mut Judge<M>,
+struct Annealing<'s, 'j, 'a> {
+    sketch: &'s Sketch<'a>,
+    judge: &'j mut Judge<'a>,
     random: ChaCha8Rng,
     /// The places, what they cost, and those before the last move.
-    at: PlacesOf<M>,
+    at: Places,
     now: f64,
-    before: PlacesOf<M>,
+    before: Places,
     seen: SeenSides,
     /// The cheapest of the phase.
-    best: (f64, PlacesOf<M>),
+    best: (f64, Places),
     given_up: bool,
 }
 
-impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
-    fn new(sketch: &'s M::Of, judge: &'j mut Judge<M>, mut random: ChaCha8Rng) -> Self {
+impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
+    fn new(sketch: &'s Sketch<'a>, judge: &'j mut Judge<'a>, mut random: ChaCha8Rng) -> Self {
         let at = sketch.first_places(&mut random);
         Annealing {
             before: at.clone(),
@@ -238,7 +238,7 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
     fn cost(&mut self, look: Look, most: f64) -> Option<f64> {
         if let Look::Force(slack) = look {
             let drawn = self.sketch.breaks(&self.at, &mut self.seen);
-            let limits = *self.sketch.limits();
+            let limits = self.sketch.limits;
             let stroke = self.judge.coarse(&self.at, f64::INFINITY)?;
             let mut all = drawn + limits.force_cost(&stroke, slack);
             // What seems good enough at some poses is looked at between them, too.
@@ -253,15 +253,15 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
             return Some(drawn);
         }
         let stroke = self.judge.coarse(&self.at, most - drawn)?;
-        let all = drawn + self.sketch.limits().stroke_cost(&stroke);
+        let all = drawn + self.sketch.limits.stroke_cost(&stroke);
         (all <= most).then_some(all)
     }
 
     /// Whether the places do what the task asks.
     fn does(&mut self) -> bool {
         let stroke = self.judge.coarse(&self.at, f64::INFINITY);
-        let swings = self.sketch.bones().swings();
-        stroke.is_some_and(|f| self.sketch.limits().shortfall(&f, swings).is_none())
+        let swings = self.sketch.bones.swings();
+        stroke.is_some_and(|f| self.sketch.limits.shortfall(&f, swings).is_none())
     }
 
     /// Whether so many moves that look at strokes have led to so little that the start is given up.
@@ -328,15 +328,15 @@ impl<'s, 'j, M: StrokeMotion> Annealing<'s, 'j, M> {
 }
 
 /// The places at the end of one search.
-fn anneal<M: StrokeMotion>(
-    sketch: &M::Of,
-    judge: &mut Judge<M>,
+fn anneal<'a>(
+    sketch: &Sketch<'a>,
+    judge: &mut Judge<'a>,
     random: ChaCha8Rng,
     start: u32,
     patience: Patience,
-) -> (PlacesOf<M>, bool) {
+) -> (Places, bool) {
     let mut search = Annealing::new(sketch, judge, random);
-    let phases: &[&[Phase]] = match sketch.limits().task.aim {
+    let phases: &[&[Phase]] = match sketch.limits.task.aim {
         Aim::Balanced => &[&PHASES],
         // What looks good is not what pulls best: every other start does without.
         Aim::Force if start.is_multiple_of(2) => &[&PHASES, &FOR_FORCE],

@@ -1,12 +1,10 @@
 //! Places beside those of a layout: whole millimetres are few, so that pins are often in special places by chance.
 
-use crate::chains::layout_symmetry::Input;
+use crate::chains::Input;
 use crate::synthesis::figures::figures;
 use crate::synthesis::layout::Layout;
-use crate::synthesis::place::{FINE, Place, Point};
-use crate::synthesis::rules::Rules;
-use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::place::{FINE, Place};
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::structure::Structure;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -25,25 +23,21 @@ pub(crate) fn beside(
     seed: u64,
     number: u32,
 ) -> Option<Layout> {
-    let rules = Rules::free(structure)?;
     let digest = Sha256::digest(format!("{} {seed} beside {number}", structure.name()));
     let mut key = [0; 32];
     key.copy_from_slice(&digest);
     let mut random = ChaCha8Rng::from_seed(key);
     // From -499 to 499.
     let mut off = || (random.next_u32() % (FINE - 1).cast_unsigned()).cast_signed() + 1 - FINE / 2;
-    let slides = structure.form.input == Input::Slide;
-    let moved = |(pin, place): (usize, &Place)| Place {
-        fine: if pin == rules.input && slides {
-            place.fine
-        } else {
-            [off(), off()]
-        },
-        ..*place
-    };
-    let at: Vec<Place> = layout.at.iter().enumerate().map(moved).collect();
-    let points: Vec<Point> = at.iter().chain(&layout.tips).map(|p| p.real()).collect();
-    let looks = Skeleton::new(structure, rules, layout.limits).looks(&points)?;
+    let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
+    let slides = structure.input() == Input::Slide;
+    let mut at = layout.at.clone();
+    for pin in (0..sketch.rules.joints.len()).filter(|&pin| pin != sketch.input || !slides) {
+        let place = layout.rules.place(&layout.at.points, pin);
+        let fine = [off(), off()];
+        at.points[pin] = Place { fine, ..place }.real();
+    }
+    let looks = sketch.looks(&at)?;
     let moved = Layout {
         at,
         looks,

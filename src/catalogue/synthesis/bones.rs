@@ -1,6 +1,6 @@
 //! What layouts of all kinds have in common: the points of each link, and what the links are for.
 
-use crate::chains::pairs::chain::ordered;
+use crate::chains::chain::ordered;
 use crate::closure::tree::forest;
 use crate::geom::vector::{add_scaled, sub, unit};
 use crate::synthesis::bell;

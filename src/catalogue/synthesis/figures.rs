@@ -1,17 +1,15 @@
 //! What a laid-out gripper does over its stroke: how far it opens, with what force it closes, how the jaws move.
 
 use crate::synthesis::layout::Layout;
-use crate::synthesis::place::Point;
-use crate::synthesis::rules::Rules;
-use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::places::Places;
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::stroke::forces::ForceFigures;
-use crate::synthesis::stroke::judge::{Judge, PlacesOf};
-use crate::synthesis::stroke::motion::StrokeMotion;
+use crate::synthesis::stroke::judge::Judge;
 use crate::synthesis::stroke::planes::Stacking;
 use crate::synthesis::stroke::shortfall::Shortfall;
 use crate::synthesis::stroke::walk::StrokeEnd;
 use crate::synthesis::structure::Structure;
+use crate::synthesis::threefold::SIDES;
 
 /// A jaw that turns by less than this over the stroke keeps its attitude: what is left is the error of closing. In rad.
 const STILL: f64 = 1e-6;
@@ -74,30 +72,31 @@ pub struct LayoutFigures {
     pub shortfall: Option<Shortfall>,
 }
 
-/// Figures of a laid-out gripper; `None` where it is drawn in a singular pose.
+/// Figures of a laid-out gripper; `None` where it is drawn in a singular pose. Sides of three are as one of two.
 ///
 /// # Complexity
 /// Some dozen poses, each of O(n³) for n links.
 #[must_use]
 pub fn figures(structure: &Structure, layout: &Layout) -> Option<LayoutFigures> {
-    let skeleton = Skeleton::new(structure, Rules::free(structure)?, layout.limits);
-    let places = layout.at.iter().chain(&layout.tips);
-    let at: Vec<Point> = places.map(|p| p.real()).collect();
-    of_stroke(&mut Judge::new(&skeleton), &at)
+    let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
+    let two = of_stroke(&mut Judge::new(&sketch), &layout.at)?;
+    Some(match structure.sides {
+        None => two,
+        Some(_) => LayoutFigures {
+            jaws: vec![two.jaws[0]; SIDES],
+            turns: vec![two.turns[0]; SIDES],
+            ..two
+        },
+    })
 }
 
-/// Figures of places over the stroke.
-pub(super) fn of_stroke<M: StrokeMotion>(
-    judge: &mut Judge<M>,
-    at: &PlacesOf<M>,
-) -> Option<LayoutFigures> {
+fn of_stroke(judge: &mut Judge<'_>, at: &Places) -> Option<LayoutFigures> {
     judge.watch();
     let stroke = judge.fine(at)?;
     let stacking = judge.stacking();
     let way = judge.drive_rate();
     let turns: Vec<f64> = judge.turns().collect();
-    let sketch = judge.motion.sketch();
-    let (limits, bones) = (*sketch.limits(), sketch.bones());
+    let (limits, bones) = (judge.motion.sketch.limits, &judge.motion.sketch.bones);
     let jaws_hinged = bones.hinged.clone();
     let [least, greatest] = stroke.rates.map(|rate| bones.force(rate));
     let shortfall = limits.shortfall(&stroke, bones.swings());

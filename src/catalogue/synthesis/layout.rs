@@ -1,39 +1,69 @@
-//! A place for every pin, looked for from seeds that follow from the structure's name.
-//!
-//! Moves go to whole millimetres, so that what is found is exact as it stands.
+//! A place for every joint of a structure, looked for from seeds that follow from its name. Moves go to whole millimetres, so that what is
+//! found is exact as it stands. Well-known schemes have the forms that they are laid out in.
 
-use crate::chains::layout_symmetry::{NoGripper, working_swap};
-use crate::chains::roles::Subject;
-use crate::synthesis::annealing::best_of_starts;
-use crate::synthesis::bones::Bones;
+use crate::chains::Symmetry;
+use crate::chains::classics::{Classic, classics};
+use crate::chains::layout_symmetry::NoGripper;
+use crate::chains::structure::PairStructure;
+use crate::synthesis::annealing::{FoundPlaces, STARTS, best_of_starts};
 use crate::synthesis::layout_quality::Looks;
-use crate::synthesis::paired::rules::NoRules;
-use crate::synthesis::place::{Place, Point};
-use crate::synthesis::rules::{Rule, Rules};
-use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::place::{Place, third};
+use crate::synthesis::places::Places;
+use crate::synthesis::rules::{NoRules, Rules};
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::stroke::judge::Judge;
-use crate::synthesis::structure::Structure;
+use crate::synthesis::structure::{Form, Structure};
 use crate::synthesis::task::Limits;
-use crate::synthesis::velocities::Velocity;
-use crate::synthesis::{bell, below};
-use chacha20::ChaCha8Rng;
+use crate::synthesis::threefold::SIDES;
+use itertools::Itertools;
 use thiserror::Error;
 
-/// A layout that costs less than this is taken without looking for a better one.
-const GOOD: f64 = 3.0;
+/// The well-known schemes that are structures, each once.
+#[must_use]
+pub(crate) fn known_schemes() -> Vec<Structure> {
+    let all = classics().iter();
+    let all = all.unique_by(|c| (c.structure.key(), c.made_as));
+    let made = |c: &Classic| {
+        let plain = most_symmetric(&c.structure)?;
+        let others = plain.with_flat_faces().into_iter();
+        let others = others.chain(plain.with_threads());
+        let mut all = plain.clone().with_one_pins().chain(others);
+        all.find(|p| p.made_as() == c.made_as)
+    };
+    all.filter_map(made).collect()
+}
+
+/// A structure in the most symmetric form in which it lies somewhere; `None` where it does so in none.
+///
+/// # Complexity
+/// As [`Structure::lays`], for each form.
+#[must_use]
+pub fn most_symmetric(structure: &PairStructure) -> Option<Structure> {
+    let symmetric = [Symmetry::Mirror, Symmetry::HalfTurn];
+    let forms = [false, true].into_iter().cartesian_product(symmetric);
+    let forms = forms.map(|(one_sided, symmetry)| Form {
+        one_sided,
+        ..Form::of(symmetry)
+    });
+    let structure = PairStructure::of_key(&structure.key());
+    let mut all = forms.chain([Form::of(Symmetry::Generic)]);
+    let found = all.find_map(|form| {
+        let structure = structure.clone();
+        let paired = Structure::new(structure, form);
+        let mut lays = paired.lays().into_iter();
+        lays.any(|lay| Rules::new(&paired, &lay).is_ok())
+            .then_some(paired)
+    });
+    found.map(Structure::on_parallelograms_if_any)
+}
 
 /// A structure with a place for every joint.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Layout {
-    /// The links of each pin, by canonical numbers; the input joint is among them.
-    pub pins: Vec<(usize, usize)>,
-    /// Their places, in millimetres.
-    pub at: Vec<Place>,
-    /// Joints that are images of each other, by their places in the list.
-    pub images: Vec<(usize, usize)>,
-    /// Where the tips of the jaws are.
-    pub tips: Vec<Place>,
+    /// The joints with their rules.
+    pub rules: Rules,
+    /// Their places.
+    pub at: Places,
     /// The figures it was taken for.
     pub looks: Looks,
     /// What it was made for.
@@ -43,15 +73,12 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The points of a link: its pins, and of a jaw its tip.
+    /// The places of the joints as what they are exactly.
     #[must_use]
-    pub fn points(&self, structure: &Structure, link: usize) -> Vec<Point> {
-        let jaw = structure.roles.jaws.iter().position(|&j| j == link);
-        let pins = self.pins.iter().zip(&self.at);
-        pins.filter(|((u, v), _)| [*u, *v].contains(&link))
-            .map(|(_, at)| at)
-            .chain(jaw.map(|n| &self.tips[n]))
-            .map(|p| p.real())
+    pub fn places(&self) -> Vec<Place> {
+        let joints = 0..self.rules.joints.len();
+        joints
+            .map(|i| self.rules.place(&self.at.points, i))
             .collect()
     }
 }
@@ -63,10 +90,7 @@ pub enum NoLayout {
     /// In nearly all places it moves otherwise, or not at all.
     #[error("{0}")]
     Motion(#[from] NoGripper),
-    /// The parallelograms of the jaws ask for what the symmetry does not give.
-    #[error("the parallelograms do not go with the symmetry")]
-    Parallelograms,
-    /// It has pairs that lie in no symmetric places.
+    /// Its joints lie in no such places.
     #[error("{0}")]
     Pairs(#[from] NoRules),
     /// The pose is not proven to be a regular one of mobility 1.
@@ -91,7 +115,7 @@ pub enum NoLayout {
 
 impl NoLayout {
     /// That places have these figures at best.
-    pub(super) fn limits(looks: &Looks) -> NoLayout {
+    fn limits(looks: &Looks) -> NoLayout {
         NoLayout::Limits {
             ratio: looks.ratio,
             transmission: looks.transmission,
@@ -101,85 +125,68 @@ impl NoLayout {
     }
 }
 
-/// Lays a structure out; the same for the same seed.
+/// Lays a structure out; the same for the same seed. Sides of three are laid out as those of two, but that in one plane the others
+/// are in the way; in planes of their own there is nothing of theirs on the other side of the driver.
 ///
 /// # Errors
 /// Why there is none.
 ///
 /// # Complexity
-/// Some thousand looks at places, of which some hundred are at a whole stroke.
-pub fn layout(
-    subject: &Subject<'_>,
-    structure: &Structure,
-    limits: &Limits,
-    seed: u64,
-) -> Result<Layout, NoLayout> {
-    let (symmetry, input) = (structure.form.symmetry, structure.form.input);
-    let swap = working_swap(subject, &structure.roles, symmetry, input)?;
-    let rules = Rules::new(structure, &swap).ok_or(NoLayout::Parallelograms)?;
-    let skeleton = Skeleton::new(structure, rules, *limits);
-    let mut judge = Judge::new(&skeleton);
+/// Some thousand looks at places, of which some hundred are at a whole stroke, for each of the ways it may lie on itself.
+pub fn layout(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layout, NoLayout> {
+    let mut best: Option<(FoundPlaces, Rules)> = None;
+    let mut why = NoLayout::Pairs(NoRules::Still);
+    let mut start = 0;
     let name = structure.name();
-    let found = best_of_starts(&skeleton, &mut judge, &name, seed, 0);
-    let found = found.ok_or(NoLayout::Motion(NoGripper::DeadDrive))?;
-    let looks = found.looks;
+    let mut limits = *limits;
+    limits.task.own_sides |= structure.is_axial();
+    let lays = match &structure.sides {
+        Some(sides) => vec![sides.lay.clone()],
+        None if structure.form.hinges => vec![structure.hinged_lay()?],
+        None => structure.lays(),
+    };
+    for lay in lays {
+        let rules = match Rules::new(structure, &lay) {
+            Ok(rules) => rules,
+            Err(e) => {
+                why = NoLayout::Pairs(e);
+                continue;
+            }
+        };
+        why = match structure.form.hinges {
+            true => NoLayout::Motion(NoGripper::DeadDrive),
+            false => NoLayout::NotRegular,
+        };
+        let sketch = Sketch::new(structure, rules, limits);
+        let mut judge = Judge::new(&sketch);
+        let found = best_of_starts(&sketch, &mut judge, &name, seed, start);
+        start += STARTS;
+        let Some(found) = found else { continue };
+        let good = found.are_good(&sketch);
+        if found.is_better_than(best.as_ref().map(|b| &b.0)) {
+            best = Some((found, sketch.rules));
+        }
+        if good {
+            break;
+        }
+    }
+    let (found, rules) = best.ok_or(why)?;
+    let mut looks = found.looks;
     if !found.within {
         return Err(NoLayout::limits(&looks));
     }
-    let rules = &skeleton.rules;
-    Ok(Layout {
-        pins: rules.pins.clone(),
-        at: rules.places(&found.at),
-        tips: structure.tips(&limits.task),
-        limits: *limits,
-        images: rules.images().collect(),
-        looks,
-        start: found.start,
-    })
-}
-
-impl LayoutSketch for Skeleton<'_> {
-    type JointPlaces = Vec<Point>;
-
-    fn bones(&self) -> &Bones {
-        &self.bones
-    }
-
-    fn limits(&self) -> &Limits {
-        &self.limits
-    }
-
-    fn good(&self) -> f64 {
-        GOOD
-    }
-
-    fn points<'p>(&self, at: &'p Vec<Point>) -> &'p [Point] {
-        at
-    }
-
-    fn first_places(&self, random: &mut ChaCha8Rng) -> Vec<Point> {
-        let joints = self.rules.pins.iter().map(|&(u, v)| [u, v]).collect();
-        let mut at = self.bones.first_places(joints, random);
-        self.rules.settle(&mut at);
-        at
-    }
-
-    fn change(&self, at: &mut Vec<Point>, warmth: f64, random: &mut ChaCha8Rng) {
-        let reach = 2.0 + 18.0 * warmth;
-        let movable = self.rules.movable().count();
-        let Some(pin) = self.rules.movable().nth(below(movable, random)) else {
-            return;
+    if structure.sides.is_some() {
+        let tip = looks.tips[0];
+        looks.tips = match structure.is_axial() {
+            true => vec![tip; SIDES],
+            false => vec![tip, third(tip), third(third(tip))],
         };
-        let [x, y] = at[pin];
-        at[pin] = match self.rules.rules[pin] {
-            Rule::OnLine => [x + reach * bell(random), 0.0],
-            _ => [x + reach * bell(random), y + reach * bell(random)],
-        }
-        .map(f64::round);
-        self.rules.settle(at);
     }
-
-    fn velocities(&self, at: &Vec<Point>) -> Option<Vec<Velocity>> {
-        self.contours.velocities(at)
-    }
+    Ok(Layout {
+        at: found.at,
+        start: found.start,
+        limits,
+        rules,
+        looks,
+    })
 }

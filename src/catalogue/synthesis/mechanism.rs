@@ -1,42 +1,54 @@
-//! A layout as a mechanism file: hinges square to the plane, the driver's joint, the outputs, and a workload.
+//! A layout as a mechanism file: hinges square to the plane, guides and slots in it, gears as couplings, the driver's joint, the outputs, and
+//! a workload. What stands on one side of three stands on the others after thirds of a turn.
 
-use crate::chains::layout_symmetry::{Input, Symmetry};
+use crate::chains::{PairKind, Symmetry};
 use crate::file::schema::{
-    Coordinate, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry, PointEntry,
-    SearchEntry, ToleranceEntry, Unloading, WorkloadEntry,
+    Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
+    OptionTable, PointEntry, SearchEntry, ToleranceEntry, Unloading, WorkloadEntry,
 };
-use crate::geom::vector::{Vector, X};
+use crate::geom::vector::Vector;
 use crate::synthesis::layout::Layout;
-use crate::synthesis::place::{Pivot, Place, Point, number, point};
+use crate::synthesis::place::{Pivot, Place, number, point};
+use crate::synthesis::places::{Places, Teeth};
+use crate::synthesis::rules::Rules;
 use crate::synthesis::structure::Structure;
-use crate::synthesis::task;
+use crate::synthesis::task::{self, outward};
+use crate::synthesis::threefold::SIDES;
 use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
 
-/// What each link is called: frame, slider or crank, the jaws, and the rest by their numbers.
+/// What a search may do to the hinges.
+#[derive(Debug, Clone, Default)]
+pub struct Menu {
+    /// What each may be, the hinge itself first.
+    pub options: Vec<OptionEntry>,
+    /// What may be put in series with each, by a link more; with the input joint nothing is.
+    pub unloading: Vec<OptionEntry>,
+}
+
+/// What each link is called: frame, the jaws, slider or crank, of a cylinder between two links cylinder and piston, and the rest by
+/// their numbers.
 #[must_use]
-pub(crate) fn link_names(structure: &Structure) -> Vec<String> {
-    let r = &structure.roles;
+fn link_names(structure: &Structure) -> Vec<String> {
+    let roles = &structure.structure.roles;
+    let [base, driver] = roles.drive();
+    let slides = structure.structure.slides();
+    let jaw = |l: usize| roles.jaws.iter().position(|&j| j == l);
     let name = |l: usize| match l {
-        l if l == r.frame => "frame".to_owned(),
-        l if l == r.driver => match structure.form.input {
-            Input::Slide => "slider".to_owned(),
-            Input::Turn => "crank".to_owned(),
-        },
-        l => match r.jaws.iter().position(|&j| j == l) {
-            Some(n) => task::JAW_NAMES[n].to_owned(),
-            None => format!("link-{l}"),
-        },
+        l if l == roles.frame => "frame".to_owned(),
+        l if l == driver && base == roles.frame && slides => "slider".to_owned(),
+        l if l == driver && structure.form.threaded => "screw".to_owned(),
+        l if l == driver && base == roles.frame => "crank".to_owned(),
+        l if l == driver && slides => "piston".to_owned(),
+        l if l == base && slides => "cylinder".to_owned(),
+        l => format!("link-{l}"),
     };
-    (0..structure.chain.links()).map(name).collect()
+    let of = |l: usize| jaw(l).map_or_else(|| name(l), |n| task::JAW_NAMES[n].to_owned());
+    (0..structure.structure.chain.links()).map(of).collect()
 }
 
 /// A direction of whole numbers after so many thirds of a turn.
-pub(super) fn direction_turned(
-    direction: &[Coordinate; 3],
-    pivot: Pivot,
-    thirds: u8,
-) -> [Coordinate; 3] {
+fn direction_turned(direction: &[Coordinate; 3], pivot: Pivot, thirds: u8) -> [Coordinate; 3] {
     let [
         Coordinate::Integer(x),
         Coordinate::Integer(y),
@@ -50,11 +62,7 @@ pub(super) fn direction_turned(
 }
 
 /// Options after so many thirds of a turn: their directions go with it.
-pub(super) fn options_turned(
-    options: &[OptionEntry],
-    pivot: Pivot,
-    thirds: u8,
-) -> Vec<OptionEntry> {
+fn options_turned(options: &[OptionEntry], pivot: Pivot, thirds: u8) -> Vec<OptionEntry> {
     let mut out = options.to_vec();
     for option in &mut out {
         if let OptionEntry::Table(t) = option {
@@ -63,99 +71,6 @@ pub(super) fn options_turned(
         }
     }
     out
-}
-
-/// What a search may do to the hinges.
-#[derive(Debug, Clone, Default)]
-pub struct Menu {
-    /// What each may be, the hinge itself first.
-    pub options: Vec<OptionEntry>,
-    /// What may be put in series with each, by a link more; with the input joint nothing is.
-    pub unloading: Vec<OptionEntry>,
-}
-
-/// Pins that a turn carries to each other, each the next.
-fn rounds(layout: &Layout) -> impl Iterator<Item = Vec<usize>> {
-    let firsts = layout.images.iter().map(|&(first, _)| first).unique();
-    firsts.map(|first| {
-        let images = layout.images.iter().filter(move |(f, _)| *f == first);
-        let thirds = |i: &usize| layout.at[*i].thirds;
-        let images = images.map(|&(_, i)| i).sorted_by_key(thirds);
-        std::iter::once(first).chain(images).collect()
-    })
-}
-
-/// What a pin's joint is called.
-pub(super) fn joint_name(names: &[String], pin: (usize, usize)) -> String {
-    format!("{}.{}", names[pin.0], names[pin.1])
-}
-
-/// The joints of a structure whose pins are at some places.
-fn joints(
-    structure: &Structure,
-    pins: &[(usize, usize)],
-    at: &[Place],
-    menu: &Menu,
-) -> Vec<JointEntry> {
-    let (names, r) = (link_names(structure), &structure.roles);
-    let joint = |(&(u, v), &place): (&(usize, usize), &Place)| {
-        let input = [(u, v), (v, u)].contains(&(r.frame, r.driver));
-        let slides = input && structure.form.input == Input::Slide;
-        let id = joint_name(&names, (u, v));
-        // The frame first, so that the drive's coordinate is the driver's motion.
-        let (u, v) = if input { (r.frame, r.driver) } else { (u, v) };
-        let axis = if slides { [1, 0, 0] } else { [0, 0, 1] };
-        // What a third of a turn carries to each other has options that it carries to each other.
-        let thirds = place.thirds;
-        let own = |options: &[OptionEntry]| options_turned(options, Pivot::Normal, thirds);
-        let in_series = !input && !menu.unloading.is_empty();
-        JointEntry {
-            id,
-            links: [names[u].clone(), names[v].clone()],
-            kind: if slides { "prismatic" } else { "revolute" }.to_owned(),
-            freedoms: None,
-            point: point(place),
-            axis: Some(axis.map(Coordinate::Integer)),
-            reference: (thirds > 0).then(|| Pivot::Normal.turned(X, thirds)),
-            lead: None,
-            pitch: None,
-            tolerance: None,
-            drive: DriveWord::Driven(input),
-            state: None,
-            options: (thirds > 0).then(|| own(&menu.options)),
-            forbid: Vec::new(),
-            unloading: in_series.then(|| match thirds {
-                0 => Unloading::Allowed(true),
-                _ => Unloading::List(own(&menu.unloading)),
-            }),
-        }
-    };
-    pins.iter().zip(at).map(joint).collect()
-}
-
-/// A structure with its pins at some places, for questions about its joints alone: nothing acts on it.
-#[must_use]
-pub(crate) fn bare_file(structure: &Structure, at: &[Place], menu: &Menu) -> MechanismFile {
-    let link = |(l, id): (usize, String)| LinkEntry {
-        id,
-        role: (l == structure.roles.frame).then(|| "frame".to_owned()),
-        mass: None,
-        centre: None,
-        inertia: None,
-    };
-    let names = link_names(structure).into_iter().enumerate();
-    MechanismFile {
-        name: structure.id(),
-        length_unit: Some("mm".to_owned()),
-        link: names.map(link).collect(),
-        joint: joints(structure, &structure.chain.joints(), at, menu),
-        search: SearchEntry {
-            options: menu.options.clone(),
-            unloading: menu.unloading.clone(),
-            ..SearchEntry::default()
-        },
-        ..MechanismFile::default()
-    }
 }
 
 /// Says that places are exact where they have decimals, which would be taken for rounded.
@@ -167,68 +82,341 @@ fn exact(at: &[Place]) -> Option<ToleranceEntry> {
     })
 }
 
-/// Points of the plane in space.
-pub(super) fn in_space(points: &[Point]) -> Vec<Vector> {
-    points.iter().map(|&[x, y]| [x, y, 0.0]).collect()
+/// Whether an option turns about any axis.
+fn is_ball(option: &OptionEntry) -> bool {
+    let balls = ["spherical", "sphere-in-cylinder"];
+    matches!(option, OptionEntry::Word(word) if balls.contains(&word.as_str()))
 }
 
-/// What a file says beside its joints, whatever their kinds.
-pub(super) struct FileHead<'a> {
-    pub(super) id: String,
-    pub(super) name: String,
-    /// What each link is called, and its points.
-    pub(super) links: Vec<(String, Vec<Vector>)>,
-    pub(super) frame: usize,
-    pub(super) jaws: &'a [usize],
-    pub(super) held: HeldPart<'a>,
+fn named(name: &str, freedoms: &[&str]) -> OptionEntry {
+    with_lead(None, name, freedoms)
 }
 
-impl FileHead<'_> {
-    /// A file without joints.
-    pub(super) fn file(&self, workload: &Workload) -> MechanismFile {
-        let links = self.links.iter().enumerate().map(|(l, (name, points))| {
-            let mass = (workload.weighs_links() && l != self.frame).then(|| workload.mass(points));
-            LinkEntry {
-                id: name.clone(),
-                role: match l {
-                    l if l == self.frame => Some("frame".to_owned()),
-                    l if self.jaws.contains(&l) => Some("output".to_owned()),
-                    _ => None,
-                },
-                mass: mass.map(|(kg, _)| kg),
-                centre: mass.map(|(_, centre)| centre.map(number)),
-                inertia: None,
+fn with_lead(lead: Option<i64>, name: &str, freedoms: &[&str]) -> OptionEntry {
+    OptionEntry::Table(Box::new(OptionTable {
+        freedoms: Some(freedoms.iter().map(|f| (*f).to_owned()).collect()),
+        lead: lead.map(Coordinate::Integer),
+        name: Some(name.to_owned()),
+        ..OptionTable::default()
+    }))
+}
+
+fn word(kind: &str) -> OptionEntry {
+    OptionEntry::Word(kind.to_owned())
+}
+
+/// What may be in place of a guide: z along it, x square to the plane of motion.
+fn slides() -> Vec<OptionEntry> {
+    vec![
+        word("prismatic"),
+        word("cylindrical"),
+        named("tongue-in-groove", &["tz", "tx"]),
+        named("round-tongue-in-groove", &["tz", "tx", "rz"]),
+        named("ball-in-groove", &["tz", "tx", "rz", "ry"]),
+    ]
+}
+
+/// What may be in place of flat faces: z along them, x square to the plane of motion.
+fn faces() -> Vec<OptionEntry> {
+    let of_slots = vec![
+        named("pin-in-slot", &["tz", "rx"]),
+        named("pin-in-deep-slot", &["tz", "rx", "tx"]),
+        named("ball-in-slot", &["tz", "rx", "ry", "rz"]),
+        named("ball-in-deep-slot", &["tz", "tx", "rx", "ry", "rz"]),
+    ];
+    slides().into_iter().chain(of_slots).collect()
+}
+
+/// What may be in place of a pin in a slot: z along the pin, x along the slot.
+fn slots() -> Vec<OptionEntry> {
+    vec![
+        word("slotted"),
+        named("pin-in-deep-slot", &["rz", "tx", "tz"]),
+        named("ball-in-slot", &["rx", "ry", "rz", "tx"]),
+        named("ball-in-deep-slot", &["rx", "ry", "rz", "tx", "tz"]),
+    ]
+}
+
+/// What may be in place of a nut: z along the screw.
+fn nuts(lead: i64) -> Vec<OptionEntry> {
+    let nut = |name, freedoms: &[&str]| with_lead(Some(lead), name, freedoms);
+    vec![
+        nut("nut", &["screw"]),
+        nut("floating-nut", &["screw", "tx", "ty"]),
+        nut("nut-in-ball", &["screw", "rx", "ry"]),
+        nut("floating-nut-in-ball", &["screw", "rx", "ry", "tx", "ty"]),
+    ]
+}
+
+/// Joints at their places, with the names of all links.
+struct DrawnJoints<'a> {
+    structure: &'a Structure,
+    rules: &'a Rules,
+    at: &'a Places,
+    names: Vec<String>,
+    pivot: Pivot,
+}
+
+impl<'a> DrawnJoints<'a> {
+    fn new(structure: &'a Structure, rules: &'a Rules, at: &'a Places) -> DrawnJoints<'a> {
+        let first = link_names(structure);
+        let jaw = structure.structure.roles.jaws[0];
+        let names = match &structure.sides {
+            None => first,
+            Some(sides) => {
+                let of = |side: usize, l: usize| match ["a", "b", "c"][side] {
+                    letter if l == jaw => format!("jaw-{letter}"),
+                    letter => format!("{}-{letter}", first[l]),
+                };
+                let own = sides.own.iter().map(|&l| first[l].clone());
+                let all = (0..SIDES).cartesian_product(&sides.side);
+                own.chain(all.map(|(side, &l)| of(side, l))).collect()
             }
-        });
-        // The tips, so that drawings have whole jaws.
-        let tips = self.held.tips.iter().zip(self.jaws).zip(["a", "b", "c"]);
-        let tips = tips.map(|((&tip, &jaw), letter)| PointEntry {
-            id: format!("tip-{letter}"),
-            link: self.links[jaw].0.clone(),
-            point: self.held.pivot.point(tip),
-            tolerance: None,
-        });
-        let jaws = self.jaws.iter().map(|&j| self.links[j].0.clone());
-        let jaws: Vec<String> = jaws.collect();
-        MechanismFile {
-            name: self.id.clone(),
-            description: format!(
-                "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held.",
-                self.links.len(),
-                self.name
-            ),
-            length_unit: Some("mm".to_owned()),
-            link: links.collect(),
-            point: tips.collect(),
-            workload: WorkloadEntry {
-                gravity: workload
-                    .weighs_links()
-                    .then(|| workload.gravity.map(number)),
-                force: workload.forces(&jaws, &self.held),
-                ..WorkloadEntry::default()
-            },
-            ..MechanismFile::default()
+        };
+        DrawnJoints {
+            pivot: structure.pivot(),
+            structure,
+            rules,
+            at,
+            names,
         }
+    }
+
+    /// Whether teeth are there that are no joint: a thread is one.
+    fn is_geared(&self, joint: usize) -> bool {
+        self.rules.joints[joint].pair == PairKind::Gear && !self.rules.threaded
+    }
+
+    /// Every joint on every side on which it stands.
+    fn each(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let joints = self.rules.joints.iter().enumerate();
+        joints.flat_map(|(i, j)| (0..self.structure.copies(j)).map(move |side| (i, side)))
+    }
+
+    /// Those that are joints of the file.
+    fn made(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.each().filter(|(i, _)| !self.is_geared(*i))
+    }
+
+    fn place(&self, joint: usize, side: usize) -> Place {
+        let place = self.rules.place(&self.at.points, joint);
+        #[allow(clippy::cast_possible_truncation, reason = "at most three")]
+        let thirds = place.thirds + side as u8;
+        Place { thirds, ..place }
+    }
+
+    fn link_name(&self, link: usize, side: usize) -> &str {
+        let link = self.structure.link(link, side);
+        link.map_or("", |l| &self.names[l])
+    }
+
+    /// What a joint is called.
+    fn name(&self, joint: usize, side: usize) -> String {
+        let links = self.rules.joints[joint].links;
+        let second = self.rules.joints[..joint].iter().any(|j| j.links == links);
+        let name = links.iter().map(|&l| self.link_name(l, side)).join(".");
+        if second { name + "-2" } else { name }
+    }
+
+    fn joint(&self, i: usize, side: usize, menu: &Menu) -> JointEntry {
+        let joint = &self.rules.joints[i];
+        let form = &self.structure.form;
+        let input = joint.links == self.structure.structure.roles.input;
+        let flat = self.structure.flat_slots().contains(joint);
+        let upright = [0, 0, 1].map(Coordinate::Integer);
+        let along = point(self.at.along[i].place());
+        let (kind, axis, reference, options) = match joint.pair {
+            PairKind::Slide if form.hinges => ("prismatic", along, None, None),
+            PairKind::Slide => ("prismatic", along, Some(upright.clone()), Some(slides())),
+            PairKind::Slot if flat => {
+                let upright = Some(upright.clone());
+                ("prismatic", along, upright, Some(faces()))
+            }
+            PairKind::Slot => ("slotted", upright.clone(), Some(along), Some(slots())),
+            // Teeth are no joint, and two slots are two.
+            PairKind::Hinge | PairKind::Gear | PairKind::TwoSlots => {
+                ("revolute", upright.clone(), None, None)
+            }
+        };
+        let thread = self.thread(i);
+        let across = [0, 1, 0].map(Coordinate::Integer);
+        let (kind, axis, reference, options) = match thread {
+            None => (kind, axis, reference, options),
+            Some(None) => ("revolute", across, Some(upright), None),
+            Some(Some(lead)) => ("helical", across, Some(upright), Some(nuts(lead))),
+        };
+        let mut at = self.place(i, side);
+        if let Some(mesh) = self.rules.meshes[i].filter(|_| thread.is_some()) {
+            // On the guide, so that the screw's axis goes through it.
+            at.whole[1] = self.place(mesh.held[1], side).whole[1];
+        }
+        let thirds = at.thirds;
+        let turn = |d: &[Coordinate; 3]| direction_turned(d, self.pivot, thirds);
+        // What a third of a turn carries to each other has options that it carries to each other.
+        let hinge = kind == "revolute";
+        let ahead = (hinge && thirds > 0).then(|| [1, 0, 0].map(Coordinate::Integer));
+        let in_series = joint.pair == PairKind::Hinge && !input && !menu.unloading.is_empty();
+        JointEntry {
+            id: self.name(i, side),
+            links: self.ends(i).map(|l| self.link_name(l, side).to_owned()),
+            kind: kind.to_owned(),
+            freedoms: None,
+            point: self.pivot.point(at),
+            axis: Some(turn(&axis)),
+            reference: reference.or(ahead).as_ref().map(turn),
+            lead: thread.flatten().map(Coordinate::Integer),
+            pitch: None,
+            tolerance: None,
+            drive: DriveWord::Driven(input),
+            state: None,
+            options: (options.filter(|_| !input))
+                .or_else(|| (hinge && thirds > 0).then(|| self.options_at(i, thirds, menu))),
+            forbid: Vec::new(),
+            unloading: in_series.then(|| match thirds {
+                0 => Unloading::Allowed(true),
+                _ => Unloading::List(options_turned(&menu.unloading, self.pivot, thirds)),
+            }),
+        }
+    }
+
+    /// What a hinge may be after thirds of a turn; one that holds a gear is no ball.
+    fn options_at(&self, joint: usize, thirds: u8, menu: &Menu) -> Vec<OptionEntry> {
+        let mut meshes = self.rules.meshes.iter().flatten();
+        let held = meshes.any(|m| m.held.contains(&joint));
+        let options = menu.options.iter().filter(|o| !held || !is_ball(o));
+        options_turned(&options.cloned().collect_vec(), self.pivot, thirds)
+    }
+
+    /// Of a joint of a screw the lead along y, of its own hinge nothing; `None` of other joints.
+    fn thread(&self, i: usize) -> Option<Option<i64>> {
+        if !self.structure.form.threaded {
+            return None;
+        }
+        let mesh = self.rules.meshes[i];
+        let lead = mesh.zip(match self.at.teeth[i] {
+            Teeth::Thread(lead) => Some(i64::from(lead)),
+            _ => None,
+        });
+        let lead = lead.map(|(mesh, lead)| {
+            // A nut that does not turn goes back where the screw turns on.
+            let [_, y] = self.at.along[mesh.held[1]].place().whole;
+            -lead * i64::from(y.signum())
+        });
+        let own = self.rules.joints[i].links == self.structure.structure.roles.input;
+        lead.map(Some).or(own.then_some(None))
+    }
+
+    /// The links of a joint as a file has them: the drive's second is the driver; the pin of a slot is on the first, the block of a slide
+    /// on the second.
+    fn ends(&self, i: usize) -> [usize; 2] {
+        let joint = &self.rules.joints[i];
+        let [u, v] = joint.links;
+        let second_first = match joint.pair {
+            _ if joint.links == self.structure.structure.roles.input => {
+                self.structure.structure.roles.drive() == [v, u]
+            }
+            PairKind::Slot => self.at.pinned[i] == v,
+            PairKind::Slide => self.rules.blocks[i] == u,
+            _ => false,
+        };
+        if second_first { [v, u] } else { [u, v] }
+    }
+
+    fn coupling(&self, i: usize, side: usize) -> Option<CouplingEntry> {
+        let mesh = self.rules.meshes[i].filter(|_| self.is_geared(i))?;
+        let first = mesh.held.map(|j| self.ends(j)[0]);
+        let turned = first.iter().filter(|&&l| l != mesh.carrier).count() == 1;
+        let signed = |x: i32| i64::from(if turned { -x } else { x });
+        let ratio = match self.at.teeth[i] {
+            Teeth::Gears([r, s]) if r == s => Coordinate::Integer(signed(-1)),
+            Teeth::Gears([r, s]) => Coordinate::Expression(format!("{}/{s}", signed(-r))),
+            Teeth::Rack(diameter) if diameter % 2 == 0 => Coordinate::Integer(signed(diameter / 2)),
+            Teeth::Rack(diameter) => Coordinate::Expression(format!("{}/2", signed(diameter))),
+            Teeth::Thread(lead) => Coordinate::Expression(format!("{}/(2*pi)", signed(lead))),
+        };
+        Some(CouplingEntry {
+            joints: mesh.held.map(|j| self.name(j, side)),
+            ratio,
+            gear: true,
+        })
+    }
+
+    /// The points of a link in space: its joints, and of a jaw its tip.
+    fn points(&self, link: usize, jaws: &[usize], tips: &[Place]) -> Vec<Vector> {
+        let of = |&(i, side): &(usize, usize)| {
+            let ends = self.rules.joints[i]
+                .links
+                .map(|l| self.structure.link(l, side));
+            ends.contains(&Some(link))
+        };
+        let own = self.made().filter(of).map(|(i, side)| self.place(i, side));
+        let jaw = jaws.iter().position(|&j| j == link);
+        let all = own.chain(jaw.map(|n| tips[n]));
+        all.map(|p| self.pivot.real(p)).collect()
+    }
+
+    /// What a search may do to the hinges, and which joints it changes alike.
+    fn search(&self, menu: &Menu) -> SearchEntry {
+        let joints = self.rules.joints.iter();
+        let mut hinges = joints.filter(|j| j.pair == PairKind::Hinge);
+        let input = self.structure.structure.roles.input;
+        let mut out = SearchEntry::default();
+        if hinges.any(|j| j.links != input) {
+            out.options.clone_from(&menu.options);
+            out.unloading.clone_from(&menu.unloading);
+        }
+        let made = |i: &usize| !self.is_geared(*i);
+        if self.structure.sides.is_some() {
+            let joints = (0..self.rules.joints.len()).filter(made);
+            let rounds = joints.filter(|&i| self.structure.copies(&self.rules.joints[i]) == SIDES);
+            let round = |i| (0..SIDES).map(|side| self.name(i, side)).collect();
+            out.turn = rounds.map(round).collect();
+        } else if !self.structure.form.one_sided {
+            let images = self.rules.images().filter(|(of, _)| made(of)).collect_vec();
+            for first in images.iter().map(|(of, _)| *of).unique() {
+                let times = |i: &usize| self.rules.place(&self.at.points, *i).thirds;
+                let own = images
+                    .iter()
+                    .filter(|(of, _)| *of == first)
+                    .map(|(_, i)| *i);
+                let round = std::iter::once(first).chain(own.sorted_by_key(times));
+                let round = round.map(|i| self.name(i, 0)).collect_vec();
+                match (self.structure.form.symmetry, &round[..]) {
+                    (Symmetry::Mirror, [a, b]) => out.mirror.push([a.clone(), b.clone()]),
+                    _ => out.turn.push(round),
+                }
+            }
+        }
+        out
+    }
+}
+
+/// A structure of hinges alone with its pins at some places, for questions about its joints alone: nothing acts on it.
+#[must_use]
+pub(crate) fn bare_file(
+    structure: &Structure,
+    rules: &Rules,
+    at: &Places,
+    menu: &Menu,
+) -> MechanismFile {
+    let drawn = DrawnJoints::new(structure, rules, at);
+    let link = |(l, id): (usize, &String)| LinkEntry {
+        id: id.clone(),
+        role: (l == structure.structure.roles.frame).then(|| "frame".to_owned()),
+        mass: None,
+        centre: None,
+        inertia: None,
+    };
+    MechanismFile {
+        name: structure.id(),
+        length_unit: Some("mm".to_owned()),
+        link: drawn.names.iter().enumerate().map(link).collect(),
+        joint: drawn
+            .made()
+            .map(|(i, side)| drawn.joint(i, side, menu))
+            .collect(),
+        search: drawn.search(menu),
+        ..MechanismFile::default()
     }
 }
 
@@ -240,46 +428,75 @@ pub fn mechanism_file(
     menu: &Menu,
     workload: &Workload,
 ) -> MechanismFile {
-    let names = link_names(structure);
-    let r = &structure.roles;
-    let named = |i: usize| joint_name(&names, layout.pins[i]);
-    let points =
-        |(l, name): (usize, &String)| (name.clone(), in_space(&layout.points(structure, l)));
-    let told = FileHead {
-        id: structure.id(),
-        name: structure.name(),
-        links: names.iter().enumerate().map(points).collect(),
-        frame: r.frame,
-        jaws: &r.jaws,
-        held: HeldPart {
-            tips: &layout.tips,
-            outward: &task::outward(r.jaws.len(), 1),
-            grip: layout.limits.task.grip.sign(),
-            pivot: Pivot::Normal,
-        },
+    let drawn = DrawnJoints::new(structure, &layout.rules, &layout.at);
+    let roles = structure.whole().roles;
+    let task = &layout.limits.task;
+    let (mut tips, mut away) = (structure.tips(task), outward(roles.jaws.len(), 1));
+    if structure.sides.is_some() {
+        tips = [0, 1, 2].map(|thirds| Place { thirds, ..tips[0] }).into();
+        away = outward(SIDES, 1);
+    }
+    let held = HeldPart {
+        tips: &tips,
+        outward: &away,
+        grip: task.grip.sign(),
+        pivot: drawn.pivot,
     };
+    let links = drawn.names.iter().enumerate().map(|(l, name)| {
+        let points = || drawn.points(l, &roles.jaws, &tips);
+        let mass = (workload.weighs_links() && l != roles.frame).then(|| workload.mass(&points()));
+        LinkEntry {
+            id: name.clone(),
+            role: match l {
+                l if l == roles.frame => Some("frame".to_owned()),
+                l if roles.jaws.contains(&l) => Some("output".to_owned()),
+                _ => None,
+            },
+            mass: mass.map(|(kg, _)| kg),
+            centre: mass.map(|(_, centre)| centre.map(number)),
+            inertia: None,
+        }
+    });
+    // The tips, so that drawings have whole jaws.
+    let shown = tips.iter().zip(&roles.jaws).zip(["a", "b", "c"]);
+    let shown = shown.map(|((&tip, &jaw), letter)| PointEntry {
+        id: format!("tip-{letter}"),
+        link: drawn.names[jaw].clone(),
+        point: drawn.pivot.point(tip),
+        tolerance: None,
+    });
+    let jaws = roles
+        .jaws
+        .iter()
+        .map(|&j| drawn.names[j].clone())
+        .collect_vec();
     MechanismFile {
-        tolerance: exact(&layout.at),
-        joint: joints(structure, &layout.pins, &layout.at, menu),
-        search: SearchEntry {
-            options: menu.options.clone(),
-            unloading: menu.unloading.clone(),
-            mirror: match structure.form.symmetry {
-                Symmetry::Mirror => layout
-                    .images
-                    .iter()
-                    .map(|&(a, b)| [named(a), named(b)])
-                    .collect(),
-                Symmetry::Generic | Symmetry::HalfTurn | Symmetry::Threefold => Vec::new(),
-            },
-            turn: match structure.form.symmetry {
-                Symmetry::Generic | Symmetry::Mirror => Vec::new(),
-                Symmetry::HalfTurn | Symmetry::Threefold => rounds(layout)
-                    .map(|round| round.into_iter().map(named).collect())
-                    .collect(),
-            },
-            ..SearchEntry::default()
+        name: structure.id(),
+        description: format!(
+            "Gripper of {} links from the catalogue of structures: {}. The forces at the tips are those of the part held.",
+            drawn.names.len(),
+            structure.name()
+        ),
+        length_unit: Some("mm".to_owned()),
+        tolerance: exact(&layout.places()),
+        link: links.collect(),
+        joint: drawn
+            .made()
+            .map(|(i, side)| drawn.joint(i, side, menu))
+            .collect(),
+        coupling: drawn
+            .each()
+            .filter_map(|(i, side)| drawn.coupling(i, side))
+            .collect(),
+        point: shown.collect(),
+        search: drawn.search(menu),
+        workload: WorkloadEntry {
+            gravity: workload
+                .weighs_links()
+                .then(|| workload.gravity.map(number)),
+            force: workload.forces(&jaws, &held),
+            ..WorkloadEntry::default()
         },
-        ..told.file(workload)
+        ..MechanismFile::default()
     }
 }

@@ -28,6 +28,19 @@ impl From<[i32; 2]> for Place {
 }
 
 impl Place {
+    /// Of a point in whole thousandths.
+    #[must_use]
+    pub(super) fn of(point: Point) -> Place {
+        #[allow(clippy::cast_possible_truncation, reason = "some metres")]
+        let thousandths = point.map(|x| (x * f64::from(FINE)).round() as i64);
+        let part = |whole: i64| i32::try_from(whole).unwrap_or(i32::MAX);
+        Place {
+            whole: thousandths.map(|x| part(x / i64::from(FINE))),
+            fine: thousandths.map(|x| part(x % i64::from(FINE))),
+            thirds: 0,
+        }
+    }
+
     /// Where it is before it is turned: of doubles the one nearest to the decimal.
     fn unturned(self) -> [f64; 2] {
         let thousandths =

@@ -11,10 +11,10 @@ mod threads;
 
 pub use found::{NoStructure, Recognized};
 
-use crate::chains::pairs::chain::PairChain;
-use crate::chains::pairs::classics::MadeAs;
-use crate::chains::pairs::roles::PairRoles;
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::chain::Chain;
+use crate::chains::classics::MadeAs;
+use crate::chains::roles::Roles;
+use crate::chains::structure::PairStructure;
 use crate::model::StateId;
 use crate::model::mechanism::Mechanism;
 use found::jaws;
@@ -50,7 +50,7 @@ pub fn recognize(m: &Mechanism) -> Result<Recognized, NoStructure> {
 fn in_a_plane(m: &Mechanism) -> Result<Recognized, NoStructure> {
     let present = m.joints_in(StateId::FREE).collect_vec();
     let found = InPlane::new(m, &present)?;
-    let roles = PairRoles {
+    let roles = Roles {
         frame: found.links.frame,
         input: found.links.input,
         jaws: jaws(m, |l| found.body(l))?,
@@ -67,7 +67,7 @@ fn in_a_plane(m: &Mechanism) -> Result<Recognized, NoStructure> {
         jaws_on_one_pin,
         threaded: false,
     };
-    let chain = PairChain::new(found.links.names.len(), found.links.joints);
+    let chain = Chain::new(found.links.names.len(), found.links.joints);
     let structure = PairStructure { chain, roles };
     Ok(Recognized {
         whole: structure.clone(),

@@ -1,135 +1,216 @@
-//! Which pins of a layout are free to be placed, and which follow from them.
+//! Which places of a gripper's joints are free, and which follow from them.
 
-use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::synthesis::place::{Place, third};
-use crate::synthesis::structure::{Ring, Structure};
+use crate::chains::chain::{Chain, Joint, carried, ordered};
+use crate::chains::{Input, PairKind, Symmetry};
+use crate::geom::vector::{add_scaled, sub};
+use crate::synthesis::direction::WholeDirection;
+use crate::synthesis::place::{Place, Point, third};
+use crate::synthesis::places::{Places, Teeth};
+use crate::synthesis::structure::{Lay, Structure};
+use itertools::Itertools;
+use thiserror::Error;
 
-/// Where a pin is.
+/// Where a joint is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rule {
     /// Where it likes.
     Free,
-    /// On the line of the mirror, or of the slide.
+    /// It is its own image; a slide or a slot on a mirror line then has this direction.
+    Own(Option<WholeDirection>),
+    /// On the middle: on one pin with its image, or a slide of one of hinges alone.
     OnLine,
-    /// At the centre of half a turn, or of a third.
-    Centre,
-    /// What another pin becomes when the symmetry is done so often.
+    /// What another joint becomes when the symmetry is done so often.
     Image {
         /// The other.
         of: usize,
-        /// How often: once or twice.
+        /// How often: once, or twice by thirds of a turn.
         times: u8,
     },
-    /// The fourth corner of a parallelogram: from the first pin to the second as from the third to this one.
+    /// The fourth corner of a parallelogram: from the first joint to the second as from the third to this one.
     Parallelogram([usize; 3]),
 }
 
-/// The pins of a structure, each with its rule.
+/// A gear pair with the link that carries it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mesh {
+    /// The link that keeps the gears at their distance.
+    pub carrier: usize,
+    /// The gears; the rack second.
+    pub gears: [usize; 2],
+    /// The joints by which the carrier holds them.
+    pub held: [usize; 2],
+    /// Whether the second slides: a rack.
+    pub rack: bool,
+}
+
+impl Mesh {
+    fn carried(self, swap: &[usize], joints: &[Joint]) -> Option<Mesh> {
+        let at = |i: usize| {
+            let links = carried(joints[i].links, swap);
+            joints.iter().position(|j| j.links == links)
+        };
+        let [a, b] = self.held.map(at);
+        Some(Mesh {
+            carrier: swap[self.carrier],
+            gears: self.gears.map(|l| swap[l]),
+            held: [a?, b?],
+            rack: self.rack,
+        })
+    }
+}
+
+/// Why a structure of pairs lies nowhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum NoRules {
+    /// A slot between links that change places.
+    #[error(
+        "a pin in a slot, or a flat face, between links that change places is not its own image as it moves"
+    )]
+    SwappedSlot,
+    /// A slot by half a turn onto itself.
+    #[error("a pin at the centre of half a turn moves in no slot")]
+    CentralSlot,
+    /// Gears that change places, on a carrier that does so, too.
+    #[error("gears that change places need a carrier that does not")]
+    SwappedCarrier,
+    /// The parallelograms of the jaws ask for what the symmetry does not give.
+    #[error("the parallelograms do not go with the symmetry")]
+    Parallelograms,
+    /// What is to be on one pin with its image is none of a link that the symmetry keeps.
+    #[error("joints that are no images of each other are to be on one pin")]
+    OnePin,
+    /// No way of lying on itself moves.
+    #[error("in no symmetric places do its jaws move against each other")]
+    Still,
+}
+
+/// The joints of a structure, each with its rule.
 #[derive(Debug, Clone)]
 pub struct Rules {
-    /// The links of each pin, in the order of the chain's joints; the input joint is one of them.
-    pub pins: Vec<(usize, usize)>,
+    /// The joints.
+    pub joints: Vec<Joint>,
     /// Their rules.
     pub rules: Vec<Rule>,
-    /// Pins in an order in which each comes after those that it follows from.
+    /// The gear pairs among them.
+    pub meshes: Vec<Option<Mesh>>,
+    /// Of each slide the link that has its block, the other having the guide: the driver, or what is not the frame.
+    pub blocks: Vec<usize>,
+    /// Joints in an order in which each comes after those that it follows from.
     order: Vec<usize>,
+    /// Where each joint's links go.
+    swap: Vec<usize>,
     symmetry: Symmetry,
-    /// The input joint.
-    pub input: usize,
+    /// Whether pinions are screws, and racks nuts.
+    pub threaded: bool,
 }
 
 impl Rules {
-    /// The rules of a structure whose symmetry is `swap`; `None` where the parallelograms ask for what cannot be.
-    #[must_use]
-    pub fn new(structure: &Structure, swap: &[usize]) -> Option<Rules> {
-        let pins = structure.chain.joints();
-        let symmetry = structure.form.symmetry;
-        let at = |u: usize, v: usize| pins.iter().position(|&p| p == (u.min(v), u.max(v)));
-        let mut rules = vec![Rule::Free; pins.len()];
-        for first in 0..pins.len() {
-            // Images of a pin before.
-            if rules[first] != Rule::Free {
+    /// The rules of a structure that lies on itself so.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn new(structure: &Structure, lay: &Lay) -> Result<Rules, NoRules> {
+        let (chain, symmetry) = (&structure.structure.chain, structure.form.symmetry);
+        let joints = chain.joints_made();
+        let mut rules = vec![Rule::Free; joints.len()];
+        let mut meshes: Vec<Option<Mesh>> = vec![None; joints.len()];
+        let mut ways = 0;
+        for (i, joint) in joints.iter().enumerate() {
+            if rules[i] != Rule::Free {
                 continue;
             }
-            let (mut of, mut times) = (first, 0);
-            loop {
-                let (u, v) = pins[of];
-                (of, times) = (at(swap[u], swap[v])?, times + 1);
-                if of == first {
-                    break;
-                }
-                rules[of] = Rule::Image { of: first, times };
+            let links = carried(joint.links, &lay.swap);
+            let own = links == joint.links && symmetry != Symmetry::Generic;
+            let swapped = own && lay.swap[joint.links[0]] != joint.links[0];
+            meshes[i] = mesh(chain, &joints, joint, |c| !swapped || lay.swap[c] == c);
+            if joint.pair == PairKind::Gear && meshes[i].is_none() {
+                return Err(NoRules::SwappedCarrier);
             }
-            rules[first] = match symmetry {
-                Symmetry::Mirror if times == 1 => Rule::OnLine,
-                Symmetry::HalfTurn | Symmetry::Threefold if times == 1 => Rule::Centre,
-                _ => Rule::Free,
-            };
+            if symmetry == Symmetry::Generic {
+                continue;
+            }
+            if !own {
+                let (mut at, mut times) = (i, 0);
+                loop {
+                    let links = carried(joints[at].links, &lay.swap);
+                    let image = image_of(&joints, at, links).ok_or(NoRules::Still)?;
+                    if image == i {
+                        break;
+                    }
+                    times += 1;
+                    rules[image] = Rule::Image { of: i, times };
+                    meshes[image] = meshes[at].and_then(|m| m.carried(&lay.swap, &joints));
+                    at = image;
+                }
+                continue;
+            }
+            let mut along = None;
+            if has_two_ways(joint.pair, swapped, symmetry)? {
+                // A slot with its line of action across lies ahead, a slide across goes across.
+                let across = lay.bits >> ways & 1 == 1;
+                ways += 1;
+                along = Some(if across == (joint.pair == PairKind::Slot) {
+                    WholeDirection::AHEAD
+                } else {
+                    WholeDirection::ACROSS
+                });
+            }
+            rules[i] = Rule::Own(along);
         }
-        let input = at(structure.roles.frame, structure.roles.driver)?;
-        if structure.form.input == Input::Slide {
+        let input = joints
+            .iter()
+            .position(|j| j.links == structure.structure.roles.input);
+        if let Some(input) =
+            input.filter(|_| structure.form.hinges && structure.input() == Input::Slide)
+        {
             rules[input] = Rule::OnLine;
         }
+        on_one_pin(structure, lay, &joints, &mut rules)?;
         if structure.form.parallel {
-            let corners = |r: Ring| {
-                let [p, q] = r.rods;
-                Some([at(p, r.base)?, at(q, r.base)?, at(p, r.jaw)?, at(q, r.jaw)?])
-            };
-            for ring in structure.rings()? {
-                let [a, b, c, d] = corners(ring)?;
-                // Any corner can be the one that follows; of a ring that is an image all do already.
-                let corners = [[a, b, c, d], [b, a, d, c], [c, d, a, b], [d, c, b, a]];
-                let free = corners.iter().find(|k| rules[k[3]] == Rule::Free);
-                let image = |i: usize| matches!(rules[i], Rule::Image { .. });
-                match free {
-                    Some(&[a, b, c, d]) => rules[d] = Rule::Parallelogram([a, b, c]),
-                    None if [a, b, c, d].into_iter().any(image)
-                        && symmetry != Symmetry::Generic => {}
-                    None => return None,
-                }
-            }
+            let rings = structure.rings().ok_or(NoRules::Parallelograms)?;
+            parallelograms(&rings, &joints, &mut rules).ok_or(NoRules::Parallelograms)?;
         }
-        let order = in_order(&rules)?;
-        Some(Rules {
-            pins,
+        let order = in_order(&rules).ok_or(NoRules::Parallelograms)?;
+        Ok(Rules {
+            blocks: blocks(structure, lay, &joints, &rules),
+            joints,
             rules,
+            meshes,
             order,
+            swap: lay.swap.clone(),
             symmetry,
-            input,
+            threaded: structure.form.threaded,
         })
     }
 
-    /// The pins of a structure without any rule, for places that are known already.
-    #[must_use]
-    pub fn free(structure: &Structure) -> Option<Rules> {
-        let pins = structure.chain.joints();
-        let (frame, driver) = (structure.roles.frame, structure.roles.driver);
-        let input = (frame.min(driver), frame.max(driver));
-        Some(Rules {
-            rules: vec![Rule::Free; pins.len()],
-            order: (0..pins.len()).collect(),
-            symmetry: Symmetry::Generic,
-            input: pins.iter().position(|&p| p == input)?,
-            pins,
+    /// The joints that may be placed, each for its image, too.
+    pub(crate) fn movable(&self) -> impl Iterator<Item = usize> + '_ {
+        let fixed = |i: usize| {
+            let own = matches!(self.rules[i], Rule::Own(_));
+            let central = own && self.symmetry != Symmetry::Mirror;
+            own && self.joints[i].pair == PairKind::Gear
+                || central && self.joints[i].pair == PairKind::Hinge
+        };
+        let follows = |i: usize| {
+            let rule = self.rules[i];
+            matches!(rule, Rule::Image { .. } | Rule::Parallelogram(_))
+        };
+        (0..self.joints.len()).filter(move |&i| !follows(i) && !fixed(i))
+    }
+
+    /// The pairs of joints that are images of each other.
+    pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let rules = self.rules.iter().enumerate();
+        rules.filter_map(|(i, rule)| match rule {
+            Rule::Image { of, .. } => Some((*of, i)),
+            _ => None,
         })
     }
 
-    /// Puts what follows in its place.
-    pub fn settle(&self, at: &mut [[f64; 2]]) {
-        for &i in &self.order {
-            at[i] = match self.rules[i] {
-                Rule::Free => at[i],
-                Rule::OnLine => [at[i][0], 0.0],
-                Rule::Centre => [0.0, 0.0],
-                Rule::Image { of, times } => (0..times).fold(at[of], |p, _| self.image(p)),
-                Rule::Parallelogram([a, b, c]) => [0, 1].map(|k| at[b][k] + at[c][k] - at[a][k]),
-            };
-        }
-    }
-
-    /// The image of a place.
+    /// The image of a point.
     #[must_use]
-    pub fn image(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn image(&self, [x, y]: Point) -> Point {
         match self.symmetry {
             Symmetry::Generic => [x, y],
             Symmetry::Mirror => [x, -y],
@@ -138,59 +219,212 @@ impl Rules {
         }
     }
 
-    /// Places of whole millimetres as what they are exactly.
+    /// The place of a joint as what it is exactly.
     #[must_use]
-    pub fn places(&self, at: &[[f64; 2]]) -> Vec<Place> {
-        #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
-        let whole = |i: usize| at[i].map(|x| x.round() as i32);
-        let place = |(i, rule): (usize, &Rule)| match (rule, self.symmetry) {
-            (&Rule::Image { of, times }, Symmetry::Threefold) => Place {
-                whole: whole(of),
+    pub fn place(&self, points: &[Point], joint: usize) -> Place {
+        match self.rules[joint] {
+            Rule::Image { of, times } if self.symmetry == Symmetry::Threefold => Place {
                 thirds: times,
-                ..Place::default()
+                ..Place::of(points[of])
             },
-            _ => Place::from(whole(i)),
-        };
-        self.rules.iter().enumerate().map(place).collect()
+            _ => Place::of(points[joint]),
+        }
     }
 
-    /// Whether a pin is where others have it.
-    #[must_use]
-    pub fn follows(&self, pin: usize) -> bool {
-        self.rules[pin] != Rule::Free
+    fn turned(&self, direction: WholeDirection) -> WholeDirection {
+        match self.symmetry {
+            Symmetry::Generic => direction,
+            Symmetry::Mirror => direction.mirrored(),
+            Symmetry::HalfTurn => direction.reversed(),
+            Symmetry::Threefold => direction.turned_by_thirds(1),
+        }
     }
 
-    /// The pins that may be moved.
-    pub(crate) fn movable(&self) -> impl Iterator<Item = usize> + '_ {
-        let free = |i: &usize| matches!(self.rules[*i], Rule::Free | Rule::OnLine);
-        (0..self.pins.len()).filter(free)
+    /// Puts what follows in its place.
+    pub fn settle(&self, at: &mut Places) {
+        for &i in &self.order {
+            match self.rules[i] {
+                Rule::Free => {}
+                Rule::OnLine => at.points[i][1] = 0.0,
+                Rule::Parallelogram([a, b, c]) => {
+                    let side = sub(at.points[b], at.points[a]);
+                    at.points[i] = add_scaled(at.points[c], 1.0, side);
+                }
+                Rule::Own(along) => {
+                    let [x, _] = at.points[i];
+                    at.points[i] = match self.symmetry {
+                        Symmetry::HalfTurn | Symmetry::Threefold => [0.0, 0.0],
+                        _ => [x, 0.0],
+                    };
+                    at.along[i] = along.unwrap_or(at.along[i]);
+                    if self.joints[i].pair == PairKind::Gear {
+                        at.teeth[i] = Teeth::Gears([1, 1]);
+                    }
+                }
+                Rule::Image { of, times } => {
+                    let times = 0..times;
+                    at.points[i] = times.clone().fold(at.points[of], |p, _| self.image(p));
+                    at.along[i] = times.clone().fold(at.along[of], |d, _| self.turned(d));
+                    at.pinned[i] = times.fold(at.pinned[of], |l, _| self.swap[l]);
+                }
+            }
+        }
+        // Teeth follow from the guides of racks.
+        for (of, i) in self.images() {
+            at.teeth[i] = self.image_of_teeth(at, of, i);
+        }
+        for i in 0..self.joints.len() {
+            if let Some(pitch) = self.pitch_point(at, i) {
+                at.points[i] = pitch;
+            }
+        }
     }
 
-    /// The pairs of joints that are images of each other.
-    pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let pair = |(i, r): (usize, &Rule)| match r {
-            Rule::Image { of, .. } => Some((*of, i)),
-            _ => None,
-        };
-        self.rules.iter().enumerate().filter_map(pair)
+    fn image_of_teeth(&self, at: &Places, of: usize, image: usize) -> Teeth {
+        let held = |i: usize| self.meshes[i].map(|m| at.along[m.held[1]]);
+        match (at.teeth[of], held(of), held(image)) {
+            (Teeth::Rack(diameter), Some(along), Some(there)) => {
+                // A mirror image turns the other way; a guide that is its own image may go the other way.
+                let turns = self.symmetry != Symmetry::HalfTurn;
+                let goes = self.turned(along) != there;
+                Teeth::Rack(if turns == goes { diameter } else { -diameter })
+            }
+            (teeth, ..) => teeth,
+        }
+    }
+
+    /// Where the pitch circles of a gear pair touch.
+    fn pitch_point(&self, at: &Places, i: usize) -> Option<Point> {
+        let mesh = self.meshes[i]?;
+        let centres = mesh.held.map(|j| at.points[j]);
+        let along = at.along[mesh.held[1]].real();
+        Some(at.teeth[i].pitch(centres, along))
     }
 }
 
-/// Every pin after those it follows from; `None` where they follow from each other.
+/// Whether a joint that is its own image may lie in two ways.
+fn has_two_ways(pair: PairKind, swapped: bool, symmetry: Symmetry) -> Result<bool, NoRules> {
+    match (pair, symmetry) {
+        (PairKind::Slot, _) if swapped => Err(NoRules::SwappedSlot),
+        (PairKind::Slot, Symmetry::HalfTurn) => Err(NoRules::CentralSlot),
+        (PairKind::Slot | PairKind::Slide, Symmetry::Mirror) => Ok(true),
+        _ => Ok(false),
+    }
+}
+
+/// The joint between other links that is the image of one: of two slots the first is that of the first.
+fn image_of(joints: &[Joint], joint: usize, links: [usize; 2]) -> Option<usize> {
+    let own = |j: &&Joint| j.links == joints[joint].links;
+    let before = joints[..joint].iter().filter(own).count();
+    joints.iter().positions(|j| j.links == links).nth(before)
+}
+
+/// The link with the block of each slide, images having images; of other joints their second.
+fn blocks(structure: &Structure, lay: &Lay, joints: &[Joint], rules: &[Rule]) -> Vec<usize> {
+    let drive = structure.structure.roles.drive();
+    let frame = structure.structure.roles.frame;
+    let first = |joint: &Joint| match joint.links {
+        links if links == ordered(drive) => drive[1],
+        [u, _] if structure.form.hinges => u,
+        [u, v] if v == frame => u,
+        [_, v] => v,
+    };
+    let of = |(i, rule): (usize, &Rule)| match rule {
+        Rule::Image { of, times } if !structure.form.hinges => {
+            (0..*times).fold(first(&joints[*of]), |l, _| lay.swap[l])
+        }
+        _ => first(&joints[i]),
+    };
+    rules.iter().enumerate().map(of).collect()
+}
+
+/// Puts hinges on one pin with their images, where they are to be so.
+fn on_one_pin(
+    structure: &Structure,
+    lay: &Lay,
+    joints: &[Joint],
+    rules: &mut [Rule],
+) -> Result<(), NoRules> {
+    for (i, joint) in joints.iter().enumerate() {
+        if structure.form.is_on_one_pin(i) {
+            if !lay.may_share(joint) || !rules.contains(&Rule::Image { of: i, times: 1 }) {
+                return Err(NoRules::OnePin);
+            }
+            rules[i] = Rule::OnLine;
+        }
+    }
+    Ok(())
+}
+
+/// Lets one corner of each parallelogram follow from the others; of one that is an image all do already. `None` where none can.
+fn parallelograms(rings: &[[[usize; 2]; 4]], joints: &[Joint], rules: &mut [Rule]) -> Option<()> {
+    let at = |links: [usize; 2]| joints.iter().position(|j| j.links == links);
+    for ring in rings {
+        let corners = ring.map(at);
+        let [a, b, c, d] = [corners[0]?, corners[1]?, corners[2]?, corners[3]?];
+        let turned = [[a, b, c, d], [b, a, d, c], [c, d, a, b], [d, c, b, a]];
+        let free = turned.iter().find(|k| rules[k[3]] == Rule::Free);
+        let image = |i: usize| matches!(rules[i], Rule::Image { .. });
+        match free {
+            Some(&[a, b, c, d]) => rules[d] = Rule::Parallelogram([a, b, c]),
+            None if [a, b, c, d].into_iter().any(image) => {}
+            None => return None,
+        }
+    }
+    Some(())
+}
+
+/// Every joint after those it follows from; `None` where they follow from each other.
 fn in_order(rules: &[Rule]) -> Option<Vec<usize>> {
     let mut order: Vec<usize> = Vec::new();
     while order.len() < rules.len() {
         let done = |i: &usize| order.contains(i);
         let ready = |&i: &usize| {
             !done(&i)
-                && match rules[i] {
-                    Rule::Image { of, .. } => done(&of),
+                && match &rules[i] {
+                    Rule::Image { of, .. } => done(of),
                     Rule::Parallelogram(of) => of.iter().all(done),
-                    Rule::Free | Rule::OnLine | Rule::Centre => true,
+                    Rule::Free | Rule::OnLine | Rule::Own(_) => true,
                 }
         };
-        let next = (0..rules.len()).find(ready)?;
-        order.push(next);
+        order.push((0..rules.len()).find(ready)?);
     }
     Some(order)
+}
+
+/// The carrier of a gear pair: the first that is allowed of those that hinge both, then of those that let one slide.
+fn mesh(
+    chain: &Chain,
+    joints: &[Joint],
+    joint: &Joint,
+    allowed: impl Fn(usize) -> bool,
+) -> Option<Mesh> {
+    if joint.pair != PairKind::Gear {
+        return None;
+    }
+    let held = |carrier: usize, gear: usize| {
+        let links = [carrier.min(gear), carrier.max(gear)];
+        joints.iter().position(|j| j.links == links)
+    };
+    let [u, v] = joint.links;
+    let slides = |c: usize, gear: usize| chain.between(c, gear) == Some(PairKind::Slide);
+    let hinges = |c: usize, gear: usize| chain.between(c, gear) == Some(PairKind::Hinge);
+    let of = |carrier: usize| {
+        let gears = match (carrier, [u, v]) {
+            (c, [u, v]) if hinges(c, u) && hinges(c, v) => [u, v],
+            (c, [u, v]) if hinges(c, u) && slides(c, v) => [u, v],
+            (c, [u, v]) if slides(c, u) && hinges(c, v) => [v, u],
+            _ => return None,
+        };
+        let rack = slides(carrier, gears[1]);
+        let [a, b] = gears.map(|gear| held(carrier, gear));
+        Some(Mesh {
+            carrier,
+            gears,
+            held: [a?, b?],
+            rack,
+        })
+    };
+    let found = (0..chain.links()).filter(|&c| allowed(c)).filter_map(of);
+    found.sorted_by_key(|m| m.rack).next()
 }

@@ -218,8 +218,8 @@ fn bits(mut set: u32) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::SeenSides;
-    use crate::synthesis::paired::sketch::each_classic;
     use crate::synthesis::sketch::LayoutSketch;
+    use crate::synthesis::sketch::each_classic;
     use crate::synthesis::{below, random};
 
     /// Tries that are taken and refused in any order: what is looked at again is what has moved, and all else is known still.

@@ -1,121 +1,177 @@
-//! A structure whose places are looked for: what is asked of it while they are tried.
+//! What of a structure does not depend on where its joints are, gathered once for the many places that are tried; and what is asked of it
+//! while they are.
 
-use crate::synthesis::bones::Bones;
+use crate::chains::chain::Joint;
+use crate::chains::{Input, PairKind, Symmetry};
+use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::layout_quality::{LayoutMotion, Looks};
 use crate::synthesis::place::Point;
+use crate::synthesis::places::Places;
+use crate::synthesis::rules::{Rule, Rules};
 use crate::synthesis::seen_sides::SeenSides;
-use crate::synthesis::task::{Limits, beyond};
-use crate::synthesis::velocities::Velocity;
-use chacha20::ChaCha8Rng;
-use std::borrow::Cow;
+use crate::synthesis::stroke::closure::Closure;
+use crate::synthesis::stroke::pose::LinkPose;
+use crate::synthesis::structure::Structure;
+use crate::synthesis::task::{Limits, beyond, room_round_part};
+use crate::synthesis::threefold::{Around, SIDES};
+use crate::synthesis::velocities::Contours;
 
-/// Pitch circles of a larger radius are in the way of other parts, and teeth on smaller ones are few. In millimetres.
+/// A structure with the rules of its joints.
+#[derive(Debug)]
+pub struct Sketch<'a> {
+    /// The structure.
+    pub structure: &'a Structure,
+    /// Which joints may be placed.
+    pub rules: Rules,
+    /// The points of its links.
+    pub bones: Bones,
+    /// The driven joint.
+    pub input: usize,
+    /// The link against which the driver moves, and the driver.
+    pub drive: [usize; 2],
+    /// What it is to be like and to do.
+    pub limits: Limits,
+    /// Contours, and their closure, of hinges alone: turns are the only unknown then.
+    pub(super) contours: Option<Contours>,
+    pub(super) closure: Option<Closure>,
+    /// All sides, where there are three in one plane.
+    pub(super) around: Option<Around>,
+    /// Which way each tip opens, as [`Bones::apart`].
+    pub(super) apart: Vec<Point>,
+    /// All links as drawn.
+    pub(super) at_rest: Vec<LinkPose>,
+}
+
+impl<'a> Sketch<'a> {
+    /// Gathers it.
+    #[must_use]
+    pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Sketch<'a> {
+        let (chain, roles) = (&structure.structure.chain, &structure.structure.roles);
+        let drive = structure.structure.roles.drive();
+        let pinned = |link: usize| {
+            let mut own = rules.joints.iter().filter(|j| j.is_at(link));
+            own.all(|j| j.pair == PairKind::Hinge)
+        };
+        let point = |(j, &block): (&Joint, &usize)| {
+            let [u, v] = j.links;
+            let links = if block == u { [u, v] } else { [v, u] };
+            (j.pair != PairKind::Gear).then_some(links)
+        };
+        let hinged = |&jaw: &usize| chain.between(roles.frame, jaw) == Some(PairKind::Hinge);
+        let free = |r: &Rule| *r == Rule::Free;
+        let turned = structure.form.symmetry == Symmetry::HalfTurn;
+        let rows = rules.rules.iter().enumerate();
+        let own = rows.filter(|(_, r)| turned && matches!(r, Rule::Own(_)));
+        let central = own.fold(0, |bits, (i, _)| bits | 1u32 << i);
+        let shared = rules
+            .images()
+            .filter(|(of, _)| rules.rules[*of] == Rule::OnLine);
+        let shared = shared.map(|(of, image)| 1u32 << of | 1 << image);
+        let plan = BonePlan {
+            frame: roles.frame,
+            driver: drive[1],
+            jaws: &roles.jaws,
+            joints: rules.joints.iter().zip(&rules.blocks).map(point).collect(),
+            follows: rules.rules.iter().map(|r| !free(r)).collect(),
+            tips: (structure.tips(&limits.task).iter().map(|t| t.real())).collect(),
+            turns: structure.input() == Input::Turn,
+            hinged: roles.jaws.iter().map(hinged).collect(),
+            round: room_round_part(roles.jaws.len(), structure.form.symmetry),
+            wished: limits.task.distances(),
+            together: shared.chain((central > 0).then_some(central)).collect(),
+            cylinder: (structure.structure.slides() && drive[0] != roles.frame).then_some(drive),
+        };
+        let at_input = |j: &Joint| j.links == roles.input;
+        let mut bones = Bones::new(chain.links(), plan, pinned);
+        if structure.sides.is_some() {
+            bones.sides = SIDES;
+        }
+        let contours = structure.form.hinges.then(|| Contours::new(structure));
+        Sketch {
+            around: (structure.sides.is_some() && !structure.is_axial())
+                .then(|| Around::new(structure, &rules, &bones)),
+            closure: contours.as_ref().map(|c| Closure::new(c, bones.apart())),
+            contours,
+            apart: bones.apart(),
+            bones,
+            input: rules.joints.iter().position(at_input).unwrap_or(0),
+            at_rest: vec![LinkPose::AT_REST; chain.links()],
+            structure,
+            rules,
+            drive,
+            limits,
+        }
+    }
+}
+
+/// The sketches of all well-known structures that have rules of their own, each with its name.
+/// Pitch circles are that large, in millimetres: less is a pinion too small, more a wheel too large.
 const LARGE: f64 = 25.0;
 const SMALL: f64 = 8.0;
 
-/// A structure with rules for its places.
-pub trait LayoutSketch {
-    /// Places of all joints.
-    type JointPlaces: Clone;
-
-    /// The points of its links.
-    fn bones(&self) -> &Bones;
-
-    /// What it is to be like and to do.
-    fn limits(&self) -> &Limits;
-
-    /// Places that cost less are taken without looking for better ones.
-    fn good(&self) -> f64;
-
-    /// Where the points are.
-    fn points<'p>(&self, at: &'p Self::JointPlaces) -> &'p [Point];
-
-    /// Whether a link turns out of the plane: a screw.
-    fn turns_out(&self) -> bool {
-        false
-    }
-
-    /// The link that has the pin or the block of a joint; none of what has no point on its links.
-    fn link_of(&self, _at: &Self::JointPlaces, joint: usize) -> Option<usize> {
-        self.bones().joints[joint].map(|[link, _]| link)
-    }
-
-    /// Gives every place where a point stands that is at one of them.
-    fn each_copy(&self, _point: usize, at: Point, take: &mut dyn FnMut(Point)) {
-        take(at);
-    }
-
-    /// Gives every pitch circle, by the joint at its centre and its radius in mm, and whether its teeth mesh with what does not belong to
-    /// the half of the other jaw.
-    fn each_circle(&self, _at: &Self::JointPlaces, _take: &mut dyn FnMut(usize, f64, bool)) {}
-
-    /// All points that are drawn, and whose they are.
-    fn drawn<'p>(&'p self, at: &'p Self::JointPlaces) -> (Cow<'p, [Point]>, &'p Bones) {
-        (Cow::Borrowed(self.points(at)), self.bones())
-    }
-
-    /// How the links move for a unit speed of the driver; `None` where the pose is singular.
+impl Sketch<'_> {
+    /// What places cost; `None` where that is more than wanted, or, with motion, where they are singular.
     ///
     /// # Complexity
-    /// O(n³) for n links.
-    fn velocities(&self, at: &Self::JointPlaces) -> Option<Vec<Velocity>>;
-
-    /// Places to begin with.
-    fn first_places(&self, random: &mut ChaCha8Rng) -> Self::JointPlaces;
-
-    /// Other places, by how warm the search still is: 1 at first, 0 at its end.
-    fn change(&self, at: &mut Self::JointPlaces, warmth: f64, random: &mut ChaCha8Rng);
-
-    /// What places cost, with `moving` their velocities, too; `None` where that is more than `most`, or the pose is singular. What was
-    /// seen of other places is known of these where it is the same.
-    ///
-    /// # Complexity
-    /// O(p²) for p points, and O(n³) for n links where velocities are asked for.
-    fn penalty(
+    /// That of the crossings that are new, and with motion an elimination.
+    #[must_use]
+    pub fn penalty(
         &self,
-        at: &Self::JointPlaces,
+        at: &Places,
         moving: bool,
         most: f64,
         seen: &mut SeenSides,
     ) -> Option<f64> {
         let (points, bones) = self.drawn(at);
         bones.penalty(&points, most, seen, || {
-            let motion = moving.then(|| Some(motion(self, at)?.penalty));
-            Some(pitch_penalty(self, at) + motion.unwrap_or(Some(0.0))?)
+            let motion = moving.then(|| Some(self.motion(at)?.penalty));
+            Some(self.pitch_penalty(at) + motion.unwrap_or(Some(0.0))?)
         })
     }
 
-    /// What breaks the limits as drawn, each break dear.
-    ///
-    /// # Complexity
-    /// O(p²) for p points.
-    fn breaks(&self, at: &Self::JointPlaces, seen: &mut SeenSides) -> f64 {
+    /// What is broken of the limits by how places look, for a search that asks for no more.
+    #[must_use]
+    pub fn breaks(&self, at: &Places, seen: &mut SeenSides) -> f64 {
         let (points, bones) = self.drawn(at);
-        bones.breaks(&points, self.limits(), seen) + pitch_penalty(self, at)
+        bones.breaks(&points, &self.limits, seen) + self.pitch_penalty(at)
     }
 
-    /// All figures; `None` where the pose is singular.
+    /// What places look like; `None` where they are singular.
     ///
     /// # Complexity
-    /// As [`LayoutSketch::penalty`].
-    fn looks(&self, at: &Self::JointPlaces) -> Option<Looks> {
+    /// That of all crossings, and an elimination.
+    #[must_use]
+    pub fn looks(&self, at: &Places) -> Option<Looks> {
         let (points, bones) = self.drawn(at);
-        let mut looks = bones.looks(&points, motion(self, at)?)?;
-        looks.penalty += pitch_penalty(self, at);
+        let mut looks = bones.looks(&points, self.motion(at)?)?;
+        looks.penalty += self.pitch_penalty(at);
         Some(looks)
     }
+
+    fn motion(&self, at: &Places) -> Option<LayoutMotion> {
+        let least_force = self.limits.task.least_force;
+        let velocities = self.velocities(at)?;
+        Some((self.bones).motion(&at.points, &velocities, least_force))
+    }
+
+    /// What pitch circles cost that are too large or too small.
+    pub(super) fn pitch_penalty(&self, at: &Places) -> f64 {
+        let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
+        let mut sum = 0.0;
+        self.each_circle(at, &mut |_, r, _| sum += cost(r));
+        sum
+    }
 }
 
-fn motion<S: LayoutSketch + ?Sized>(sketch: &S, at: &S::JointPlaces) -> Option<LayoutMotion> {
-    let least_force = sketch.limits().task.least_force;
-    let velocities = sketch.velocities(at)?;
-    Some((sketch.bones()).motion(sketch.points(at), &velocities, least_force))
-}
-
-/// What pitch circles cost that are large, or too small for teeth.
-pub(super) fn pitch_penalty<S: LayoutSketch + ?Sized>(sketch: &S, at: &S::JointPlaces) -> f64 {
-    let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
-    let mut sum = 0.0;
-    sketch.each_circle(at, &mut |_, r, _| sum += cost(r));
-    sum
+#[cfg(test)]
+pub(in crate::synthesis) fn each_classic(mut take: impl FnMut(&str, &Sketch<'_>)) {
+    use crate::chains::classics::classics;
+    use crate::synthesis::layout::most_symmetric;
+    for classic in classics() {
+        let paired = most_symmetric(&classic.structure).unwrap();
+        let lay = paired.lays().swap_remove(0);
+        if let Ok(rules) = Rules::new(&paired, &lay) {
+            take(&classic.id, &Sketch::new(&paired, rules, Limits::default()));
+        }
+    }
 }

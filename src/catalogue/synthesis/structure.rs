@@ -1,132 +1,417 @@
-//! Structures: a chain, what its links do in a gripper, how its driver moves, and the symmetry it is to have.
+//! Structures: a gripper's chain and roles with the symmetry it is to have, and how it is laid out.
 
-use crate::chains::layout_symmetry::{Input, Symmetry};
-use crate::chains::roles::{Roles, Subject};
-use crate::chains::{Chain, graph6};
+use crate::chains::chain::{Joint, carried, ordered};
+use crate::chains::classics::MadeAs;
+use crate::chains::layout_symmetry::{NoGripper, working_swap};
+use crate::chains::motion::{Swap, symmetric_ways};
+use crate::chains::roles::Subject;
+use crate::chains::sharing::Menu;
+use crate::chains::structure::PairStructure;
+use crate::chains::symmetric_census::symmetric_grippers;
+use crate::chains::visit::visit_pair_chains;
+use crate::chains::{Input, PairKind, Symmetry, graph6};
 use crate::synthesis::place::Place;
 use crate::synthesis::task;
 use crate::synthesis::task::Task;
+use crate::synthesis::threefold::Sides;
+use itertools::Itertools;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::sync::{Mutex, PoisonError};
 
-/// How a structure is to be laid out.
+/// A gripper without places.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Structure {
+    /// Chain and roles, in canonical numbering.
+    pub structure: PairStructure,
+    /// How it is laid out.
+    pub form: Form,
+    /// What of it stands three times, where it has three jaws and is made of one with two.
+    pub sides: Option<Sides>,
+}
+
+/// How a structure is laid out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Form {
-    /// How its driver moves.
-    pub input: Input,
-    /// How it lies on itself.
+    /// Mirror image, half turn or generic.
     pub symmetry: Symmetry,
-    /// Whether each jaw stands on a parallelogram with the frame or a sliding driver, so that it does not turn.
+    /// Whether it is one of hinges alone, driven from the frame by a hinge or by a slide along the x axis, and goes by the name of its graph.
+    pub hinges: bool,
+    /// Whether the symmetry carries the input joint elsewhere, so that it drives one side alone.
+    pub one_sided: bool,
+    /// Whether each jaw stands on a parallelogram with the frame or a driver that slides in it, so that it does not turn.
     pub parallel: bool,
+    /// Whether slots between links that keep their attitude against each other have flat faces: slides, redundant in the plane already.
+    pub flat: bool,
+    /// Whether a pinion is a screw with a right and a left thread, and its racks are nuts.
+    pub threaded: bool,
+    /// Hinges that are on one pin with their mirror images, by the places of the first of both among the joints, as bits.
+    pub one_pin: u32,
 }
 
 impl Form {
-    /// Every form that there is, in order.
-    pub fn all() -> impl Iterator<Item = Form> {
-        let inputs = Input::ALL.into_iter().map(|(i, _)| i);
-        inputs
-            .flat_map(|input| Symmetry::ALL.map(move |(symmetry, _)| (input, symmetry)))
-            .flat_map(|(input, symmetry)| {
-                [false, true].map(|parallel| Form {
-                    input,
-                    symmetry,
-                    parallel,
-                })
-            })
-            .filter(|f| f.symmetry.suits(f.input))
+    /// A symmetry, driven on both sides, without parallelograms.
+    #[must_use]
+    pub fn of(symmetry: Symmetry) -> Form {
+        Form {
+            symmetry,
+            hinges: false,
+            one_sided: false,
+            parallel: false,
+            flat: false,
+            threaded: false,
+            one_pin: 0,
+        }
     }
 
-    /// Whether a gripper of so many jaws can have it: three stand on no parallelograms.
+    /// Every form of structures of hinges alone with how they are driven, in order.
+    pub fn of_hinges() -> impl Iterator<Item = (Input, Form)> {
+        let inputs = Input::ALL.into_iter().map(|(input, _)| input);
+        let symmetries = Symmetry::ALL.map(|(symmetry, _)| symmetry);
+        let all = inputs.cartesian_product(symmetries);
+        let all = all.filter(|(input, symmetry)| symmetry.suits(*input));
+        let all = all.cartesian_product([false, true]);
+        all.map(|((input, symmetry), parallel)| {
+            let form = Form {
+                parallel,
+                hinges: true,
+                ..Form::of(symmetry)
+            };
+            (input, form)
+        })
+    }
+
+    /// Whether a gripper of so many jaws is laid out so in a plane. Three jaws stand on no parallelograms: that takes many links.
     #[must_use]
     pub fn suits(self, jaws: usize) -> bool {
-        suits(self.symmetry, self.parallel, jaws)
+        self.symmetry.jaws().is_none_or(|n| n == jaws) && (jaws == 2 || !self.parallel)
     }
 
-    /// The form in words: "slide mirror parallel".
+    /// Whether a joint, the first of two, is on one pin with its image.
     #[must_use]
-    pub fn name(self) -> String {
+    pub(super) fn is_on_one_pin(self, joint: usize) -> bool {
+        self.one_pin
+            .checked_shr(joint as u32)
+            .is_some_and(|rest| rest & 1 == 1)
+    }
+
+    /// All of it in words, the symmetry first.
+    pub(super) fn name(self, symmetry: &str) -> String {
         let parallel = if self.parallel { " parallel" } else { "" };
-        format!("{} {}{parallel}", self.input.name(), self.symmetry.name())
+        let flat = if self.flat { " flat" } else { "" };
+        let threaded = if self.threaded { " threaded" } else { "" };
+        format!("{symmetry}{parallel}{flat}{threaded}")
     }
 }
 
-/// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
-pub(super) fn short_id(links: usize, name: &str) -> String {
-    let mut id = format!("{links}-");
-    for byte in &Sha256::digest(name)[..6] {
-        // Writing to a string does not fail.
-        let _ = write!(id, "{byte:02x}");
+/// How a symmetric structure may lie on itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lay {
+    /// Where the symmetry carries each link.
+    pub swap: Vec<usize>,
+    /// A bit for each slide and slot that is its own mirror image, as [`crate::chains::motion::SymmetricWay`] has them.
+    pub bits: u32,
+}
+
+impl Lay {
+    /// Whether a joint may be on one pin with its image: a hinge of a link that the symmetry keeps with one that it does not.
+    #[must_use]
+    pub(super) fn may_share(&self, joint: &Joint) -> bool {
+        let kept = joint.links.map(|l| self.swap[l] == l);
+        joint.pair == PairKind::Hinge && kept[0] != kept[1]
     }
-    id
-}
-
-/// Whether grippers of so many jaws are laid out so in a plane, on parallelograms or not. Three jaws stand on none: that takes many
-/// links.
-#[must_use]
-pub(crate) fn suits(symmetry: Symmetry, parallel: bool, jaws: usize) -> bool {
-    symmetry.jaws().is_none_or(|n| n == jaws) && (jaws == 2 || !parallel)
-}
-
-/// A gripper without places.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Structure {
-    /// Its chain, in canonical numbering.
-    pub chain: Chain,
-    /// What the links do, by their canonical numbers.
-    pub roles: Roles,
-    /// How it is laid out.
-    pub form: Form,
 }
 
 impl Structure {
-    /// The name that says all of it: "E`ow 0-3 1,4 slide mirror" is the chain, frame and driver, jaws, and the form.
+    /// A structure without what stands three times.
+    #[must_use]
+    pub fn new(structure: PairStructure, form: Form) -> Structure {
+        Structure {
+            structure,
+            form,
+            sides: None,
+        }
+    }
+
+    /// The name that says all of it; of hinges alone "E`ow 0-3 1,4 slide mirror" is the graph, frame and driver, jaws, and the form.
     #[must_use]
     pub fn name(&self) -> String {
-        let r = &self.roles;
-        let jaws: Vec<String> = r.jaws.iter().map(ToString::to_string).collect();
-        format!(
-            "{} {}-{} {} {}",
-            graph6::write(&self.chain),
-            r.frame,
-            r.driver,
-            jaws.join(","),
-            self.form.name()
-        )
+        let form = self.form.name(&self.symmetry_name());
+        if self.form.hinges {
+            let PairStructure { chain, roles } = &self.structure;
+            let [frame, driver] = roles.drive();
+            let (jaws, input) = (roles.jaws.iter().join(","), self.input().name());
+            return format!(
+                "{} {frame}-{driver} {jaws} {input} {form}",
+                graph6::write(chain)
+            );
+        }
+        let pins = self.on_one_pin();
+        let pins = pins.map(|j| format!(" pin{}-{}", j.links[0], j.links[1]));
+        format!("{} {form}{}", self.structure.name(), pins.format(""))
+    }
+
+    /// The symmetry in a word: "mirror", "mirror-but-input".
+    #[must_use]
+    pub(crate) fn symmetry_name(&self) -> String {
+        let but = if self.form.one_sided {
+            "-but-input"
+        } else {
+            ""
+        };
+        match self.sides {
+            Some(_) => Symmetry::Threefold.name().to_owned(),
+            None => format!("{}{but}", self.form.symmetry.name()),
+        }
+    }
+
+    /// The hinges that are on one pin with their images, of both the first.
+    fn on_one_pin(&self) -> impl Iterator<Item = Joint> {
+        let joints = self.structure.chain.joints_made().into_iter();
+        let shared = joints.enumerate();
+        let shared = shared.filter(|(i, _)| self.form.is_on_one_pin(*i));
+        shared.map(|(_, joint)| joint)
+    }
+
+    /// What it is beside its structure.
+    #[must_use]
+    pub fn made_as(&self) -> MadeAs {
+        let roles = &self.structure.roles;
+        let at_frame = |j: Joint| j.is_at(roles.frame) && roles.jaws.iter().any(|&a| j.is_at(a));
+        MadeAs {
+            flat: self.form.flat,
+            threaded: self.form.threaded,
+            jaws_on_one_pin: self.on_one_pin().any(at_frame),
+        }
+    }
+
+    /// This, and the same with hinges on one pin with their mirror images, in every way in which no link has two such pins.
+    ///
+    /// # Complexity
+    /// As [`Structure::lays`].
+    pub(crate) fn with_one_pins(self) -> impl Iterator<Item = Structure> {
+        let joints = self.structure.chain.joints_made();
+        let mirror = self.form.symmetry == Symmetry::Mirror;
+        let lay = mirror.then(|| self.lays().into_iter().next()).flatten();
+        let first = |(i, joint): (usize, &Joint)| {
+            let lay = lay.as_ref()?;
+            let image = carried(joint.links, &lay.swap);
+            let later = joints[i..].iter().any(|j| j.links == image);
+            (later && lay.may_share(joint)).then_some(i)
+        };
+        let shared: Vec<usize> = joints.iter().enumerate().filter_map(first).collect();
+        let ways = shared.into_iter().powerset().filter(move |ways| {
+            let lay = lay.as_ref();
+            let moved = ways.iter().flat_map(|&i| joints[i].links);
+            moved
+                .filter(|&l| lay.is_some_and(|lay| lay.swap[l] != l))
+                .all_unique()
+        });
+        ways.map(move |ways| Structure {
+            form: Form {
+                one_pin: ways.iter().fold(0, |bits, i| bits | 1 << i),
+                ..self.form
+            },
+            ..self.clone()
+        })
     }
 
     /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
     #[must_use]
     pub fn id(&self) -> String {
-        short_id(self.chain.links(), &self.name())
+        let mut id = format!("{}-", self.links());
+        for byte in &Sha256::digest(self.name())[..6] {
+            // Writing to a string does not fail.
+            let _ = write!(id, "{byte:02x}");
+        }
+        id
+    }
+
+    /// Where the tips of the jaws are drawn for a task, in millimetres.
+    #[must_use]
+    pub fn tips(&self, task: &Task) -> Vec<Place> {
+        task::draw_tips(self.structure.roles.jaws.len(), self.form.symmetry, task)
+    }
+
+    /// How it is driven.
+    #[must_use]
+    pub fn input(&self) -> Input {
+        if self.structure.slides() {
+            Input::Slide
+        } else {
+            Input::Turn
+        }
+    }
+
+    /// The ways it may lie on itself in which it moves as a gripper.
+    ///
+    /// # Complexity
+    /// An elimination for each way of each automorphism.
+    #[must_use]
+    pub fn lays(&self) -> Vec<Lay> {
+        let (chain, roles) = (&self.structure.chain, &self.structure.roles);
+        if self.form.symmetry == Symmetry::Generic {
+            let identity = (0..chain.links()).collect();
+            return self.moving_lays([identity]).collect();
+        }
+        // Those that carry three jaws to each other are made of two of them.
+        let &[a, b] = &roles.jaws[..] else {
+            return Vec::new();
+        };
+        let involutions = chain.automorphisms().into_iter().filter(|s| {
+            let back = (0..s.len()).all(|l| s[s[l]] == l);
+            let keeps = carried(roles.input, s) == roles.input;
+            back && keeps != self.form.one_sided && s[roles.frame] == roles.frame && s[a] == b
+        });
+        if self.form.threaded {
+            // A screw turns as its mirror image does, so that nuts of a right and a left thread are each other's image.
+            let lay = |swap| Lay { swap, bits: 0 };
+            return involutions.map(lay).collect();
+        }
+        self.moving_lays(involutions).collect()
+    }
+
+    fn moving_lays(
+        &self,
+        swaps: impl IntoIterator<Item = Vec<usize>>,
+    ) -> impl Iterator<Item = Lay> {
+        let (chain, roles) = (&self.structure.chain, &self.structure.roles);
+        let of = move |swap: Vec<usize>| {
+            let symmetry = Swap {
+                links: &swap,
+                image: self.form.symmetry,
+            };
+            let ways = symmetric_ways(chain, symmetry, roles.frame).into_iter();
+            let moving = ways.filter(|w| roles.moves_in(&w.motion));
+            let lay = moving.map(|w| Lay {
+                swap: swap.clone(),
+                bits: w.bits,
+            });
+            lay.collect_vec()
+        };
+        swaps.into_iter().flat_map(of)
+    }
+
+    /// The first way in which one of hinges alone lies on itself and moves as a gripper.
+    ///
+    /// # Errors
+    /// Why there is none.
+    ///
+    /// # Complexity
+    /// A canonical numbering, and an elimination for each automorphism.
+    pub fn hinged_lay(&self) -> Result<Lay, NoGripper> {
+        let roles = &self.structure.roles;
+        let hinges = self
+            .structure
+            .chain
+            .clone()
+            .with(roles.input, PairKind::Hinge);
+        let (chain, mut automorphisms) = hinges.canonical();
+        if chain != hinges {
+            automorphisms = hinges.automorphisms();
+        }
+        let subject = Subject::new(&hinges, &automorphisms);
+        let swap = working_swap(&subject, roles, self.form.symmetry, self.input())?;
+        Ok(Lay { swap, bits: 0 })
+    }
+
+    /// The joints of a parallelogram for each jaw, or `None` where one has none: of two rods those at the base, then those at the
+    /// jaw in the same order.
+    #[must_use]
+    pub fn rings(&self) -> Option<Vec<[[usize; 2]; 4]>> {
+        let (chain, roles) = (&self.structure.chain, &self.structure.roles);
+        let [base, driver] = self.structure.roles.drive();
+        let sliding = (base == roles.frame && self.structure.slides()).then_some(driver);
+        let hinged = |u: usize, v: usize| chain.between(u, v) == Some(PairKind::Hinge);
+        let ring = |jaw: usize| {
+            let bases = std::iter::once(roles.frame).chain(sliding);
+            bases.filter(|b| *b != jaw).find_map(|base| {
+                let rod =
+                    |l: &usize| hinged(*l, jaw) && hinged(*l, base) && !roles.jaws.contains(l);
+                let (p, q) = (0..chain.links()).filter(rod).tuples().next()?;
+                Some([[p, base], [q, base], [p, jaw], [q, jaw]].map(ordered))
+            })
+        };
+        roles.jaws.iter().map(|&jaw| ring(jaw)).collect()
     }
 }
 
-/// The essential grippers of so many jaws of a chain that a form can be asked of: for a symmetric one those whose graph is
-/// symmetric, for a parallel one those whose jaws stand on rings of four links with the frame or a sliding driver.
+/// The symmetric structures of so many links that have such pairs.
+///
+/// # Complexity
+/// As [`symmetric_grippers`].
+#[must_use]
+pub fn symmetric_structures(links: usize, menu: Menu<'_>) -> Vec<Structure> {
+    let all = symmetric_grippers(links, menu).into_iter();
+    let symmetry = |half_turn| match half_turn {
+        true => Symmetry::HalfTurn,
+        false => Symmetry::Mirror,
+    };
+    all.map(|g| Structure::new(g.structure, Form::of(symmetry(g.kind.half_turn))))
+        .collect()
+}
+
+/// Every essential structure of so many links and jaws that has such pairs, laid out without a symmetry.
+///
+/// # Complexity
+/// As [`visit_pair_chains`], and a canonical numbering for each.
+#[must_use]
+pub fn generic_structures(links: usize, jaws: usize, menu: Menu<'_>) -> Vec<Structure> {
+    let all = Mutex::new(BTreeSet::new());
+    visit_pair_chains(links, menu, &|subject| {
+        let drives = subject.drives().into_iter();
+        let roles = drives.flat_map(|(frame, input)| subject.grippers(frame, &input, jaws));
+        let essential = roles.filter(|r| subject.is_essential(r));
+        let keys = essential.map(|roles| {
+            let chain = subject.chain.clone();
+            PairStructure { chain, roles }.key()
+        });
+        // Numbered before others have to wait.
+        let keys: Vec<_> = keys.collect();
+        all.lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .extend(keys);
+    });
+    let all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let structure = |key| Structure::new(PairStructure::of_key(&key), Form::of(Symmetry::Generic));
+    all.into_iter().map(structure).collect()
+}
+
+/// The essential grippers of hinges alone of so many jaws of a chain that a form can be asked of: for a symmetric one those whose
+/// graph is symmetric, for a parallel one those whose jaws stand on rings of four links with the frame or a sliding driver.
 ///
 /// # Complexity
 /// A step for each choice of roles and each form.
 #[must_use]
-pub fn structures(subject: &Subject<'_>, jaws: usize, forms: &[Form]) -> Vec<Structure> {
+pub fn hinged_structures(
+    subject: &Subject<'_>,
+    jaws: usize,
+    forms: &[(Input, Form)],
+) -> Vec<Structure> {
     let mut out = Vec::new();
-    let forms: Vec<Form> = forms.iter().copied().filter(|f| f.suits(jaws)).collect();
-    let generic = forms.iter().any(|f| f.symmetry == Symmetry::Generic);
+    let forms = forms
+        .iter()
+        .filter(|(_, form)| form.suits(jaws))
+        .collect_vec();
+    let is_generic = |form: &Form| form.symmetry == Symmetry::Generic;
+    let generic = forms.iter().any(|(_, form)| is_generic(form));
     // Nothing carries the jaws of a chain without symmetries to each other.
     if !generic && subject.automorphisms.len() == 1 {
         return out;
     }
-    for roles in subject.grippers(jaws) {
-        let symmetric = subject.swaps(&roles).next().is_some();
+    for roles in subject.grippers_apart(jaws) {
+        let symmetric = subject.is_graph_symmetric(&roles);
         if !(generic || symmetric) || !subject.is_essential(&roles) {
             continue;
         }
-        let asked = |f: &&Form| symmetric || f.symmetry == Symmetry::Generic;
-        for &form in forms.iter().filter(asked) {
-            let structure = Structure {
-                chain: subject.chain.clone(),
-                roles: roles.clone(),
-                form,
+        for &&(input, form) in forms.iter().filter(|(_, f)| symmetric || is_generic(f)) {
+            let chain = match input {
+                Input::Slide => subject.chain.clone().with(roles.input, PairKind::Slide),
+                Input::Turn => subject.chain.clone(),
             };
+            let roles = roles.clone();
+            let structure = Structure::new(PairStructure { chain, roles }, form);
             if !form.parallel || structure.rings().is_some() {
                 out.push(structure);
             }
@@ -135,43 +420,83 @@ pub fn structures(subject: &Subject<'_>, jaws: usize, forms: &[Form]) -> Vec<Str
     out
 }
 
-/// A ring of four links on which a jaw stands: two rods, both joined to the base and to the jaw.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Ring {
-    /// The frame, or a driver that slides.
-    pub base: usize,
-    /// The rods.
-    pub rods: [usize; 2],
-    /// The jaw.
-    pub jaw: usize,
+impl Structure {
+    /// Whether an automorphism keeps frame and input joint and carries each jaw to the next, back after as many times as there are
+    /// jaws: it swaps two.
+    #[must_use]
+    pub fn is_graph_symmetric(&self) -> bool {
+        let chain = &self.structure.chain;
+        let automorphisms = chain.automorphisms();
+        let subject = Subject::new(chain, &automorphisms);
+        self.sides.is_some() || subject.is_graph_symmetric(&self.structure.roles)
+    }
+
+    pub(super) fn on_parallelograms_if_any(self) -> Structure {
+        let parallel = self.rings().is_some();
+        Structure {
+            form: Form {
+                parallel,
+                ..self.form
+            },
+            ..self
+        }
+    }
+
+    /// The slots that have flat faces.
+    #[must_use]
+    pub fn flat_slots(&self) -> Vec<Joint> {
+        if self.form.flat {
+            self.structure.chain.flat_slots()
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// The same with flat faces, where it has slots that may have them.
+    #[must_use]
+    pub(crate) fn with_flat_faces(&self) -> Option<Structure> {
+        let flat = !self.structure.chain.flat_slots().is_empty();
+        flat.then(|| Structure {
+            form: Form { flat, ..self.form },
+            ..self.clone()
+        })
+    }
+
+    /// The same with a screw for a pinion whose racks are the jaws, guided in the frame as it is; `None` where that is not all.
+    #[must_use]
+    pub(crate) fn with_threads(&self) -> Option<Structure> {
+        let (chain, roles) = (&self.structure.chain, &self.structure.roles);
+        let [base, screw] = self.structure.roles.drive();
+        let is_nut = |&jaw: &usize| {
+            chain.between(jaw, screw) == Some(PairKind::Gear)
+                && chain.between(jaw, base) == Some(PairKind::Slide)
+        };
+        let all = chain.links() == 4 && base == roles.frame && roles.jaws.iter().all(is_nut);
+        all.then(|| Structure {
+            form: Form {
+                threaded: true,
+                ..Form::of(Symmetry::Mirror)
+            },
+            ..self.clone()
+        })
+    }
+
+    /// This, and the same with each jaw on a parallelogram, where it has one.
+    pub(crate) fn with_parallelograms(self) -> impl Iterator<Item = Structure> {
+        let found = self.clone().on_parallelograms_if_any();
+        let found = found.form.parallel.then_some(found);
+        std::iter::once(self).chain(found)
+    }
 }
 
 impl Structure {
-    /// Where the tips of the jaws are drawn for a task, in millimetres.
+    /// Whether all joints are hinges but for a driver that slides in the frame, and no jaw is driven: laid out as a hinged structure.
     #[must_use]
-    pub fn tips(&self, task: &Task) -> Vec<Place> {
-        task::draw_tips(self.roles.jaws.len(), self.form.symmetry, task)
-    }
-
-    /// A ring for each jaw, or `None` where one has none. The first by numbers, base before rods.
-    #[must_use]
-    pub fn rings(&self) -> Option<Vec<Ring>> {
-        let (c, r) = (&self.chain, &self.roles);
-        let ring = |jaw: usize| {
-            let sliding = (self.form.input == Input::Slide).then_some(r.driver);
-            std::iter::once(r.frame).chain(sliding).find_map(|base| {
-                // The joint of frame and driver is no pin where the driver slides.
-                let rod = |l: &usize| {
-                    let input =
-                        [base, *l] == [r.frame, r.driver] || [*l, base] == [r.frame, r.driver];
-                    let slides = input && self.form.input == Input::Slide;
-                    c.joined(*l, jaw) && c.joined(*l, base) && !slides && !r.jaws.contains(l)
-                };
-                let mut rods = (0..c.links()).filter(rod);
-                let rods = [rods.next()?, rods.next()?];
-                Some(Ring { base, rods, jaw })
-            })
-        };
-        r.jaws.iter().map(|&jaw| ring(jaw)).collect()
+    pub fn is_hinged(&self) -> bool {
+        let roles = &self.structure.roles;
+        let others = self.structure.chain.joints().into_iter();
+        let mut others = others.filter(|j| j.pair != PairKind::Hinge);
+        let apart = roles.is_driven_from_frame() && !roles.has_driven_jaw();
+        apart && others.all(|j| j.links == roles.input)
     }
 }

@@ -1,7 +1,7 @@
 //! What a gripper is to do: which parts it takes and how, how its jaws may move, and the room there is; what a layout must be like to be
 //! taken; and where the tips of two or three jaws are drawn, whatever joins the links behind them.
 
-use crate::chains::layout_symmetry::Symmetry;
+use crate::chains::Symmetry;
 use crate::synthesis::place::Place;
 use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};

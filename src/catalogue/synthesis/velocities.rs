@@ -3,7 +3,7 @@
 //! Only how fast each link turns is unknown: that the contours stay closed is two equations each, as many as there are links
 //! besides frame and driver. Where the links go follows from how they turn, from pin to pin.
 
-use crate::chains::layout_symmetry::Input;
+use crate::chains::Input;
 use crate::closure::tree::{TreeStep, forest};
 use crate::geom::vector::{add_scaled, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
@@ -66,11 +66,12 @@ impl Contours {
     /// Of a structure.
     #[must_use]
     pub fn new(structure: &Structure) -> Contours {
-        let (n, r) = (structure.chain.links(), &structure.roles);
-        let pins = structure.chain.joints();
-        let ends = pins.iter().map(|&(u, v)| [u, v]);
+        let roles = &structure.structure.roles;
+        let (n, [frame, driver]) = (structure.structure.chain.links(), roles.drive());
+        let pins = structure.structure.chain.joints();
+        let ends = pins.iter().map(|j| j.links);
         // The driver is next to the frame, so that its joint is in the tree.
-        let (_, tree) = forest(n, ends, |_| false, [r.frame]);
+        let (_, tree) = forest(n, ends, |_| false, [frame]);
         let mut ways: Vec<Vec<(usize, usize)>> = vec![Vec::new(); n];
         for s in &tree {
             ways[s.link] = ways[s.from].clone();
@@ -79,25 +80,25 @@ impl Contours {
         let between = (0..pins.len()).filter(|&p| tree.iter().all(|s| s.joint != p));
         let cuts: Vec<usize> = between.collect();
         let contours = cuts.iter().map(|&pin| {
-            let (u, v) = pins[pin];
+            let [u, v] = pins[pin].links;
             let both = ways[u].iter().zip(&ways[v]);
             // The last link that both pass through is left by different pins, and is a side of either.
             let shared = both.take_while(|(a, b)| a == b).count().saturating_sub(1);
             [u, v].map(|end| sides(&ways[end], pin).split_off(shared))
         });
-        let jaws = r.jaws.iter().enumerate();
+        let jaws = roles.jaws.iter().enumerate();
         let tips = jaws.map(|(n, &jaw)| sides(&ways[jaw], pins.len() + n));
         let mut count = 0;
         let unknown = (0..n).map(|l| {
-            (l != r.frame && l != r.driver).then(|| {
+            (l != frame && l != driver).then(|| {
                 count += 1;
                 count - 1
             })
         });
         Contours {
             links: n,
-            driver: r.driver,
-            input: structure.form.input,
+            driver,
+            input: structure.input(),
             unknown: unknown.collect(),
             contours: contours.collect(),
             tips: tips.collect(),

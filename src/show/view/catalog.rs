@@ -1,10 +1,9 @@
 //! Catalogues and chains for people, and as data.
 
-pub mod chains;
+pub mod counts;
 #[cfg(feature = "store")]
 pub mod find;
 #[cfg(feature = "store")]
 mod neighbours;
-pub mod pairs;
 #[cfg(feature = "store")]
 pub mod structures;

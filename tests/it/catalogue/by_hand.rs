@@ -1,15 +1,16 @@
 //! Figures of strokes and places that are put down by hand, and what follows from them.
 
-use super::{each, form};
+use super::{Drawn, each, form, layout};
 use ozols::catalog::spec::Spec;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::chains::chain::Joint;
+use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::figures::figures;
-use ozols::synthesis::layout::{Layout, NoLayout, layout};
+use ozols::synthesis::layout::NoLayout;
 use ozols::synthesis::layout_quality::Looks;
 use ozols::synthesis::mechanism::mechanism_file;
+use ozols::synthesis::places;
 use ozols::synthesis::rules::Rules;
-use ozols::synthesis::skeleton::Skeleton;
-use ozols::synthesis::sketch::LayoutSketch;
+use ozols::synthesis::sketch::Sketch;
 use ozols::synthesis::stroke::forces::ForceFigures;
 use ozols::synthesis::stroke::judge::StrokeFigures;
 use ozols::synthesis::stroke::shortfall::Shortfall;
@@ -56,11 +57,15 @@ fn good() -> StrokeFigures {
     }
 }
 
+fn rules(s: &Structure) -> Rules {
+    Rules::new(s, &s.hinged_lay().unwrap()).unwrap()
+}
+
 /// What a stroke lacks of a task.
 fn lacks(task: Task, stroke: &StrokeFigures) -> Option<Shortfall> {
     let s = slider_crank();
-    let skeleton = Skeleton::new(&s, Rules::free(&s).unwrap(), for_task(task));
-    skeleton.limits.shortfall(stroke, skeleton.bones.swings())
+    let sketch = Sketch::new(&s, rules(&s), for_task(task));
+    sketch.limits.shortfall(stroke, sketch.bones.swings())
 }
 
 #[test]
@@ -170,28 +175,29 @@ const CLEAR: Places = [
 
 fn looks(places: Places) -> Looks {
     let s = slider_crank();
-    let skeleton = Skeleton::new(&s, Rules::free(&s).unwrap(), Limits::default());
-    let r = &s.roles;
-    let next = |&jaw: &&usize| s.chain.joined(r.driver, *jaw);
+    let sketch = Sketch::new(&s, rules(&s), Limits::default());
+    let r = &s.structure.roles;
+    let next = |&jaw: &&usize| s.structure.chain.joined(r.drive()[1], *jaw);
     let near = *r.jaws.iter().find(next).unwrap();
     let far = *r.jaws.iter().find(|&&jaw| jaw != near).unwrap();
     let round = [
-        (r.frame, r.driver),
-        (r.driver, near),
+        (r.frame, r.drive()[1]),
+        (r.drive()[1], near),
         (near, far),
         (far, r.frame),
     ];
-    let of_pin = |&(u, v): &(usize, usize)| {
+    let of_pin = |j: &Joint| {
+        let [u, v] = j.links;
         let here = |&(a, b): &(usize, usize)| (u, v) == (a, b) || (v, u) == (a, b);
         places[round.iter().position(here).unwrap()]
     };
-    let pins = skeleton.rules.pins.iter().map(of_pin);
+    let pins = sketch.rules.joints.iter().map(of_pin);
     let tips = r
         .jaws
         .iter()
         .map(|&jaw| places[if jaw == near { 4 } else { 5 }]);
     let at: Vec<[f64; 2]> = pins.chain(tips).collect();
-    skeleton.looks(&at).unwrap()
+    sketch.looks(&places::Places::of_hinges(at)).unwrap()
 }
 
 fn with(changes: &[(usize, [f64; 2])]) -> Places {
@@ -230,26 +236,22 @@ fn jaws_that_swing_have_a_hinge_in_the_frame() {
     let mut told = [0; 2];
     let floating = |name: &str| usize::from(name == "floating");
     let mut n = 0;
-    each(
-        6,
-        &[form(Input::Turn, Symmetry::Generic, false)],
-        |subject, s| {
-            n += 1;
-            if n % 6 != 0 {
-                return;
+    each(6, &[form(Input::Turn, Symmetry::Generic, false)], |_, s| {
+        n += 1;
+        if n % 6 != 0 {
+            return;
+        }
+        let l = layout(&s, &Limits::default(), 1).unwrap();
+        let f = figures(&s, &l).unwrap();
+        for ((jaw, motion), turn) in s.structure.roles.jaws.iter().zip(&f.jaws).zip(&f.turns) {
+            let hinged = s.structure.chain.joined(s.structure.roles.frame, *jaw);
+            let name = motion.name();
+            if *turn > 0.02 {
+                assert_eq!(name, if hinged { "swinging" } else { "floating" });
+                told[floating(name)] += 1;
             }
-            let l = layout(subject, &s, &Limits::default(), 1).unwrap();
-            let f = figures(&s, &l).unwrap();
-            for ((jaw, motion), turn) in s.roles.jaws.iter().zip(&f.jaws).zip(&f.turns) {
-                let hinged = s.chain.joined(s.roles.frame, *jaw);
-                let name = motion.name();
-                if *turn > 0.02 {
-                    assert_eq!(name, if hinged { "swinging" } else { "floating" });
-                    told[floating(name)] += 1;
-                }
-            }
-        },
-    );
+        }
+    });
     assert!(told[0] > 0 && told[1] > 0, "{told:?}");
 }
 
@@ -258,8 +260,8 @@ fn jaws_that_swing_have_a_hinge_in_the_frame() {
 fn what_is_not_asked_is_margin() {
     let s = slider_crank();
     let mut laid = None;
-    each(4, &[s.form], |subject, s| {
-        laid = Some(layout(subject, &s, &Limits::default(), 1).unwrap());
+    each(4, &[(s.input(), s.form)], |_, s| {
+        laid = Some(layout(&s, &Limits::default(), 1).unwrap());
     });
     let mut laid = laid.unwrap();
     let whole = figures(&s, &laid).unwrap();
@@ -276,19 +278,15 @@ fn what_is_not_asked_is_margin() {
 }
 
 /// Layouts of some structures of six links with a driver that turns.
-fn laid(limits: &Limits, every: usize) -> Vec<Result<(Structure, Layout), NoLayout>> {
+fn laid(limits: &Limits, every: usize) -> Vec<Result<(Structure, Drawn), NoLayout>> {
     let (mut n, mut out) = (0, Vec::new());
-    each(
-        6,
-        &[form(Input::Turn, Symmetry::Generic, false)],
-        |subject, s| {
-            n += 1;
-            if n % every == 0 {
-                let laid = layout(subject, &s, limits, 1);
-                out.push(laid.map(|l| (s, l)));
-            }
-        },
-    );
+    each(6, &[form(Input::Turn, Symmetry::Generic, false)], |_, s| {
+        n += 1;
+        if n % every == 0 {
+            let laid = layout(&s, limits, 1);
+            out.push(laid.map(|l| (s, l)));
+        }
+    });
     out
 }
 
@@ -357,17 +355,17 @@ fn shares_are_told_by_the_hundred() {
 /// Parallelograms for three jaws need more links than there are.
 #[test]
 fn three_jaws_have_no_parallel_form() {
-    let suit = |jaws| Form::all().filter(move |f| f.suits(jaws));
-    assert!(suit(2).any(|f| f.parallel));
-    assert!(suit(3).count() > 0 && suit(3).all(|f| !f.parallel));
+    let suit = |jaws| Form::of_hinges().filter(move |(_, f)| f.suits(jaws));
+    assert!(suit(2).any(|(_, f)| f.parallel));
+    assert!(suit(3).count() > 0 && suit(3).all(|(_, f)| !f.parallel));
 }
 
 /// Where nothing pulls, masses are nothing that a file is told of.
 #[test]
 fn links_weigh_where_there_is_gravity() {
     let s = slider_crank();
-    each(4, &[s.form], |subject, s| {
-        let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+    each(4, &[(s.input(), s.form)], |_, s| {
+        let l = layout(&s, &Limits::default(), 1).unwrap();
         for (gravity, weighs) in [([0.0; 3], false), ([0.0, -9.81, 0.0], true)] {
             let workload = Workload {
                 link_mass: 2.0,

@@ -1,9 +1,8 @@
 //! Strokes the slow way: all links of a layout solved afresh for each place of the drive, by Newton's method with difference
 //! quotients on a turn and a shift of every link; joint forces by opening a joint a little and looking what the jaws do.
 
-use super::gauss;
-use ozols::chains::layout_symmetry::Input;
-use ozols::synthesis::layout::Layout;
+use super::{Drawn, gauss};
+use ozols::chains::Input;
 use ozols::synthesis::structure::Structure;
 
 /// A joint that is opened: by so much in the plane, or for the slide across and turned.
@@ -15,7 +14,7 @@ pub(super) struct Opened {
 
 pub(super) struct Twin<'a> {
     pub(super) s: &'a Structure,
-    pub(super) l: &'a Layout,
+    pub(super) l: &'a Drawn,
 }
 
 /// A turn and a shift of each link.
@@ -23,9 +22,9 @@ pub(super) type Pose = Vec<f64>;
 
 /// The link that a joint's place goes with: the block of a drive that slides goes with the driver, and a pin with either link.
 pub(super) fn carrier(s: &Structure, (u, v): (usize, usize)) -> usize {
-    let r = &s.roles;
-    let drive = [(u, v), (v, u)].contains(&(r.frame, r.driver));
-    if drive { r.driver } else { u }
+    let r = &s.structure.roles;
+    let drive = [(u, v), (v, u)].contains(&(r.frame, r.drive()[1]));
+    if drive { r.drive()[1] } else { u }
 }
 
 pub(super) fn place(x: &[f64], link: usize, p: [f64; 2]) -> [f64; 2] {
@@ -38,27 +37,29 @@ pub(super) fn place(x: &[f64], link: usize, p: [f64; 2]) -> [f64; 2] {
 
 impl Twin<'_> {
     pub(super) fn slides(&self) -> bool {
-        self.s.form.input == Input::Slide
+        self.s.input() == Input::Slide
     }
 
     /// Whether a pin is the input joint.
     pub(super) fn is_input(&self, pin: usize) -> bool {
         let (u, v) = self.l.pins[pin];
-        let r = &self.s.roles;
-        [(u, v), (v, u)].contains(&(r.frame, r.driver))
+        let r = &self.s.structure.roles;
+        [(u, v), (v, u)].contains(&(r.frame, r.drive()[1]))
     }
 
     pub(super) fn drawn(&self) -> Pose {
-        vec![0.0; 3 * self.s.chain.links()]
+        vec![0.0; 3 * self.s.structure.chain.links()]
     }
 
     fn misses(&self, x: &[f64], drive: f64, opened: Option<Opened>) -> Vec<f64> {
-        let mut out: Vec<f64> = (0..3).map(|k| x[3 * self.s.roles.frame + k]).collect();
+        let mut out: Vec<f64> = (0..3)
+            .map(|k| x[3 * self.s.structure.roles.frame + k])
+            .collect();
         for (i, (&(u, v), at)) in self.l.pins.iter().zip(&self.l.at).enumerate() {
             let by = opened.filter(|o| o.pin == i).map_or([0.0; 2], |o| o.by);
             let p = at.real();
             if self.slides() && self.is_input(i) {
-                let d = self.s.roles.driver;
+                let d = self.s.structure.roles.drive()[1];
                 let [a, b] = place(x, d, p);
                 out.extend([
                     50.0 * (x[3 * d] - by[1]),
@@ -71,7 +72,7 @@ impl Twin<'_> {
             out.extend([b[0] - a[0] - by[0], b[1] - a[1] - by[1]]);
         }
         if !self.slides() {
-            out.push(50.0 * (x[3 * self.s.roles.driver] - drive));
+            out.push(50.0 * (x[3 * self.s.structure.roles.drive()[1]] - drive));
         }
         out
     }
@@ -105,7 +106,7 @@ impl Twin<'_> {
     }
 
     pub(super) fn tips(&self, x: &[f64]) -> Vec<[f64; 2]> {
-        let tips = self.s.roles.jaws.iter().zip(&self.l.tips);
+        let tips = self.s.structure.roles.jaws.iter().zip(&self.l.tips);
         tips.map(|(&j, t)| place(x, j, t.real())).collect()
     }
 
@@ -133,7 +134,7 @@ impl Twin<'_> {
 
     /// How far apart the tips are: of three twice their mean distance from the middle.
     pub(super) fn width(&self, x: &[f64]) -> f64 {
-        let half = self.s.roles.jaws.len() as f64 / 2.0;
+        let half = self.s.structure.roles.jaws.len() as f64 / 2.0;
         let drawn = 2.0 * self.l.tips[0].real()[1];
         drawn + self.work(&self.drawn(), x) / half
     }

@@ -1,16 +1,15 @@
 //! Determinate variants of chains at generic places, as published, and by the twin that splits freedoms into trees.
 
-use super::{each, form, generic, out_of_plane};
+use super::{each, form, generic, layout, out_of_plane};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use ozols::Request;
+use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
-use ozols::chains::{Chain, graph6};
+use ozols::chains::{Input, Symmetry, graph6};
 use ozols::score::request::{Check, List};
-use ozols::synthesis::layout;
-use ozols::synthesis::structure::structures;
+use ozols::synthesis::structure::hinged_structures;
 use ozols::synthesis::task::Limits;
 
 /// Determinate variants of W = 1 with the input joint unchanged, of each chain and input joint of so many links. They do not
@@ -26,12 +25,14 @@ fn with_the_input_unchanged(links: usize) -> Vec<(Chain, (usize, usize), BigUint
     for chain in chains(links, 1).unwrap() {
         let (chain, automorphisms) = chain.canonical();
         let subject = Subject::new(&chain, &automorphisms);
-        let first = structures(&subject, 2, &turning).swap_remove(0);
-        let l = layout::layout(&subject, &first, &Limits::default(), 1).unwrap();
-        for (frame, driver) in subject.inputs() {
+        let first = hinged_structures(&subject, 2, &turning).swap_remove(0);
+        let l = layout(&first, &Limits::default(), 1).unwrap();
+        for input in subject.inputs() {
+            let [frame, driver] = input.links;
             let jaws = (0..links).filter(|l| ![frame, driver].contains(l)).take(2);
             let mut s = first.clone();
-            (s.roles.frame, s.roles.driver, s.roles.jaws) = (frame, driver, jaws.collect());
+            (s.structure.roles.frame, s.structure.roles.input) = (frame, input.links);
+            s.structure.roles.jaws = jaws.collect();
             let mut outcome = ozols::search(&generic(&s, &l, false), &request).unwrap();
             let count = outcome.determinate.by_mobility.remove(&1).unwrap();
             out.push((chain.clone(), (frame, driver), count));
@@ -82,8 +83,8 @@ fn determinate_variants_of_known_chains_are_as_published() {
     let mut found = Vec::new();
     for links in [6, 8] {
         let mut seen = Vec::new();
-        each(links, &turning, |subject, s| {
-            let code = graph6::write(&s.chain);
+        each(links, &turning, |_, s| {
+            let code = graph6::write(&s.structure.chain);
             let asked = |k: &(usize, Option<&str>, u64, u64)| {
                 k.0 == links
                     && k.1
@@ -93,7 +94,7 @@ fn determinate_variants_of_known_chains_are_as_published() {
                 return;
             }
             seen.push(code);
-            let l = layout::layout(subject, &s, &Limits::default(), 1).unwrap();
+            let l = layout(&s, &Limits::default(), 1).unwrap();
             let outcome = ozols::search(&generic(&s, &l, true), &Request::default()).unwrap();
             let one = outcome.determinate.by_mobility[&1].to_string();
             found.push((links, outcome.determinate.to_string(), one));

@@ -1,7 +1,7 @@
 //! `ozols catalog find`: the structure of a drawn mechanism, what it is known as, and where a catalogue has it.
 
 use crate::common::{built_in, json, ozols, text};
-use ozols::chains::pairs::classics::classics;
+use ozols::chains::classics::classics;
 use ozols::synthesis::recognize::{NoStructure, recognize};
 use serde_json::Value;
 use std::fs;

@@ -1,14 +1,13 @@
 //! Layouts that are called generic are in general position: none has fewer determinate variants than its chain and input have.
 
-use super::{each, form, out_of_plane, plain};
+use super::{Drawn, each, form, layout, out_of_plane, plain};
 use crate::common::fresh;
 use num_bigint::BigUint;
 use ozols::Request;
 use ozols::catalog::row::row;
 use ozols::catalog::spec::Spec;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::chains::{Input, Symmetry};
 use ozols::score::request::List;
-use ozols::synthesis::layout::layout;
 use std::collections::BTreeMap;
 
 /// Every so many generic structures of eight links, laid out from a seed: the row counts what the twin counts at places of its own, and
@@ -17,12 +16,12 @@ fn are_in_general_position(every: usize, seed: u64) -> usize {
     let forms = [Input::Slide, Input::Turn].map(|input| form(input, Symmetry::Generic, false));
     let spec = Spec { seed, ..plain(1) };
     let (mut n, mut seen, mut moved, mut twins) = (0, 0, 0, BTreeMap::new());
-    each(8, &forms, |subject, s| {
+    each(8, &forms, |_, s| {
         n += 1;
         if n % every != 0 {
             return;
         }
-        let Ok(laid) = row(subject, &s, &spec).unwrap().laid else {
+        let Ok(laid) = row(&s, &spec).unwrap().laid else {
             return;
         };
         seen += 1;
@@ -35,21 +34,20 @@ fn are_in_general_position(every: usize, seed: u64) -> usize {
         };
         let alone = ozols::search(&own, &request).unwrap();
         assert_eq!(alone.determinate.total, said.0, "{told}");
-        let input = (
-            s.roles.frame.min(s.roles.driver),
-            s.roles.frame.max(s.roles.driver),
-        );
+        let [u, v] = s.structure.roles.input;
+        let input = (u, v);
         let twin = twins
-            .entry((s.chain.clone(), input))
-            .or_insert_with(|| BigUint::from(out_of_plane::determinate(&s.chain, input)));
+            .entry((s.structure.chain.clone(), input))
+            .or_insert_with(|| BigUint::from(out_of_plane::determinate(&s.structure.chain, input)));
         assert_eq!(said.1, *twin, "{told}");
         // Where the search for places put them, but for less than half a millimetre.
-        let found = layout(subject, &s, &spec.limits(), seed).unwrap();
-        for (here, there) in laid.layout.at.iter().zip(&found.at) {
+        let found = layout(&s, &spec.limits(), seed).unwrap();
+        let own = Drawn::new(&s, laid.layout.clone());
+        for (here, there) in own.at.iter().zip(&found.at) {
             assert_eq!((here.whole, there.fine), (there.whole, [0; 2]), "{told}");
             assert!(here.fine.iter().all(|x| x.abs() < 500), "{told}");
         }
-        moved += usize::from(laid.layout.at != found.at);
+        moved += usize::from(own.at != found.at);
     });
     assert!(seen > 0);
     moved

@@ -1,11 +1,10 @@
 //! A stroke that is given up before it is gone to its end would have cost too much, and no other is given up.
 
-use super::{each, form};
-use ozols::chains::layout_symmetry::{Input, Symmetry};
-use ozols::synthesis::layout::layout;
+use super::{each, form, layout};
+use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::place::Point;
-use ozols::synthesis::rules::Rules;
-use ozols::synthesis::skeleton::Skeleton;
+use ozols::synthesis::places::Places;
+use ozols::synthesis::sketch::Sketch;
 use ozols::synthesis::stroke::judge::Judge;
 use ozols::synthesis::task::Limits;
 
@@ -13,15 +12,15 @@ use ozols::synthesis::task::Limits;
 fn a_stroke_is_given_up_only_where_it_costs_too_much() {
     let forms = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
     let (mut kept, mut given_up) = (0, 0);
-    each(6, &forms, |subject, structure| {
+    each(6, &forms, |_, structure| {
         let limits = Limits::default();
-        let Ok(layout) = layout(subject, &structure, &limits, 1) else {
+        let Ok(layout) = layout(&structure, &limits, 1) else {
             return;
         };
-        let skeleton = Skeleton::new(&structure, Rules::free(&structure).unwrap(), limits);
+        let sketch = Sketch::new(&structure, layout.rules.clone(), limits);
         let places = layout.at.iter().chain(&layout.tips);
         let drawn: Vec<Point> = places.map(|p| p.real()).collect();
-        let mut judge = Judge::new(&skeleton);
+        let mut judge = Judge::new(&sketch);
         for n in 0..12 {
             // Places off by some millimetres, each by its own: from what does all the task asks to what locks on the way.
             let off = |i: usize, k: usize| f64::from((7 * n + 5 * i as u32 + 3 * k as u32) % 11);
@@ -29,7 +28,7 @@ fn a_stroke_is_given_up_only_where_it_costs_too_much() {
                 let by = f64::from(n) / 4.0;
                 [0, 1].map(|k| p[k] + by * (off(i, k) - 5.0))
             });
-            let at: Vec<Point> = moved.collect();
+            let at = Places::of_hinges(moved.collect());
             let Some(whole) = judge.coarse(&at, f64::INFINITY) else {
                 assert_eq!(judge.coarse(&at, 1e9), None);
                 continue;

@@ -1,21 +1,20 @@
 //! Figures of a layout's motion against places solved afresh: transmission angles, forces, travel.
 
-use super::{each, form, moved, moved_points};
-use ozols::chains::layout_symmetry::{Input, Symmetry};
+use super::{Drawn, each, form, layout, moved, moved_points};
+use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
-use ozols::synthesis::layout::{Layout, layout};
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::Limits;
 
 fn step(s: &Structure) -> f64 {
-    match s.form.input {
+    match s.input() {
         Input::Slide => 1e-4,
         Input::Turn => 2e-6,
     }
 }
 
 /// Velocities of points of links, by differences.
-fn speeds(s: &Structure, l: &Layout, points: &[(usize, [f64; 2])]) -> Vec<[f64; 2]> {
+fn speeds(s: &Structure, l: &Drawn, points: &[(usize, [f64; 2])]) -> Vec<[f64; 2]> {
     let h = step(s);
     let [a, b] = [-h, h].map(|drive| moved_points(s, l, drive, points));
     let each = a.iter().zip(&b);
@@ -28,14 +27,14 @@ fn speeds(s: &Structure, l: &Layout, points: &[(usize, [f64; 2])]) -> Vec<[f64; 
 fn transmission_angles_are_those_of_the_rods_ends() {
     let forms = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
     let (mut n, mut told) = (0, 0);
-    each(6, &forms, |subject, s| {
+    each(6, &forms, |_, s| {
         n += 1;
         if n % 9 != 0 {
             return;
         }
-        let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+        let l = layout(&s, &Limits::default(), 1).unwrap();
         let mut least = 90.0_f64;
-        for link in 0..s.chain.links() {
+        for link in 0..s.structure.chain.links() {
             let at: Vec<[f64; 2]> = l
                 .pins
                 .iter()
@@ -43,8 +42,8 @@ fn transmission_angles_are_those_of_the_rods_ends() {
                 .filter(|((u, v), _)| [*u, *v].contains(&link))
                 .map(|(_, p)| p.real())
                 .collect();
-            let r = &s.roles;
-            let other = link == r.frame || link == r.driver || r.jaws.contains(&link);
+            let r = &s.structure.roles;
+            let other = link == r.frame || link == r.drive()[1] || r.jaws.contains(&link);
             let (false, [a, b]) = (other, &at[..]) else {
                 continue;
             };
@@ -80,12 +79,12 @@ fn transmission_angles_are_those_of_the_rods_ends() {
 fn forces_are_the_drives_way_over_the_jaws() {
     let forms = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
     let mut n = 0;
-    each(6, &forms, |subject, s| {
+    each(6, &forms, |_, s| {
         n += 1;
         if n % 12 != 0 {
             return;
         }
-        let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+        let l = layout(&s, &Limits::default(), 1).unwrap();
         let found = figures(&s, &l).unwrap();
         let h = step(&s);
         let gap = |drive| {
@@ -100,8 +99,8 @@ fn forces_are_the_drives_way_over_the_jaws() {
 }
 
 /// The force at the drawn place is among those of the stroke, and so is their mean over the opening, which this returns.
-pub(super) fn bracketed(s: &Structure, f: &LayoutFigures, pairs: f64, rate: f64) -> f64 {
-    let metre = match s.form.input {
+pub(super) fn bracketed(s: &Structure, f: &DrawnFigures, pairs: f64, rate: f64) -> f64 {
+    let metre = match s.input() {
         Input::Slide => 1.0,
         Input::Turn => 1000.0,
     };

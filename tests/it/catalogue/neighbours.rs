@@ -6,7 +6,7 @@ use crate::common::{built_in, json};
 use itertools::Itertools;
 use ozols::catalog::neighbours::{FIGURES, Nearness, neighbours};
 use ozols::catalog::store::Store;
-use ozols::chains::pairs::structure::PairStructure;
+use ozols::chains::structure::PairStructure;
 use ozols::file::text::mechanism_from_str;
 use ozols::synthesis::recognize::recognize;
 use std::collections::BTreeMap;

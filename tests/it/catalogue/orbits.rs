@@ -6,7 +6,7 @@ use super::{each_of, form, plain};
 use num_bigint::BigUint;
 use ozols::catalog::row::row;
 use ozols::catalog::spec::Spec;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::chains::{Input, Symmetry};
 use ozols::geom::vector::real;
 use ozols::model::mechanism::Mechanism;
 use ozols::redundancy::analysis::exact_field;
@@ -70,8 +70,8 @@ fn orbits_are_those_of_a_list_of_all_variants() {
             ..plain(0)
         };
         let form = form(input, symmetry, false);
-        each_of(links, jaws, &[form], |subject, s| {
-            let Ok(laid) = row(subject, &s, &spec).unwrap().laid else {
+        each_of(links, jaws, &[form], |_, s| {
+            let Ok(laid) = row(&s, &spec).unwrap().laid else {
                 return;
             };
             seen += 1;

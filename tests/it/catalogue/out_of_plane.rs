@@ -1,13 +1,14 @@
 //! The slow twin of the catalogue's counts at places in general position.
 
-use ozols::chains::Chain;
+use ozols::chains::chain::Chain;
 
 /// Determinate variants of W = 1 with the input joint unchanged, by the theory alone, with none of the engine: a spanning tree of the chain's graph gives its contours, each
 /// added freedom is a column of three out-of-plane rows a contour, with the pins at random places modulo a prime, and all
 /// choices of the menu at all joints but the input are walked as long as their columns are independent.
 pub(super) fn determinate(chain: &Chain, input: (usize, usize)) -> u64 {
     const P: u64 = (1 << 31) - 1;
-    let edges: Vec<(usize, usize)> = chain.joints();
+    let joints = chain.joints().into_iter();
+    let edges: Vec<(usize, usize)> = joints.map(|j| (j.links[0], j.links[1])).collect();
     // Each link reached, with the signed edges from link 0.
     let mut path: Vec<Option<Vec<i64>>> = vec![None; chain.links()];
     path[0] = Some(vec![0; edges.len()]);

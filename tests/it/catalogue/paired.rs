@@ -15,8 +15,8 @@ use super::command::{at, fails, ok, whole};
 use super::pairs::classics::schemes;
 use super::pairs::menu;
 use crate::common::{run, text};
-use ozols::chains::pairs::structure::PairStructure;
-use ozols::synthesis::paired::structure::paired_structures;
+use ozols::chains::structure::PairStructure;
+use ozols::synthesis::structure::symmetric_structures;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -394,7 +394,7 @@ fn what_is_not_laid_out_is_refused() {
 #[test]
 fn keys_are_read_back_and_symmetric_structures_lie_somewhere() {
     for links in 4..=6 {
-        for paired in paired_structures(links, menu(2)) {
+        for paired in symmetric_structures(links, menu(2)) {
             let structure = &paired.structure;
             assert_eq!(&PairStructure::of_key(&structure.key()), structure);
             assert!(!paired.lays().is_empty(), "{}", paired.name());

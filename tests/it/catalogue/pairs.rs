@@ -8,12 +8,12 @@ mod two_slots;
 
 use crate::common::data;
 use itertools::Itertools;
-use ozols::chains::Chain;
+use ozols::chains::PairKind;
+use ozols::chains::census::{Census, Counted, DriveKind, Kinds, pair_census};
+use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
-use ozols::chains::pairs::PairKind;
-use ozols::chains::pairs::census::{DriveKind, Kinds, PairCensus, pair_census};
-use ozols::chains::pairs::sharing::Menu;
-use ozols::chains::pairs::symmetric_census::{SymmetricKind, symmetric_census};
+use ozols::chains::sharing::Menu;
+use ozols::chains::symmetric_census::{SymmetricKind, symmetric_census};
 use std::collections::BTreeMap;
 
 pub(super) const ALL: [PairKind; 3] = [PairKind::Slide, PairKind::Gear, PairKind::Slot];
@@ -28,10 +28,10 @@ pub(super) fn menu(most: usize) -> Menu<'static> {
 /// Every cell of the published counts up to six links, with all its columns.
 #[test]
 fn as_many_as_two_other_programs_count() {
-    let found: BTreeMap<usize, BTreeMap<Kinds, PairCensus>> = (3..=6)
+    let found: BTreeMap<usize, BTreeMap<Kinds, Census>> = (3..=6)
         .map(|links| (links, pair_census(links, menu(ANY), true)))
         .collect();
-    let sum = |links: usize, of: fn(&PairCensus) -> u64| found[&links].values().map(of).sum();
+    let sum = |links: usize, of: fn(&Census) -> u64| found[&links].values().map(of).sum();
     let chains: [u64; 4] = [3, 4, 5, 6].map(|n| sum(n, |c| c.chains));
     assert_eq!(chains, [5, 58, 1_307, 57_499]);
     let inputs: [u64; 4] = [3, 4, 5, 6].map(|n| sum(n, |c| c.inputs_at_frame + c.inputs_between));
@@ -57,25 +57,26 @@ fn as_many_as_two_other_programs_count() {
 }
 
 /// The columns of the published counts.
-fn row(c: &PairCensus) -> Vec<u64> {
+fn row(c: &Census) -> Vec<u64> {
     let mut out = vec![c.chains, c.frames, c.inputs_at_frame, c.inputs_between];
     let places = [false, true].into_iter().cartesian_product([false, true]);
     for ((between, jaw), slides) in places.cartesian_product([false, true]) {
         let drive = DriveKind {
+            jaws: 2,
             between,
             jaw,
             slides,
         };
         let g = c.grippers.get(&drive).copied().unwrap_or_default();
         out.extend([
-            g.all,
-            g.essential,
-            g.translating,
-            g.graph_symmetric,
-            g.mirror,
-            g.mirror_but_input,
-            g.half_turn,
-            g.half_turn_but_input,
+            g[Counted::All],
+            g[Counted::Essential],
+            g[Counted::Translating],
+            g[Counted::GraphSymmetric],
+            g[Counted::Mirror],
+            g[Counted::MirrorButInput],
+            g[Counted::HalfTurn],
+            g[Counted::HalfTurnButInput],
         ]);
     }
     out
@@ -223,7 +224,8 @@ fn slots_are_rods() {
         for chain in chains(links + slots, 1).unwrap() {
             let (chain, automorphisms) = chain.canonical();
             let sets = rods(&chain, slots);
-            let joints = chain.joints();
+            let joints = chain.joints().into_iter();
+            let joints = joints.map(|j| (j.links[0], j.links[1])).collect_vec();
             let image =
                 |set: &[usize], a: &[usize]| set.iter().map(|&l| a[l]).sorted().collect_vec();
             let joint = |(u, v): (usize, usize), a: &[usize]| (a[u].min(a[v]), a[u].max(a[v]));

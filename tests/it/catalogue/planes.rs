@@ -2,11 +2,10 @@
 
 use super::dense_twin::{Pose, Twin, carrier, place};
 use super::stroke::poses;
-use super::{each, each_of, form};
+use super::{Drawn, each, each_of, form, layout};
 use itertools::Itertools;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::figures::figures;
-use ozols::synthesis::layout::{Layout, layout};
 use ozols::synthesis::stroke::planes::Stacking;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::Limits;
@@ -17,11 +16,11 @@ type Point = [f64; 2];
 type Named = (Result<usize, usize>, Point);
 
 /// The points of a link at a pose.
-fn points(s: &Structure, l: &Layout, x: &Pose, link: usize) -> Vec<Named> {
+fn points(s: &Structure, l: &Drawn, x: &Pose, link: usize) -> Vec<Named> {
     let pins = l.pins.iter().enumerate().zip(&l.at);
     let own = pins.filter(|((_, (u, v)), _)| *u == link || *v == link);
     let own = own.map(|((i, &pin), at)| (Ok(i), place(x, carrier(s, pin), at.real())));
-    let jaw = s.roles.jaws.iter().position(|&j| j == link);
+    let jaw = s.structure.roles.jaws.iter().position(|&j| j == link);
     let tip = jaw.map(|n| (Err(n), place(x, link, l.tips[n].real())));
     own.chain(tip).collect()
 }
@@ -78,9 +77,9 @@ struct Met {
 }
 
 impl Met {
-    fn new(s: &Structure, l: &Layout, all: &[(f64, Pose)], near: f64) -> Met {
-        let (frame, jaws) = (s.roles.frame, &s.roles.jaws);
-        let moving = || (0..s.chain.links()).filter(|k| *k != frame);
+    fn new(s: &Structure, l: &Drawn, all: &[(f64, Pose)], near: f64) -> Met {
+        let (frame, jaws) = (s.structure.roles.frame, &s.structure.roles.jaws);
+        let moving = || (0..s.structure.chain.links()).filter(|k| *k != frame);
         let mut met = Met {
             overlaps: l
                 .pins
@@ -135,7 +134,7 @@ impl Met {
     }
 
     /// Whether nothing meets with links in these planes, the frame in 0 and, where it is in front too, in `front`.
-    fn passes(&self, l: &Layout, frame: usize, at: &[usize], front: Option<usize>) -> bool {
+    fn passes(&self, l: &Drawn, frame: usize, at: &[usize], front: Option<usize>) -> bool {
         let blocked = |pin: usize, lo: usize, hi: usize| {
             let mut over = self.over_pins.iter().filter(|(p, _)| *p == pin);
             over.any(|&(_, k)| lo < at[k] && at[k] < hi)
@@ -153,8 +152,8 @@ impl Met {
     }
 
     /// Whether so many planes can be enough.
-    fn can(&self, s: &Structure, l: &Layout, planes: usize) -> bool {
-        let (links, frame) = (s.chain.links(), s.roles.frame);
+    fn can(&self, s: &Structure, l: &Drawn, planes: usize) -> bool {
+        let (links, frame) = (s.structure.chain.links(), s.structure.roles.frame);
         [None, Some(planes - 1)].into_iter().any(|front| {
             let last = front.unwrap_or(planes);
             let mut ways = (1..links).map(|_| 1..last).multi_cartesian_product();
@@ -167,11 +166,11 @@ impl Met {
 }
 
 /// What is told passes with a millimetre less room, and nothing in fewer planes does with a millimetre more.
-fn is_as_the_twin_says(s: &Structure, l: &Layout) -> Stacking {
+fn is_as_the_twin_says(s: &Structure, l: &Drawn) -> Stacking {
     let f = figures(s, l).unwrap();
     let twin = Twin { s, l };
     let all = poses(&twin, &f);
-    let frame = s.roles.frame;
+    let frame = s.structure.roles.frame;
     match &f.stacking {
         Stacking::Planes {
             planes,
@@ -203,7 +202,7 @@ fn is_as_the_twin_says(s: &Structure, l: &Layout) -> Stacking {
         }
         Stacking::Meets => {
             let roomy = Met::new(s, l, &all, 7.0);
-            assert!(!roomy.can(s, l, s.chain.links()), "{}", s.name());
+            assert!(!roomy.can(s, l, s.structure.chain.links()), "{}", s.name());
         }
         Stacking::NotAsked => panic!("{}", s.name()),
     }
@@ -222,10 +221,10 @@ fn links_pass_in_the_planes_told_and_in_no_fewer() {
         (8, Input::Slide, Symmetry::Mirror, 2),
     ] {
         let mut n = 0;
-        each(links, &[form(input, symmetry, false)], |subject, s| {
+        each(links, &[form(input, symmetry, false)], |_, s| {
             n += 1;
             if n % every == 0
-                && let Ok(l) = layout(subject, &s, &Limits::default(), 1)
+                && let Ok(l) = layout(&s, &Limits::default(), 1)
             {
                 found.push(is_as_the_twin_says(&s, &l));
             }
@@ -235,8 +234,8 @@ fn links_pass_in_the_planes_told_and_in_no_fewer() {
         8,
         3,
         &[form(Input::Turn, Symmetry::Threefold, false)],
-        |subject, s| {
-            if let Ok(l) = layout(subject, &s, &Limits::default(), 1) {
+        |_, s| {
+            if let Ok(l) = layout(&s, &Limits::default(), 1) {
                 found.push(is_as_the_twin_says(&s, &l));
             }
         },
@@ -261,10 +260,10 @@ fn what_can_be_built_is_taken_before_what_is_cheaper() {
     ];
     let forms = [Input::Slide, Input::Turn].map(|input| form(input, Symmetry::Generic, false));
     let mut found = 0;
-    each(8, &forms, |subject, s| {
+    each(8, &forms, |_, s| {
         if names.contains(&s.name().as_str()) {
             found += 1;
-            let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+            let l = layout(&s, &Limits::default(), 1).unwrap();
             let figures = figures(&s, &l).unwrap();
             assert!(figures.shortfall.is_none() && figures.stacking.is_known());
         }

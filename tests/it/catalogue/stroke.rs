@@ -1,10 +1,9 @@
 //! The stroke of a task: every figure of it against poses solved afresh, and what is said where it is not reached.
 
 use super::dense_twin::{Pose, Twin, carrier, place};
-use super::{each, each_of, form};
-use ozols::chains::layout_symmetry::{Input, Symmetry};
+use super::{Drawn, each, each_of, form, layout};
+use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
-use ozols::synthesis::layout::{Layout, layout};
 use ozols::synthesis::stroke::walk::StrokeEnd;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::{AskedMotion, Friction, Limits, Task};
@@ -13,7 +12,7 @@ use ozols::synthesis::task::{AskedMotion, Friction, Limits, Task};
 const POSES: usize = 60;
 
 /// The poses of a stroke, from the narrowest part to the widest, each with its drive.
-pub(super) fn poses(twin: &Twin<'_>, f: &LayoutFigures) -> Vec<(f64, Pose)> {
+pub(super) fn poses(twin: &Twin<'_>, f: &DrawnFigures) -> Vec<(f64, Pose)> {
     // The drive at both ends, by halving: a way on and back from the drawn pose.
     let end = |sign: f64, to: f64| -> f64 {
         let (mut x, mut drive, mut step) = (twin.drawn(), 0.0, sign * f.travel / 40.0);
@@ -69,7 +68,7 @@ fn beside(twin: &Twin<'_>, drive: f64, x: &Pose) -> ([Pose; 2], f64) {
 /// The worst of joint forces at poses: the greatest, the transmission angle by forces and by rods, and the efficiency.
 fn worst(twin: &Twin<'_>, all: &[(f64, Pose)], friction: &Friction) -> [f64; 3] {
     let (s, l) = (twin.s, twin.l);
-    let r = &s.roles;
+    let r = &s.structure.roles;
     let (mut peak, mut angle, mut efficiency) = (0.0_f64, 90.0_f64, 1.0_f64);
     for (drive, x) in all {
         let ([back, ahead], _) = beside(twin, *drive, x);
@@ -88,7 +87,7 @@ fn worst(twin: &Twin<'_>, all: &[(f64, Pose)], friction: &Friction) -> [f64; 3] 
                 let [across, moment] = forces[i].map(f64::abs);
                 peak = peak.max(across);
                 let press = across.max(2.0 * moment / friction.guide);
-                lost += friction.coefficient * press * size(way(r.driver, l.at[i].real()));
+                lost += friction.coefficient * press * size(way(r.drive()[1], l.at[i].real()));
                 continue;
             }
             peak = peak.max(size(forces[i]));
@@ -108,7 +107,7 @@ fn worst(twin: &Twin<'_>, all: &[(f64, Pose)], friction: &Friction) -> [f64; 3] 
         let mut passed = |work: f64, link: usize| {
             angle = angle.min((work / could(link)).min(1.0).asin().to_degrees());
         };
-        passed(given, r.driver);
+        passed(given, r.drive()[1]);
         for (n, o) in twin.outward().iter().enumerate() {
             let w = way(r.jaws[n], l.tips[n].real());
             passed((w[0] * o[0] + w[1] * o[1]).abs(), r.jaws[n]);
@@ -122,14 +121,14 @@ fn worst(twin: &Twin<'_>, all: &[(f64, Pose)], friction: &Friction) -> [f64; 3] 
 fn rods(twin: &Twin<'_>, back: &Pose, ahead: &Pose, x: &Pose) -> f64 {
     let (s, l) = (twin.s, twin.l);
     let mut least = 90.0_f64;
-    for link in 0..s.chain.links() {
-        let r = &s.roles;
+    for link in 0..s.structure.chain.links() {
+        let r = &s.structure.roles;
         let pins = l.pins.iter().zip(&l.at);
         let own: Vec<[f64; 2]> = pins
             .filter(|((u, v), _)| *u == link || *v == link)
             .map(|(_, p)| p.real())
             .collect();
-        let other = link == r.frame || link == r.driver || r.jaws.contains(&link);
+        let other = link == r.frame || link == r.drive()[1] || r.jaws.contains(&link);
         let (false, [a, b]) = (other, &own[..]) else {
             continue;
         };
@@ -164,7 +163,7 @@ fn near(told: f64, found: f64, within: f64, what: &str, s: &Structure) {
 }
 
 /// All figures of a layout that does its task, by the twin.
-fn is_as_the_twin_says(s: &Structure, l: &Layout) {
+fn is_as_the_twin_says(s: &Structure, l: &Drawn) {
     let f = figures(s, l).unwrap();
     let task = &l.limits.task;
     assert_eq!(f.openings, [task.narrowest, task.widest], "{f:?}");
@@ -186,9 +185,9 @@ fn is_as_the_twin_says(s: &Structure, l: &Layout) {
     let forces = between(all.iter().map(force));
     near(f.force[0], forces[0], 0.01 * forces[0], "least force", s);
     near(f.force[2], forces[1], 0.01 * forces[1], "greatest force", s);
-    let mean = metre * f.travel / (s.roles.jaws.len() as f64 / 2.0) / task.span();
+    let mean = metre * f.travel / (s.structure.roles.jaws.len() as f64 / 2.0) / task.span();
     near(f.force[1], mean, 1e-6 * mean, "mean force", s);
-    for (n, &jaw) in s.roles.jaws.iter().enumerate() {
+    for (n, &jaw) in s.structure.roles.jaws.iter().enumerate() {
         let [least, most] = between(all.iter().map(|(_, x)| x[3 * jaw]));
         near(f.turns[n], most - least, 2e-3, "turn", s);
     }
@@ -217,12 +216,12 @@ fn strokes_of_two_jaws_are_as_the_twin_says() {
     ];
     let (mut n, mut tried) = (0, [0; 2]);
     for of in forms {
-        each(6, &[of], |subject, s| {
+        each(6, &[of], |_, s| {
             n += 1;
             if of.symmetry == Symmetry::Generic && n % 9 != 0 {
                 return;
             }
-            if let Ok(l) = layout(subject, &s, &Limits::default(), 1) {
+            if let Ok(l) = layout(&s, &Limits::default(), 1) {
                 is_as_the_twin_says(&s, &l);
                 tried[usize::from(of.input == Input::Slide)] += 1;
             }
@@ -235,8 +234,8 @@ fn strokes_of_two_jaws_are_as_the_twin_says() {
 fn strokes_of_three_jaws_are_as_the_twin_says() {
     let threefold = [form(Input::Turn, Symmetry::Threefold, false)];
     let mut tried = 0;
-    each_of(8, 3, &threefold, |subject, s| {
-        if let Ok(l) = layout(subject, &s, &Limits::default(), 1) {
+    each_of(8, 3, &threefold, |_, s| {
+        if let Ok(l) = layout(&s, &Limits::default(), 1) {
             is_as_the_twin_says(&s, &l);
             tried += 1;
         }
@@ -263,12 +262,12 @@ fn nearly_all_do_their_task() {
         (6, &generic, 2),
         (10, &mirror, 40),
     ] {
-        each(links, forms, |subject, s| {
+        each(links, forms, |_, s| {
             n += 1;
             if n % every != 0 {
                 return;
             }
-            if let Ok(l) = layout(subject, &s, &Limits::default(), 1) {
+            if let Ok(l) = layout(&s, &Limits::default(), 1) {
                 all += 1;
                 let f = figures(&s, &l).unwrap();
                 doing += usize::from(f.shortfall.is_none() && f.force[2] <= 3.0 * f.force[0]);
@@ -287,12 +286,12 @@ fn what_is_not_reached_is_said() {
     });
     let generic = [form(Input::Turn, Symmetry::Generic, false)];
     let (mut n, mut short, mut turned) = (0, 0, 0);
-    each(6, &generic, |subject, s| {
+    each(6, &generic, |_, s| {
         n += 1;
         if n % 5 != 0 {
             return;
         }
-        let Ok(l) = layout(subject, &s, &limits, 1) else {
+        let Ok(l) = layout(&s, &limits, 1) else {
             return;
         };
         let f = figures(&s, &l).unwrap();
@@ -317,7 +316,7 @@ fn what_is_not_reached_is_said() {
 }
 
 /// How far apart the tips come as the drive goes on, until they turn back.
-fn widest(s: &Structure, l: &Layout, f: &LayoutFigures) -> f64 {
+fn widest(s: &Structure, l: &Drawn, f: &DrawnFigures) -> f64 {
     let twin = Twin { s, l };
     let (mut x, mut drive) = (twin.drawn(), 0.0);
     let (mut most, mut step) = (twin.width(&x), f.travel / 500.0);
@@ -368,17 +367,17 @@ fn other_tasks_are_done_as_well() {
         (tight, generic, 6),
     ] {
         let (mut n, mut does) = (0, 0);
-        each(6, &[of], |subject, s| {
+        each(6, &[of], |_, s| {
             n += 1;
             if n % every != 0 {
                 return;
             }
-            let Ok(l) = layout(subject, &s, &made_for(task), 1) else {
+            let Ok(l) = layout(&s, &made_for(task), 1) else {
                 return;
             };
             let f = figures(&s, &l).unwrap();
-            let swings = |&j: &usize| s.chain.joined(s.roles.frame, j);
-            let hinged = s.roles.jaws.iter().all(swings);
+            let swings = |&j: &usize| s.structure.chain.joined(s.structure.roles.frame, j);
+            let hinged = s.structure.roles.jaws.iter().all(swings);
             if let Some(lacks) = f.shortfall {
                 // Of those that close and open so far, without a hinge for each jaw, it is said that they do not swing.
                 let says = lacks.to_string().contains("swing");

@@ -1,14 +1,13 @@
 //! Three jaws: as many structures as move in threefold places, laid out exactly so, closing together.
 
 use super::motions::bracketed;
-use super::{each_of, form, moved, plain};
+use super::{Drawn, each_of, form, layout, moved, plain};
 use crate::common::run;
 use itertools::Itertools;
 use ozols::catalog::row::row;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
 use ozols::chains::roles::Subject;
+use ozols::chains::{Input, Symmetry};
 use ozols::geom::vector::real;
-use ozols::synthesis::layout::layout;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::Limits;
 use std::collections::BTreeMap;
@@ -21,14 +20,14 @@ pub(super) fn third([x, y]: [f64; 2]) -> [f64; 2] {
 /// How many motions the links have with hinges at these places and the frame at rest, and whether driver and jaws move in
 /// the only one: by eliminating in floating point. Shares nothing with the program's own look modulo a prime.
 fn motions(s: &Structure, at: &BTreeMap<(usize, usize), [f64; 2]>) -> (usize, bool) {
-    let n = 3 * s.chain.links();
+    let n = 3 * s.structure.chain.links();
     let mut rows: Vec<Vec<f64>> = Vec::new();
     let mut row = |entries: &[(usize, f64)]| {
         let mut row = vec![0.0; n];
         entries.iter().for_each(|(i, x)| row[*i] += x);
         rows.push(row);
     };
-    (0..3).for_each(|k| row(&[(3 * s.roles.frame + k, 1.0)]));
+    (0..3).for_each(|k| row(&[(3 * s.structure.roles.frame + k, 1.0)]));
     for (&(u, v), [x, y]) in at {
         row(&[
             (3 * u, -y),
@@ -75,14 +74,17 @@ fn motions(s: &Structure, at: &BTreeMap<(usize, usize), [f64; 2]>) -> (usize, bo
         motion[c] = -rows[r][only] / rows[r][c];
     }
     let moves = |l: &usize| motion[3 * l..3 * l + 3].iter().any(|x| x.abs() > 1e-9);
-    (1, moves(&s.roles.driver) && s.roles.jaws.iter().all(moves))
+    (
+        1,
+        moves(&s.structure.roles.drive()[1]) && s.structure.roles.jaws.iter().all(moves),
+    )
 }
 
 /// Places that look random, carried to each other by thirds of a turn.
 fn scattered(subject: &Subject<'_>, s: &Structure) -> BTreeMap<(usize, usize), [f64; 2]> {
-    let turn = subject.swaps(&s.roles).next().unwrap();
+    let turn = subject.swaps(&s.structure.roles).next().unwrap();
     let mut at = BTreeMap::new();
-    for (i, &joint) in s.chain.joints().iter().enumerate() {
+    for (i, &joint) in s.structure.chain.joints().iter().enumerate() {
         let image = |(u, v): (usize, usize)| (turn[u].min(turn[v]), turn[u].max(turn[v]));
         let off = |k: usize| ((3 * i + k) as f64 * 0.618_034).fract() - 0.5;
         let mut place = if image(joint) == joint {
@@ -108,7 +110,7 @@ fn threefold_structures_are_those_that_move_in_threefold_places() {
             all += 1;
             let (count, moving) = motions(&s, &scattered(subject, &s));
             by_twin += usize::from(count == 1 && moving);
-            match layout(subject, &s, &Limits::default(), 1) {
+            match layout(&s, &Limits::default(), 1) {
                 Ok(_) => laid += 1,
                 Err(why) => assert!(!moving, "{}: {why}", s.name()),
             }
@@ -126,15 +128,15 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
     let threefold = [form(Input::Turn, Symmetry::Threefold, false)];
     let mut seen = 0;
     each_of(8, 3, &threefold, |subject, s| {
-        let row = row(subject, &s, &plain(3)).unwrap();
+        let row = row(&s, &plain(3)).unwrap();
         let laid = row.laid.unwrap();
         seen += 1;
         let m = ozols::from_toml(&laid.file).unwrap();
-        let turn = subject.swaps(&s.roles).next().unwrap();
+        let turn = subject.swaps(&s.structure.roles).next().unwrap();
         let places: BTreeMap<(usize, usize), [f64; 2]> = m
             .joints
             .iter()
-            .zip(&laid.layout.pins)
+            .zip(&Drawn::new(&s, laid.layout.clone()).pins)
             .map(|(j, &pin)| {
                 let [x, y, _] = real(&j.frame.point);
                 (pin, [x, y])
@@ -186,9 +188,9 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
 fn generic_structures_of_three_jaws_close_on_the_part() {
     let generic = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
     let (mut laid, mut all) = (0, 0);
-    each_of(6, 3, &generic, |subject, s| {
+    each_of(6, 3, &generic, |_, s| {
         all += 1;
-        let Ok(l) = layout(subject, &s, &Limits::default(), 1) else {
+        let Ok(l) = layout(&s, &Limits::default(), 1) else {
             return;
         };
         laid += 1;

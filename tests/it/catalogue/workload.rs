@@ -1,13 +1,12 @@
 //! The workload of a catalogue: what the drive must do for it, by hand and by virtual work.
 
 use super::command::{at, ok};
-use super::{each, form, moved_points};
+use super::{each, form, layout, moved_points};
 use crate::common::{json, run, text};
 use ozols::catalog::spec::Spec;
-use ozols::chains::layout_symmetry::{Input, Symmetry};
+use ozols::chains::{Input, Symmetry};
 use ozols::file::write;
 use ozols::geom::vector::real;
-use ozols::synthesis::layout::layout;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::task::Limits;
 use ozols::synthesis::workload::Workload;
@@ -119,19 +118,19 @@ fn the_drive_does_the_work_of_part_and_links() {
         form(Input::Turn, Symmetry::Generic, false),
     ];
     let (mut n, mut tried) = (0, 0);
-    each(6, &forms, |subject, s| {
+    each(6, &forms, |_, s| {
         n += 1;
         if n % 11 != 0 {
             return;
         }
-        let l = layout(subject, &s, &Limits::default(), 1).unwrap();
+        let l = layout(&s, &Limits::default(), 1).unwrap();
         let file = mechanism_file(&s, &l, &Spec::default().menu().unwrap(), &workload);
         let path = at(&folder, &format!("{n}.toml"));
         std::fs::write(&path, write::toml(&file, &[]).unwrap()).unwrap();
         // Points that forces act at, with the force in the plane.
         let mut acting: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
-        for link in (0..s.chain.links()).filter(|&k| k != s.roles.frame) {
-            let jaw = s.roles.jaws.iter().position(|&j| j == link);
+        for link in (0..s.structure.chain.links()).filter(|&k| k != s.structure.roles.frame) {
+            let jaw = s.structure.roles.jaws.iter().position(|&j| j == link);
             let pins = l.pins.iter().zip(&l.at);
             let mut points: Vec<[f64; 2]> = pins
                 .filter(|((u, v), _)| *u == link || *v == link)
@@ -152,7 +151,7 @@ fn the_drive_does_the_work_of_part_and_links() {
                 acting.push((link, half, [3.0 * mass, -9.81 * mass]));
             }
         }
-        let slides = s.form.input == Input::Slide;
+        let slides = s.input() == Input::Slide;
         let step = if slides { 1e-4 } else { 2e-6 };
         let at: Vec<_> = acting.iter().map(|&(link, p, _)| (link, p)).collect();
         let [ahead, back] = [step, -step].map(|q| moved_points(&s, &l, q, &at));

@@ -2,7 +2,7 @@
 
 use crate::accuracy::SURVEY;
 use crate::common::{count, json, out, run};
-use ozols::chains::pairs::classics::classics;
+use ozols::chains::classics::classics;
 use ozols::rank::method::registry;
 use serde_json::Value;
 use std::fs;

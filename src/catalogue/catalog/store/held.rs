@@ -1,8 +1,8 @@
 //! An open catalogue: what it holds, and what is added.
 
-use crate::catalog::build::CatalogueRow;
 use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;
+use crate::catalog::row::StructureRow;
 use crate::catalog::store::version::{LARGEST_ANSWER, StoreError};
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, ErrorCode, OptionalExtension, TransactionBehavior, params};
@@ -76,15 +76,11 @@ impl Store {
     ///
     /// # Errors
     /// Where the file cannot be written.
-    pub fn add(&mut self, rows: &[CatalogueRow]) -> Stored<()> {
+    pub fn add(&mut self, rows: &[StructureRow]) -> Stored<()> {
         let mut all = || -> rusqlite::Result<()> {
             let t = (self.db).transaction_with_behavior(TransactionBehavior::Immediate)?;
             for row in rows {
-                match row {
-                    CatalogueRow::Hinged(row) => insert::row(&t, row)?,
-                    CatalogueRow::Paired(row) => insert::row(&t, row)?,
-                    CatalogueRow::Threefold(row) => insert::row(&t, row)?,
-                }
+                insert::row(&t, row)?;
             }
             t.commit()
         };
@@ -100,7 +96,7 @@ impl Store {
     ///
     /// # Panics
     /// Where `make` does.
-    pub fn add_while<R>(&mut self, make: impl FnOnce(SyncSender<CatalogueRow>) -> R) -> Stored<R> {
+    pub fn add_while<R>(&mut self, make: impl FnOnce(SyncSender<StructureRow>) -> R) -> Stored<R> {
         let (send, made) = sync_channel(WAITING);
         std::thread::scope(|scope| {
             let writer = scope.spawn(move || -> Stored<()> {

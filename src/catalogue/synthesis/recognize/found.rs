@@ -1,8 +1,8 @@
 //! A mechanism as a structure, or why it is none.
 
-use crate::chains::pairs::chain::MOST_LINKS;
-use crate::chains::pairs::classics::MadeAs;
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::chain::MOST_LINKS;
+use crate::chains::classics::MadeAs;
+use crate::chains::structure::PairStructure;
 use crate::geom::exact::ExactError;
 use crate::model::LinkId;
 use crate::model::mechanism::{Mechanism, Role};

@@ -1,8 +1,8 @@
 //! What joints make in their plane: links that are one there, and pairs between them.
 
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::{Joint as PairJoint, MOST_LINKS, PairChain, ordered};
-use crate::chains::pairs::motion::moves_throughout;
+use crate::chains::PairKind;
+use crate::chains::chain::{Chain, Joint as PairJoint, MOST_LINKS, ordered};
+use crate::chains::motion::moves_throughout;
 use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::{JointId, LinkId, StateId};
@@ -97,7 +97,7 @@ impl PlaneLinks {
 
     /// Whether it moves as structures that are counted do.
     fn moves(&self) -> bool {
-        let chain = PairChain::new(self.names.len(), self.joints.iter().copied());
+        let chain = Chain::new(self.names.len(), self.joints.iter().copied());
         chain.has_carriers() && moves_throughout(&chain)
     }
 }

@@ -1,6 +1,6 @@
 //! The plane in which joints move, and what each of them is there.
 
-use crate::chains::pairs::PairKind;
+use crate::chains::PairKind;
 use crate::closure::twist::FrameValues;
 use crate::geom::Scalars;
 use crate::geom::exact::ExactField;

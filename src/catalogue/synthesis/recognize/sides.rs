@@ -1,9 +1,9 @@
 //! Three sides that are alike, each in one plane with frame and driver or in a plane of its own: their structure is that of two of them.
 
-use crate::chains::pairs::chain::{Joint as PairJoint, PairChain, ordered};
-use crate::chains::pairs::classics::MadeAs;
-use crate::chains::pairs::roles::PairRoles;
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::chain::{Chain, Joint as PairJoint, ordered};
+use crate::chains::classics::MadeAs;
+use crate::chains::roles::Roles;
+use crate::chains::structure::PairStructure;
 use crate::model::mechanism::{Mechanism, Role};
 use crate::model::{JointId, LinkId, StateId};
 use crate::synthesis::recognize::found::{NoStructure, Recognized};
@@ -93,8 +93,8 @@ fn one_side(
     let of = |sides: usize| {
         let joints = (0..sides).cartesian_product(&side_of.joints);
         PairStructure {
-            chain: PairChain::new(links + (sides - 1) * side.len(), joints.filter_map(carried)),
-            roles: PairRoles {
+            chain: Chain::new(links + (sides - 1) * side.len(), joints.filter_map(carried)),
+            roles: Roles {
                 frame: side_of.frame,
                 input: side_of.input,
                 jaws: (0..sides).map(|copy| image(jaw, copy)).collect(),

@@ -1,10 +1,10 @@
 //! A screw with nuts that jaws are, which moves out of any plane: in one a pinion with its racks does the same.
 
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::{Joint as PairJoint, PairChain};
-use crate::chains::pairs::classics::MadeAs;
-use crate::chains::pairs::roles::PairRoles;
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::PairKind;
+use crate::chains::chain::{Chain, Joint as PairJoint};
+use crate::chains::classics::MadeAs;
+use crate::chains::roles::Roles;
+use crate::chains::structure::PairStructure;
 use crate::closure::twist::FrameValues;
 use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
@@ -128,7 +128,7 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
         links: [u, v],
         pair,
     };
-    let roles = PairRoles {
+    let roles = Roles {
         frame: 0,
         input: [0, 1],
         jaws: jaws(m, place)?,
@@ -137,7 +137,7 @@ pub(super) fn screw_with_nuts(m: &Mechanism) -> Result<Option<Recognized>, NoStr
         return Ok(None);
     }
     let structure = PairStructure {
-        chain: PairChain::new(4, PAIRS.map(joint)),
+        chain: Chain::new(4, PAIRS.map(joint)),
         roles,
     };
     Ok(Some(Recognized {

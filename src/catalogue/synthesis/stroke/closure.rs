@@ -3,7 +3,7 @@
 //! Unknown are how far each link but the frame has turned since it was drawn, and how far the drive has gone. A contour is a sum
 //! of sides, vectors between two points of a link that turn with it; what the sides of a tip's way add up to is where it has gone.
 
-use crate::chains::layout_symmetry::Input;
+use crate::chains::Input;
 use crate::geom::vector::{dot, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::place::Point;

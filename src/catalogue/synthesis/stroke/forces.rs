@@ -1,27 +1,31 @@
-//! Forces in the joints at a pose of the stroke, the jaws each holding the part with a newton, without friction; and what they
-//! say of it: the greatest, how well driver and jaws pass work on, and how much of it friction would take.
+//! Forces in the joints at a pose of the stroke, the jaws each holding the part with a newton, without friction, where all are hinges or
+//! one slides; and what forces say of it: the greatest, how well driver and jaws pass work on, and how much of it friction would take.
 
 use super::pose::LinkPose;
-use crate::chains::layout_symmetry::Input;
-use crate::geom::vector::{add_scaled, cross_plane, dot, length, quarter, sub};
+use crate::chains::Input;
+use crate::geom::vector::{add_scaled, cross_plane, dot, quarter, sub};
 use crate::synthesis::elimination::SmallSystem;
 use crate::synthesis::place::Point;
-use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::task::Friction;
-use crate::synthesis::velocities::Side;
+use crate::synthesis::sketch::Sketch;
+use crate::synthesis::velocities::{Contours, Side};
+
+/// What a joint does: the force on its second link, where that acts, and a moment beside it, in N and N mm.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(in crate::synthesis) struct JointForce {
+    /// On the second link of the joint.
+    pub(in crate::synthesis) force: Point,
+    /// Where.
+    pub(in crate::synthesis) at: Point,
+    /// About that point, of a slide.
+    pub(in crate::synthesis) moment: f64,
+}
 
 /// Forces at a pose.
 #[derive(Debug, Clone)]
-pub struct JointForces {
+pub(in crate::synthesis) struct HingeForces {
     system: SmallSystem,
-    /// Of each pin on its second link; of a slide what presses on the driver across it, in N.
-    pub pins: Vec<Point>,
-    /// The moment of a slide on the driver about the input joint, which goes with the driver, in N mm.
-    pub moment: f64,
-    /// What the drive does: N, or N mm, the way its coordinate grows.
-    pub drive: f64,
-    /// Where the pins are.
-    places: Vec<Point>,
+    /// Of each pin; of a slide what presses on the driver across it.
+    pub(super) pins: Vec<JointForce>,
     /// What acts on each link besides its joint in the tree.
     on_links: Vec<Wrench>,
 }
@@ -83,18 +87,13 @@ impl Wrench {
     }
 }
 
-impl JointForces {
-    /// Room for those of a skeleton.
-    #[must_use]
-    pub fn new(skeleton: &Skeleton<'_>) -> JointForces {
-        let (links, pins) = (skeleton.structure.chain.links(), skeleton.rules.pins.len());
-        JointForces {
-            system: SmallSystem::new(2 * skeleton.contours.cuts.len(), 1),
-            pins: vec![[0.0; 2]; pins],
-            moment: 0.0,
-            drive: 0.0,
-            places: vec![[0.0; 2]; pins],
-            on_links: vec![Wrench::default(); links],
+impl HingeForces {
+    /// Room for those of a sketch.
+    pub(super) fn new(sketch: &Sketch<'_>, contours: &Contours) -> HingeForces {
+        HingeForces {
+            system: SmallSystem::new(2 * contours.cuts.len(), 1),
+            pins: vec![JointForce::default(); sketch.rules.joints.len()],
+            on_links: vec![Wrench::default(); sketch.at_rest.len()],
         }
     }
 
@@ -108,28 +107,32 @@ impl JointForces {
     /// O(c³ + n) for c contours and n links.
     pub(super) fn solve(
         &mut self,
-        skeleton: &Skeleton<'_>,
+        sketch: &Sketch<'_>,
+        contours: &Contours,
         links: &[LinkPose],
         at: &[Point],
     ) -> bool {
-        let roles = &skeleton.structure.roles;
-        let slides = skeleton.structure.form.input == Input::Slide;
-        for (i, &(_, v)) in skeleton.rules.pins.iter().enumerate() {
+        let slides = contours.input == Input::Slide;
+        for (i, joint) in sketch.rules.joints.iter().enumerate() {
             // What presses on a guide goes with the driver.
-            let guide = slides && i == skeleton.rules.input;
-            self.places[i] = links[if guide { roles.driver } else { v }].point(at[i]);
+            let guide = slides && i == sketch.input;
+            let link = if guide {
+                contours.driver
+            } else {
+                joint.links[1]
+            };
+            self.pins[i].at = links[link].point(at[i]);
         }
-        self.fill(skeleton, links, at);
+        self.fill(sketch, contours, links, at);
         if self.system.solve().is_none() {
             return false;
         }
-        self.gather(skeleton, links);
+        self.gather(sketch, contours, links);
         true
     }
 
     /// The work at every turn: of the forces in the cuts, and, as the right side, of what the part makes them do.
-    fn fill(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose], at: &[Point]) {
-        let contours = &skeleton.contours;
+    fn fill(&mut self, sketch: &Sketch<'_>, contours: &Contours, links: &[LinkPose], at: &[Point]) {
         let right = 2 * contours.cuts.len();
         let turned = |side: &Side| {
             let arm = sub(at[side.leaves], at[side.comes]);
@@ -145,7 +148,7 @@ impl JointForces {
                 }
             }
         }
-        for (way, inward) in contours.tips.iter().zip(&skeleton.bones.inward) {
+        for (way, inward) in contours.tips.iter().zip(&sketch.bones.inward) {
             for (row, rate) in way.iter().filter_map(turned) {
                 self.system.add(row, right, -dot(rate, *inward));
             }
@@ -153,96 +156,33 @@ impl JointForces {
     }
 
     /// From the forces in the cuts those in all joints, from the ends of the tree on.
-    fn gather(&mut self, skeleton: &Skeleton<'_>, links: &[LinkPose]) {
-        let (roles, pins) = (&skeleton.structure.roles, &skeleton.rules.pins);
-        let contours = &skeleton.contours;
+    fn gather(&mut self, sketch: &Sketch<'_>, contours: &Contours, links: &[LinkPose]) {
+        let (bones, joints) = (&sketch.bones, &sketch.rules.joints);
         self.on_links.fill(Wrench::default());
-        for (n, (&jaw, inward)) in roles.jaws.iter().zip(&skeleton.bones.inward).enumerate() {
+        for (n, (&jaw, inward)) in bones.jaws.iter().zip(&bones.inward).enumerate() {
             // The part pushes outward.
-            let tip = links[jaw].point(skeleton.bones.tips[n]);
+            let tip = links[jaw].point(bones.tips[n]);
             self.on_links[jaw].add(-1.0, *inward, tip);
         }
         for (k, &cut) in contours.cuts.iter().enumerate() {
             let force = [self.system.get(2 * k, 0), self.system.get(2 * k + 1, 0)];
-            let ((u, v), place) = (pins[cut], self.places[cut]);
-            self.pins[cut] = force;
+            let ([u, v], place) = (joints[cut].links, self.pins[cut].at);
+            self.pins[cut].force = force;
             self.on_links[u].add(-1.0, force, place);
             self.on_links[v].add(1.0, force, place);
         }
         for s in contours.tree.iter().rev() {
-            let (wrench, place) = (self.on_links[s.link], self.places[s.joint]);
-            let on_second = if pins[s.joint].1 == s.link { -1.0 } else { 1.0 };
-            self.pins[s.joint] = wrench.force.map(|x| on_second * x);
+            let (wrench, place) = (self.on_links[s.link], self.pins[s.joint].at);
+            let is_second = joints[s.joint].links[1] == s.link;
+            let on_second = if is_second { -1.0 } else { 1.0 };
+            self.pins[s.joint].force = wrench.force.map(|x| on_second * x);
             self.on_links[s.from].add(1.0, wrench.force, place);
-            if s.link == roles.driver {
-                self.drive_with(skeleton, wrench, place);
+            if s.link == contours.driver && contours.input == Input::Slide {
+                // A slide lies on the x axis: its guide presses across.
+                let guide = &mut self.pins[sketch.input];
+                guide.moment = -wrench.about(place);
+                guide.force[0] = 0.0;
             }
         }
-    }
-
-    /// What drive and guide do, where so much acts on the driver besides, and its input joint is at a place.
-    fn drive_with(&mut self, skeleton: &Skeleton<'_>, wrench: Wrench, place: Point) {
-        let moment = wrench.about(place);
-        if skeleton.structure.form.input == Input::Turn {
-            self.drive = -moment;
-            return;
-        }
-        // A slide lies on the x axis: its guide presses across.
-        self.drive = -wrench.force[0];
-        self.moment = -moment;
-        self.pins[skeleton.rules.input][0] = 0.0;
-    }
-
-    /// What the forces say, with the links moving as they do for a millimetre of the width.
-    pub(super) fn figures(
-        &self,
-        skeleton: &Skeleton<'_>,
-        links: &[LinkPose],
-        friction: &Friction,
-    ) -> ForceFigures {
-        let roles = &skeleton.structure.roles;
-        let slides = skeleton.structure.form.input == Input::Slide;
-        let input = skeleton.rules.input;
-        let mut out = ForceFigures::BEST;
-        let (mut lost, mut given) = (0.0, 0.0);
-        for (i, &(u, v)) in skeleton.rules.pins.iter().enumerate() {
-            let force = length(self.pins[i]);
-            out.peak = out.peak.max(force);
-            if slides && i == input {
-                // Pressed on at both ends of the guide.
-                let press = force.max(2.0 * self.moment.abs() / friction.guide);
-                lost += friction.coefficient * press * length(links[roles.driver].velocity.shift);
-            } else {
-                let turning = links[u].velocity.turning - links[v].velocity.turning;
-                lost += friction.coefficient * friction.pin_radius * force * turning.abs();
-            }
-        }
-        for (n, &jaw) in roles.jaws.iter().enumerate() {
-            let velocity = links[jaw]
-                .velocity
-                .at(links[jaw].point(skeleton.bones.tips[n]));
-            let work = dot(velocity, skeleton.bones.inward[n]).abs();
-            given += work;
-            out.transmission = out
-                .transmission
-                .min(self.passed(skeleton, links, jaw, work));
-        }
-        let driver = self.passed(skeleton, links, roles.driver, given);
-        out.transmission = out.transmission.min(driver);
-        out.efficiency = given / (given + lost).max(1e-12);
-        out
-    }
-
-    /// The angle whose sine is the work of a link over what the forces at its moving pins could do at their speeds.
-    fn passed(&self, skeleton: &Skeleton<'_>, links: &[LinkPose], link: usize, work: f64) -> f64 {
-        let pins = skeleton.rules.pins.iter().enumerate();
-        let own = pins.filter(|(i, (u, v))| {
-            let slide = *i == skeleton.rules.input && skeleton.structure.form.input == Input::Slide;
-            (*u == link || *v == link) && !slide
-        });
-        let could = own
-            .map(|(i, _)| length(self.pins[i]) * length(links[link].velocity.at(self.places[i])));
-        let could: f64 = could.sum();
-        (work / could.max(1e-12)).min(1.0).asin().to_degrees()
     }
 }

@@ -2,15 +2,15 @@
 
 use super::forces::ForceFigures;
 use super::gathered::{Between, Gathered};
-use super::motion::{HingeMotion, StrokeMotion};
+use super::motion::Motion;
 use super::planes::{Meetings, Stacking};
 use super::pose::LinkPose;
 use super::walk::{SETTLED, StrokeEnd};
 use crate::geom::vector::{dot, length, sub};
 use crate::synthesis::layout_quality::{angle, transmission};
 use crate::synthesis::place::Point;
-use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::LayoutSketch;
+use crate::synthesis::places::Places;
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::task::Limits;
 
 /// Poses of a stroke while places are tried, as many as rank them as fifty do, and how near to its end it is followed: a fraction of
@@ -95,44 +95,32 @@ struct ReachedStroke {
 
 /// Strokes, one after another.
 #[derive(Debug)]
-pub struct Judge<M> {
-    pub(in crate::synthesis) motion: M,
+pub struct Judge<'a> {
+    pub(in crate::synthesis) motion: Motion<'a>,
     pub(super) links: Vec<LinkPose>,
     gathered: Gathered,
     /// What meets on the way, where that is asked.
     meetings: Option<Meetings>,
 }
 
-/// The places of what moves.
-pub(in crate::synthesis) type PlacesOf<M> = <<M as StrokeMotion>::Of as LayoutSketch>::JointPlaces;
-
-impl<'a> Judge<HingeMotion<'a>> {
-    /// Of a skeleton.
+impl<'a> Judge<'a> {
+    /// Of a sketch.
     #[must_use]
-    pub fn new(skeleton: &'a Skeleton<'a>) -> Self {
-        Judge::of(HingeMotion::new(skeleton))
-    }
-}
-
-impl<M: StrokeMotion> Judge<M> {
-    /// Of what moves.
-    #[must_use]
-    pub fn of(motion: M) -> Judge<M> {
-        let bones = motion.sketch().bones();
+    pub fn new(sketch: &'a Sketch<'a>) -> Judge<'a> {
         Judge {
-            links: vec![LinkPose::AT_REST; bones.of_link.len()],
-            gathered: Gathered::new(bones.tips.len()),
+            links: sketch.at_rest.clone(),
+            gathered: Gathered::new(sketch.bones.tips.len()),
             meetings: None,
-            motion,
+            motion: Motion::new(sketch),
         }
     }
 
     /// Watches what meets on the next stroke, unless a link stands for several images of it or turns out of the plane.
     pub fn watch(&mut self) {
-        let sketch = self.motion.sketch();
-        let bones = sketch.bones();
+        let sketch = self.motion.sketch;
+        let bones = &sketch.bones;
         let each_drawn = bones.sides == bones.jaws.len();
-        self.meetings = (each_drawn && !sketch.turns_out()).then(|| Meetings::new(bones));
+        self.meetings = (each_drawn && !sketch.rules.threaded).then(|| Meetings::new(bones));
     }
 
     /// The planes in which the links passed each other on the stroke that was watched.
@@ -140,19 +128,19 @@ impl<M: StrokeMotion> Judge<M> {
     /// # Complexity
     /// That of [`Meetings::stacking`].
     pub fn stacking(&mut self) -> Stacking {
-        let bones = self.motion.sketch().bones();
+        let bones = &self.motion.sketch.bones;
         let met = self.meetings.take();
         met.map_or(Stacking::NotAsked, |m| m.stacking(bones))
     }
 
     fn limits(&self) -> &Limits {
-        self.motion.sketch().limits()
+        &self.motion.sketch.limits
     }
 
     /// Stands at the drawn pose of places; `false` where that is singular.
-    fn stand(&mut self, at: &PlacesOf<M>) -> bool {
+    fn stand(&mut self, at: &Places) -> bool {
         self.motion.place(at);
-        self.motion.walk_mut().stand()
+        self.motion.walk.stand()
     }
 
     /// The figures of places at some poses, as they are looked at while places are tried; `None` where the drawn pose is
@@ -160,7 +148,7 @@ impl<M: StrokeMotion> Judge<M> {
     ///
     /// # Complexity
     /// Some corrections of O(n³) for n links, for each of some seven poses.
-    pub fn coarse(&mut self, at: &PlacesOf<M>, most: f64) -> Option<StrokeFigures> {
+    pub fn coarse(&mut self, at: &Places, most: f64) -> Option<StrokeFigures> {
         self.follow(at, COARSE, most)
     }
 
@@ -168,7 +156,7 @@ impl<M: StrokeMotion> Judge<M> {
     ///
     /// # Complexity
     /// As [`Judge::coarse`], for some fifty poses.
-    pub fn fine(&mut self, at: &PlacesOf<M>) -> Option<StrokeFigures> {
+    pub fn fine(&mut self, at: &Places) -> Option<StrokeFigures> {
         self.follow(at, FINE, f64::INFINITY)
     }
 
@@ -176,8 +164,8 @@ impl<M: StrokeMotion> Judge<M> {
     ///
     /// # Complexity
     /// As [`Judge::coarse`], by the number of poses.
-    fn follow(&mut self, at: &PlacesOf<M>, grid: Grid, most: f64) -> Option<StrokeFigures> {
-        self.motion.walk_mut().settled = grid.settled;
+    fn follow(&mut self, at: &Places, grid: Grid, most: f64) -> Option<StrokeFigures> {
+        self.motion.walk.settled = grid.settled;
         if !self.stand(at) {
             return None;
         }
@@ -192,8 +180,8 @@ impl<M: StrokeMotion> Judge<M> {
         };
         self.gathered.begin();
         if task.reach > 0.0 {
-            let sketch = self.motion.sketch();
-            self.gathered.reach = sketch.bones().reach(sketch.points(at));
+            let sketch = self.motion.sketch;
+            self.gathered.reach = sketch.bones.reach(&at.points);
         }
         self.look(at);
         if self.is_dearer(&way, most) {
@@ -202,7 +190,7 @@ impl<M: StrokeMotion> Judge<M> {
         self.weigh(at);
         for (n, to) in [task.narrowest, task.widest].into_iter().enumerate() {
             if n > 0 {
-                self.motion.walk_mut().back();
+                self.motion.walk.back();
             }
             let all = to - drawn;
             let count = (all.abs() / task.span() * grid.steps).ceil().max(1.0);
@@ -212,17 +200,13 @@ impl<M: StrokeMotion> Judge<M> {
                     return None;
                 }
                 i += 1.0;
-                way.ends[n] = self
-                    .motion
-                    .walk_mut()
-                    .advance(all * i / count, finest)
-                    .err();
+                way.ends[n] = self.motion.walk.advance(all * i / count, finest).err();
                 self.look(at);
                 if grid.forces_everywhere || i == count || way.ends[n].is_some() {
                     self.weigh(at);
                 }
             }
-            let walk = self.motion.walk();
+            let walk = &self.motion.walk;
             way.reached[n] = drawn + walk.wider;
             way.drive[n] = walk.x.last().copied().unwrap_or(0.0);
         }
@@ -241,7 +225,7 @@ impl<M: StrokeMotion> Judge<M> {
             ends: way.ends,
             drive: way.drive,
             rates: g.rates.0,
-            force: self.motion.sketch().bones().force(g.rates.0[0]),
+            force: self.motion.sketch.bones.force(g.rates.0[0]),
             transmission: angle(g.sine),
             straightness: g.straightness,
             turn: self.turns().fold(0.0, f64::max).to_degrees(),
@@ -262,18 +246,18 @@ impl<M: StrokeMotion> Judge<M> {
     /// How fast the drive goes by the width at the last pose, mm or rad a millimetre: negative where it goes back as jaws open.
     #[must_use]
     pub fn drive_rate(&self) -> f64 {
-        self.motion.walk().rate()
+        self.motion.walk.rate()
     }
 
     /// How much farther than the task asks the tips can come, narrower and wider, in millimetres and at most `most`; 0 where they
     /// do not come as far.
-    pub fn margin(&mut self, at: &PlacesOf<M>, most: f64) -> [f64; 2] {
+    pub fn margin(&mut self, at: &Places, most: f64) -> [f64; 2] {
         let task = self.limits().task;
         let drawn = 2.0 * f64::from(task.half_opening());
         [(task.narrowest, -most), (task.widest, most)].map(|(end, more)| {
             let goes = self.stand(at);
             let to = end - drawn;
-            let walk = self.motion.walk_mut();
+            let walk = &mut self.motion.walk;
             // That it ends on the way is what is asked.
             let _ = walk.advance(to + more, 1e-3);
             let farther = (walk.wider - to) * more.signum();
@@ -282,18 +266,18 @@ impl<M: StrokeMotion> Judge<M> {
     }
 
     /// Takes in what the joint forces say; where they have no one solution, the worst.
-    fn weigh(&mut self, at: &PlacesOf<M>) {
+    fn weigh(&mut self, at: &Places) {
         let here = self.motion.forces(at, &self.links);
         let here = here.unwrap_or(ForceFigures::WORST);
         self.gathered.forces = self.gathered.forces.worse(here);
     }
 
-    fn look(&mut self, at: &PlacesOf<M>) {
+    fn look(&mut self, at: &Places) {
         self.motion.pose(at, &mut self.links);
-        let sketch = self.motion.sketch();
-        let (bones, points) = (sketch.bones(), sketch.points(at));
+        let sketch = self.motion.sketch;
+        let (bones, points) = (&sketch.bones, &at.points);
         let g = &mut self.gathered;
-        g.rates.take(self.motion.walk().rate().abs());
+        g.rates.take(self.motion.walk.rate().abs());
         for &(link, ends) in &bones.rods {
             let pose = &self.links[link];
             let ends = ends.map(|i| pose.point(points[i]));
@@ -301,8 +285,8 @@ impl<M: StrokeMotion> Judge<M> {
         }
         self.look_at_tips();
         self.look_at_joints(at);
-        let sketch = self.motion.sketch();
-        let (bones, points) = (sketch.bones(), sketch.points(at));
+        let sketch = self.motion.sketch;
+        let (bones, points) = (&sketch.bones, &at.points);
         if let Some(meetings) = &mut self.meetings {
             let ends = (0..bones.joints.len()).map(|joint| sketch.link_of(at, joint));
             let of = ends.chain(bones.jaws.iter().map(|&jaw| Some(jaw)));
@@ -315,8 +299,8 @@ impl<M: StrokeMotion> Judge<M> {
 
     /// Takes in where the tips are and how they move.
     fn look_at_tips(&mut self) {
-        let sketch = self.motion.sketch();
-        let bones = sketch.bones();
+        let sketch = self.motion.sketch;
+        let bones = &sketch.bones;
         let g = &mut self.gathered;
         let (mut opens, mut all, mut least) = (0.0, 0.0, f64::INFINITY);
         for (n, (&jaw, inward)) in bones.jaws.iter().zip(&bones.inward).enumerate() {
@@ -333,10 +317,10 @@ impl<M: StrokeMotion> Judge<M> {
     }
 
     /// Takes in where joints and pitch circles are, and how long a cylinder is.
-    fn look_at_joints(&mut self, at: &PlacesOf<M>) {
-        let sketch = self.motion.sketch();
-        let (bones, points) = (sketch.bones(), sketch.points(at));
-        let apart = sketch.limits().task.pin_distance > 0.0;
+    fn look_at_joints(&mut self, at: &Places) {
+        let sketch = self.motion.sketch;
+        let (bones, points) = (&sketch.bones, &at.points);
+        let apart = sketch.limits.task.pin_distance > 0.0;
         let g = &mut self.gathered;
         g.pins.clear();
         for (i, place) in points[..bones.joints.len()].iter().enumerate() {

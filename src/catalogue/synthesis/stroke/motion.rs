@@ -1,91 +1,120 @@
 //! How a structure moves over its stroke, as far as judging it asks.
 
 use super::closure::Arms;
-use super::forces::{ForceFigures, JointForces};
+use super::forces::{ForceFigures, HingeForces};
 use super::pose::LinkPose;
-use super::walk::{FitEquations, Walk};
-use crate::chains::layout_symmetry::Input;
+use super::walk::{FitEquations, RADIAN, Walk};
+use crate::chains::Input;
 use crate::geom::vector::{add_scaled, quarter, sub};
+use crate::synthesis::elimination::SmallSystem;
+use crate::synthesis::equations::{PoseEquations, place_of};
 use crate::synthesis::place::Point;
-use crate::synthesis::skeleton::Skeleton;
-use crate::synthesis::sketch::LayoutSketch;
-use crate::synthesis::velocities::Velocity;
+use crate::synthesis::places::Places;
+use crate::synthesis::pose_forces::{figures, forces};
+use crate::synthesis::sketch::Sketch;
+use crate::synthesis::velocities::{Contours, Velocity};
 
-/// The strokes of a sketch, one after another.
-pub trait StrokeMotion {
-    /// What is moved.
-    type Of: LayoutSketch;
-    /// What holds where its links fit together.
-    type Equations: FitEquations;
-
-    /// What is moved.
-    fn sketch(&self) -> &Self::Of;
-
-    /// The pose on the way.
-    fn walk(&self) -> &Walk<Self::Equations>;
-
-    /// The same, to go on.
-    fn walk_mut(&mut self) -> &mut Walk<Self::Equations>;
-
-    /// Puts places into the equations.
-    fn place(&mut self, at: &<Self::Of as LayoutSketch>::JointPlaces);
-
-    /// Where the links are at the pose that the walk stands in.
-    fn pose(&self, at: &<Self::Of as LayoutSketch>::JointPlaces, links: &mut [LinkPose]);
-
-    /// What the joint forces say there; `None` where they have no one solution.
-    fn forces(
-        &mut self,
-        at: &<Self::Of as LayoutSketch>::JointPlaces,
-        links: &[LinkPose],
-    ) -> Option<ForceFigures>;
-}
-
-/// The strokes of a structure of hinges.
+/// What holds where the links fit together: of hinges alone turns are the only unknown.
 #[derive(Debug)]
-pub struct HingeMotion<'a> {
-    skeleton: &'a Skeleton<'a>,
-    walk: Walk<Arms<'a>>,
-    forces: JointForces,
+pub(in crate::synthesis) enum Equations<'a> {
+    /// Of contours.
+    Turns(&'a Contours, Arms<'a>, HingeForces),
+    /// Of joints.
+    Poses(PoseEquations<'a>),
 }
 
-impl<'a> HingeMotion<'a> {
-    /// Of a skeleton.
-    #[must_use]
-    pub fn new(skeleton: &'a Skeleton<'a>) -> HingeMotion<'a> {
-        HingeMotion {
-            skeleton,
-            walk: Walk::new(Arms::new(&skeleton.closure)),
-            forces: JointForces::new(skeleton),
+impl FitEquations for Equations<'_> {
+    fn size(&self) -> usize {
+        match self {
+            Equations::Turns(_, arms, _) => arms.size(),
+            Equations::Poses(poses) => poses.size(),
+        }
+    }
+
+    fn radian(&self, unknown: usize) -> f64 {
+        match self {
+            Equations::Turns(_, arms, _) => arms.radian(unknown),
+            Equations::Poses(poses) => poses.radian(unknown),
+        }
+    }
+
+    fn fill(&mut self, x: &[f64], wider: f64, rows: &mut SmallSystem) {
+        match self {
+            Equations::Turns(_, arms, _) => arms.fill(x, wider, rows),
+            Equations::Poses(poses) => poses.fill(x, wider, rows),
         }
     }
 }
 
-impl<'a> StrokeMotion for HingeMotion<'a> {
-    type Of = Skeleton<'a>;
-    type Equations = Arms<'a>;
+/// The strokes of a sketch, one after another.
+#[derive(Debug)]
+pub(in crate::synthesis) struct Motion<'a> {
+    /// What is moved.
+    pub(in crate::synthesis) sketch: &'a Sketch<'a>,
+    /// The pose on the way.
+    pub(super) walk: Walk<Equations<'a>>,
+}
 
-    fn sketch(&self) -> &Skeleton<'a> {
-        self.skeleton
+impl<'a> Motion<'a> {
+    pub(super) fn new(sketch: &'a Sketch<'a>) -> Motion<'a> {
+        let both = sketch.contours.as_ref().zip(sketch.closure.as_ref());
+        let turns = both.map(|(contours, closure)| {
+            let forces = HingeForces::new(sketch, contours);
+            Equations::Turns(contours, Arms::new(closure), forces)
+        });
+        let equations = turns.unwrap_or_else(|| Equations::Poses(PoseEquations::new(sketch)));
+        Motion {
+            walk: Walk::new(equations),
+            sketch,
+        }
     }
 
-    fn walk(&self) -> &Walk<Arms<'a>> {
-        &self.walk
+    /// Puts places into the equations.
+    pub(super) fn place(&mut self, at: &Places) {
+        match &mut self.walk.equations {
+            Equations::Turns(_, arms, _) => arms.place(&at.points),
+            Equations::Poses(poses) => poses.at = Some(at.clone()),
+        }
     }
 
-    fn walk_mut(&mut self) -> &mut Walk<Arms<'a>> {
-        &mut self.walk
+    /// Where the links are at the pose that the walk stands in.
+    pub(super) fn pose(&self, at: &Places, links: &mut [LinkPose]) {
+        match &self.walk.equations {
+            Equations::Turns(contours, arms, _) => {
+                self.pose_turned(contours, arms, &at.points, links)
+            }
+            Equations::Poses(poses) => self.pose_moved(poses, links),
+        }
     }
 
-    fn place(&mut self, at: &Vec<Point>) {
-        self.walk.equations.place(at);
+    fn pose_moved(&self, poses: &PoseEquations<'_>, links: &mut [LinkPose]) {
+        let rates = &self.walk.rates;
+        poses.poses(&self.walk.x, links);
+        for (link, pose) in links.iter_mut().enumerate() {
+            let Some(k) = place_of(link, self.sketch.bones.frame) else {
+                *pose = LinkPose::AT_REST;
+                continue;
+            };
+            let turning = rates[k + 2] / RADIAN;
+            // Of the point that is at the origin now.
+            let shift = [rates[k], rates[k + 1]];
+            pose.velocity = Velocity {
+                turning,
+                shift: add_scaled(shift, -turning, quarter(pose.shift)),
+            };
+        }
     }
 
-    fn pose(&self, at: &Vec<Point>, links: &mut [LinkPose]) {
-        let contours = &self.skeleton.contours;
+    fn pose_turned(
+        &self,
+        contours: &Contours,
+        arms: &Arms<'_>,
+        at: &[Point],
+        links: &mut [LinkPose],
+    ) {
         let (x, rates) = (&self.walk.x, &self.walk.rates);
         let last = x.len() - 1;
-        links[self.skeleton.structure.roles.frame] = LinkPose::AT_REST;
+        links[self.sketch.bones.frame] = LinkPose::AT_REST;
         for s in &contours.tree {
             let before = links[s.from];
             let unknown = contours.unknown[s.link];
@@ -98,7 +127,7 @@ impl<'a> StrokeMotion for HingeMotion<'a> {
             }
             let unknown = unknown.unwrap_or(last);
             let (pin, turning) = (before.point(at[s.joint]), rates[unknown]);
-            let tried = &self.walk.equations.turns[unknown];
+            let tried = &arms.turns[unknown];
             let mut here = tried.turned_to(x[unknown]);
             here.shift = sub(pin, here.point(at[s.joint]));
             here.velocity = Velocity {
@@ -109,9 +138,17 @@ impl<'a> StrokeMotion for HingeMotion<'a> {
         }
     }
 
-    fn forces(&mut self, at: &Vec<Point>, links: &[LinkPose]) -> Option<ForceFigures> {
-        let friction = &self.skeleton.limits.task.friction;
-        let solved = self.forces.solve(self.skeleton, links, at);
-        solved.then(|| self.forces.figures(self.skeleton, links, friction))
+    /// What the joint forces say there; `None` where they have no one solution.
+    pub(super) fn forces(&mut self, at: &Places, links: &[LinkPose]) -> Option<ForceFigures> {
+        match &mut self.walk.equations {
+            Equations::Turns(contours, _, hinges) => {
+                let solved = hinges.solve(self.sketch, contours, links, &at.points);
+                solved.then(|| figures(self.sketch, at, links, &hinges.pins))
+            }
+            Equations::Poses(_) => {
+                let forces = forces(self.sketch, at, links)?;
+                Some(figures(self.sketch, at, links, &forces))
+            }
+        }
     }
 }

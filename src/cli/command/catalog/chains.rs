@@ -1,18 +1,19 @@
 //! `ozols catalog count` and `chains`: of hinges alone, and of other pairs.
 
 use crate::catalog::spec::range;
-use crate::chains::census::census;
+use crate::chains::PairKind;
+use crate::chains::census::{census, pair_census};
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::census::pair_census;
-use crate::chains::pairs::sharing::Menu;
-use crate::chains::pairs::symmetric_census::symmetric_census;
+use crate::chains::sharing::Menu;
+use crate::chains::symmetric_census::symmetric_census;
 use crate::cli::option::{Global, TextJsonOrCsv};
 use crate::cli::terminal::progress::Bar;
 use crate::cli::terminal::{Done, output};
 use crate::format::csv::records;
-use crate::view::catalog::chains::{CensusData, ChainData, census_text, chains_text};
-use crate::view::catalog::pairs::{pair_rows, pair_text, symmetric_rows, symmetric_text};
+use crate::view::catalog::counts::{
+    ChainData, chains_text, hinged_row, hinged_text, pair_rows, pair_text, symmetric_rows,
+    symmetric_text,
+};
 use anyhow::ensure;
 use clap::{Args as ClapArgs, ValueHint};
 use itertools::Itertools;
@@ -189,9 +190,9 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
     for (i, n) in a.links.clone().enumerate() {
         bar.step(&format!("{n} links"), i, a.links.clone().count());
         let found = if a.chains {
-            count_chains(n, w).map(|chains| CensusData::of_chains(n, w, chains))
+            count_chains(n, w).map(|chains| hinged_row(n, w, chains, None))
         } else {
-            census(n, w, n <= MOST_OF_GRIPPERS).map(|c| CensusData::new(n, w, &c))
+            census(n, w, n <= MOST_OF_GRIPPERS).map(|c| hinged_row(n, w, c.chains, Some(&c)))
         };
         match found {
             Ok(found) => all.push(found),
@@ -207,7 +208,7 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
         ));
         return Ok(Done::Nothing);
     }
-    a.listing.give(&all, census_text)
+    a.listing.give(&all, hinged_text)
 }
 
 pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {

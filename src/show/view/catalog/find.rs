@@ -2,12 +2,12 @@
 
 use crate::catalog::find::Entry;
 use crate::catalog::neighbours::Neighbours;
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::census::Kinds;
-use crate::chains::pairs::classics::classics_of;
-use crate::chains::pairs::motion::moves_throughout;
-use crate::chains::pairs::roles::{PairRoles, PairSubject, Symmetries};
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::PairKind;
+use crate::chains::census::Kinds;
+use crate::chains::classics::classics_of;
+use crate::chains::motion::moves_throughout;
+use crate::chains::roles::{Roles, Subject, Symmetries};
+use crate::chains::structure::PairStructure;
 use crate::synthesis::recognize::Recognized;
 use crate::view::catalog::neighbours::{NeighbourData, neighbours_text};
 use crate::view::terminal::layout::fit;
@@ -84,8 +84,7 @@ impl FoundData {
         let PairStructure { chain, roles } = &found.structure;
         let in_count = chain.has_carriers() && moves_throughout(chain);
         let automorphisms = chain.automorphisms();
-        let automorphisms = automorphisms.iter().collect_vec();
-        let subject = PairSubject::new(chain, &automorphisms);
+        let subject = Subject::new(chain, &automorphisms);
         let essential = part.len() == chain.links();
         let threaded = found.made_as.threaded;
         let symmetries = in_count.then(|| symmetries(&subject, roles, threaded));
@@ -147,7 +146,7 @@ impl FoundData {
 }
 
 /// How a structure is symmetric: with a screw of both threads it is a mirror image where with a pinion it is one by half a turn.
-fn symmetries(subject: &PairSubject<'_>, roles: &PairRoles, threaded: bool) -> Symmetries {
+fn symmetries(subject: &Subject<'_>, roles: &Roles, threaded: bool) -> Symmetries {
     match subject.symmetries(roles) {
         of_pinion if threaded => Symmetries {
             mirror: of_pinion.half_turn,

@@ -2,15 +2,14 @@
 
 use super::number;
 use crate::common::data;
-use ozols::chains::pairs::classics::classics;
-use ozols::synthesis::figures::LayoutFigures;
-use ozols::synthesis::paired::direction::WholeDirection;
-use ozols::synthesis::paired::layout::{PairLayout, figures, most_symmetric};
-use ozols::synthesis::paired::rules::PairRules;
-use ozols::synthesis::paired::sketch::PairSketch;
-use ozols::synthesis::paired::structure::PairedStructure;
-use ozols::synthesis::paired::{PairPlaces, Teeth};
-use ozols::synthesis::sketch::LayoutSketch;
+use ozols::chains::classics::classics;
+use ozols::synthesis::direction::WholeDirection;
+use ozols::synthesis::figures::{LayoutFigures, figures};
+use ozols::synthesis::layout::{Layout, most_symmetric};
+use ozols::synthesis::places::{Places, Teeth};
+use ozols::synthesis::rules::Rules;
+use ozols::synthesis::sketch::Sketch;
+use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::{Limits, Task};
 use serde_json::Value;
 
@@ -28,9 +27,9 @@ const AHEAD: f64 = 20.0;
 
 /// A scheme laid out by hand: joints by the links' names in `classics.toml`.
 struct ByHand {
-    paired: PairedStructure,
-    rules: PairRules,
-    at: PairPlaces,
+    paired: Structure,
+    rules: Rules,
+    at: Places,
 }
 
 impl ByHand {
@@ -38,12 +37,12 @@ impl ByHand {
         let classic = classics().iter().find(|c| c.id == id).unwrap();
         let paired = most_symmetric(&classic.structure).unwrap();
         let lay = paired.lays().swap_remove(0);
-        let rules = PairRules::new(&paired, &lay).unwrap();
+        let rules = Rules::new(&paired, &lay).unwrap();
         let count = rules.joints.len();
         let half = 15.0;
         let mut points = vec![[0.0; 2]; count];
         points.extend([[120.0, half], [120.0, -half]]);
-        let at = PairPlaces {
+        let at = Places {
             points,
             along: vec![WholeDirection::AHEAD; count],
             pinned: rules.joints.iter().map(|j| j.links[0]).collect(),
@@ -88,8 +87,8 @@ impl ByHand {
             task: published_task(),
             ..Limits::default()
         };
-        let sketch = PairSketch::new(&self.paired, self.rules.clone(), limits);
-        let layout = PairLayout {
+        let sketch = Sketch::new(&self.paired, self.rules.clone(), limits);
+        let layout = Layout {
             looks: sketch.looks(&self.at).unwrap(),
             rules: self.rules,
             at: self.at,
@@ -130,7 +129,7 @@ fn forces_are_those_published_for_four_schemes() {
     let id = "piston-links-angular";
     let mut g = ByHand::new(id);
     let roles = g.paired.structure.roles.clone();
-    let (f, j, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
+    let (f, j, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
     let rod = g.between(driver, j);
     g.put(g.joint(f, j), [size(id, "hinge_x"), size(id, "hinge_y")]);
     g.put(g.joint(rod, j), [size(id, "tail_x"), size(id, "tail_y")]);
@@ -143,7 +142,7 @@ fn forces_are_those_published_for_four_schemes() {
     let id = "toggle-sliding-jaws";
     let mut g = ByHand::new(id);
     let roles = g.paired.structure.roles.clone();
-    let (f, j, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
+    let (f, j, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
     let rod = g.between(driver, j);
     g.turn(g.joint(f, j), WholeDirection::ACROSS);
     g.put(g.joint(f, j), [60.0, 10.0]);
@@ -176,7 +175,7 @@ fn forces_are_those_published_for_four_schemes() {
     let id = "rack-two-segments";
     let mut g = ByHand::new(id);
     let roles = g.paired.structure.roles.clone();
-    let (frame, jaw, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
+    let (frame, jaw, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
     g.put(
         g.joint(frame, jaw),
         [size(id, "hinge_x"), size(id, "hinge_y")],
@@ -195,7 +194,7 @@ fn a_wedge_pulls_by_its_angle() {
     for (slot, cotangent) in [(6, 4.0 / 3.0), (5, 15.0 / 8.0), (9, 3.0 / 4.0)] {
         let mut g = ByHand::new("wedge-hook");
         let roles = g.paired.structure.roles.clone();
-        let (frame, jaw, driver) = (roles.frame, roles.jaws[0], g.paired.drive()[1]);
+        let (frame, jaw, driver) = (roles.frame, roles.jaws[0], roles.drive()[1]);
         g.turn(g.joint(frame, jaw), WholeDirection::ACROSS);
         g.put(g.joint(frame, jaw), [60.0, 30.0]);
         g.turn(g.joint(driver, jaw), WholeDirection::number(slot));

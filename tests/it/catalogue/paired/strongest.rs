@@ -4,9 +4,10 @@
 use super::number;
 use crate::common::data;
 use itertools::Itertools;
-use ozols::chains::pairs::PairKind;
-use ozols::chains::pairs::classics::classics;
-use ozols::synthesis::paired::layout::{figures, layout, most_symmetric};
+use ozols::chains::PairKind;
+use ozols::chains::classics::classics;
+use ozols::synthesis::figures::figures;
+use ozols::synthesis::layout::{layout, most_symmetric};
 use ozols::synthesis::task::{Aim, Limits, Task};
 use serde_json::Value;
 

@@ -3,12 +3,12 @@
 use super::menu;
 use crate::common::data;
 use itertools::Itertools;
-use ozols::chains::pairs::PairKind;
-use ozols::chains::pairs::census::visit_pair_chains;
-use ozols::chains::pairs::chain::PairChain;
-use ozols::chains::pairs::classics::classics;
-use ozols::chains::pairs::motion::moves_throughout;
-use ozols::chains::pairs::roles::PairSubject;
+use ozols::chains::PairKind;
+use ozols::chains::chain::Chain;
+use ozols::chains::classics::classics;
+use ozols::chains::motion::moves_throughout;
+use ozols::chains::roles::Subject;
+use ozols::chains::visit::visit_pair_chains;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What independent programs say of a scheme, a line of `tests/data/schemes.csv`.
@@ -49,10 +49,10 @@ pub(in super::super) fn schemes() -> Vec<SchemeFigures> {
 }
 
 /// How often the count visits a chain.
-fn visits(chain: &PairChain, most: usize) -> usize {
-    let (own, times) = (chain.canonical(), AtomicUsize::new(0));
+fn visits(chain: &Chain, most: usize) -> usize {
+    let (own, times) = (chain.canonical().0, AtomicUsize::new(0));
     visit_pair_chains(chain.links(), menu(most), &|subject| {
-        if subject.chain.canonical() == own {
+        if subject.chain.canonical().0 == own {
             times.fetch_add(1, Ordering::Relaxed);
         }
     });
@@ -77,8 +77,7 @@ fn classic_schemes_are_in_the_count() {
                 "{id}"
             );
         }
-        let automorphisms = automorphisms.iter().collect_vec();
-        let subject = PairSubject::new(chain, &automorphisms);
+        let subject = Subject::new(chain, &automorphisms);
         let s = subject.symmetries(roles);
         let own = [
             subject.is_essential(roles),
@@ -106,7 +105,7 @@ fn classic_schemes_are_in_the_count() {
 }
 
 /// Every numbering that leaves the chain as it is.
-fn every_automorphism(chain: &PairChain) -> Vec<Vec<usize>> {
+fn every_automorphism(chain: &Chain) -> Vec<Vec<usize>> {
     let n = chain.links();
     let all = (0..n).permutations(n);
     let keeps = |p: &Vec<usize>| {

@@ -4,15 +4,15 @@ use super::{ANY, menu};
 use crate::common::data_bytes;
 use flate2::read::GzDecoder;
 use itertools::Itertools;
-use ozols::chains::pairs::PairKind;
-use ozols::chains::pairs::census::visit_pair_chains;
-use ozols::chains::pairs::roles::{PairRoles, PairSubject};
+use ozols::chains::PairKind;
+use ozols::chains::roles::{Roles, Subject};
+use ozols::chains::visit::visit_pair_chains;
 use std::collections::BTreeSet;
 use std::io::Read;
 use std::sync::Mutex;
 
 /// The letters of a numbering, and the roles in it.
-fn code(subject: &PairSubject<'_>, roles: &PairRoles, place: &[usize]) -> String {
+fn code(subject: &Subject<'_>, roles: &Roles, place: &[usize]) -> String {
     let n = place.len();
     let at = |number: usize| place.iter().position(|&p| p == number).unwrap();
     let pairs = (0..n).flat_map(|v| (0..v).map(move |u| (u, v)));
@@ -30,7 +30,7 @@ fn code(subject: &PairSubject<'_>, roles: &PairRoles, place: &[usize]) -> String
 }
 
 /// The least of all numberings, each tried.
-fn least_code(subject: &PairSubject<'_>, roles: &PairRoles) -> String {
+fn least_code(subject: &Subject<'_>, roles: &Roles) -> String {
     let n = subject.chain.links();
     let all = (0..n)
         .permutations(n)
@@ -38,7 +38,7 @@ fn least_code(subject: &PairSubject<'_>, roles: &PairRoles) -> String {
     all.min().unwrap()
 }
 
-fn words(subject: &PairSubject<'_>, roles: &PairRoles) -> String {
+fn words(subject: &Subject<'_>, roles: &Roles) -> String {
     let [u, v] = roles.input;
     let place = if roles.is_driven_from_frame() {
         "ground"

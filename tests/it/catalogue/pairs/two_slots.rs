@@ -3,9 +3,9 @@
 
 use super::super::carried_on::scattered;
 use itertools::Itertools;
-use ozols::chains::pairs::PairKind;
-use ozols::chains::pairs::census::{Kinds, pair_census};
-use ozols::chains::pairs::sharing::Menu;
+use ozols::chains::PairKind;
+use ozols::chains::census::{Kinds, pair_census};
+use ozols::chains::sharing::Menu;
 use std::collections::{BTreeMap, BTreeSet};
 
 const P: i64 = (1 << 31) - 1;

@@ -2,8 +2,8 @@
 //! Motions are counted in floating point at scattered places. Nothing of it is code that counts structures.
 
 use itertools::Itertools;
-use ozols::chains::pairs::PairKind;
-use ozols::chains::pairs::structure::PairStructure;
+use ozols::chains::PairKind;
+use ozols::chains::structure::PairStructure;
 use std::collections::BTreeSet;
 
 /// What joins each two links, a letter or `-`: (0, 1), (0, 2), (1, 2) and so on.

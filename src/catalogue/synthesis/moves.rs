@@ -1,16 +1,15 @@
 //! Places of a paired structure to begin with, others beside them, and what they cost.
 
-use crate::chains::pairs::PairKind;
+use crate::chains::PairKind;
 use crate::geom::vector::{length, sub};
 use crate::synthesis::bones::Bones;
-use crate::synthesis::paired::direction::{self, WholeDirection};
-use crate::synthesis::paired::equations::velocities;
-use crate::synthesis::paired::rules::PairRule;
-use crate::synthesis::paired::sketch::PairSketch;
-use crate::synthesis::paired::{PairPlaces, Teeth};
+use crate::synthesis::direction::{self, WholeDirection};
+use crate::synthesis::equations::velocities;
 use crate::synthesis::place::Point;
-use crate::synthesis::sketch::LayoutSketch;
-use crate::synthesis::task::{Limits, outward};
+use crate::synthesis::places::{Places, Teeth};
+use crate::synthesis::rules::Rule;
+use crate::synthesis::sketch::Sketch;
+use crate::synthesis::task::outward;
 use crate::synthesis::velocities::Velocity;
 use crate::synthesis::{bell, below, unit};
 use chacha20::ChaCha8Rng;
@@ -19,6 +18,8 @@ use std::ops::RangeInclusive;
 
 /// A layout that costs less than this is taken without looking for a better one.
 const GOOD: f64 = 1.0;
+/// The same of hinges alone.
+const GOOD_HINGES: f64 = 3.0;
 /// Pitch radii of two gears, in a ratio.
 const RATIOS: [[i32; 2]; 9] = [
     [1, 1],
@@ -36,7 +37,7 @@ const LEADS: [i32; 6] = [4, 5, 6, 8, 10, 12];
 /// Pitch diameters of pinions, in millimetres.
 const DIAMETERS: RangeInclusive<i32> = 10..=80;
 
-impl PairSketch<'_> {
+impl Sketch<'_> {
     /// The jaw that a joint guides in the frame, by its place among the jaws: such jaws slide straight to the part, as those do that
     /// are made.
     fn guided_jaw(&self, joint: usize) -> Option<usize> {
@@ -90,36 +91,26 @@ impl PairSketch<'_> {
     }
 }
 
-impl LayoutSketch for PairSketch<'_> {
-    type JointPlaces = PairPlaces;
-
-    fn bones(&self) -> &Bones {
-        &self.bones
-    }
-
-    fn limits(&self) -> &Limits {
-        &self.limits
-    }
-
-    fn turns_out(&self) -> bool {
-        self.rules.threaded
-    }
-
-    fn link_of(&self, at: &PairPlaces, joint: usize) -> Option<usize> {
+impl Sketch<'_> {
+    /// The link that has the pin or the block of a joint; none of what has no point on its links.
+    pub(super) fn link_of(&self, at: &Places, joint: usize) -> Option<usize> {
         match self.rules.joints[joint].pair {
             PairKind::Slot => Some(at.pinned[joint]),
             _ => self.bones.joints[joint].map(|[link, _]| link),
         }
     }
 
-    fn each_copy(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
+    /// Gives every place where a point stands that is at one of them.
+    pub(super) fn each_copy(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
         match &self.around {
             None => take(at),
             Some(around) => around.each(point, at, take),
         }
     }
 
-    fn each_circle(&self, at: &PairPlaces, take: &mut dyn FnMut(usize, f64, bool)) {
+    /// Gives every pitch circle, by the joint at its centre and its radius in mm, and whether its teeth mesh with what does not belong to
+    /// the half of the other jaw.
+    pub(super) fn each_circle(&self, at: &Places, take: &mut dyn FnMut(usize, f64, bool)) {
         let meshes = self.rules.meshes.iter().enumerate();
         if self.rules.threaded {
             return;
@@ -133,25 +124,35 @@ impl LayoutSketch for PairSketch<'_> {
         }
     }
 
-    fn good(&self) -> f64 {
-        GOOD
+    /// Places that cost less are taken without looking for better ones.
+    pub(super) fn good(&self) -> f64 {
+        if self.structure.form.hinges {
+            GOOD_HINGES
+        } else {
+            GOOD
+        }
     }
 
-    fn points<'p>(&self, at: &'p PairPlaces) -> &'p [Point] {
-        &at.points
-    }
-
-    fn drawn<'p>(&'p self, at: &'p PairPlaces) -> (Cow<'p, [Point]>, &'p Bones) {
+    /// All points that are drawn, and whose they are.
+    pub(super) fn drawn<'p>(&'p self, at: &'p Places) -> (Cow<'p, [Point]>, &'p Bones) {
         match &self.around {
             None => (Cow::Borrowed(&at.points), &self.bones),
             Some(around) => (Cow::Owned(around.points(&at.points)), &around.bones),
         }
     }
 
-    fn first_places(&self, random: &mut ChaCha8Rng) -> PairPlaces {
+    /// Places to begin with.
+    #[must_use]
+    pub fn first_places(&self, random: &mut ChaCha8Rng) -> Places {
         let joints: Vec<[usize; 2]> = self.rules.joints.iter().map(|j| j.links).collect();
+        if self.structure.form.hinges {
+            let points = self.bones.first_places(joints, random);
+            let mut at = Places::of_hinges(points);
+            self.rules.settle(&mut at);
+            return at;
+        }
         let all = 0..joints.len();
-        let mut at = PairPlaces {
+        let mut at = Places {
             pinned: joints
                 .iter()
                 .map(|links| links[usize::from(unit(random) < 0.5)])
@@ -167,19 +168,21 @@ impl LayoutSketch for PairSketch<'_> {
         at
     }
 
-    fn change(&self, at: &mut PairPlaces, warmth: f64, random: &mut ChaCha8Rng) {
+    /// Other places, by how warm the search still is: 1 at first, 0 at its end.
+    pub(super) fn change(&self, at: &mut Places, warmth: f64, random: &mut ChaCha8Rng) {
         let movable = self.rules.movable().count();
         let Some(joint) = self.rules.movable().nth(below(movable.max(1), random)) else {
             return;
         };
         let pair = self.rules.joints[joint].pair;
         let turns = match (pair, self.rules.rules[joint]) {
-            (PairKind::Slide | PairKind::Slot, PairRule::Own(along)) => along.is_none(),
+            _ if self.structure.form.hinges => false,
+            (PairKind::Slide | PairKind::Slot, Rule::Own(along)) => along.is_none(),
             (PairKind::Slide | PairKind::Slot, _) => self.guided_jaw(joint).is_none(),
             _ => false,
         };
         if pair == PairKind::Gear {
-            PairSketch::change_teeth(&mut at.teeth[joint], warmth, random);
+            Sketch::change_teeth(&mut at.teeth[joint], warmth, random);
         } else if turns && unit(random) < 0.4 {
             #[allow(clippy::cast_possible_truncation, reason = "a few")]
             let by = ((1.0 + 6.0 * warmth) * bell(random)).round() as isize;
@@ -189,24 +192,38 @@ impl LayoutSketch for PairSketch<'_> {
             at.pinned[joint] = if at.pinned[joint] == u { v } else { u };
         } else {
             let reach = 2.0 + 18.0 * warmth;
-            let moved = at.points[joint].map(|x| x + reach * bell(random));
-            at.points[joint] = moved.map(f64::round);
+            let on_line = matches!(self.rules.rules[joint], Rule::OnLine | Rule::Own(_));
+            let moving = if on_line && self.structure.form.hinges {
+                1
+            } else {
+                2
+            };
+            for x in &mut at.points[joint][..moving] {
+                *x = (*x + reach * bell(random)).round();
+            }
         }
         self.rules.settle(at);
     }
 
-    fn velocities(&self, at: &PairPlaces) -> Option<Vec<Velocity>> {
-        velocities(self, at)
+    /// How the links move for a unit speed of the driver; `None` where the pose is singular.
+    ///
+    /// # Complexity
+    /// O(n³) for n links.
+    #[must_use]
+    pub fn velocities(&self, at: &Places) -> Option<Vec<Velocity>> {
+        match &self.contours {
+            Some(contours) => contours.velocities(&at.points),
+            None => velocities(self, at),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthesis::paired::sketch::each_classic;
     use crate::synthesis::random;
     use crate::synthesis::seen_sides::SeenSides;
-    use crate::synthesis::sketch::pitch_penalty;
+    use crate::synthesis::sketch::each_classic;
 
     /// Places that cost more than is wanted have no cost, whatever of it makes them dear: pitch circles, too.
     #[test]
@@ -224,7 +241,7 @@ mod tests {
                     let less = cost - 1e-6 * cost.max(1.0);
                     assert_eq!(sketch.penalty(&at, moving, less, &mut seen), None, "{name}");
                 }
-                geared += usize::from(pitch_penalty(sketch, &at) > 0.0);
+                geared += usize::from(sketch.pitch_penalty(&at) > 0.0);
             }
         });
         assert!(geared > 20, "{geared}");

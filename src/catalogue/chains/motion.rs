@@ -7,8 +7,8 @@
 //! of action; two slots are two such rows, and so two at the point where these lines meet. Where a symmetry carries a joint to itself, its place is special: a hinge lies on the mirror line, a slide goes
 //! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it. Two slots are never their own image.
 
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::{Joint, PairChain, carried};
+use crate::chains::chain::{Chain, Joint, carried};
+use crate::chains::{PairKind, Symmetry};
 use crate::linalg::echelon::relations;
 use crate::linalg::modp::{Field, Residue};
 use chacha20::ChaCha8Rng;
@@ -20,18 +20,6 @@ const PRIME: u64 = (1 << 61) - 1;
 
 /// A velocity of a link: its turning, and the velocity of its point at the origin.
 pub type Velocity = [Residue; 3];
-
-/// How joints lie on each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Image {
-    /// Across the x axis.
-    Mirror,
-    /// By half a turn about the origin.
-    HalfTurn,
-    /// By a third of a turn about the origin: (x, y) to (-y, x - y), in coordinates along two axes at 120°, which stretching the
-    /// plane makes of square ones. Motions are as many in a stretched plane.
-    ThirdTurn,
-}
 
 /// What a joint forbids its links: rows of (turning, velocity of the point at the origin) of one against the other.
 #[derive(Debug, Clone, Copy)]
@@ -71,22 +59,25 @@ impl Draw {
     }
 
     /// Of a joint that is its own image; nothing where it cannot be. `across` chooses of two ways, where there are two.
-    fn own_image(&mut self, joint: OwnImage, image: Image, across: bool) -> Option<PairRows> {
+    fn own_image(&mut self, joint: OwnImage, image: Symmetry, across: bool) -> Option<PairRows> {
         let (zero, one) = (self.field.zero(), self.field.one());
         let straight = [one, zero];
         let upright = [zero, one];
         Some(match (joint.pair, image) {
-            (PairKind::Hinge, Image::Mirror) => PairRows::Hinge([self.one(), zero]),
-            (PairKind::Hinge, Image::HalfTurn) => PairRows::Hinge([zero; 2]),
-            (PairKind::Slide, Image::Mirror) if across => PairRows::Slide(straight),
-            (PairKind::Slide, Image::Mirror) => PairRows::Slide(upright),
-            (PairKind::Slide, Image::HalfTurn) => PairRows::Slide([self.one(), self.one()]),
-            (PairKind::Slot, Image::Mirror) if across => PairRows::Line([self.one(), zero, one]),
-            (PairKind::Slot, Image::Mirror) => PairRows::Line([zero, one, zero]),
-            (PairKind::Slot, Image::HalfTurn) => PairRows::Line([zero, self.one(), self.one()]),
-            (PairKind::Gear, Image::Mirror) if joint.swapped => PairRows::Line([zero, one, zero]),
-            (PairKind::Hinge, Image::ThirdTurn) => PairRows::Hinge([zero; 2]),
-            (PairKind::Gear | PairKind::TwoSlots, _) | (_, Image::ThirdTurn) => return None,
+            (PairKind::Hinge, Symmetry::Mirror) => PairRows::Hinge([self.one(), zero]),
+            (PairKind::Hinge, Symmetry::HalfTurn) => PairRows::Hinge([zero; 2]),
+            (PairKind::Slide, Symmetry::Mirror) if across => PairRows::Slide(straight),
+            (PairKind::Slide, Symmetry::Mirror) => PairRows::Slide(upright),
+            (PairKind::Slide, Symmetry::HalfTurn) => PairRows::Slide([self.one(), self.one()]),
+            (PairKind::Slot, Symmetry::Mirror) if across => PairRows::Line([self.one(), zero, one]),
+            (PairKind::Slot, Symmetry::Mirror) => PairRows::Line([zero, one, zero]),
+            (PairKind::Slot, Symmetry::HalfTurn) => PairRows::Line([zero, self.one(), self.one()]),
+            (PairKind::Gear, Symmetry::Mirror) if joint.swapped => {
+                PairRows::Line([zero, one, zero])
+            }
+            (PairKind::Hinge, Symmetry::Threefold) => PairRows::Hinge([zero; 2]),
+            (PairKind::Gear | PairKind::TwoSlots, _)
+            | (_, Symmetry::Threefold | Symmetry::Generic) => return None,
         })
     }
 }
@@ -101,26 +92,27 @@ struct OwnImage {
 
 impl OwnImage {
     /// Whether there are two ways to lie.
-    fn has_two_ways(self, image: Image) -> bool {
-        image == Image::Mirror && matches!(self.pair, PairKind::Slide | PairKind::Slot)
+    fn has_two_ways(self, image: Symmetry) -> bool {
+        image == Symmetry::Mirror && matches!(self.pair, PairKind::Slide | PairKind::Slot)
     }
 }
 
 /// What becomes of a direction.
-fn turned(field: Field, [x, y]: [Residue; 2], image: Image) -> [Residue; 2] {
+fn turned(field: Field, [x, y]: [Residue; 2], image: Symmetry) -> [Residue; 2] {
     match image {
-        Image::Mirror => [x, field.neg(y)],
-        Image::HalfTurn => [field.neg(x), field.neg(y)],
-        Image::ThirdTurn => [field.neg(y), field.sub(x, y)],
+        Symmetry::Generic => [x, y],
+        Symmetry::Mirror => [x, field.neg(y)],
+        Symmetry::HalfTurn => [field.neg(x), field.neg(y)],
+        Symmetry::Threefold => [field.neg(y), field.sub(x, y)],
     }
 }
 
-fn image_of(field: Field, place: PairRows, image: Image) -> PairRows {
+fn image_of(field: Field, place: PairRows, image: Symmetry) -> PairRows {
     match place {
         PairRows::Hinge(at) => PairRows::Hinge(turned(field, at, image)),
         PairRows::Slide(across) => PairRows::Slide(turned(field, across, image)),
         PairRows::Line([m, x, y]) => {
-            let mirrored = image == Image::Mirror;
+            let mirrored = image == Symmetry::Mirror;
             let moment = if mirrored { field.neg(m) } else { m };
             let [x, y] = turned(field, [x, y], image);
             PairRows::Line([moment, x, y])
@@ -129,7 +121,7 @@ fn image_of(field: Field, place: PairRows, image: Image) -> PairRows {
 }
 
 /// The motions with link 0 at rest, joints in these places.
-fn motions(field: Field, chain: &PairChain, places: &[(Joint, PairRows)]) -> Vec<Vec<Velocity>> {
+fn motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec<Velocity>> {
     let (zero, one) = (field.zero(), field.one());
     let mut columns = vec![Vec::with_capacity(2 * places.len()); 3 * (chain.links() - 1)];
     let mut row = |[u, v]: [usize; 2], entries: [Residue; 3]| {
@@ -172,7 +164,7 @@ fn motions(field: Field, chain: &PairChain, places: &[(Joint, PairRows)]) -> Vec
 /// # Complexity
 /// An elimination of 3n columns for n links.
 #[must_use]
-pub fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
+pub fn generic_motions(chain: &Chain) -> Vec<Vec<Velocity>> {
     let mut draw = Draw::new();
     let joints = chain.joints().into_iter();
     let places = joints.map(|j| (j, draw.place(j.pair))).collect_vec();
@@ -184,7 +176,7 @@ pub fn generic_motions(chain: &PairChain) -> Vec<Vec<Velocity>> {
 /// # Complexity
 /// As [`generic_motions`].
 #[must_use]
-pub fn motion(chain: &PairChain) -> Option<Vec<Velocity>> {
+pub fn motion(chain: &Chain) -> Option<Vec<Velocity>> {
     let mut found = generic_motions(chain);
     found.pop().filter(|_| found.is_empty())
 }
@@ -194,7 +186,7 @@ pub fn motion(chain: &PairChain) -> Option<Vec<Velocity>> {
 /// # Complexity
 /// As [`motion`].
 #[must_use]
-pub fn moves_throughout(chain: &PairChain) -> bool {
+pub fn moves_throughout(chain: &Chain) -> bool {
     motion(chain).is_some_and(|m| m.iter().all_unique())
 }
 
@@ -202,7 +194,7 @@ pub fn moves_throughout(chain: &PairChain) -> bool {
 /// joint that is its own image in one of two ways. Nothing where a joint cannot be its own image.
 fn symmetric_places(
     draw: &mut Draw,
-    chain: &PairChain,
+    chain: &Chain,
     symmetry: &Swap<'_>,
     across: u32,
 ) -> Option<Vec<(Joint, PairRows)>> {
@@ -213,7 +205,8 @@ fn symmetric_places(
         if places[i].is_some() {
             continue;
         }
-        let mut place = if symmetry.joint(joint) == joint.links {
+        let own = symmetry.joint(joint) == joint.links;
+        let mut place = if own && symmetry.image != Symmetry::Generic {
             let own = symmetry.own_image(joint);
             let across = across >> ways & 1 == 1;
             ways += u32::from(own.has_two_ways(symmetry.image));
@@ -240,7 +233,7 @@ pub(crate) struct Swap<'a> {
     /// Where each link goes.
     pub links: &'a [usize],
     /// How places go there.
-    pub image: Image,
+    pub image: Symmetry,
 }
 
 impl Swap<'_> {
@@ -261,16 +254,17 @@ impl Swap<'_> {
         for (link, &[turn, x, y]) in motion.iter().enumerate() {
             // What a line of action does along a velocity is the same for their images.
             out[self.links[link]] = match self.image {
-                Image::Mirror => [field.neg(turn), x, field.neg(y)],
-                Image::HalfTurn => [turn, field.neg(x), field.neg(y)],
-                Image::ThirdTurn => [turn, field.neg(field.add(x, y)), x],
+                Symmetry::Generic => [turn, x, y],
+                Symmetry::Mirror => [field.neg(turn), x, field.neg(y)],
+                Symmetry::HalfTurn => [turn, field.neg(x), field.neg(y)],
+                Symmetry::Threefold => [turn, field.neg(field.add(x, y)), x],
             };
         }
         out
     }
 
     /// In how many ways its own images among the joints may lie.
-    fn ways(&self, chain: &PairChain) -> u32 {
+    fn ways(&self, chain: &Chain) -> u32 {
         let two = |j: &Joint| {
             let own = self.joint(j) == j.links;
             own && self.own_image(j).has_two_ways(self.image)
@@ -287,7 +281,7 @@ impl Swap<'_> {
 /// An elimination of 3n columns for n links.
 #[must_use]
 pub(crate) fn motions_in_way(
-    chain: &PairChain,
+    chain: &Chain,
     symmetry: Swap<'_>,
     frame: usize,
     way: u32,
@@ -324,11 +318,7 @@ pub struct SymmetricWay {
 /// # Complexity
 /// An elimination of 3n columns for each way.
 #[must_use]
-pub(crate) fn symmetric_ways(
-    chain: &PairChain,
-    symmetry: Swap<'_>,
-    frame: usize,
-) -> Vec<SymmetricWay> {
+pub(crate) fn symmetric_ways(chain: &Chain, symmetry: Swap<'_>, frame: usize) -> Vec<SymmetricWay> {
     let field = Field::new(PRIME);
     let ways = 0..symmetry.ways(chain);
     let all = ways.map(|way| (way, motions_in_way(chain, symmetry, frame, way)));
@@ -346,7 +336,7 @@ pub(crate) fn symmetric_ways(
 /// As there.
 #[must_use]
 pub(crate) fn symmetric_motions(
-    chain: &PairChain,
+    chain: &Chain,
     symmetry: Swap<'_>,
     frame: usize,
 ) -> Vec<Vec<Velocity>> {

@@ -1,30 +1,14 @@
-//! Layouts of grippers with slides, gears and slots, symmetric ones.
-//!
-//! Here every link has a pose of its own, and a joint is the rows that hold between two of them, whatever its kind: what hinges
-//! alone allow, turns as the only unknown, does not go on with slots. Points are whole millimetres, directions have whole
-//! lengths (3, 4 and 5), radii are whole, so that layouts are exact as they stand.
-
-pub mod direction;
-pub(crate) mod equations;
-pub(crate) mod forces;
-pub mod layout;
-pub(crate) mod mechanism;
-pub(crate) mod mechanism_of_three;
-mod moves;
-pub(crate) mod rows;
-pub mod rules;
-pub mod sketch;
-pub mod structure;
-pub(crate) mod threefold;
+//! Where the joints of a gripper are: points are whole millimetres, directions have whole lengths (3, 4 and 5), radii are whole, so that
+//! layouts are exact as they stand.
 
 use crate::geom::vector::{add_scaled, quarter, sub};
-use crate::synthesis::paired::direction::WholeDirection;
+use crate::synthesis::direction::WholeDirection;
 use crate::synthesis::place::Point;
 use std::f64::consts::TAU;
 
 /// Where all joints are, by their places in the chain's list.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PairPlaces {
+pub struct Places {
     /// A point of each joint, in millimetres, and the tips after them: the pin of a hinge or a slot, a point of a guide, the point
     /// where pitch circles touch.
     pub points: Vec<Point>,
@@ -34,6 +18,20 @@ pub struct PairPlaces {
     pub pinned: Vec<usize>,
     /// The teeth of each gear pair.
     pub teeth: Vec<Teeth>,
+}
+
+impl Places {
+    /// Of hinges, and of a slide along the x axis.
+    #[must_use]
+    pub fn of_hinges(points: Vec<Point>) -> Places {
+        let all = points.len();
+        Places {
+            points,
+            along: vec![WholeDirection::AHEAD; all],
+            pinned: vec![0; all],
+            teeth: vec![Teeth::Gears([1, 1]); all],
+        }
+    }
 }
 
 /// How fast teeth go.

@@ -1,10 +1,10 @@
 //! Gripper schemes that are well known, as structures.
 
+use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::{Joint, PairChain, ordered};
-use crate::chains::pairs::roles::PairRoles;
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::chain::{Chain, Joint, ordered};
+use crate::chains::roles::Roles;
+use crate::chains::structure::PairStructure;
 use itertools::Itertools;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -67,12 +67,12 @@ impl Written {
         };
         let joints: Vec<Joint> = pairs.iter().map(joint).collect::<Option<_>>()?;
         Some(PairStructure {
-            roles: PairRoles {
+            roles: Roles {
                 frame: place("f")?,
                 input: both(&self.input)?,
                 jaws: both(&self.jaws)?.to_vec(),
             },
-            chain: PairChain::new(names.len(), joints),
+            chain: Chain::new(names.len(), joints),
         })
     }
 }

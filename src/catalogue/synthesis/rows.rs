@@ -3,11 +3,11 @@
 //! A row adds up forces times the velocities of points, and moments times turnings; the same numbers are the forces by which the
 //! joint acts. A hinge has two, a slide two, a slot and a gear pair one, and the drive one.
 
-use crate::chains::pairs::PairKind;
+use crate::chains::PairKind;
 use crate::geom::vector::{cross_plane, dot, quarter, scale, sub, unit};
-use crate::synthesis::paired::rules::{Mesh, PairRules};
-use crate::synthesis::paired::{PairPlaces, Teeth};
 use crate::synthesis::place::Point;
+use crate::synthesis::places::{Places, Teeth};
+use crate::synthesis::rules::{Mesh, Rules};
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::RADIAN;
 
@@ -60,8 +60,8 @@ pub(super) enum TeethSeen {
 /// The rows of all joints, drawn at places, with their links at poses.
 #[derive(Clone, Copy)]
 pub(super) struct PoseRows<'a> {
-    pub(super) rules: &'a PairRules,
-    pub(super) at: &'a PairPlaces,
+    pub(super) rules: &'a Rules,
+    pub(super) at: &'a Places,
     pub(super) links: &'a [LinkPose],
 }
 

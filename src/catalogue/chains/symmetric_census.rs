@@ -5,13 +5,14 @@
 //! images or change places with another. An orbit of joints is one that is its own image, or two that change places. Graphs grow by
 //! one orbit at a time, in every way that differs by more than numbering.
 
+use crate::chains::Symmetry;
 use crate::chains::canonical::{Weighted, canonical};
+use crate::chains::chain::{MOST_LINKS, ordered};
 use crate::chains::contracted::is_biconnected;
-use crate::chains::pairs::chain::{MOST_LINKS, ordered};
-use crate::chains::pairs::motion::{Image, Swap, Velocity, symmetric_motions};
-use crate::chains::pairs::roles::{PairRoles, PairSubject};
-use crate::chains::pairs::sharing::{Menu, Sharing};
-use crate::chains::pairs::structure::PairStructure;
+use crate::chains::motion::{Swap, Velocity, symmetric_motions};
+use crate::chains::roles::{Roles, Subject};
+use crate::chains::sharing::{Menu, Sharing};
+use crate::chains::structure::PairStructure;
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,7 +42,7 @@ pub struct SymmetricGripper {
 /// apart; with the fewest orbits of pairs that are not hinges that it can be seen to have.
 ///
 /// # Complexity
-/// As of [`crate::chains::pairs::census::visit_pair_chains`], over the halves.
+/// As of [`crate::chains::visit::visit_pair_chains`], over the halves.
 #[must_use]
 pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper> {
     let least = Mutex::new(BTreeMap::<(bool, bool, Weighted), usize>::new());
@@ -54,7 +55,7 @@ pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper>
         .for_each(|graph| {
             let sharing = Sharing::new(&graph.graph, &graph.automorphisms, &graph.swap);
             sharing.share(menu, &mut |chain, automorphisms| {
-                let subject = PairSubject::new(&chain, &automorphisms);
+                let subject = Subject::new(&chain, automorphisms);
                 let orbits = subject.other_pairs_up_to(&graph.swap);
                 let found = grippers(&subject, graph).into_iter();
                 let found = found.map(|(half_turn, roles)| {
@@ -98,13 +99,13 @@ pub fn symmetric_census(links: usize, menu: Menu<'_>) -> BTreeMap<SymmetricKind,
 }
 
 /// The grippers of a chain that move so that an involution carries them to themselves, and how.
-fn grippers(subject: &PairSubject<'_>, graph: &SymmetricGraph) -> Vec<(bool, PairRoles)> {
+fn grippers(subject: &Subject<'_>, graph: &SymmetricGraph) -> Vec<(bool, Roles)> {
     let swap = &graph.swap[..];
     let Some(fixed) = swap.iter().enumerate().position(|(l, &to)| l == to) else {
         return Vec::new();
     };
     let mut out = Vec::new();
-    for image in [Image::Mirror, Image::HalfTurn] {
+    for image in [Symmetry::Mirror, Symmetry::HalfTurn] {
         let swap = Swap { links: swap, image };
         let motions = symmetric_motions(subject.chain, swap, fixed);
         if motions.is_empty() {
@@ -113,7 +114,7 @@ fn grippers(subject: &PairSubject<'_>, graph: &SymmetricGraph) -> Vec<(bool, Pai
         for roles in subject.symmetric_roles(swap.links) {
             let moves = |m: &Vec<Velocity>| roles.moves_in(m);
             if motions.iter().any(moves) && subject.is_essential(&roles) {
-                out.push((image == Image::HalfTurn, roles));
+                out.push((image == Symmetry::HalfTurn, roles));
             }
         }
     }

@@ -5,24 +5,22 @@
 //! to themselves stay in their plane, and turn about its normal, as a scroll chuck does. Mirror images turn about the axis along
 //! which their driver slides, each side in a plane of its own through it, as in a wedge chuck: half a turn about it is the mirror.
 
-use crate::chains::layout_symmetry::Symmetry;
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::{Joint, PairChain, ordered};
+use crate::chains::chain::{Chain, Joint, ordered};
+use crate::chains::roles::Roles;
+use crate::chains::structure::PairStructure;
+use crate::chains::{PairKind, Symmetry};
 use crate::synthesis::bones::{BonePlan, Bones};
-use crate::synthesis::paired::rules::PairRules;
-use crate::synthesis::paired::structure::{Lay, PairedStructure};
 use crate::synthesis::place::{Pivot, Point, third};
-use crate::synthesis::structure::short_id;
+use crate::synthesis::rules::Rules;
+use crate::synthesis::structure::{Lay, Structure};
 use petgraph::unionfind::UnionFind;
 
 /// Sides.
 pub(crate) const SIDES: usize = 3;
 
-/// A gripper of three jaws.
+/// What of a gripper of two jaws stands three times.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ThreefoldStructure {
-    /// The gripper of two jaws that it is made of.
-    pub two: PairedStructure,
+pub struct Sides {
     /// The links of a side, that of the first jaw, by their numbers there.
     pub side: Vec<usize>,
     /// The links that stand once: the frame, the driver and what else the turn carries to itself.
@@ -31,11 +29,10 @@ pub struct ThreefoldStructure {
     pub(super) lay: Lay,
 }
 
-impl ThreefoldStructure {
+impl Sides {
     /// Of a gripper of two jaws; `None` where its sides are joined to each other or one of them is driven, or it is a mirror image
     /// of which something that stands once does more than slide along the middle.
-    #[must_use]
-    pub fn new(two: &PairedStructure) -> Option<ThreefoldStructure> {
+    fn new(two: &Structure) -> Option<Sides> {
         let lay = two.lays().into_iter().next()?;
         let swap = &lay.swap;
         let chain = &two.structure.chain;
@@ -74,18 +71,22 @@ impl ThreefoldStructure {
                 side.push(l);
             }
         }
-        Some(ThreefoldStructure {
-            two: two.clone(),
-            side,
-            own,
-            lay,
-        })
+        Some(Sides { side, own, lay })
+    }
+}
+
+impl Structure {
+    /// The gripper of three jaws that is made of it, where there is one.
+    #[must_use]
+    pub fn thrice(self) -> Option<Structure> {
+        let sides = Some(Sides::new(&self)?);
+        Some(Structure { sides, ..self })
     }
 
     /// Whether its sides are in planes of their own, round the axis along which the driver slides.
     #[must_use]
     pub fn is_axial(&self) -> bool {
-        self.two.form.symmetry == Symmetry::Mirror
+        self.sides.is_some() && self.form.symmetry == Symmetry::Mirror
     }
 
     /// What its sides are turned about.
@@ -97,65 +98,69 @@ impl ThreefoldStructure {
         }
     }
 
+    /// How many jaws, or times a joint of a side stands there.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.sides.as_ref().map_or(1, |_| SIDES)
+    }
+
     /// Number of links.
     #[must_use]
     pub fn links(&self) -> usize {
-        self.own.len() + SIDES * self.side.len()
+        let all = self.structure.chain.links();
+        (self.sides.as_ref()).map_or(all, |s| s.own.len() + SIDES * s.side.len())
     }
 
-    /// The number of a link of the gripper of two jaws, on one of the sides.
+    /// The number of a link on one of the sides, by what it is on the first.
     #[must_use]
     pub fn link(&self, of: usize, side: usize) -> Option<usize> {
+        let Some(sides) = &self.sides else {
+            return Some(of);
+        };
         let at = |list: &[usize]| list.iter().position(|&l| l == of);
-        let own = at(&self.own);
-        own.or_else(|| Some(self.own.len() + side * self.side.len() + at(&self.side)?))
+        let own = at(&sides.own);
+        own.or_else(|| Some(sides.own.len() + side * sides.side.len() + at(&sides.side)?))
     }
 
     /// Whether a joint stands once, three times, or not at all, since it is of the other side.
     #[must_use]
     pub fn copies(&self, joint: &Joint) -> usize {
-        match joint.links.map(|l| self.own.contains(&l)) {
+        let Some(sides) = &self.sides else { return 1 };
+        match joint.links.map(|l| sides.own.contains(&l)) {
             [true, true] => 1,
             _ if joint.links.iter().all(|l| self.link(*l, 0).is_some()) => SIDES,
             _ => 0,
         }
     }
 
-    /// The chain of all its links.
+    /// Chain and roles with all sides.
     #[must_use]
-    pub fn chain(&self) -> PairChain {
-        let joints = self.two.structure.chain.joints().into_iter();
+    pub fn whole(&self) -> PairStructure {
+        let PairStructure { chain, roles } = &self.structure;
+        let joints = chain.joints().into_iter();
         let joints = joints.flat_map(|j| (0..self.copies(&j)).map(move |side| (j, side)));
+        let carried = |links: [usize; 2], side| {
+            let [u, v] = links.map(|l| self.link(l, side));
+            Some(ordered([u?, v?]))
+        };
         let joints = joints.filter_map(|(j, side)| {
-            let [u, v] = j.links.map(|l| self.link(l, side));
             Some(Joint {
-                links: ordered([u?, v?]),
+                links: carried(j.links, side)?,
                 pair: j.pair,
             })
         });
-        PairChain::new(self.links(), joints)
-    }
-
-    /// The jaws.
-    #[must_use]
-    pub fn jaws(&self) -> Vec<usize> {
-        let first = self.two.structure.roles.jaws[0];
-        (0..SIDES)
-            .filter_map(|side| self.link(first, side))
-            .collect()
-    }
-
-    /// The name that says all of it: that of the gripper of two jaws, with its symmetry.
-    #[must_use]
-    pub fn name(&self) -> String {
-        let form = self.two.form.name(Symmetry::Threefold.name());
-        format!("{} {form}", self.two.structure.name())
-    }
-
-    /// A short name that a shell takes as it is: the number of links, and the beginning of the SHA-256 of the whole name.
-    #[must_use]
-    pub fn id(&self) -> String {
-        short_id(self.links(), &self.name())
+        let of_side = |side| self.link(roles.jaws[0], side);
+        PairStructure {
+            chain: Chain::new(self.links(), joints),
+            roles: Roles {
+                frame: self.link(roles.frame, 0).unwrap_or(0),
+                input: carried(roles.input, 0).unwrap_or_default(),
+                jaws: match self.sides {
+                    Some(_) => (0..SIDES).filter_map(of_side).collect(),
+                    None => roles.jaws.clone(),
+                },
+            },
+        }
     }
 }
 
@@ -170,7 +175,7 @@ pub(super) struct Around {
 }
 
 impl Around {
-    pub(super) fn new(structure: &ThreefoldStructure, rules: &PairRules, two: &Bones) -> Around {
+    pub(super) fn new(structure: &Structure, rules: &Rules, two: &Bones) -> Around {
         let mut made = Vec::new();
         let mut joints = Vec::new();
         let mut copies: Vec<usize> = rules.joints.iter().map(|j| structure.copies(j)).collect();
@@ -184,7 +189,7 @@ impl Around {
         let tip = rules.joints.len();
         made.extend((0..SIDES).map(|side| (tip, side)));
         copies.extend([SIDES, 0]);
-        let jaws = structure.jaws();
+        let jaws = structure.whole().roles.jaws;
         let turned = |side: usize| (0..side).fold(two.tips[0], |p, _| third(p));
         let pushes = |l: usize| two.rods.iter().any(|r| structure.link(r.0, 0) == Some(l));
         let plan = BonePlan {

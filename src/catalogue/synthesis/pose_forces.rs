@@ -1,37 +1,27 @@
-//! Forces in the joints of a paired gripper at a pose of the stroke, the jaws each holding the part with a newton, without
+//! Forces in the joints of a gripper at a pose of the stroke, the jaws each holding the part with a newton, without
 //! friction, and what they say of it.
 
-use crate::chains::pairs::PairKind;
-use crate::geom::vector::{add_scaled, dot, length, quarter, sub};
+use crate::chains::PairKind;
+use crate::geom::vector::{add_scaled, dot, length, sub};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::paired::PairPlaces;
-use crate::synthesis::paired::equations::{PairEquations, place_of};
-use crate::synthesis::paired::rows::{PoseRows, TeethSeen, Term};
-use crate::synthesis::paired::sketch::PairSketch;
-use crate::synthesis::place::Point;
-use crate::synthesis::stroke::forces::ForceFigures;
-use crate::synthesis::stroke::motion::StrokeMotion;
+use crate::synthesis::equations::place_of;
+use crate::synthesis::places::Places;
+use crate::synthesis::rows::{PoseRows, TeethSeen, Term};
+use crate::synthesis::sketch::Sketch;
+use crate::synthesis::stroke::forces::{ForceFigures, JointForce};
 use crate::synthesis::stroke::pose::LinkPose;
-use crate::synthesis::stroke::walk::{RADIAN, Walk};
-use crate::synthesis::velocities::Velocity;
-
-/// What a joint does: the force on its second link, where that acts, and a moment beside it, in N and N mm.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct PairForce {
-    /// On the second link of the joint.
-    force: Point,
-    /// Where.
-    at: Point,
-    /// About that point, of a slide.
-    moment: f64,
-}
+use crate::synthesis::stroke::walk::RADIAN;
 
 /// What each joint does by the equilibrium of every moving link, with the links at these poses; `None` where there is no one
 /// solution.
 ///
 /// # Complexity
 /// O(n³) for n links.
-fn forces(sketch: &PairSketch<'_>, at: &PairPlaces, links: &[LinkPose]) -> Option<Vec<PairForce>> {
+pub(super) fn forces(
+    sketch: &Sketch<'_>,
+    at: &Places,
+    links: &[LinkPose],
+) -> Option<Vec<JointForce>> {
     let (bones, rules) = (&sketch.bones, &sketch.rules);
     let rows = PoseRows { rules, at, links };
     let size = 3 * (links.len() - 1);
@@ -40,13 +30,18 @@ fn forces(sketch: &PairSketch<'_>, at: &PairPlaces, links: &[LinkPose]) -> Optio
         frame: bones.frame,
     };
     // A column for each row of the joints: what it does to the links for a newton of it.
-    let mut own: Vec<(usize, usize, PairForce)> = Vec::with_capacity(size);
+    let mut own: Vec<(usize, usize, JointForce)> = Vec::with_capacity(size);
     let mut column = 0;
     for (joint, j) in rules.joints.iter().enumerate() {
         rows.joint(joint, TeethSeen::Force, &mut |_, terms| {
             balance.add(column, terms);
             let on_second = terms.iter().filter(|t| t.link == j.links[1]);
-            own.extend(on_second.map(|t| (joint, column, PairForce::of(t))));
+            let unit = |t: &Term| JointForce {
+                force: t.force,
+                at: t.at,
+                moment: t.moment * RADIAN,
+            };
+            own.extend(on_second.map(|t| (joint, column, unit(t))));
             column += 1;
         });
     }
@@ -59,7 +54,7 @@ fn forces(sketch: &PairSketch<'_>, at: &PairPlaces, links: &[LinkPose]) -> Optio
     }
     let mut system = balance.system;
     system.solve()?;
-    let mut joints = vec![PairForce::default(); rules.joints.len()];
+    let mut joints = vec![JointForce::default(); rules.joints.len()];
     for (joint, column, unit) in own {
         let size = system.get(column, 0);
         let sum = &mut joints[joint];
@@ -90,22 +85,12 @@ impl Equilibrium {
     }
 }
 
-impl PairForce {
-    fn of(term: &Term) -> PairForce {
-        PairForce {
-            force: term.force,
-            at: term.at,
-            moment: term.moment * RADIAN,
-        }
-    }
-}
-
 /// What forces say, with the links moving as they do for a millimetre of the width.
-fn figures(
-    sketch: &PairSketch<'_>,
-    at: &PairPlaces,
+pub(super) fn figures(
+    sketch: &Sketch<'_>,
+    at: &Places,
     links: &[LinkPose],
-    forces: &[PairForce],
+    forces: &[JointForce],
 ) -> ForceFigures {
     let (bones, friction) = (&sketch.bones, &sketch.limits.task.friction);
     let rules = &sketch.rules;
@@ -148,9 +133,9 @@ fn figures(
 /// The angle whose sine is the work of a link over what the forces at its moving joints could do at their speeds; what holds it in
 /// the frame passes nothing on.
 fn passed(
-    sketch: &PairSketch<'_>,
+    sketch: &Sketch<'_>,
     links: &[LinkPose],
-    forces: &[PairForce],
+    forces: &[JointForce],
     link: usize,
     work: f64,
 ) -> f64 {
@@ -171,67 +156,5 @@ impl PoseRows<'_> {
         let along = self.along(slotted, joint);
         let speed = |l: usize| self.links[l].velocity.at(pin);
         dot(along, sub(speed(pinned), speed(slotted)))
-    }
-}
-
-/// The strokes of a paired structure.
-#[derive(Debug)]
-pub(crate) struct PairMotion<'a> {
-    sketch: &'a PairSketch<'a>,
-    walk: Walk<PairEquations<'a>>,
-}
-
-impl<'a> PairMotion<'a> {
-    /// Of a sketch.
-    #[must_use]
-    pub(crate) fn new(sketch: &'a PairSketch<'a>) -> PairMotion<'a> {
-        PairMotion {
-            walk: Walk::new(PairEquations::new(sketch)),
-            sketch,
-        }
-    }
-}
-
-impl<'a> StrokeMotion for PairMotion<'a> {
-    type Of = PairSketch<'a>;
-    type Equations = PairEquations<'a>;
-
-    fn sketch(&self) -> &PairSketch<'a> {
-        self.sketch
-    }
-
-    fn walk(&self) -> &Walk<PairEquations<'a>> {
-        &self.walk
-    }
-
-    fn walk_mut(&mut self) -> &mut Walk<PairEquations<'a>> {
-        &mut self.walk
-    }
-
-    fn place(&mut self, at: &PairPlaces) {
-        self.walk.equations.at = Some(at.clone());
-    }
-
-    fn pose(&self, _: &PairPlaces, links: &mut [LinkPose]) {
-        let walk = &self.walk;
-        walk.equations.poses(&walk.x, links);
-        for (link, pose) in links.iter_mut().enumerate() {
-            let Some(k) = place_of(link, self.sketch.bones.frame) else {
-                *pose = LinkPose::AT_REST;
-                continue;
-            };
-            let turning = walk.rates[k + 2] / RADIAN;
-            // Of the point that is at the origin now.
-            let shift = [walk.rates[k], walk.rates[k + 1]];
-            pose.velocity = Velocity {
-                turning,
-                shift: add_scaled(shift, -turning, quarter(pose.shift)),
-            };
-        }
-    }
-
-    fn forces(&mut self, at: &PairPlaces, links: &[LinkPose]) -> Option<ForceFigures> {
-        let forces = forces(self.sketch, at, links)?;
-        Some(figures(self.sketch, at, links, &forces))
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::geom::vector::{dot, sub};
 use crate::synthesis::elimination::SmallSystem;
-use crate::synthesis::paired::PairPlaces;
-use crate::synthesis::paired::rows::{PoseRows, TeethSeen, Term};
-use crate::synthesis::paired::sketch::PairSketch;
 use crate::synthesis::place::Point;
+use crate::synthesis::places::Places;
+use crate::synthesis::rows::{PoseRows, TeethSeen, Term};
+use crate::synthesis::sketch::Sketch;
 use crate::synthesis::stroke::pose::LinkPose;
 use crate::synthesis::stroke::walk::{FitEquations, RADIAN};
 use crate::synthesis::velocities::Velocity;
@@ -38,7 +38,7 @@ pub(super) fn put(
 ///
 /// # Complexity
 /// O(n³) for n links.
-pub(super) fn velocities(sketch: &PairSketch<'_>, at: &PairPlaces) -> Option<Vec<Velocity>> {
+pub(super) fn velocities(sketch: &Sketch<'_>, at: &Places) -> Option<Vec<Velocity>> {
     let frame = sketch.bones.frame;
     let links = &sketch.at_rest[..];
     let rows = PoseRows {
@@ -69,17 +69,17 @@ pub(super) fn velocities(sketch: &PairSketch<'_>, at: &PairPlaces) -> Option<Vec
 
 /// The equations of a stroke: shift and turn of every moving link, the turn as millimetres at an arm of 50, and the drive.
 #[derive(Debug, Clone)]
-pub(crate) struct PairEquations<'a> {
-    sketch: &'a PairSketch<'a>,
-    pub(super) at: Option<PairPlaces>,
+pub(crate) struct PoseEquations<'a> {
+    sketch: &'a Sketch<'a>,
+    pub(super) at: Option<Places>,
     links: Vec<LinkPose>,
 }
 
-impl<'a> PairEquations<'a> {
+impl<'a> PoseEquations<'a> {
     /// Room for those of a sketch.
     #[must_use]
-    pub(crate) fn new(sketch: &'a PairSketch<'a>) -> PairEquations<'a> {
-        PairEquations {
+    pub(crate) fn new(sketch: &'a Sketch<'a>) -> PoseEquations<'a> {
+        PoseEquations {
             links: sketch.at_rest.clone(),
             at: None,
             sketch,
@@ -97,7 +97,7 @@ impl<'a> PairEquations<'a> {
     }
 }
 
-impl FitEquations for PairEquations<'_> {
+impl FitEquations for PoseEquations<'_> {
     fn size(&self) -> usize {
         3 * (self.links.len() - 1) + 1
     }

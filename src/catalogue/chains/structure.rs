@@ -1,20 +1,20 @@
 //! A gripper as a structure: a chain of pairs with its roles, under a name that does not depend on numbers; its parts, and what is left
 //! of it without two of its links.
 
+use crate::chains::PairKind;
 use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::{Joint, PairChain, ordered};
-use crate::chains::pairs::motion::moves_throughout;
-use crate::chains::pairs::roles::{PairRoles, PairSubject};
+use crate::chains::chain::{Chain, Joint, ordered};
+use crate::chains::motion::moves_throughout;
+use crate::chains::roles::{Roles, Subject};
 use itertools::Itertools;
 
 /// A chain with the roles of its links.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PairStructure {
     /// The chain.
-    pub chain: PairChain,
+    pub chain: Chain,
     /// The roles.
-    pub roles: PairRoles,
+    pub roles: Roles,
 }
 
 /// What is added to the weight of the driven joint.
@@ -44,8 +44,8 @@ impl PairStructure {
         });
         let input = between.clone().find(driven).unwrap_or_default();
         PairStructure {
-            chain: PairChain::new(key.vertices(), joints),
-            roles: PairRoles {
+            chain: Chain::new(key.vertices(), joints),
+            roles: Roles {
                 frame: at(1).next().unwrap_or_default(),
                 input,
                 jaws: at(2).collect(),
@@ -89,8 +89,7 @@ impl PairStructure {
     #[must_use]
     pub fn essential_links(&self) -> Vec<usize> {
         let automorphisms = self.chain.automorphisms();
-        let automorphisms = automorphisms.iter().collect_vec();
-        let subject = PairSubject::new(&self.chain, &automorphisms);
+        let subject = Subject::new(&self.chain, &automorphisms);
         let parts = subject.moving_parts_with(&self.roles);
         let least = parts.min_by_key(|p| p.count_ones());
         let least = least.filter(|_| moves_throughout(&self.chain));
@@ -111,7 +110,7 @@ impl PairStructure {
         let mut places = vec![0; self.chain.links()];
         links.iter().enumerate().for_each(|(at, &l)| places[l] = at);
         PairStructure {
-            chain: PairChain::new(links.len(), joints),
+            chain: Chain::new(links.len(), joints),
             roles: self.roles.image(&places),
         }
     }
@@ -156,7 +155,7 @@ impl PairStructure {
         let apart = jaws.filter(|jaws| jaws.iter().chain([&roles.frame]).all_unique());
         let left = apart.map(|jaws| PairStructure {
             chain: self.chain.clone(),
-            roles: PairRoles {
+            roles: Roles {
                 input,
                 jaws: jaws.into_iter().sorted_unstable().collect(),
                 frame: roles.frame,
@@ -173,7 +172,7 @@ struct Row {
 }
 
 impl Row {
-    fn new(chain: &PairChain, links: [usize; 2]) -> Option<Row> {
+    fn new(chain: &Chain, links: [usize; 2]) -> Option<Row> {
         let [u, v] = links;
         let end = |of: usize, but: usize| {
             let others = (0..chain.links()).filter(|&l| l != but && chain.between(of, l).is_some());

@@ -1,8 +1,7 @@
-//! A chain whose joints are of several kinds.
+//! A chain whose joints are of one kind or several.
 
-use crate::chains::Chain;
-use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::pairs::PairKind;
+use crate::chains::PairKind;
+use crate::chains::canonical::{Canonical, Weighted, canonical};
 use petgraph::unionfind::UnionFind;
 
 /// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.
@@ -10,7 +9,7 @@ pub(crate) const MOST_LINKS: usize = 12;
 
 /// A chain: which links are joined, and by what.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PairChain {
+pub struct Chain {
     pairs: Weighted,
 }
 
@@ -43,10 +42,10 @@ impl Joint {
     }
 }
 
-impl PairChain {
+impl Chain {
     /// A chain of so many links with these joints, of which two slots may be between the same links.
     #[must_use]
-    pub fn new(links: usize, joints: impl IntoIterator<Item = Joint>) -> PairChain {
+    pub fn new(links: usize, joints: impl IntoIterator<Item = Joint>) -> Chain {
         let mut pairs = Weighted::new(links);
         for joint in joints {
             let [u, v] = joint.links;
@@ -58,23 +57,38 @@ impl PairChain {
             };
             pairs.set(u, v, pair as u8);
         }
-        PairChain { pairs }
+        Chain { pairs }
     }
 
-    /// A chain of hinges, of which one may slide instead, given by its links, the lesser first.
+    /// A chain of so many links with these hinges.
     #[must_use]
-    pub(crate) fn hinged(chain: &Chain, slide: Option<[usize; 2]>) -> PairChain {
-        let joints = chain.joints().into_iter().map(|(u, v)| {
-            let links = [u, v];
-            let slides = slide == Some(links);
-            let pair = if slides {
-                PairKind::Slide
-            } else {
-                PairKind::Hinge
-            };
-            Joint { links, pair }
-        });
-        PairChain::new(chain.links(), joints)
+    pub fn hinged(links: usize, joints: impl IntoIterator<Item = (usize, usize)>) -> Chain {
+        let pair = PairKind::Hinge;
+        let joints = joints.into_iter().map(|(u, v)| [u, v]);
+        Chain::new(links, joints.map(|links| Joint { links, pair }))
+    }
+
+    /// The links of a contracted graph with its strings, each with its number of hinges and so with one binary link fewer.
+    pub(super) fn of_strings(links: usize, ends: &[(usize, usize)], joints: &[u8]) -> Chain {
+        let binary: usize = joints.iter().map(|&x| usize::from(x) - 1).sum();
+        let mut next = links;
+        let mut all = Vec::with_capacity(links + binary);
+        for (&(u, v), &x) in ends.iter().zip(joints) {
+            let mut at = u;
+            for _ in 1..x {
+                all.push((at, next));
+                (at, next) = (next, next + 1);
+            }
+            all.push((at, v));
+        }
+        Chain::hinged(links + binary, all)
+    }
+
+    /// The same with another joint between two links that are joined.
+    #[must_use]
+    pub(crate) fn with(mut self, [u, v]: [usize; 2], pair: PairKind) -> Chain {
+        self.pairs.set(u, v, pair as u8);
+        self
     }
 
     /// Number of links.
@@ -111,11 +125,20 @@ impl PairChain {
         self.joints().into_iter().flat_map(made).collect()
     }
 
-    /// Which links are joined, by whatever.
+    /// Whether two links are joined.
     #[must_use]
-    pub fn graph(&self) -> Chain {
-        let joints = self.joints().into_iter();
-        Chain::new(self.links(), joints.map(|j| (j.links[0], j.links[1])))
+    pub fn joined(&self, u: usize, v: usize) -> bool {
+        self.pairs.weight(u, v) > 0
+    }
+
+    /// The mobility by counting.
+    #[must_use]
+    pub fn mobility(&self) -> usize {
+        let joints = self.joints_made().into_iter();
+        let taken: usize = joints
+            .map(|j| if j.pair.leaves_two() { 1 } else { 2 })
+            .sum();
+        (3 * (self.links() - 1)).saturating_sub(taken)
     }
 
     /// A letter for what joins each two links, (0, 1), (0, 2), (1, 2) and so on, and - where nothing does.
@@ -128,7 +151,7 @@ impl PairChain {
 
     /// The chain of a code; `None` where it is none.
     #[must_use]
-    pub fn of_code(links: usize, code: &str) -> Option<PairChain> {
+    pub fn of_code(links: usize, code: &str) -> Option<Chain> {
         let pairs = (0..links).flat_map(|v| (0..v).map(move |u| [u, v]));
         let mut letters = code.chars();
         let mut joints = Vec::new();
@@ -141,7 +164,7 @@ impl PairChain {
                 }
             }
         }
-        (letters.next().is_none()).then(|| PairChain::new(links, joints))
+        (letters.next().is_none()).then(|| Chain::new(links, joints))
     }
 
     /// How many joints are of a kind.
@@ -212,13 +235,21 @@ impl PairChain {
         canonical(&self.pairs).automorphisms
     }
 
-    /// The chain in its canonical numbering: equal for two chains exactly where they are isomorphic.
+    /// The chain in its canonical numbering, equal for two chains exactly where they are isomorphic, with its automorphisms.
     ///
     /// # Complexity
     /// As of [`canonical`].
     #[must_use]
-    pub fn canonical(&self) -> PairChain {
-        let pairs = canonical(&self.pairs).graph;
-        PairChain { pairs }
+    pub fn canonical(&self) -> (Chain, Vec<Vec<usize>>) {
+        let Canonical {
+            graph,
+            order,
+            automorphisms,
+        } = canonical(&self.pairs);
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(at, &v)| place[v] = at);
+        let renumbered = |a: &Vec<usize>| order.iter().map(|&v| place[a[v]]).collect();
+        let automorphisms = automorphisms.iter().map(renumbered).collect();
+        (Chain { pairs: graph }, automorphisms)
     }
 }

@@ -3,10 +3,10 @@
 //! Joints that change places under an involution are of one kind: an orbit is chosen at a time, a joint of its own where
 //! nothing is to change places.
 
+use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
-use crate::chains::pairs::PairKind;
-use crate::chains::pairs::chain::{Joint, PairChain, carried};
-use crate::chains::pairs::motion::moves_throughout;
+use crate::chains::chain::{Chain, Joint, carried};
+use crate::chains::motion::moves_throughout;
 use itertools::Itertools;
 use std::cmp::Ordering;
 
@@ -91,11 +91,7 @@ impl<'a> Sharing<'a> {
     }
 
     /// Calls `visit` with each chain and its automorphisms.
-    pub(super) fn share(
-        &self,
-        menu: Menu<'_>,
-        visit: &mut impl FnMut(PairChain, Vec<&Vec<usize>>),
-    ) {
+    pub(super) fn share(&self, menu: Menu<'_>, visit: &mut impl FnMut(Chain, Vec<&Vec<usize>>)) {
         let Some(higher) = self.higher() else {
             return;
         };
@@ -132,7 +128,7 @@ impl<'a> Sharing<'a> {
     }
 
     /// Visits the chain of these kinds where it is one and no symmetry makes a lesser list of it.
-    fn judge(&self, pairs: &[PairKind], visit: &mut impl FnMut(PairChain, Vec<&Vec<usize>>)) {
+    fn judge(&self, pairs: &[PairKind], visit: &mut impl FnMut(Chain, Vec<&Vec<usize>>)) {
         let mut keeping = Vec::new();
         for (image, automorphism) in &self.images {
             match image.iter().map(|&j| pairs[j]).cmp(pairs.iter().copied()) {
@@ -143,7 +139,7 @@ impl<'a> Sharing<'a> {
         }
         let joints = self.joints.iter().zip(pairs);
         let joints = joints.map(|(&links, &pair)| Joint { links, pair });
-        let chain = PairChain::new(self.links, joints);
+        let chain = Chain::new(self.links, joints);
         // Without slides the count of every part has told it already.
         let slides = pairs.contains(&PairKind::Slide);
         if chain.has_carriers() && (!slides || moves_throughout(&chain)) {

@@ -1,0 +1,104 @@
+//! Every chain of pairs, and the graphs that they are made of.
+
+use crate::chains::canonical::{Canonical, Weighted, canonical};
+use crate::chains::chain::MOST_LINKS;
+use crate::chains::roles::Subject;
+use crate::chains::sharing::{Menu, Sharing};
+use itertools::Itertools;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The graph with a path of new vertices between two of its own.
+fn with_ear(graph: &Weighted, ends: [usize; 2], new: usize) -> Weighted {
+    let n = graph.vertices();
+    let mut out = graph.widened(new);
+    let way = std::iter::once(ends[0]).chain(n..n + new).chain([ends[1]]);
+    for (u, v) in way.tuple_windows() {
+        out.set(u, v, 1);
+    }
+    out
+}
+
+fn ring(vertices: usize) -> Weighted {
+    let mut out = Weighted::new(vertices);
+    (0..vertices).for_each(|v| out.set(v, (v + 1) % vertices, 1));
+    out
+}
+
+/// The graphs that hang together without any one of their vertices, each once: those of each number of vertices, up to the
+/// greatest, with a given number of loops.
+///
+/// Every such graph of one loop more comes of a smaller one by an ear, a path between two of its vertices that passes
+/// through new ones alone [Whitney 1932]. A chain of mobility 1 in which every two links move is such a graph: where one link
+/// holds two parts together, the mobility is the sum of theirs.
+struct Level {
+    most: usize,
+    graphs: BTreeMap<usize, BTreeSet<Weighted>>,
+}
+
+impl Level {
+    fn rings(most: usize) -> Level {
+        let one = |n| (n, BTreeSet::from([canonical(&ring(n)).graph]));
+        Level {
+            most,
+            graphs: (3..=most).map(one).collect(),
+        }
+    }
+
+    /// With one loop more.
+    fn grown(&self) -> Level {
+        let grown = |n: usize| -> BTreeSet<Weighted> {
+            let smaller = self.graphs.iter().filter(|(m, _)| **m <= n);
+            let all = smaller.flat_map(|(m, graphs)| graphs.iter().map(move |g| (n - m, g)));
+            let all: Vec<(usize, &Weighted)> = all.collect();
+            let eared = all.into_par_iter().flat_map_iter(|(new, g)| {
+                let ends = (0..g.vertices()).tuple_combinations();
+                let free = ends.filter(move |&(u, v)| new > 0 || g.weight(u, v) == 0);
+                free.map(move |(u, v)| canonical(&with_ear(g, [u, v], new)).graph)
+            });
+            eared.collect()
+        };
+        Level {
+            most: self.most,
+            graphs: (4..=self.most).map(|n| (n, grown(n))).collect(),
+        }
+    }
+}
+
+/// Every simple graph with so many vertices that hangs together without any one of them, by its number of edges up to a
+/// greatest, in canonical numbering and with its automorphisms.
+///
+/// # Complexity
+/// One canonical numbering for each two vertices of each smaller graph.
+#[must_use]
+fn biconnected_graphs(vertices: usize, most_edges: usize) -> Vec<Canonical> {
+    let mut out = Vec::new();
+    let mut level = Level::rings(vertices);
+    for edges in vertices..=most_edges {
+        if edges > vertices {
+            level = level.grown();
+        }
+        let own = level.graphs.get(&vertices).into_iter().flatten();
+        out.extend(own.map(canonical));
+    }
+    out
+}
+
+/// Calls `visit` with every chain of so many links and with its automorphisms; in no particular order and from several
+/// threads.
+///
+/// # Complexity
+/// Some ten microseconds a way to share the kinds out over a graph, where there are slides; one otherwise.
+pub fn visit_pair_chains(links: usize, menu: Menu<'_>, visit: &(impl Fn(&Subject<'_>) + Sync)) {
+    if !(3..=MOST_LINKS).contains(&links) {
+        return;
+    }
+    let graphs = biconnected_graphs(links, menu.most_joints(links, menu.most));
+    graphs.par_iter().for_each(|graph| {
+        let own: Vec<usize> = (0..links).collect();
+        let sharing = Sharing::new(&graph.graph, &graph.automorphisms, &own);
+        sharing.share(menu, &mut |chain, automorphisms| {
+            visit(&Subject::new(&chain, automorphisms));
+        });
+    });
+}

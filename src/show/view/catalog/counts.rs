@@ -1,0 +1,442 @@
+//! Counts and lists of chains and of their grippers for people, and as data.
+
+use crate::chains::census::{Census, Counted, DriveKind, Grippers, Kinds};
+use crate::chains::chain::Chain;
+use crate::chains::graph6;
+use crate::chains::roles::Subject;
+use crate::chains::symmetric_census::SymmetricKind;
+use crate::format::grouped;
+use crate::view::terminal::layout::{fit, table};
+use itertools::Itertools;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+
+/// A cell of a row.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[serde(untagged)]
+enum CountCell {
+    Number(Option<u64>),
+    Word(&'static str),
+}
+
+/// A row of counts: the keys are a stable contract, in their order.
+#[derive(Debug, Clone)]
+pub struct CountRow(Vec<(&'static str, CountCell)>);
+
+impl Serialize for CountRow {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        let mut row = s.serialize_struct("CountRow", self.0.len())?;
+        for (key, cell) in &self.0 {
+            row.serialize_field(key, cell)?;
+        }
+        row.end()
+    }
+}
+
+impl CountRow {
+    fn new(cells: impl IntoIterator<Item = (&'static str, Option<u64>)>) -> CountRow {
+        let cells = cells.into_iter();
+        CountRow(cells.map(|(key, n)| (key, CountCell::Number(n))).collect())
+    }
+
+    fn number(&self, key: &str) -> Option<u64> {
+        let found = self.0.iter().find(|(k, _)| *k == key)?;
+        match found.1 {
+            CountCell::Number(n) => n,
+            CountCell::Word(_) => None,
+        }
+    }
+}
+
+/// Grippers of hinges alone: keys, what they are called, how many jaws they have, and what is counted.
+const OF_HINGES: [(&str, &str, usize, Counted); 13] = [
+    ("two_jaws", "grippers of two jaws", 2, Counted::All),
+    ("essential", "  essential", 2, Counted::Essential),
+    (
+        "both_jaws_float",
+        "    both jaws float",
+        2,
+        Counted::Floating,
+    ),
+    (
+        "one_jaw_at_frame",
+        "    one at the frame",
+        2,
+        Counted::OneAtFrame,
+    ),
+    (
+        "both_jaws_at_frame",
+        "    both at the frame",
+        2,
+        Counted::BothAtFrame,
+    ),
+    (
+        "truss_with_part",
+        "    truss with the part",
+        2,
+        Counted::Truss,
+    ),
+    (
+        "graph_symmetric",
+        "    graph symmetric",
+        2,
+        Counted::GraphSymmetric,
+    ),
+    (
+        "mirror_possible",
+        "    mirror, sliding input",
+        2,
+        Counted::Mirror,
+    ),
+    (
+        "half_turn_possible",
+        "    half turn, turning input",
+        2,
+        Counted::HalfTurn,
+    ),
+    ("three_jaws", "grippers of three jaws", 3, Counted::All),
+    ("three_essential", "  essential", 3, Counted::Essential),
+    (
+        "three_symmetric",
+        "    graph symmetric",
+        3,
+        Counted::GraphSymmetric,
+    ),
+    (
+        "threefold_possible",
+        "    threefold, turning input",
+        3,
+        Counted::Threefold,
+    ),
+];
+/// What is counted of chains of hinges alone.
+const OF_CHAINS: [(&str, &str); 4] = [
+    ("chains", "chains"),
+    ("frames", "with a frame"),
+    ("inputs", "with an input joint"),
+    ("drives", "with a drive"),
+];
+
+/// Of one number of hinges; of the chains alone where there is no census.
+#[must_use]
+pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Census>) -> CountRow {
+    let of = |count: fn(&Census) -> u64| census.map(count);
+    let counted = [
+        Some(chains),
+        of(|c| c.frames),
+        of(|c| c.inputs),
+        of(|c| c.inputs_at_frame),
+    ];
+    let grippers = OF_HINGES.map(|(key, _, jaws, of)| {
+        let drive = DriveKind::of_hinges(jaws);
+        (key, census.and_then(|c| Some(c.grippers.get(&drive)?[of])))
+    });
+    let of_chains = OF_CHAINS.map(|(key, _)| key).into_iter().zip(counted);
+    let sizes = [("links", links), ("mobility", mobility)];
+    let sizes = sizes.map(|(key, n)| (key, Some(n as u64)));
+    CountRow::new(sizes.into_iter().chain(of_chains).chain(grippers))
+}
+
+const HINGED_LEGEND: &str = "\
+All up to isomorphism.
+Drive: a frame, and a driver joined to it. Jaws are neither.
+Essential: no smaller moving part holds frame, driver and jaws.
+Truss: with a part hinged to both jaws nothing moves any more, and no smaller part is rigid.
+Graph symmetric: swapping the jaws twice, or carrying three round once, changes nothing, frame and driver in place.
+Mirror, half turn, threefold: in places so symmetric, otherwise generic (drawn at random modulo a prime), there is one motion; input
+and jaws move, and the jaws against each other.
+";
+
+/// As a table: a column for each number of links, without rows that nothing was counted for.
+#[must_use]
+pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
+    let links = all.iter().filter_map(|row| row.number("links"));
+    let heads = links.map(|n| format!("{n} links")).collect_vec();
+    let heads = std::iter::once("").chain(heads.iter().map(String::as_str));
+    let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), grouped);
+    let names = OF_HINGES.iter().map(|(key, name, ..)| (*key, *name));
+    let rows = OF_CHAINS
+        .into_iter()
+        .chain(names)
+        .filter_map(|(key, name)| {
+            let of = all.iter().map(|row| row.number(key)).collect_vec();
+            let counted = of.iter().any(Option::is_some);
+            let cells = of.into_iter().map(cell);
+            counted.then(|| std::iter::once(name.to_owned()).chain(cells).collect())
+        });
+    format!(
+        "{}\n\n{}",
+        table(&heads.collect_vec(), rows.collect(), width),
+        fit(HINGED_LEGEND, width)
+    )
+}
+
+/// One chain: the keys are a stable contract, in this order.
+#[derive(Debug, Clone, Serialize)]
+pub struct ChainData {
+    code: String,
+    links: usize,
+    joints: usize,
+    mobility: usize,
+    /// Links by their number of joints: "4x2 4x3".
+    assortment: String,
+    automorphisms: usize,
+    frames: u64,
+    inputs: u64,
+    drives: u64,
+}
+
+impl ChainData {
+    /// Of a chain in canonical numbering.
+    #[must_use]
+    pub fn new(chain: &Chain) -> ChainData {
+        let degrees = (0..chain.links())
+            .map(|u| (0..chain.links()).filter(|&v| chain.joined(u, v)).count())
+            .counts();
+        let some = degrees.into_iter().sorted();
+        let automorphisms = chain.canonical().1;
+        let c = Census::of_hinges(&Subject::new(chain, &automorphisms), false);
+        ChainData {
+            code: graph6::write(chain),
+            links: chain.links(),
+            joints: chain.joints().len(),
+            mobility: chain.mobility(),
+            assortment: some
+                .map(|(joints, links)| format!("{links}x{joints}"))
+                .join(" "),
+            automorphisms: automorphisms.len(),
+            frames: c.frames,
+            inputs: c.inputs,
+            drives: c.inputs_at_frame,
+        }
+    }
+}
+
+/// A table of chains.
+#[must_use]
+pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
+    let heads = [
+        "chain",
+        "joints",
+        "links",
+        "symmetries",
+        "frames",
+        "inputs",
+        "drives",
+    ];
+    let row = |c: &ChainData| {
+        let numbers = [c.frames, c.inputs, c.drives].map(|n| n.to_string());
+        let first = [c.code.clone(), c.joints.to_string(), c.assortment.clone()];
+        let symmetries = c.automorphisms.to_string();
+        first
+            .into_iter()
+            .chain([symmetries])
+            .chain(numbers)
+            .collect()
+    };
+    let rows = all.iter().map(row).collect();
+    let note = "Chain: graph6 of the canonical numbering. Links: 4x2 are four with two joints.\n";
+    format!("{}\n\n{}", table(&heads, rows, width), fit(note, width))
+}
+
+/// The four places of an input and the jaws, in the order of columns: at the frame or between, apart or driven.
+const PLACES: [(bool, bool); 4] = [(false, false), (false, true), (true, false), (true, true)];
+/// Grippers of pairs: keys, what they are called, and what is counted.
+const OF_PAIRS: [(&str, &str, Counted); 8] = [
+    ("two_jaws", "all", Counted::All),
+    ("essential", "essential", Counted::Essential),
+    (
+        "translating",
+        "  both jaws only translate",
+        Counted::Translating,
+    ),
+    (
+        "graph_symmetric",
+        "  graph symmetric",
+        Counted::GraphSymmetric,
+    ),
+    ("mirror", "  mirror", Counted::Mirror),
+    (
+        "mirror_but_input",
+        "  mirror but for the input",
+        Counted::MirrorButInput,
+    ),
+    ("half_turn", "  half turn", Counted::HalfTurn),
+    (
+        "half_turn_but_input",
+        "  half turn but for the input",
+        Counted::HalfTurnButInput,
+    ),
+];
+
+fn word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
+    if holds { yes } else { no }
+}
+
+/// Of one number of links, by kinds of pairs and drive. What is told of chains is the same in each row of one number of links and kinds.
+#[must_use]
+pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
+    let drives = PLACES.into_iter().cartesian_product([false, true]);
+    let row = |kinds: &Kinds, c: &Census, ((between, jaw), slides): ((bool, bool), bool)| {
+        let drive = DriveKind {
+            jaws: 2,
+            between,
+            jaw,
+            slides,
+        };
+        let g = c.grippers.get(&drive).copied().unwrap_or_default();
+        let sizes = [
+            ("links", links),
+            ("slides", kinds.slides),
+            ("gears", kinds.gears),
+            ("slots", kinds.slots),
+            ("two_slots", kinds.two_slots),
+        ];
+        let chains = [
+            ("chains", c.chains),
+            ("frames", c.frames),
+            ("inputs_at_frame", c.inputs_at_frame),
+            ("inputs_between", c.inputs_between),
+        ];
+        let words = [
+            ("place", word(between, ["between", "frame"])),
+            ("jaws", word(jaw, ["driven", "apart"])),
+            ("input", word(slides, ["slide", "turn"])),
+        ];
+        let sizes = sizes.map(|(key, n)| (key, n as u64));
+        let mut out = CountRow::new(sizes.into_iter().chain(chains).map(|(k, n)| (k, Some(n))));
+        out.0
+            .extend(words.map(|(key, word)| (key, CountCell::Word(word))));
+        let grippers = OF_PAIRS.map(|(key, _, of)| (key, Some(g[of])));
+        out.0.extend(CountRow::new(grippers).0);
+        out
+    };
+    let rows = all.iter().cartesian_product(drives);
+    rows.map(|((kinds, c), drive)| row(kinds, c, drive))
+        .collect()
+}
+
+const PAIR_LEGEND: &str = "\
+All up to isomorphism; hinges, slides and two slots between the same links leave one freedom, gear pairs (racks, too) and slots (pins in slots, cams, wedges) two.
+A chain has one motion in nearly all places, in which every two links move; a gear pair has a carrier.
+Columns: the input, a hinge or a slide, is at the frame or between two moving links; a jaw is one of its links (driven), or apart from it.
+Essential: no smaller moving part holds frame, input joint and jaws; what stands below counts these alone.
+Only translate: both jaws keep their attitude in nearly all places. Graph symmetric: swapping the jaws changes nothing, frame
+and input joint in place. Mirror, half turn: they move so in places so symmetric, otherwise generic (drawn at random modulo a prime).
+";
+
+/// Counts of each number of links as a paragraph and a table.
+#[must_use]
+pub fn pair_text(all: &[(usize, BTreeMap<Kinds, Census>)], width: Option<u16>) -> String {
+    let mut out = String::new();
+    for (links, cells) in all {
+        let mut sum = Census::default();
+        cells.values().cloned().for_each(|c| sum += c);
+        out += &fit(&headline(*links, &sum), width);
+        out.push('\n');
+        if !sum.grippers.is_empty() {
+            out += &format!("\n{}\n\n", grippers(&sum, width));
+        }
+    }
+    out + &fit(PAIR_LEGEND, width)
+}
+
+fn headline(links: usize, sum: &Census) -> String {
+    let [chains, frames, at_frame, between] = [
+        sum.chains,
+        sum.frames,
+        sum.inputs_at_frame,
+        sum.inputs_between,
+    ]
+    .map(grouped);
+    format!(
+        "{links} links: {chains} chains, {frames} with a frame; with an input joint {at_frame} at the frame, {between} between \
+         moving links."
+    )
+}
+
+fn grippers(sum: &Census, width: Option<u16>) -> String {
+    let columns = PLACES.map(|(between, jaw)| {
+        let mut of = Grippers::default();
+        let own = |d: &&DriveKind| (d.between, d.jaw) == (between, jaw);
+        let drives = sum.grippers.keys().filter(own);
+        drives.for_each(|d| of += sum.grippers[d]);
+        of
+    });
+    let heads = PLACES.map(|(between, jaw)| {
+        let place = word(between, ["between", "at frame"]);
+        format!("{place}, {}", word(jaw, ["driven", "apart"]))
+    });
+    let heads = std::iter::once("grippers of two jaws").chain(heads.iter().map(String::as_str));
+    let rows = OF_PAIRS.into_iter().map(|(_, name, of)| {
+        let cells = columns.iter().map(|g| grouped(g[of]));
+        std::iter::once(name.to_owned()).chain(cells).collect()
+    });
+    table(&heads.collect_vec(), rows.collect(), width)
+}
+
+/// Counts of symmetric grippers of one number of links: the keys are a stable contract, in this order.
+#[derive(Debug, Clone, Serialize)]
+pub struct SymmetricCountsData {
+    links: usize,
+    /// `mirror` or `half-turn`.
+    symmetry: &'static str,
+    /// `apart` or `driven`.
+    jaws: &'static str,
+    /// Pairs that are not hinges, a left and a right one counted once.
+    orbits: usize,
+    essential: u64,
+}
+
+/// The rows of counts of one number of links, those that are nothing, too.
+#[must_use]
+pub fn symmetric_rows(
+    links: usize,
+    most: usize,
+    counts: &BTreeMap<SymmetricKind, u64>,
+) -> Vec<SymmetricCountsData> {
+    let ways = PLACES.into_iter().cartesian_product(0..=most);
+    let row = |((half_turn, driven_jaw), orbits)| {
+        let kind = SymmetricKind {
+            half_turn,
+            driven_jaw,
+            orbits,
+        };
+        SymmetricCountsData {
+            links,
+            symmetry: word(half_turn, ["half-turn", "mirror"]),
+            jaws: word(driven_jaw, ["driven", "apart"]),
+            orbits,
+            essential: counts.get(&kind).copied().unwrap_or_default(),
+        }
+    };
+    ways.map(row).collect()
+}
+
+const SYMMETRIC_LEGEND: &str = "\
+Essential grippers of two jaws whose input joint is its own image, up to isomorphism, by their pairs that are no hinges: a left
+and a right one are one choice. Driven: a jaw is a link of the input joint.
+";
+
+/// A table with a row for each symmetry and number of choices, a column for each number of links.
+#[must_use]
+pub fn symmetric_text(all: &[SymmetricCountsData], width: Option<u16>) -> String {
+    let links = all.iter().map(|c| c.links).unique().collect_vec();
+    let heads = links.iter().map(|n| format!("{n} links")).collect_vec();
+    let first = ["symmetry", "jaws", "choices"];
+    let heads = first.into_iter().chain(heads.iter().map(String::as_str));
+    let key = |c: &&SymmetricCountsData| (c.symmetry, c.jaws, c.orbits);
+    let rows = all.iter().map(|c| key(&c)).unique().map(|own| {
+        let (symmetry, jaws, orbits) = own;
+        let words = [symmetry.to_owned(), jaws.to_owned(), orbits.to_string()];
+        let cells = all.iter().filter(|c| key(c) == own);
+        let cells = cells.map(|c| grouped(c.essential));
+        words.into_iter().chain(cells).collect_vec()
+    });
+    format!(
+        "{}\n\n{}",
+        table(&heads.collect_vec(), rows.collect(), width),
+        fit(SYMMETRIC_LEGEND, width)
+    )
+}
