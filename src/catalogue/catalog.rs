@@ -4,8 +4,6 @@
 pub mod build;
 pub mod drawn;
 #[cfg(feature = "store")]
-mod entered;
-#[cfg(feature = "store")]
 pub mod find;
 pub mod general;
 #[cfg(feature = "store")]

@@ -10,9 +10,8 @@ use crate::chains::roles::Subject;
 use crate::chains::sharing::Menu;
 use crate::shard::Shard;
 use crate::synthesis::layout::known_schemes;
-use crate::synthesis::structure::{
-    Structure, generic_structures, hinged_structures, symmetric_structures,
-};
+use crate::synthesis::listed::{generic_structures, hinged_structures, symmetric_structures};
+use crate::synthesis::structure::Structure;
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::ops::{ControlFlow, RangeInclusive};

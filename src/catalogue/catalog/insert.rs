@@ -1,8 +1,10 @@
 //! A row as entries of the tables.
 
 use crate::catalog::drawn::{DrawnMechanism, known};
-use crate::catalog::entered::StructureColumns;
 use crate::catalog::row::{IdeaRow, Laid, StructureRow, Symmetric};
+use crate::chains::census::Kinds;
+use crate::chains::classics::classics_of;
+use crate::chains::graph6;
 use crate::format;
 use crate::geom::vector::sides;
 use crate::model::ranking::Term;
@@ -14,37 +16,69 @@ use rusqlite::types::ToSqlOutput;
 use rusqlite::{ToSql, Transaction};
 use std::collections::BTreeMap;
 
-/// Enters a row.
+/// Adds a row, or puts it in the place of the one that was there.
 pub(super) fn row(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
-    let columns = StructureColumns::of(&row.structure);
-    structure(t, row, &columns)?;
-    if let Some(pairs) = &columns.pairs {
+    let of = &row.structure;
+    let id = of.id();
+    let whole = of.whole();
+    let [driven_from, driver] = (of.structure.roles.drive()).map(|l| of.link(l, 0).unwrap_or(0));
+    let (chain, roles) = (&whole.chain, &whole.roles);
+    put(
+        t,
+        "structures",
+        &[
+            ("id", &id),
+            ("name", &of.name()),
+            ("chain", &graph6::write(chain)),
+            ("links", &number(chain.links())),
+            ("joints", &number(chain.joints_made().len())),
+            ("frame", &number(roles.frame)),
+            ("driver", &number(driver)),
+            ("jaw_a", &number(roles.jaws[0])),
+            ("jaw_b", &number(roles.jaws[1])),
+            ("jaw_c", &roles.jaws.get(2).map(|&l| number(l))),
+            ("input", &of.input().name()),
+            ("symmetry", &of.symmetry_name()),
+            ("parallel", &of.form.parallel),
+            ("jaws_at_frame", &number(row.jaws_at_frame)),
+            ("truss", &row.truss),
+            ("graph_symmetric", &row.graph_symmetric),
+            (
+                "no_layout",
+                &row.laid.as_ref().err().map(ToString::to_string),
+            ),
+        ],
+    )?;
+    if !of.form.hinges {
+        let flat = of.flat_slots();
+        let flat = flat.iter().map(|j| of.copies(j)).sum();
+        let kinds = Kinds::of(chain).with_flat(flat);
         put(
             t,
             "pairs",
             &[
-                ("structure", &columns.id),
-                ("code", &pairs.code),
-                ("slides", &number(pairs.kinds.slides)),
-                ("gears", &number(pairs.kinds.gears)),
-                ("slots", &number(pairs.kinds.slots_made())),
-                ("driven_from", &number(pairs.driven_from)),
+                ("structure", &id),
+                ("code", &chain.code()),
+                ("slides", &number(kinds.slides)),
+                ("gears", &number(kinds.gears)),
+                ("slots", &number(kinds.slots_made())),
+                ("driven_from", &number(driven_from)),
             ],
         )?;
     }
-    for classic in &columns.classics {
+    for classic in classics_of(&of.structure.key(), of.made_as()) {
         put(
             t,
             "classics",
             &[
-                ("structure", &columns.id),
+                ("structure", &id),
                 ("id", &classic.id),
                 ("about", &classic.about),
             ],
         )?;
     }
     match &row.laid {
-        Ok(laid) => layout(t, &columns.id, laid),
+        Ok(laid) => layout(t, &id, laid),
         Err(_) => Ok(()),
     }
 }
@@ -68,40 +102,6 @@ fn put(t: &Transaction<'_>, table: &str, row: &[(&str, &dyn ToSql)]) -> rusqlite
     let sql = format!("INSERT OR REPLACE INTO {table} ({names}) VALUES ({places})");
     let values: Vec<&dyn ToSql> = row.iter().map(|(_, value)| *value).collect();
     t.prepare_cached(&sql)?.execute(&*values)?;
-    Ok(())
-}
-
-fn structure(
-    t: &Transaction<'_>,
-    row: &StructureRow,
-    s: &StructureColumns,
-) -> rusqlite::Result<()> {
-    put(
-        t,
-        "structures",
-        &[
-            ("id", &s.id),
-            ("name", &s.name),
-            ("chain", &s.chain),
-            ("links", &number(s.links)),
-            ("joints", &number(s.joints)),
-            ("frame", &number(s.frame)),
-            ("driver", &number(s.driver)),
-            ("jaw_a", &number(s.jaws[0])),
-            ("jaw_b", &number(s.jaws[1])),
-            ("jaw_c", &s.jaws.get(2).map(|&l| number(l))),
-            ("input", &s.input.name()),
-            ("symmetry", &s.symmetry),
-            ("parallel", &s.parallel),
-            ("jaws_at_frame", &number(row.jaws_at_frame)),
-            ("truss", &row.truss),
-            ("graph_symmetric", &row.graph_symmetric),
-            (
-                "no_layout",
-                &row.laid.as_ref().err().map(ToString::to_string),
-            ),
-        ],
-    )?;
     Ok(())
 }
 

@@ -7,7 +7,7 @@ pub(crate) use error::{MOST_LINKS, MOST_PAIRED};
 
 use crate::chains::{Input, PairKind, Symmetry};
 use crate::file::schema::{OptionEntry, OptionTable};
-use crate::synthesis::mechanism::Menu;
+use crate::synthesis::options::Menu;
 use crate::synthesis::structure::Form;
 use crate::synthesis::task::{Limits, Task};
 use crate::synthesis::workload::Workload;

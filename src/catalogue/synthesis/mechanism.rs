@@ -4,10 +4,13 @@
 use crate::chains::{PairKind, Symmetry};
 use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
-    OptionTable, PointEntry, SearchEntry, ToleranceEntry, Unloading, WorkloadEntry,
+    PointEntry, SearchEntry, ToleranceEntry, Unloading, WorkloadEntry,
 };
 use crate::geom::vector::Vector;
 use crate::synthesis::layout::Layout;
+use crate::synthesis::options::{
+    Menu, direction_turned, faces, is_ball, nuts, options_turned, slides, slots,
+};
 use crate::synthesis::place::{Pivot, Place, number, point};
 use crate::synthesis::places::{Places, Teeth};
 use crate::synthesis::rules::Rules;
@@ -16,15 +19,6 @@ use crate::synthesis::task::{self, outward};
 use crate::synthesis::threefold::SIDES;
 use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
-
-/// What a search may do to the hinges.
-#[derive(Debug, Clone, Default)]
-pub struct Menu {
-    /// What each may be, the hinge itself first.
-    pub options: Vec<OptionEntry>,
-    /// What may be put in series with each, by a link more; with the input joint nothing is.
-    pub unloading: Vec<OptionEntry>,
-}
 
 /// What each link is called: frame, the jaws, slider or crank, of a cylinder between two links cylinder and piston, and the rest by
 /// their numbers.
@@ -47,32 +41,6 @@ fn link_names(structure: &Structure) -> Vec<String> {
     (0..structure.structure.chain.links()).map(of).collect()
 }
 
-/// A direction of whole numbers after so many thirds of a turn.
-fn direction_turned(direction: &[Coordinate; 3], pivot: Pivot, thirds: u8) -> [Coordinate; 3] {
-    let [
-        Coordinate::Integer(x),
-        Coordinate::Integer(y),
-        Coordinate::Integer(z),
-    ] = direction
-    else {
-        return direction.clone();
-    };
-    #[allow(clippy::cast_precision_loss, reason = "sides of small triangles")]
-    pivot.turned([x, y, z].map(|a| *a as f64), thirds)
-}
-
-/// Options after so many thirds of a turn: their directions go with it.
-fn options_turned(options: &[OptionEntry], pivot: Pivot, thirds: u8) -> Vec<OptionEntry> {
-    let mut out = options.to_vec();
-    for option in &mut out {
-        if let OptionEntry::Table(t) = option {
-            let turned = |d| direction_turned(d, pivot, thirds);
-            t.reference = t.reference.as_ref().map(turned);
-        }
-    }
-    out
-}
-
 /// Says that places are exact where they have decimals, which would be taken for rounded.
 fn exact(at: &[Place]) -> Option<ToleranceEntry> {
     let fine = at.iter().any(|p| p.fine != [0; 2]);
@@ -80,72 +48,6 @@ fn exact(at: &[Place]) -> Option<ToleranceEntry> {
         length: Some(Coordinate::Integer(0)),
         direction: None,
     })
-}
-
-/// Whether an option turns about any axis.
-fn is_ball(option: &OptionEntry) -> bool {
-    let balls = ["spherical", "sphere-in-cylinder"];
-    matches!(option, OptionEntry::Word(word) if balls.contains(&word.as_str()))
-}
-
-fn named(name: &str, freedoms: &[&str]) -> OptionEntry {
-    with_lead(None, name, freedoms)
-}
-
-fn with_lead(lead: Option<i64>, name: &str, freedoms: &[&str]) -> OptionEntry {
-    OptionEntry::Table(Box::new(OptionTable {
-        freedoms: Some(freedoms.iter().map(|f| (*f).to_owned()).collect()),
-        lead: lead.map(Coordinate::Integer),
-        name: Some(name.to_owned()),
-        ..OptionTable::default()
-    }))
-}
-
-fn word(kind: &str) -> OptionEntry {
-    OptionEntry::Word(kind.to_owned())
-}
-
-/// What may be in place of a guide: z along it, x square to the plane of motion.
-fn slides() -> Vec<OptionEntry> {
-    vec![
-        word("prismatic"),
-        word("cylindrical"),
-        named("tongue-in-groove", &["tz", "tx"]),
-        named("round-tongue-in-groove", &["tz", "tx", "rz"]),
-        named("ball-in-groove", &["tz", "tx", "rz", "ry"]),
-    ]
-}
-
-/// What may be in place of flat faces: z along them, x square to the plane of motion.
-fn faces() -> Vec<OptionEntry> {
-    let of_slots = vec![
-        named("pin-in-slot", &["tz", "rx"]),
-        named("pin-in-deep-slot", &["tz", "rx", "tx"]),
-        named("ball-in-slot", &["tz", "rx", "ry", "rz"]),
-        named("ball-in-deep-slot", &["tz", "tx", "rx", "ry", "rz"]),
-    ];
-    slides().into_iter().chain(of_slots).collect()
-}
-
-/// What may be in place of a pin in a slot: z along the pin, x along the slot.
-fn slots() -> Vec<OptionEntry> {
-    vec![
-        word("slotted"),
-        named("pin-in-deep-slot", &["rz", "tx", "tz"]),
-        named("ball-in-slot", &["rx", "ry", "rz", "tx"]),
-        named("ball-in-deep-slot", &["rx", "ry", "rz", "tx", "tz"]),
-    ]
-}
-
-/// What may be in place of a nut: z along the screw.
-fn nuts(lead: i64) -> Vec<OptionEntry> {
-    let nut = |name, freedoms: &[&str]| with_lead(Some(lead), name, freedoms);
-    vec![
-        nut("nut", &["screw"]),
-        nut("floating-nut", &["screw", "tx", "ty"]),
-        nut("nut-in-ball", &["screw", "rx", "ry"]),
-        nut("floating-nut-in-ball", &["screw", "rx", "ry", "tx", "ty"]),
-    ]
 }
 
 /// Joints at their places, with the names of all links.

@@ -5,10 +5,7 @@ use crate::chains::classics::MadeAs;
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::motion::{Swap, symmetric_ways};
 use crate::chains::roles::Subject;
-use crate::chains::sharing::Menu;
 use crate::chains::structure::PairStructure;
-use crate::chains::symmetric_census::symmetric_grippers;
-use crate::chains::visit::visit_pair_chains;
 use crate::chains::{Input, PairKind, Symmetry, graph6};
 use crate::synthesis::place::Place;
 use crate::synthesis::task;
@@ -16,9 +13,7 @@ use crate::synthesis::task::Task;
 use crate::synthesis::threefold::Sides;
 use itertools::Itertools;
 use sha2::{Digest, Sha256};
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::sync::{Mutex, PoisonError};
 
 /// A gripper without places.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -335,89 +330,6 @@ impl Structure {
         };
         roles.jaws.iter().map(|&jaw| ring(jaw)).collect()
     }
-}
-
-/// The symmetric structures of so many links that have such pairs.
-///
-/// # Complexity
-/// As [`symmetric_grippers`].
-#[must_use]
-pub fn symmetric_structures(links: usize, menu: Menu<'_>) -> Vec<Structure> {
-    let all = symmetric_grippers(links, menu).into_iter();
-    let symmetry = |half_turn| match half_turn {
-        true => Symmetry::HalfTurn,
-        false => Symmetry::Mirror,
-    };
-    all.map(|g| Structure::new(g.structure, Form::of(symmetry(g.kind.half_turn))))
-        .collect()
-}
-
-/// Every essential structure of so many links and jaws that has such pairs, laid out without a symmetry.
-///
-/// # Complexity
-/// As [`visit_pair_chains`], and a canonical numbering for each.
-#[must_use]
-pub fn generic_structures(links: usize, jaws: usize, menu: Menu<'_>) -> Vec<Structure> {
-    let all = Mutex::new(BTreeSet::new());
-    visit_pair_chains(links, menu, &|subject| {
-        let drives = subject.drives().into_iter();
-        let roles = drives.flat_map(|(frame, input)| subject.grippers(frame, &input, jaws));
-        let essential = roles.filter(|r| subject.is_essential(r));
-        let keys = essential.map(|roles| {
-            let chain = subject.chain.clone();
-            PairStructure { chain, roles }.key()
-        });
-        // Numbered before others have to wait.
-        let keys: Vec<_> = keys.collect();
-        all.lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .extend(keys);
-    });
-    let all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let structure = |key| Structure::new(PairStructure::of_key(&key), Form::of(Symmetry::Generic));
-    all.into_iter().map(structure).collect()
-}
-
-/// The essential grippers of hinges alone of so many jaws of a chain that a form can be asked of: for a symmetric one those whose
-/// graph is symmetric, for a parallel one those whose jaws stand on rings of four links with the frame or a sliding driver.
-///
-/// # Complexity
-/// A step for each choice of roles and each form.
-#[must_use]
-pub fn hinged_structures(
-    subject: &Subject<'_>,
-    jaws: usize,
-    forms: &[(Input, Form)],
-) -> Vec<Structure> {
-    let mut out = Vec::new();
-    let forms = forms
-        .iter()
-        .filter(|(_, form)| form.suits(jaws))
-        .collect_vec();
-    let is_generic = |form: &Form| form.symmetry == Symmetry::Generic;
-    let generic = forms.iter().any(|(_, form)| is_generic(form));
-    // Nothing carries the jaws of a chain without symmetries to each other.
-    if !generic && subject.automorphisms.len() == 1 {
-        return out;
-    }
-    for roles in subject.grippers_apart(jaws) {
-        let symmetric = subject.is_graph_symmetric(&roles);
-        if !(generic || symmetric) || !subject.is_essential(&roles) {
-            continue;
-        }
-        for &&(input, form) in forms.iter().filter(|(_, f)| symmetric || is_generic(f)) {
-            let chain = match input {
-                Input::Slide => subject.chain.clone().with(roles.input, PairKind::Slide),
-                Input::Turn => subject.chain.clone(),
-            };
-            let roles = roles.clone();
-            let structure = Structure::new(PairStructure { chain, roles }, form);
-            if !form.parallel || structure.rings().is_some() {
-                out.push(structure);
-            }
-        }
-    }
-    out
 }
 
 impl Structure {

@@ -16,7 +16,7 @@ use super::pairs::classics::schemes;
 use super::pairs::menu;
 use crate::common::{run, text};
 use ozols::chains::structure::PairStructure;
-use ozols::synthesis::structure::symmetric_structures;
+use ozols::synthesis::listed::symmetric_structures;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;

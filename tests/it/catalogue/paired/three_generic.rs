@@ -10,7 +10,7 @@ use ozols::chains::sharing::Menu;
 use ozols::chains::{PairKind, structure::PairStructure};
 use ozols::geom::vector::real;
 use ozols::model::joint_type::Freedom;
-use ozols::synthesis::structure::generic_structures;
+use ozols::synthesis::listed::generic_structures;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
