@@ -21,36 +21,12 @@ pub(super) struct WantedGrippers {
     /// The greatest force of a jaw over the least at most.
     #[arg(long, value_name = "X", value_parser = finite)]
     force_ratio: Option<f64>,
-    /// The stroke of the jaws, from the narrowest part to the widest, from, in mm.
-    #[arg(long, value_name = "MM", value_parser = finite)]
-    stroke: Option<f64>,
     /// The turn of the jaws over the stroke at most, in degrees.
     #[arg(long, value_name = "DEGREES", value_parser = finite)]
     turn: Option<f64>,
     /// The transmission angle over the stroke from, in degrees.
     #[arg(long, value_name = "DEGREES", value_parser = finite)]
     transmission: Option<f64>,
-    /// The greatest joint force at most, in N for 1 N of each jaw.
-    #[arg(long, value_name = "N", value_parser = finite)]
-    pin_force: Option<f64>,
-    /// The efficiency over the stroke from.
-    #[arg(long, value_name = "X", value_parser = finite)]
-    efficiency: Option<f64>,
-    /// The travel of the drive at most, in mm or rad.
-    #[arg(long, value_name = "X", value_parser = finite)]
-    travel: Option<f64>,
-    /// The width of the box round it over the stroke at most, in mm.
-    #[arg(long, value_name = "MM", value_parser = finite)]
-    width: Option<f64>,
-    /// Its height at most, in mm.
-    #[arg(long, value_name = "MM", value_parser = finite)]
-    height: Option<f64>,
-    /// Parallel planes in which its parts pass each other at most, the frame's included.
-    #[arg(long, value_name = "N", value_parser = finite)]
-    planes: Option<f64>,
-    /// The work its drive has to be made for at most, in mm: travel by greatest force, for 1 N of each jaw.
-    #[arg(long, value_name = "MM", value_parser = finite)]
-    actuator: Option<f64>,
     /// The price of all its parts with the cheapest redesign at most, in revolute joints.
     #[arg(long, value_name = "X", value_parser = finite)]
     price: Option<f64>,
@@ -113,17 +89,9 @@ impl WantedGrippers {
         ];
         let numbers = [
             ("--least-force", "least_force", ">=", self.least_force),
-            ("--stroke", "widest - narrowest", ">=", self.stroke),
             ("--transmission", "transmission", ">=", self.transmission),
-            ("--efficiency", "efficiency", ">=", self.efficiency),
             ("--force-ratio", "force_ratio", "<=", self.force_ratio),
             ("--turn", "turn", "<=", self.turn),
-            ("--pin-force", "pin_force", "<=", self.pin_force),
-            ("--travel", "travel", "<=", self.travel),
-            ("--width", "width", "<=", self.width),
-            ("--height", "height", "<=", self.height),
-            ("--planes", "planes", "<=", self.planes),
-            ("--actuator", "actuator", "<=", self.actuator),
             ("--price", "price", "<=", self.price),
             ("--cost", "cost", "<=", self.cost),
         ];

@@ -49,74 +49,47 @@ impl CountRow {
     }
 }
 
-/// Grippers of hinges alone: keys, what they are called, how many jaws they have, and what is counted.
-const OF_HINGES: [(&str, &str, usize, Counted); 13] = [
-    ("two_jaws", "grippers of two jaws", 2, Counted::All),
-    ("essential", "  essential", 2, Counted::Essential),
-    (
-        "both_jaws_float",
-        "    both jaws float",
-        2,
-        Counted::Floating,
-    ),
-    (
-        "one_jaw_at_frame",
-        "    one at the frame",
-        2,
-        Counted::OneAtFrame,
-    ),
-    (
-        "both_jaws_at_frame",
-        "    both at the frame",
-        2,
-        Counted::BothAtFrame,
-    ),
-    (
-        "truss_with_part",
-        "    truss with the part",
-        2,
-        Counted::Truss,
-    ),
-    (
-        "graph_symmetric",
-        "    graph symmetric",
-        2,
-        Counted::GraphSymmetric,
-    ),
-    (
-        "mirror_possible",
-        "    mirror, sliding input",
-        2,
-        Counted::Mirror,
-    ),
-    (
-        "half_turn_possible",
-        "    half turn, turning input",
-        2,
-        Counted::HalfTurn,
-    ),
-    ("three_jaws", "grippers of three jaws", 3, Counted::All),
-    ("three_essential", "  essential", 3, Counted::Essential),
-    (
-        "three_symmetric",
-        "    graph symmetric",
-        3,
-        Counted::GraphSymmetric,
-    ),
-    (
-        "threefold_possible",
-        "    threefold, turning input",
-        3,
-        Counted::Threefold,
-    ),
+/// What is counted of hinges alone: keys, and what they are called; of chains, of grippers with two jaws and of those with three.
+const OF_HINGES: &str = "\
+chains: chains
+frames: with a frame
+inputs: with an input joint
+drives: with a drive
+two_jaws: grippers of two jaws
+essential:   essential
+both_jaws_float:     both jaws float
+one_jaw_at_frame:     one at the frame
+both_jaws_at_frame:     both at the frame
+truss_with_part:     truss with the part
+graph_symmetric:     graph symmetric
+mirror_possible:     mirror, sliding input
+half_turn_possible:     half turn, turning input
+three_jaws: grippers of three jaws
+three_essential:   essential
+three_symmetric:     graph symmetric
+threefold_possible:     threefold, turning input";
+const TWO_JAWS: [Counted; 9] = [
+    Counted::All,
+    Counted::Essential,
+    Counted::Floating,
+    Counted::OneAtFrame,
+    Counted::BothAtFrame,
+    Counted::Truss,
+    Counted::GraphSymmetric,
+    Counted::Mirror,
+    Counted::HalfTurn,
 ];
-/// What is counted of chains of hinges alone.
-const OF_CHAINS: [(&str, &str); 4] = [
-    ("chains", "chains"),
-    ("frames", "with a frame"),
-    ("inputs", "with an input joint"),
-    ("drives", "with a drive"),
+const THREE_JAWS: [Counted; 4] = [
+    Counted::All,
+    Counted::Essential,
+    Counted::GraphSymmetric,
+    Counted::Threefold,
 ];
+
+/// Keys with what they are called.
+fn named(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    text.lines().filter_map(|line| line.split_once(": "))
+}
 
 /// Of one number of hinges; of the chains alone where there is no census.
 #[must_use]
@@ -128,14 +101,16 @@ pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Ce
         of(|c| c.inputs),
         of(|c| c.inputs_at_frame),
     ];
-    let grippers = OF_HINGES.map(|(key, _, jaws, of)| {
-        let drive = DriveKind::of_hinges(jaws);
-        (key, census.and_then(|c| Some(c.grippers.get(&drive)?[of])))
-    });
-    let of_chains = OF_CHAINS.map(|(key, _)| key).into_iter().zip(counted);
+    let grippers = |jaws, all: &'static [Counted]| {
+        let own = census.and_then(|c| c.grippers.get(&DriveKind::of_hinges(jaws)));
+        all.iter().map(move |of| Some(own?[*of]))
+    };
+    let counted = counted.into_iter().chain(grippers(2, &TWO_JAWS));
+    let counted = counted.chain(grippers(3, &THREE_JAWS));
+    let counted = named(OF_HINGES).map(|(key, _)| key).zip(counted);
     let sizes = [("links", links), ("mobility", mobility)];
     let sizes = sizes.map(|(key, n)| (key, Some(n as u64)));
-    CountRow::new(sizes.into_iter().chain(of_chains).chain(grippers))
+    CountRow::new(sizes.into_iter().chain(counted))
 }
 
 const HINGED_LEGEND: &str = "\
@@ -155,16 +130,12 @@ pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
     let heads = links.map(|n| format!("{n} links")).collect_vec();
     let heads = std::iter::once("").chain(heads.iter().map(String::as_str));
     let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), grouped);
-    let names = OF_HINGES.iter().map(|(key, name, ..)| (*key, *name));
-    let rows = OF_CHAINS
-        .into_iter()
-        .chain(names)
-        .filter_map(|(key, name)| {
-            let of = all.iter().map(|row| row.number(key)).collect_vec();
-            let counted = of.iter().any(Option::is_some);
-            let cells = of.into_iter().map(cell);
-            counted.then(|| std::iter::once(name.to_owned()).chain(cells).collect())
-        });
+    let rows = named(OF_HINGES).filter_map(|(key, name)| {
+        let of = all.iter().map(|row| row.number(key)).collect_vec();
+        let counted = of.iter().any(Option::is_some);
+        let cells = of.into_iter().map(cell);
+        counted.then(|| std::iter::once(name.to_owned()).chain(cells).collect())
+    });
     format!(
         "{}\n\n{}",
         table(&heads.collect_vec(), rows.collect(), width),
@@ -242,32 +213,25 @@ pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
 
 /// The four places of an input and the jaws, in the order of columns: at the frame or between, apart or driven.
 const PLACES: [(bool, bool); 4] = [(false, false), (false, true), (true, false), (true, true)];
-/// Grippers of pairs: keys, what they are called, and what is counted.
-const OF_PAIRS: [(&str, &str, Counted); 8] = [
-    ("two_jaws", "all", Counted::All),
-    ("essential", "essential", Counted::Essential),
-    (
-        "translating",
-        "  both jaws only translate",
-        Counted::Translating,
-    ),
-    (
-        "graph_symmetric",
-        "  graph symmetric",
-        Counted::GraphSymmetric,
-    ),
-    ("mirror", "  mirror", Counted::Mirror),
-    (
-        "mirror_but_input",
-        "  mirror but for the input",
-        Counted::MirrorButInput,
-    ),
-    ("half_turn", "  half turn", Counted::HalfTurn),
-    (
-        "half_turn_but_input",
-        "  half turn but for the input",
-        Counted::HalfTurnButInput,
-    ),
+/// What is counted of grippers of pairs: keys, and what they are called.
+const OF_PAIRS: &str = "\
+two_jaws: all
+essential: essential
+translating:   both jaws only translate
+graph_symmetric:   graph symmetric
+mirror:   mirror
+mirror_but_input:   mirror but for the input
+half_turn:   half turn
+half_turn_but_input:   half turn but for the input";
+const PAIRED: [Counted; 8] = [
+    Counted::All,
+    Counted::Essential,
+    Counted::Translating,
+    Counted::GraphSymmetric,
+    Counted::Mirror,
+    Counted::MirrorButInput,
+    Counted::HalfTurn,
+    Counted::HalfTurnButInput,
 ];
 
 fn word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
@@ -308,7 +272,9 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
         let mut out = CountRow::new(sizes.into_iter().chain(chains).map(|(k, n)| (k, Some(n))));
         out.0
             .extend(words.map(|(key, word)| (key, CountCell::Word(word))));
-        let grippers = OF_PAIRS.map(|(key, _, of)| (key, Some(g[of])));
+        let grippers = named(OF_PAIRS)
+            .zip(PAIRED)
+            .map(|((key, _), of)| (key, Some(g[of])));
         out.0.extend(CountRow::new(grippers).0);
         out
     };
@@ -369,7 +335,7 @@ fn grippers(sum: &Census, width: Option<u16>) -> String {
         format!("{place}, {}", word(jaw, ["driven", "apart"]))
     });
     let heads = std::iter::once("grippers of two jaws").chain(heads.iter().map(String::as_str));
-    let rows = OF_PAIRS.into_iter().map(|(_, name, of)| {
+    let rows = named(OF_PAIRS).zip(PAIRED).map(|((_, name), of)| {
         let cells = columns.iter().map(|g| grouped(g[of]));
         std::iter::once(name.to_owned()).chain(cells).collect()
     });
