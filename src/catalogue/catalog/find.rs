@@ -7,6 +7,7 @@ use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
 use crate::chains::{PairKind, graph6};
 use itertools::Itertools;
+use serde::Serialize;
 use serde_json::Value;
 
 /// A structure, its id and form first.
@@ -15,7 +16,7 @@ const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(paralle
      chain, input, frame, driver, jaw_a, jaw_b, jaw_c, code, driven_from FROM structures LEFT JOIN pairs ON structure = id WHERE links = ?1 ORDER BY symmetry = 'generic', parallel, id";
 
 /// A structure of a catalogue.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Entry {
     /// Its short name.
     pub id: String,

@@ -168,7 +168,7 @@ fn layout(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
 /// Enters what a layout does of its task.
 fn stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
     let (task, f) = (&laid.layout.limits.task, &laid.figures);
-    let reached = !f.shortfall.is_some_and(|s| s.is_of_reach());
+    let reached = !f.shortfall.as_ref().is_some_and(|s| s.is_of_reach);
     put(
         t,
         "strokes",
@@ -185,7 +185,7 @@ fn stroke(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
             ("height", &rounded(f.size[1])),
             ("margin_closing", &rounded(f.margin[0])),
             ("margin_opening", &rounded(f.margin[1])),
-            ("shortfall", &f.shortfall.map(|s| s.to_string())),
+            ("shortfall", &f.shortfall.as_ref().map(ToString::to_string)),
         ],
     )
 }

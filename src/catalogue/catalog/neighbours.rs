@@ -7,18 +7,8 @@ use crate::chains::canonical::Weighted;
 use crate::chains::chain::Chain;
 use crate::chains::structure::PairStructure;
 use itertools::Itertools;
+use serde::Serialize;
 use std::collections::HashSet;
-
-/// How a structure of the catalogue stands to the one asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Nearness {
-    /// The same chain, held, driven or gripping by other links, or driven by a turn instead of a slide.
-    OtherRoles,
-    /// What is left without so many links.
-    Fewer(usize),
-    /// So many links more, without which it is left.
-    More(usize),
-}
 
 /// What a figure of a layout is, and which of two values is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,27 +49,36 @@ const fn figure(
     }
 }
 
-/// Figures of a layout, as [`FIGURES`]; nothing where one is not known.
-pub type Figures = [Option<f64>; FIGURES.len()];
+/// Values of them.
+type Figures = [Option<f64>; FIGURES.len()];
 
-/// A structure next to the one asked for.
-#[derive(Debug, Clone, PartialEq)]
+/// How structures are next to each other, from the nearest on.
+const RELATIONS: [&str; 3] = ["other-roles", "fewer-links", "more-links"];
+
+/// A structure beside a given one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Neighbour {
-    /// Its place in the catalogue.
-    pub entry: Entry,
-    /// How it stands to the structure.
-    pub relation: Nearness,
-    /// What its layout does.
-    pub figures: Figures,
+    /// Its id.
+    pub id: String,
+    /// How it is laid out.
+    pub form: String,
+    /// How it is next to it: other roles of the same chain, or what is left without links of the one or of the other.
+    pub relation: &'static str,
+    /// By how many links.
+    pub links: usize,
+    /// What its layout does better than each of the given one's; all figures where that has none.
+    pub better: Vec<BetterFigure>,
 }
 
-/// A structure among what a catalogue has laid out.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Neighbours {
-    /// What the structure's own layouts do, each figure by the best of them.
-    pub own: Option<Figures>,
-    /// Those next to it whose jaws reach both ends of the stroke, those that do the most better first, then the more alike.
-    pub near: Vec<Neighbour>,
+/// A figure that is better.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BetterFigure {
+    /// Its column.
+    pub figure: &'static str,
+    /// What it is.
+    pub value: f64,
+    /// The best of the given structure.
+    pub own: Option<f64>,
 }
 
 /// Of each layout with its form: what `read` needs, then the figures.
@@ -99,8 +98,8 @@ const FIRST_FIGURE: usize = 11;
 ///
 /// # Complexity
 /// A few canonical numberings for each layout of up to four links less or more; some fifty for symmetric ones of four more.
-pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Neighbours, StoreError> {
-    let mut out = Neighbours::default();
+pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Vec<Neighbour>, StoreError> {
+    let (mut best, mut near) = (None, Vec::new());
     let links = structure.chain.links();
     let (_, rows) = store.query(LAYOUTS, Some(&links.to_string()))?;
     let own = Own::new(structure);
@@ -111,39 +110,46 @@ pub fn neighbours(store: &Store, structure: &PairStructure) -> Result<Neighbours
         };
         let mut figures: Figures = std::array::from_fn(|i| row[FIRST_FIGURE + i].as_f64());
         if other.slides() != structure.slides() {
-            // A force for a force, and one for a moment.
             figures[LEAST_FORCE] = None;
         }
         let entry = Entry::new(&row);
         let key = other.key();
         if key == own.key {
-            let best = out.own.get_or_insert(figures);
+            let best = best.get_or_insert(figures);
             *best = std::array::from_fn(|i| FIGURES[i].better(best[i], figures[i]));
         } else if let Some(relation) = own.relation(&other, &key, entry.is_symmetric()) {
-            out.near.push(Neighbour {
-                entry,
-                relation,
-                figures,
-            });
+            near.push((relation, entry, figures));
         }
     }
-    let own = out.own;
-    out.near.sort_by_cached_key(|n| {
-        let better = own.map_or(0, |own| n.better(&own).count());
-        (usize::MAX - better, n.relation, n.entry.id.clone())
+    let better = |here: &Figures| {
+        let all = (0..FIGURES.len()).filter_map(|i| {
+            let (value, own) = (here[i]?, best.map(|b| b[i]));
+            let is_better =
+                own.is_none_or(|own| own.is_some_and(|own| FIGURES[i].is_better(value, own)));
+            is_better.then(|| BetterFigure {
+                figure: FIGURES[i].column,
+                own: own.flatten(),
+                value,
+            })
+        });
+        all.collect_vec()
+    };
+    let mut out = near
+        .into_iter()
+        .map(|(relation, entry, figures)| (relation, entry, better(&figures)))
+        .collect_vec();
+    out.sort_by_cached_key(|(relation, entry, better)| {
+        let count = if best.is_some() { better.len() } else { 0 };
+        (usize::MAX - count, *relation, entry.id.clone())
     });
-    Ok(out)
-}
-
-impl Neighbour {
-    /// The figures in which it does better, by their places in [`FIGURES`]: by more than a hundredth.
-    pub fn better<'a>(&'a self, own: &'a Figures) -> impl Iterator<Item = usize> + 'a {
-        let by = |&i: &usize| {
-            let pair = self.figures[i].zip(own[i]);
-            pair.is_some_and(|(here, own)| FIGURES[i].is_better(here, own))
-        };
-        (0..FIGURES.len()).filter(by)
-    }
+    let neighbour = |((relation, links), entry, better): ((usize, usize), Entry, _)| Neighbour {
+        id: entry.id,
+        form: entry.form,
+        relation: RELATIONS[relation],
+        links,
+        better,
+    };
+    Ok(out.into_iter().map(neighbour).collect())
 }
 
 impl Figure {
@@ -192,14 +198,14 @@ impl Own {
         other: &PairStructure,
         key: &Weighted,
         is_symmetric: bool,
-    ) -> Option<Nearness> {
+    ) -> Option<(usize, usize)> {
         let links = other.chain.links();
         match links.abs_diff(self.links) {
-            0 => (hinged(other) == self.chain).then_some(Nearness::OtherRoles),
+            0 => (hinged(other) == self.chain).then_some((0, 0)),
             4 if !is_symmetric => None,
             by @ (2 | 4) if links < self.links => {
                 let is_left = self.less[by / 2 - 1].contains(key);
-                is_left.then_some(Nearness::Fewer(by))
+                is_left.then_some((1, by))
             }
             by @ (2 | 4) => {
                 let mut left = other.without_two_links();
@@ -209,9 +215,7 @@ impl Own {
                         .flat_map(PairStructure::without_two_links)
                         .collect();
                 }
-                keys(left.iter())
-                    .contains(&self.key)
-                    .then_some(Nearness::More(by))
+                keys(left.iter()).contains(&self.key).then_some((2, by))
             }
             _ => None,
         }

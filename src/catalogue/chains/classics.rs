@@ -6,22 +6,24 @@ use crate::chains::chain::{Chain, Joint, ordered};
 use crate::chains::roles::Roles;
 use crate::chains::structure::PairStructure;
 use itertools::Itertools;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 const TEXT: &str = include_str!("classics.toml");
 
 /// A scheme that is well known.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Classic {
     /// A word for it.
     pub id: String,
     /// What it is.
     pub about: String,
     /// Its structure; flat faces stand in it as slots.
+    #[serde(skip)]
     pub structure: PairStructure,
     /// What it is beside its structure.
+    #[serde(skip)]
     pub made_as: MadeAs,
 }
 

@@ -159,25 +159,16 @@ fn motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec
     relations(field, &columns).into_iter().map(links).collect()
 }
 
-/// The motions of a chain in nearly all places, link 0 at rest.
+/// The one motion of a chain in nearly all places, link 0 at rest; nothing where there is none or more than one.
 ///
 /// # Complexity
 /// An elimination of 3n columns for n links.
 #[must_use]
-pub fn generic_motions(chain: &Chain) -> Vec<Vec<Velocity>> {
+pub fn motion(chain: &Chain) -> Option<Vec<Velocity>> {
     let mut draw = Draw::new();
     let joints = chain.joints().into_iter();
     let places = joints.map(|j| (j, draw.place(j.pair))).collect_vec();
-    motions(draw.field, chain, &places)
-}
-
-/// The one motion of a chain in nearly all places, link 0 at rest; nothing where there is none or more than one.
-///
-/// # Complexity
-/// As [`generic_motions`].
-#[must_use]
-pub fn motion(chain: &Chain) -> Option<Vec<Velocity>> {
-    let mut found = generic_motions(chain);
+    let mut found = motions(draw.field, chain, &places);
     found.pop().filter(|_| found.is_empty())
 }
 

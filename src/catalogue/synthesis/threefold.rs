@@ -98,12 +98,6 @@ impl Structure {
         }
     }
 
-    /// How many jaws, or times a joint of a side stands there.
-    #[must_use]
-    pub fn order(&self) -> usize {
-        self.sides.as_ref().map_or(1, |_| SIDES)
-    }
-
     /// Number of links.
     #[must_use]
     pub fn links(&self) -> usize {

@@ -4,6 +4,4 @@ pub mod counts;
 #[cfg(feature = "store")]
 pub mod find;
 #[cfg(feature = "store")]
-mod neighbours;
-#[cfg(feature = "store")]
 pub mod structures;

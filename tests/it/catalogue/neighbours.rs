@@ -4,7 +4,7 @@ use super::command::ok;
 use super::rows::all_of_six;
 use crate::common::{built_in, json};
 use itertools::Itertools;
-use ozols::catalog::neighbours::{FIGURES, Nearness, neighbours};
+use ozols::catalog::neighbours::{FIGURES, neighbours};
 use ozols::catalog::store::Store;
 use ozols::chains::structure::PairStructure;
 use ozols::file::text::mechanism_from_str;
@@ -81,17 +81,17 @@ fn two_links_less_are_those_that_taking_two_out_leaves() {
         .collect();
     let mut related = 0;
     for structure in all.values() {
-        let found = neighbours(&store, structure).unwrap().near;
+        let found = neighbours(&store, structure).unwrap();
         for (id, other) in &all {
             let [less, more] = [other, structure].map(|s| s.chain.links());
             let expected = match less.abs_diff(more) {
-                2 if less < more => is_left(other, structure).then_some(Nearness::Fewer(2)),
-                2 => is_left(structure, other).then_some(Nearness::More(2)),
+                2 if less < more => is_left(other, structure).then_some(("fewer-links", 2)),
+                2 => is_left(structure, other).then_some(("more-links", 2)),
                 _ => continue,
             };
-            let told = found.iter().find(|n| n.entry.id == *id);
+            let told = found.iter().find(|n| n.id == *id);
             assert_eq!(
-                told.map(|n| n.relation),
+                told.map(|n| (n.relation, n.links)),
                 expected,
                 "{} beside {id}",
                 structure.name()

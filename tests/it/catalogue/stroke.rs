@@ -299,7 +299,7 @@ fn what_is_not_reached_is_said() {
             assert_eq!(f.ends[k].is_some(), f.openings[k] != asked, "{f:?}");
             if f.ends[k].is_some() {
                 assert_eq!(f.margin[k], 0.0);
-                let said = f.shortfall.unwrap().to_string();
+                let said = f.shortfall.as_ref().unwrap().to_string();
                 assert!(
                     said.contains(" mm where ") && said.contains(": there "),
                     "{said}"

@@ -3,7 +3,7 @@
 use super::wanted::WantedGrippers;
 use crate::api::Scheme;
 use crate::catalog::find::entries;
-use crate::catalog::neighbours::{Neighbours, neighbours};
+use crate::catalog::neighbours::neighbours;
 use crate::catalog::store::Store;
 use crate::cli::option::named::File;
 use crate::cli::option::{TextJsonOrCsv, load};
@@ -226,7 +226,7 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
             entries: entries(&s, &whole, found.made_as)?,
             // Three sides that are alike are not compared.
             neighbours: if found.sides() == 3 {
-                Neighbours::default()
+                Vec::new()
             } else {
                 neighbours(&s, &essential)?
             },

@@ -1,32 +1,18 @@
 //! What structure a mechanism has, for people and as data.
 
 use crate::catalog::find::Entry;
-use crate::catalog::neighbours::Neighbours;
+use crate::catalog::neighbours::{BetterFigure, FIGURES, Neighbour};
 use crate::chains::PairKind;
 use crate::chains::census::Kinds;
-use crate::chains::classics::classics_of;
+use crate::chains::classics::{Classic, classics_of};
 use crate::chains::motion::moves_throughout;
 use crate::chains::roles::{Roles, Subject, Symmetries};
 use crate::chains::structure::PairStructure;
+use crate::format::significant;
 use crate::synthesis::recognize::Recognized;
-use crate::view::catalog::neighbours::{NeighbourData, neighbours_text};
 use crate::view::terminal::layout::fit;
 use itertools::Itertools;
 use serde::Serialize;
-
-/// A well-known scheme.
-#[derive(Debug, Clone, Serialize)]
-struct ClassicData {
-    id: String,
-    about: String,
-}
-
-/// An entry of a catalogue.
-#[derive(Debug, Clone, Serialize)]
-struct EntryData {
-    id: String,
-    form: String,
-}
 
 /// What a mechanism is as a structure: the keys are a stable contract, in this order.
 #[derive(Debug, Clone, Serialize)]
@@ -60,11 +46,11 @@ pub struct FoundData {
     half_turn: Option<bool>,
     half_turn_but_input: Option<bool>,
     /// Well-known schemes of this structure, or where it is not essential of its essential part.
-    classics: Vec<ClassicData>,
+    classics: Vec<&'static Classic>,
     /// Entries of the catalogue that was asked; null where none was.
-    catalogue: Option<Vec<EntryData>>,
+    catalogue: Option<Vec<Entry>>,
     /// What of that catalogue is next to it: the most gain first.
-    neighbours: Option<Vec<NeighbourData>>,
+    neighbours: Option<Vec<Neighbour>>,
 }
 
 /// What a catalogue has of a structure.
@@ -73,7 +59,7 @@ pub struct InCatalogue {
     /// The structure itself, or its essential part.
     pub entries: Vec<Entry>,
     /// What is next to it.
-    pub neighbours: Neighbours,
+    pub neighbours: Vec<Neighbour>,
 }
 
 impl FoundData {
@@ -98,7 +84,7 @@ impl FoundData {
         let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
         let key = found.structure.part(part).key();
         let classics = classics_of(&key, found.made_as);
-        let entry = |Entry { id, form }: Entry| EntryData { id, form };
+        let (entries, neighbours) = known.map(|k| (k.entries, k.neighbours)).unzip();
         FoundData {
             name: found.structure.name(),
             sides: found.sides(),
@@ -127,14 +113,9 @@ impl FoundData {
             mirror_but_input: symmetries.map(|s| s.mirror_but_input),
             half_turn: symmetries.map(|s| s.half_turn),
             half_turn_but_input: symmetries.map(|s| s.half_turn_but_input),
-            classics: classics
-                .map(|c| ClassicData {
-                    id: c.id.clone(),
-                    about: c.about.clone(),
-                })
-                .collect(),
-            neighbours: known.as_ref().map(|k| NeighbourData::all(&k.neighbours)),
-            catalogue: known.map(|k| k.entries.into_iter().map(entry).collect()),
+            classics: classics.collect(),
+            catalogue: entries,
+            neighbours,
         }
     }
 
@@ -244,4 +225,46 @@ fn motion(d: &FoundData) -> String {
         _ => "turn in nearly all places (on parallelograms they do not)",
     };
     format!("{essential}.\nSymmetric layouts: {symmetric}. The jaws {jaws}.\n")
+}
+
+/// Neighbours that the text names; JSON has all.
+const NAMED: usize = 8;
+
+/// A line for each of the first; nothing where there are none.
+fn neighbours_text(all: &[Neighbour]) -> String {
+    let useful = all.iter().filter(|n| !n.better.is_empty()).collect_vec();
+    if useful.is_empty() {
+        return String::new();
+    }
+    let mut out = String::from(
+        "Next to it in the catalogue, and what that does better than each of its own layouts:\n",
+    );
+    for n in useful.iter().take(NAMED) {
+        let relation = match n.relation {
+            "other-roles" => "other roles".to_owned(),
+            "fewer-links" => format!("{} links less", n.links),
+            _ => format!("{} links more", n.links),
+        };
+        let better = n.better.iter().map(said).join("; ");
+        out += &format!("  {}, {}, {relation}: {better}\n", n.id, n.form);
+    }
+    if useful.len() > NAMED {
+        out += &format!("  and {} more, which --json has\n", useful.len() - NAMED);
+    }
+    out
+}
+
+fn said(better: &BetterFigure) -> String {
+    let known = FIGURES.iter().find(|f| f.column == better.figure);
+    let (name, unit) = known.map_or((better.figure, ""), |f| (f.name, f.unit));
+    let space = if unit.is_empty() || unit == "°" {
+        ""
+    } else {
+        " "
+    };
+    let value = format!("{}{space}{unit}", significant(better.value));
+    match better.own {
+        Some(own) => format!("{name} {value}, here {} at best", significant(own)),
+        None => format!("{name} {value}"),
+    }
 }
