@@ -99,7 +99,7 @@ fn forces_are_the_drives_way_over_the_jaws() {
 }
 
 /// The force at the drawn place is among those of the stroke, and so is their mean over the opening, which this returns.
-pub(super) fn bracketed(s: &Structure, f: &DrawnFigures, pairs: f64, rate: f64) -> f64 {
+pub(super) fn bracketed(s: &Structure, f: &LayoutFigures, pairs: f64, rate: f64) -> f64 {
     let metre = match s.input() {
         Input::Slide => 1.0,
         Input::Turn => 1000.0,

@@ -12,7 +12,7 @@ use ozols::synthesis::task::{AskedMotion, Friction, Limits, Task};
 const POSES: usize = 60;
 
 /// The poses of a stroke, from the narrowest part to the widest, each with its drive.
-pub(super) fn poses(twin: &Twin<'_>, f: &DrawnFigures) -> Vec<(f64, Pose)> {
+pub(super) fn poses(twin: &Twin<'_>, f: &LayoutFigures) -> Vec<(f64, Pose)> {
     // The drive at both ends, by halving: a way on and back from the drawn pose.
     let end = |sign: f64, to: f64| -> f64 {
         let (mut x, mut drive, mut step) = (twin.drawn(), 0.0, sign * f.travel / 40.0);
@@ -218,12 +218,12 @@ fn strokes_of_two_jaws_are_as_the_twin_says() {
     for of in forms {
         each(6, &[of], |_, s| {
             n += 1;
-            if of.symmetry == Symmetry::Generic && n % 9 != 0 {
+            if of.1.symmetry == Symmetry::Generic && n % 9 != 0 {
                 return;
             }
             if let Ok(l) = layout(&s, &Limits::default(), 1) {
                 is_as_the_twin_says(&s, &l);
-                tried[usize::from(of.input == Input::Slide)] += 1;
+                tried[usize::from(of.0 == Input::Slide)] += 1;
             }
         });
     }
@@ -316,7 +316,7 @@ fn what_is_not_reached_is_said() {
 }
 
 /// How far apart the tips come as the drive goes on, until they turn back.
-fn widest(s: &Structure, l: &Drawn, f: &DrawnFigures) -> f64 {
+fn widest(s: &Structure, l: &Drawn, f: &LayoutFigures) -> f64 {
     let twin = Twin { s, l };
     let (mut x, mut drive) = (twin.drawn(), 0.0);
     let (mut most, mut step) = (twin.width(&x), f.travel / 500.0);

@@ -84,7 +84,8 @@ fn motions(s: &Structure, at: &BTreeMap<(usize, usize), [f64; 2]>) -> (usize, bo
 fn scattered(subject: &Subject<'_>, s: &Structure) -> BTreeMap<(usize, usize), [f64; 2]> {
     let turn = subject.swaps(&s.structure.roles).next().unwrap();
     let mut at = BTreeMap::new();
-    for (i, &joint) in s.structure.chain.joints().iter().enumerate() {
+    for (i, joint) in s.structure.chain.joints().into_iter().enumerate() {
+        let joint = (joint.links[0], joint.links[1]);
         let image = |(u, v): (usize, usize)| (turn[u].min(turn[v]), turn[u].max(turn[v]));
         let off = |k: usize| ((3 * i + k) as f64 * 0.618_034).fract() - 0.5;
         let mut place = if image(joint) == joint {
