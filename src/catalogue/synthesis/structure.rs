@@ -10,10 +10,20 @@ use crate::chains::{Input, PairKind, Symmetry, graph6};
 use crate::synthesis::place::Place;
 use crate::synthesis::task;
 use crate::synthesis::task::Task;
-use crate::synthesis::threefold::Sides;
 use itertools::Itertools;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
+
+/// What of a gripper of two jaws stands three times.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sides {
+    /// The links of a side, that of the first jaw, by their numbers there.
+    pub side: Vec<usize>,
+    /// The links that stand once: the frame, the driver and what else the turn carries to itself.
+    pub own: Vec<usize>,
+    /// How the gripper of two jaws lies on itself.
+    pub(super) lay: Lay,
+}
 
 /// A gripper without places.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -12,22 +12,11 @@ use crate::chains::{PairKind, Symmetry};
 use crate::synthesis::bones::{BonePlan, Bones};
 use crate::synthesis::place::{Pivot, Point, third};
 use crate::synthesis::rules::Rules;
-use crate::synthesis::structure::{Lay, Structure};
+use crate::synthesis::structure::{Sides, Structure};
 use petgraph::unionfind::UnionFind;
 
 /// Sides.
 pub(crate) const SIDES: usize = 3;
-
-/// What of a gripper of two jaws stands three times.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Sides {
-    /// The links of a side, that of the first jaw, by their numbers there.
-    pub side: Vec<usize>,
-    /// The links that stand once: the frame, the driver and what else the turn carries to itself.
-    pub own: Vec<usize>,
-    /// How the gripper of two jaws lies on itself.
-    pub(super) lay: Lay,
-}
 
 impl Sides {
     /// Of a gripper of two jaws; `None` where its sides are joined to each other or one of them is driven, or it is a mirror image
