@@ -39,16 +39,6 @@ impl Bar {
     pub fn stress(&self, twist: f64) -> f64 {
         self.diameter * self.shear_modulus * twist / (2.0 * self.length)
     }
-
-    /// τ = 8 √(2π I l / (d⁴ G)). `[s]`
-    ///
-    /// # Sources
-    /// `[Klyuchkovskyi 1999]` equation (9).
-    #[must_use]
-    pub fn period(&self, inertia: f64) -> f64 {
-        8.0 * (2.0 * PI * inertia * self.length / (self.diameter.powi(4) * self.shear_modulus))
-            .sqrt()
-    }
 }
 
 /// Π = k φ0² / 2. `[J]`, `[Klyuchkovskyi 1999]` equation (1).
@@ -57,23 +47,10 @@ pub fn stored_energy(stiffness: f64, twist: f64) -> f64 {
     stiffness * twist * twist / 2.0
 }
 
-/// φ = φ0 cos pt + (φ̇0/p) sin pt, without friction. `[rad]`, `[Klyuchkovskyi 1999]` equation (3).
-#[must_use]
-pub fn free_angle(start: f64, speed: f64, frequency: f64, time: f64) -> f64 {
-    let (s, c) = (frequency * time).sin_cos();
-    start * c + speed / frequency * s
-}
-
 /// p = √(k/I). `[rad/s]`, `[Klyuchkovskyi 1999]` equation (4).
 #[must_use]
 pub fn frequency(stiffness: f64, inertia: f64) -> f64 {
     (stiffness / inertia).sqrt()
-}
-
-/// K = I φ̇² / 2. `[J]`, `[Klyuchkovskyi 1999]` equation (5).
-#[must_use]
-pub fn kinetic_energy(inertia: f64, speed: f64) -> f64 {
-    inertia * speed * speed / 2.0
 }
 
 /// δ = ln(A_k / A_{k+1}) of two maximal deflections that follow each other, half a period apart.
@@ -83,15 +60,6 @@ pub fn kinetic_energy(inertia: f64, speed: f64) -> f64 {
 #[must_use]
 pub fn decrement(deflection: f64, next: f64) -> f64 {
     (deflection / next).ln()
-}
-
-/// τ = 2π √(I/k). `[s]`
-///
-/// # Sources
-/// `[Klyuchkovskyi 1999]` equation (7); the scan prints T for k, which (8) and (9) contradict.
-#[must_use]
-pub fn period(inertia: f64, stiffness: f64) -> f64 {
-    2.0 * PI * (inertia / stiffness).sqrt()
 }
 
 /// d = ⁴√(128 π I l / (τ² G)). `[m]`, `[Klyuchkovskyi 1999]` equation (10).
