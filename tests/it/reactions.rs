@@ -294,59 +294,6 @@ proptest! {
     }
 }
 
-/// The planar solver is another formulation: bodies and pairs instead of contours.
-#[test]
-fn planar_mechanisms_agree_with_the_planar_solver() {
-    for name in [
-        "four-bar-planar",
-        "gripper-10-planar",
-        "watt-six-bar",
-        "stephenson-six-bar",
-    ] {
-        let mut m = built_in(name);
-        with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
-        m.mode = ozols::model::mechanism::Mode::Planar {
-            normal: [0, 0, 1].map(Expr::from),
-        };
-        for l in &mut m.links {
-            if let Some(mass) = &mut l.mass {
-                mass.centre[2] = Expr::from(0);
-            }
-        }
-        let s = solve(&m);
-        assert_eq!(s.choice, Uniqueness::Unique, "{name}");
-        let planar = ozols::statics::cycle::statics(&m, StateId::FREE, None).unwrap();
-        let whole = planar.moments[0].whole.as_ref().unwrap();
-        let greatest = s
-            .reactions
-            .iter()
-            .map(JointReaction::force_size)
-            .fold(0.0, f64::max);
-        let linkage = &planar.linkage.mechanism;
-        for r in &whole.reactions {
-            let name = &linkage.pairs[r.pair].name;
-            let Some(own) = s.reactions.iter().find(|x| m.joints[x.joint].id == *name) else {
-                panic!("{name}");
-            };
-            let bodies = linkage.pairs[r.pair].bodies.map(|b| linkage.bodies[b].link);
-            let sign = if bodies[1] == Some(m.joints[own.joint].links[1]) {
-                1.0
-            } else {
-                -1.0
-            };
-            let f = own.global_force();
-            for k in 0..3 {
-                let other =
-                    sign * (r.force[0] * linkage.axes[0][k] + r.force[1] * linkage.axes[1][k]);
-                assert!(
-                    (f[k] - other).abs() < 1e-9 * greatest,
-                    "{name}: {f:?} {r:?}"
-                );
-            }
-        }
-    }
-}
-
 #[test]
 fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
     // Ball joints at both ends of the rod 5 let it spin; a moment along it turns it.

@@ -1,21 +1,32 @@
 //! A planar mechanism's statics over its cycle: structure, motion, loads, and reactions by every method.
 
+use crate::geom::vector::dot;
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
+use crate::motion::pose::Pose as PoseOfLinks;
 use crate::statics::assur::{AssurError, Decomposition, alternatives, decompose};
 use crate::statics::contour_group::pose::GroupPose;
 use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::contour_group::{ContourGroup, recognise};
 use crate::statics::kinetostatics::{
-    Equilibrium, Load, LoadSource, PlanarLoads, by_groups, power, whole,
+    LinkInertia, Load, LoadSource, Reaction, Worth, link_inertias, planar_loads, planar_reactions,
+    worth,
 };
-use crate::statics::planar::{PairId, PairKind, PlanarError, PlanarMechanism};
-use crate::statics::planar_motion::{DeadPoint, Instant, Motion};
-use crate::statics::pose::Linkage;
+use crate::statics::planar::{BodyId, PairId, PairKind, PlanarError, PlanarMechanism};
+use crate::statics::pose::{Linkage, Pose};
+use crate::statics::reactions::contact::Contacts;
+use crate::statics::reactions::drives::{Driven, driven};
+use crate::statics::reactions::follow::follow_to;
+use crate::statics::reactions::geometry::Geometry;
+use crate::statics::reactions::loads::Borne;
+use crate::statics::reactions::unsolved::Unsolved;
 use thiserror::Error;
 
+/// A group worse conditioned than this is at a dead point.
+const WORST: f64 = 1e12;
+
 /// Why there is no statics of a mechanism in its plane.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanarStaticsError {
     /// It is not planar.
@@ -24,25 +35,47 @@ pub enum PlanarStaticsError {
     /// Its drives do not make it determinate.
     #[error(transparent)]
     Assur(#[from] AssurError),
+    /// Its geometry or loads have no numbers.
+    #[error(transparent)]
+    Unsolved(#[from] Unsolved),
 }
 
 /// Loads and reactions at one position of the drive.
 #[derive(Debug, Clone)]
 pub struct Moment {
-    /// Where the mechanism is and how it moves.
-    pub instant: Instant,
+    /// Position of the first drive `[rad]` or `[m]`.
+    pub drive: f64,
+    /// Where every body is.
+    pub pose: Pose,
     /// The loads.
     pub loads: Vec<Load>,
-    /// Reactions of all pairs by the equilibrium of all bodies at once.
-    pub whole: Option<Equilibrium>,
+    /// How the links with mass move.
+    pub links: Vec<LinkInertia>,
+    /// Reactions of all pairs.
+    pub reactions: Vec<Reaction>,
+    /// What they are worth in the equilibrium of all bodies at once.
+    pub worth: Worth,
     /// The same group by group, drives last.
-    pub by_groups: Option<Vec<Equilibrium>>,
+    pub by_groups: Vec<Worth>,
     /// The four-link groups with a closed contour.
     pub groups: Vec<GroupSolutions>,
     /// Power of loads and inertia `[W]`.
     pub load_power: f64,
     /// Power of the drives `[W]`, from the reactions; less than nothing of the other.
     pub drive_power: f64,
+}
+
+/// A place where a mechanism goes no further.
+#[derive(Debug, Clone)]
+pub struct DeadPoint {
+    /// Position of the first drive `[rad]` or `[m]`.
+    pub drive: f64,
+    /// The group that stops it, as an index into [`Decomposition::groups`]; `None` for the drives themselves.
+    pub group: Option<usize>,
+    /// Ratio of the greatest and smallest singular values of that group's equations at the last pose.
+    pub condition: f64,
+    /// The last pose reached.
+    pub pose: Pose,
 }
 
 /// The statics of a mechanism.
@@ -56,8 +89,8 @@ pub struct Statics {
     pub conditions: Vec<f64>,
     /// The groups that the δ-point method solves, with their indices.
     pub contour_groups: Vec<(usize, ContourGroup)>,
-    /// The loads it was asked to bear.
-    pub loads: PlanarLoads,
+    /// Whether the file states a mass, a force or a moment that a body bears.
+    pub loaded: bool,
     /// Position by position.
     pub moments: Vec<Moment>,
     /// Where the motion ended early, if it did.
@@ -70,6 +103,99 @@ impl Statics {
     pub fn drive_slides(&self) -> bool {
         let first = self.decomposition.drives.first();
         first.is_some_and(|&p| self.linkage.mechanism.pairs[p].kind == PairKind::Sliding)
+    }
+
+    /// Returns a position of the first drive, `[rad]` or the file's unit, in `[rad]` or `[m]`.
+    fn in_metres(&self, at: f64) -> f64 {
+        if self.drive_slides() {
+            at * self.linkage.mechanism.metres
+        } else {
+            at
+        }
+    }
+
+    /// Returns the loads and reactions in a pose, the first drive `at` away from that of the file.
+    ///
+    /// # Errors
+    /// [`Unsolved`]; [`Unsolved::Stuck`] where a group is singular to working precision.
+    fn moment(
+        &self,
+        m: &Mechanism,
+        state: StateId,
+        held: &[Driven],
+        (at, of_links): (f64, &PoseOfLinks),
+    ) -> Result<Moment, Unsolved> {
+        let (linkage, d) = (&self.linkage, &self.decomposition);
+        let borne = Borne::new(m, state, of_links, at, held)?;
+        let pose = linkage.placed(of_links, &turns(linkage, &borne.geometry, of_links));
+        let singular = |c: f64| c > WORST;
+        if group_conditions(linkage, &pose, d)
+            .into_iter()
+            .any(singular)
+        {
+            return Err(Unsolved::Stuck);
+        }
+        let solution = borne.solve(m, held, Contacts::AsJoints)?;
+        let loads = planar_loads(linkage, &borne);
+        let reactions = planar_reactions(linkage, &pose, &solution.reactions);
+        let worth = |bodies: &[BodyId], pairs: &[PairId]| {
+            worth(
+                linkage,
+                &pose,
+                (bodies, pairs, &d.drives),
+                &loads,
+                &reactions,
+            )
+        };
+        let frame = linkage.mechanism.frame;
+        let bodies = (0..linkage.mechanism.bodies.len()).filter(|&b| b != frame);
+        let pairs: Vec<PairId> = (0..linkage.mechanism.pairs.len()).collect();
+        let groups = d.groups.iter().map(|g| worth(&g.bodies, &g.pairs()));
+        let unit = |p: PairId| match linkage.mechanism.pairs[p].kind {
+            PairKind::Sliding => linkage.mechanism.metres,
+            PairKind::Turning | PairKind::Rigid => 1.0,
+        };
+        let power = |(&p, speed): (&PairId, &f64)| {
+            reactions[p].effort.unwrap_or(f64::NAN) * speed * unit(p)
+        };
+        let powers = d.drives.iter().zip(&m.loads.drive_speeds).map(power);
+        let solved = self.contour_groups.iter().map(|(group, letters)| {
+            let pose = GroupPose::new(linkage, letters, &pose, &loads);
+            GroupSolutions::new(*group, pose)
+        });
+        Ok(Moment {
+            drive: self.in_metres(at),
+            links: link_inertias(linkage, &borne),
+            worth: worth(&bodies.collect::<Vec<_>>(), &pairs),
+            by_groups: groups.chain([worth(&d.driven, &d.driven_pairs)]).collect(),
+            groups: solved.collect(),
+            load_power: borne.power,
+            drive_power: powers.fold(0.0, |sum, x| sum + x),
+            loads,
+            reactions,
+            pose,
+        })
+    }
+
+    /// Returns the last pose reached, with the group whose equations are the worst there.
+    fn dead_point(
+        &self,
+        m: &Mechanism,
+        state: StateId,
+        (at, of_links): (f64, &PoseOfLinks),
+    ) -> Result<DeadPoint, Unsolved> {
+        let geometry = Geometry::new(m, state, of_links)?;
+        let turns = turns(&self.linkage, &geometry, of_links);
+        let pose = self.linkage.placed(of_links, &turns);
+        let conditions = group_conditions(&self.linkage, &pose, &self.decomposition);
+        let all = conditions.into_iter().enumerate();
+        let worst = all.max_by(|a, b| a.1.total_cmp(&b.1));
+        Ok(DeadPoint {
+            drive: self.in_metres(at),
+            group: worst.map(|w| w.0),
+            condition: worst.map_or(f64::INFINITY, |w| w.1),
+            pose,
+        })
     }
 
     /// The first four-link group with a closed contour, in the pose in which forces from outside load it most.
@@ -116,81 +242,64 @@ pub(crate) fn statics_at(
     let drives = planar.drives();
     let decomposition = decompose(&planar, &drives)?;
     let linkage = Linkage::new(planar);
-    let metres = linkage.mechanism.metres;
-    let unit = |i: usize| match drives.get(i).map(|&p| linkage.mechanism.pairs[p].kind) {
-        Some(PairKind::Sliding) => metres,
-        _ => 1.0,
-    };
-    let stated = mechanism.loads.drive_speeds.iter().enumerate();
-    let speeds: Vec<f64> = stated.map(|(i, s)| s * unit(i)).collect();
-    let slides = drives
-        .first()
-        .is_some_and(|&p| linkage.mechanism.pairs[p].kind == PairKind::Sliding);
-    let loads = PlanarLoads::new(mechanism, state, &linkage, slides);
-    let positions: Vec<f64> = positions.iter().map(|x| x * unit(0)).collect();
-    let motion = Motion::new(&linkage, &decomposition, &speeds);
-    let conditions = motion.conditions(&linkage.home());
-    let (instants, dead) = motion.follow(&positions);
+    let m = linkage.mechanism.as_driven(mechanism);
+    let home = PoseOfLinks::of_file(&m, state).map_err(PlanarError::from)?;
+    let home = Geometry::new(&m, state, &home).map_err(PlanarError::from)?;
+    let held = driven(&m, &home)?;
+    let followed = follow_to(&m, state, &held, positions)?;
+    let mut poses = followed.poses;
+    if positions.first() > positions.last() {
+        poses.reverse();
+    }
     let found = decomposition.groups.iter().enumerate();
     let contour_groups: Vec<(usize, ContourGroup)> = found
         .filter_map(|(i, g)| Some((i, recognise(&linkage.mechanism, g)?)))
         .collect();
-    let moments = instants
-        .into_iter()
-        .map(|now| {
-            moment(
-                &linkage,
-                &decomposition,
-                &contour_groups,
-                &loads,
-                &speeds,
-                now,
-            )
-        })
-        .collect();
-    Ok(Statics {
+    let conditions = group_conditions(&linkage, &linkage.home(), &decomposition);
+    let is_body = |link| linkage.mechanism.body_of(link).is_some();
+    let stated = m.loads.in_state(state);
+    let loaded = stated.forces.iter().any(|f| is_body(f.link))
+        || stated.moments.iter().any(|x| is_body(x.link))
+        || m.links_with_ids()
+            .any(|(l, link)| link.mass.is_some() && is_body(l));
+    let mut out = Statics {
+        linkage,
+        decomposition,
         conditions,
         contour_groups,
-        loads,
-        moments,
-        dead,
-        decomposition,
-        linkage,
-    })
+        loaded,
+        moments: Vec::new(),
+        dead: None,
+    };
+    for (at, pose) in &poses {
+        match out.moment(&m, state, &held, (*at, pose)) {
+            Err(Unsolved::Stuck | Unsolved::Moves { .. }) => {
+                out.dead = Some(out.dead_point(&m, state, (*at, pose))?);
+                return Ok(out);
+            }
+            found => out.moments.push(found?),
+        }
+    }
+    if let Some((at, pose)) = &followed.last {
+        out.dead = Some(out.dead_point(&m, state, (*at, pose))?);
+    }
+    Ok(out)
 }
 
-fn moment(
-    linkage: &Linkage,
-    d: &Decomposition,
-    contour_groups: &[(usize, ContourGroup)],
-    planar_loads: &PlanarLoads,
-    speeds: &[f64],
-    instant: Instant,
-) -> Moment {
-    let loads = planar_loads.at(linkage, &instant);
-    let whole = whole(linkage, d, &instant, &loads);
-    let groups = contour_groups.iter().map(|(group, letters)| {
-        let pose = GroupPose::new(linkage, letters, &instant.pose, &loads);
-        GroupSolutions::new(*group, pose)
-    });
-    let effort = |i: usize| {
-        let pair = d.drives[i];
-        let found = whole.as_ref()?.reactions.iter().find(|r| r.pair == pair)?;
-        found.effort
-    };
-    let speed = |i: usize| speeds.get(i).copied().unwrap_or(0.0);
-    let drive_power = (0..d.drives.len())
-        .map(|i| effort(i).unwrap_or(f64::NAN) * speed(i))
-        .sum();
-    Moment {
-        by_groups: by_groups(linkage, d, &instant, &loads),
-        groups: groups.collect(),
-        load_power: power(&instant, &loads),
-        drive_power,
-        whole,
-        loads,
-        instant,
-    }
+/// Condition of each group's equations in a pose, in order of the groups.
+fn group_conditions(linkage: &Linkage, pose: &Pose, d: &Decomposition) -> Vec<f64> {
+    let groups = d.groups.iter();
+    groups
+        .map(|g| linkage.condition(pose, &g.bodies, &g.pairs(), &d.drives))
+        .collect()
+}
+
+/// How far the links have turned since the pose of the file, about the plane's normal.
+fn turns(linkage: &Linkage, geometry: &Geometry, pose: &PoseOfLinks) -> Vec<f64> {
+    let moved: Vec<f64> = pose.columns.iter().map(|c| c.moved).collect();
+    let twists = geometry.link_twists(pose.links.len(), &moved);
+    let about = |[x, y, z, ..]: [f64; 6]| dot(linkage.mechanism.axes[2], [x, y, z]);
+    twists.into_iter().map(about).collect()
 }
 
 /// The structure of a mechanism under one drive.
@@ -216,7 +325,7 @@ pub fn structures(
     let found = all.map(|(drive, d)| DrivenStructure {
         drive,
         found: d.map(|d| {
-            let conditions = Motion::new(&linkage, &d, &[]).conditions(&linkage.home());
+            let conditions = group_conditions(&linkage, &linkage.home(), &d);
             (d, conditions)
         }),
     });

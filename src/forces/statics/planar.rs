@@ -15,8 +15,8 @@ pub type BodyId = usize;
 /// Index of a pair in [`PlanarMechanism::pairs`].
 pub type PairId = usize;
 
-/// Sine of the angle below which directions count as parallel.
-const PARALLEL: f64 = 1e-9;
+/// Sine of the angle below which directions count as parallel, as for the motions of a joint in a plane.
+const PARALLEL: f64 = 1e-10;
 
 /// Why a mechanism has no planar model.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -200,6 +200,33 @@ impl PlanarMechanism {
             planar.add_joint(m, j, [a, b])?;
         }
         Ok(planar)
+    }
+
+    /// The mechanism with motions in this plane alone, where drives that turn do so about its normal.
+    #[must_use]
+    pub(crate) fn as_driven(&self, m: &Mechanism) -> Mechanism {
+        let mut out = m.clone();
+        // The normal of a mechanism that moves is a number.
+        let normal = self.axes[2].map(|x| Expr::from_f64(x).unwrap_or_else(|_| Expr::from(0)));
+        if matches!(m.mode, Mode::Spatial) {
+            out.mode = Mode::Planar { normal };
+        }
+        for p in self.pairs.iter().filter(|p| p.drive) {
+            let frame = &mut out.joints[p.joint].frame;
+            let Ok(values) = FrameValues::new(&Reals, frame) else {
+                continue;
+            };
+            let backward = |a: &[f64; 3]| dot(unit(*a), self.axes[2]) < -PARALLEL;
+            if p.kind == PairKind::Turning && values.axes.iter().any(backward) {
+                let turned = if backward(&values.axes[0]) {
+                    &mut frame.reference
+                } else {
+                    &mut frame.axis
+                };
+                *turned = turned.each_ref().map(|c| -c);
+            }
+        }
+        out
     }
 
     /// A point of the file as (x, y) in metres.

@@ -1,15 +1,18 @@
 //! Poses of a planar mechanism and the equations its pairs put on them.
 //!
 //! A body is placed by where its origin (the mean of its pairs' points) is and how far it has turned since the pose of
-//! the file: (x, y, θ). Velocities and accelerations are the derivatives of these three.
+//! the file: (x, y, θ).
 
 use crate::geom::vector::turned;
 pub use crate::geom::vector::{
     add_scaled as plus, cross_plane as cross, dot, norm as length, quarter, sub as minus,
 };
+use crate::motion::pose as motion;
+use crate::statics::condition;
 use crate::statics::planar::{BodyId, Pair, PairId, PairKind, PlanarMechanism};
+use ozols_dense::Matrix;
 
-/// (x `[m]`, y `[m]`, θ `[rad]`) of a body, or derivatives of it.
+/// (x `[m]`, y `[m]`, θ `[rad]`) of a body.
 pub type Placement = [f64; 3];
 
 /// One equation of a pair: its coefficients on the first and second body's (x, y, θ).
@@ -84,34 +87,6 @@ impl Linkage {
         plus([x, y], 1.0, turned(minus(point, self.origins[body]), angle))
     }
 
-    /// Velocity of a body's point.
-    #[must_use]
-    pub fn velocity(&self, pose: &Pose, v: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
-        let arm = minus(
-            self.point(pose, body, point),
-            [pose[body][0], pose[body][1]],
-        );
-        plus([v[body][0], v[body][1]], v[body][2], quarter(arm))
-    }
-
-    /// Acceleration of a body's point.
-    #[must_use]
-    pub fn acceleration(
-        &self,
-        pose: &Pose,
-        v: &Pose,
-        a: &Pose,
-        body: BodyId,
-        point: [f64; 2],
-    ) -> [f64; 2] {
-        let arm = minus(
-            self.point(pose, body, point),
-            [pose[body][0], pose[body][1]],
-        );
-        let turning = plus([a[body][0], a[body][1]], a[body][2], quarter(arm));
-        plus(turning, -v[body][2] * v[body][2], arm)
-    }
-
     /// Direction of a sliding pair in a pose.
     #[must_use]
     pub fn along(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
@@ -139,39 +114,8 @@ impl Linkage {
         }
     }
 
-    /// Position of a drive in a pose: the turn about the plane's normal `[rad]`, or the slide `[m]`, of the second body
-    /// against the first.
-    #[must_use]
-    pub fn drive_position(&self, pose: &Pose, pair: PairId) -> f64 {
-        let p = &self.mechanism.pairs[pair];
-        match p.kind {
-            PairKind::Sliding => {
-                let now = self.now(pose, p);
-                dot(now.along, now.gap)
-            }
-            PairKind::Turning | PairKind::Rigid => pose[p.bodies[1]][2] - pose[p.bodies[0]][2],
-        }
-    }
-
-    /// How far a pair's equations are from holding: two lengths, or for sliding pairs and rigid ones a length or two
-    /// and an angle; with `drive`, the drive's own equation last.
-    #[must_use]
-    pub fn gaps(&self, pose: &Pose, pair: PairId, drive: Option<f64>) -> Vec<f64> {
-        let p = &self.mechanism.pairs[pair];
-        let now = self.now(pose, p);
-        let turn = pose[p.bodies[1]][2] - pose[p.bodies[0]][2];
-        let mut out = match p.kind {
-            PairKind::Turning => now.gap.to_vec(),
-            PairKind::Sliding => vec![turn, dot(quarter(now.along), now.gap)],
-            PairKind::Rigid => vec![now.gap[0], now.gap[1], turn],
-        };
-        if let Some(q) = drive {
-            out.push(self.drive_position(pose, pair) - q);
-        }
-        out
-    }
-
-    /// Derivatives of [`Linkage::gaps`] by the placements of the two bodies.
+    /// How the equations of a pair, two lengths or a length and an angle, and with `drive` that of the drive last, change with the
+    /// placements of the two bodies.
     #[must_use]
     pub fn rows(&self, pose: &Pose, pair: PairId, drive: bool) -> Vec<Row> {
         let p = &self.mechanism.pairs[pair];
@@ -201,32 +145,56 @@ impl Linkage {
         out
     }
 
-    /// What [`Linkage::rows`] times the accelerations comes to, less the drive's own acceleration.
-    #[must_use]
-    pub(crate) fn bends(&self, pose: &Pose, v: &Pose, pair: PairId, drive: bool) -> Vec<f64> {
-        let p = &self.mechanism.pairs[pair];
-        let now = self.now(pose, p);
-        let [w0, w1] = p.bodies.map(|b| v[b][2]);
-        let [r0, r1] = now.arms;
-        let inward = minus(r1.map(|c| c * w1 * w1), r0.map(|c| c * w0 * w0));
-        let [v0, v1] = [0, 1].map(|e| {
-            let b = v[p.bodies[e]];
-            plus([b[0], b[1]], b[2], quarter(now.arms[e]))
-        });
-        let opening = minus(v1, v0);
-        let carried = |n: [f64; 2]| {
-            dot(n, inward) - 2.0 * w0 * dot(quarter(n), opening) + w0 * w0 * dot(n, now.gap)
-        };
-        let mut out = match p.kind {
-            PairKind::Turning => inward.to_vec(),
-            PairKind::Sliding => vec![0.0, carried(quarter(now.along))],
-            PairKind::Rigid => vec![inward[0], inward[1], 0.0],
-        };
-        match (drive, p.kind) {
-            (true, PairKind::Sliding) => out.push(carried(now.along)),
-            (true, PairKind::Turning) => out.push(0.0),
-            _ => {}
+    /// Where the bodies are when links have moved from the pose of the file as in `pose`, and turned by so much.
+    pub(crate) fn placed(&self, pose: &motion::Pose, turns: &[f64]) -> Pose {
+        let m = &self.mechanism;
+        let mut out = self.home();
+        for (b, body) in m.bodies.iter().enumerate() {
+            let Some(link) = body.link else { continue };
+            let [x, y] = self.origins[b];
+            let point = [0, 1, 2].map(|i| (x * m.axes[0][i] + y * m.axes[1][i]) / m.metres);
+            let [x, y] = m.flat(pose.carried(&pose.links, link, point));
+            out[b] = [x, y, turns[link]];
+        }
+        // A block goes with the pin of the first link, and turns with the slot of the second.
+        for pin_slot in m.pairs.windows(2) {
+            let ([pin, block], [of, slot]) = (pin_slot[0].bodies, pin_slot[1].bodies);
+            if block == of && m.bodies[block].link.is_none() {
+                let [x, y] = self.point(&out, pin, pin_slot[0].point);
+                out[block] = [x, y, out[slot][2]];
+            }
         }
         out
+    }
+
+    /// Ratio of the greatest and smallest singular values of the equations of some bodies by the pairs that place them: angles and
+    /// angular equations are made lengths by the mechanism's size. The equilibrium of the bodies has the transposed equations.
+    #[must_use]
+    pub(crate) fn condition(
+        &self,
+        pose: &Pose,
+        bodies: &[BodyId],
+        pairs: &[PairId],
+        drives: &[PairId],
+    ) -> f64 {
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        for &p in pairs {
+            let pair = &self.mechanism.pairs[p];
+            for row in self.rows(pose, p, drives.contains(&p)) {
+                let is_angle = row[1][..2] == [0.0; 2];
+                let scale = if is_angle { self.size } else { 1.0 };
+                let mut out = vec![0.0; 3 * bodies.len()];
+                for (end, b) in pair.bodies.iter().enumerate() {
+                    if let Some(at) = bodies.iter().position(|x| x == b) {
+                        let [x, y, turn] = row[end].map(|c| c * scale);
+                        out[3 * at..3 * at + 3].copy_from_slice(&[x, y, turn / self.size]);
+                    }
+                }
+                rows.push(out);
+            }
+        }
+        condition(&Matrix::from_fn(rows.len(), 3 * bodies.len(), |r, c| {
+            rows[r][c]
+        }))
     }
 }

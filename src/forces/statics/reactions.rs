@@ -20,6 +20,7 @@ mod equations;
 pub mod follow;
 pub mod geometry;
 pub(crate) mod inertia;
+pub mod loads;
 pub(crate) mod solution;
 pub mod solve;
 mod unilateral;

@@ -62,6 +62,7 @@ pub enum StaticsError {
 pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
     match error {
         PlanarStaticsError::Planar(e) => !matches!(e, PlanarError::Exact(_)),
+        PlanarStaticsError::Unsolved(_) => false,
         PlanarStaticsError::Assur(e) => matches!(e, AssurError::Overconstrained { .. }),
     }
 }

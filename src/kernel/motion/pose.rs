@@ -160,6 +160,15 @@ impl Pose {
         out
     }
 
+    /// Returns the file's pose with one column tied to another: it moves by `ratio` where the other moves by 1, each in its own unit.
+    #[must_use]
+    pub fn tied(mut self, other: usize, column: usize, ratio: f64) -> Pose {
+        let size = ratio.hypot(1.0);
+        self.couplings
+            .push([(other, -ratio / size), (column, 1.0 / size)]);
+        self
+    }
+
     /// Relative error of the coordinates, 0 where they are exact.
     #[must_use]
     pub fn accuracy(&self) -> f64 {

@@ -13,8 +13,7 @@ use crate::statics::contour_group::delta_point::DeltaSteps;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::{self, Moment};
-use crate::statics::inertia::{LinkInertia, link_inertias};
-use crate::statics::kinetostatics::{self, Equilibrium};
+use crate::statics::kinetostatics::{self, LinkInertia, Worth};
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
 use crate::view::claims::about;
 use itertools::Itertools;
@@ -39,6 +38,9 @@ pub struct StaticsData<'a> {
     pub stopped: Option<Stopped<'a>>,
     /// What publications say of its reactions.
     pub claims: Vec<&'a Claim>,
+    /// The mechanism.
+    #[serde(skip)]
+    pub of: &'a Mechanism,
     /// What was found.
     #[serde(skip)]
     pub found: &'a cycle::Statics,
@@ -77,10 +79,9 @@ pub struct Position<'a> {
     pub drive: f64,
     /// By the equilibrium of all links at once.
     pub reactions: Vec<Reaction<'a>>,
-    /// Condition of those equations.
-    pub condition: Option<f64>,
-    /// What they leave over, by the greatest load.
-    pub residual: Option<f64>,
+    /// What those equations are worth.
+    #[serde(flatten)]
+    pub worth: Worth,
     /// Worth of the equations group by group, drives last.
     pub by_groups: Vec<Worth>,
     /// Of the drives `[W]`.
@@ -91,15 +92,6 @@ pub struct Position<'a> {
     pub contour_groups: Vec<ContourGroup>,
     /// How the links with mass move, and their inertia forces.
     pub links: Vec<LinkMotion<'a>>,
-}
-
-/// What equations are worth.
-#[derive(Debug, Serialize)]
-pub struct Worth {
-    /// Greatest singular value over the smallest.
-    pub condition: f64,
-    /// What is left over, by the greatest load.
-    pub residual: f64,
 }
 
 /// What a joint passes on.
@@ -311,6 +303,7 @@ impl<'a> StaticsData<'a> {
                 .collect(),
             stopped,
             claims: about(&mechanism.claims, Topic::Statics),
+            of: mechanism,
             found: s,
             methods,
         }
@@ -338,8 +331,7 @@ impl<'a> StaticsData<'a> {
 impl<'a> Position<'a> {
     fn new(s: &'a cycle::Statics, x: &'a Moment, methods: &[GroupMethod]) -> Self {
         let m = &s.linkage.mechanism;
-        let whole = x.whole.as_ref();
-        let reactions = whole.iter().flat_map(|e| &e.reactions).map(|r| {
+        let reactions = x.reactions.iter().map(|r| {
             let pair = &m.pairs[r.pair];
             let [from, on] = pair.bodies.map(|b| m.bodies[b].name.as_str());
             Reaction {
@@ -349,16 +341,11 @@ impl<'a> Position<'a> {
                 passed: *r,
             }
         });
-        let worth = |e: &Equilibrium| Worth {
-            condition: e.condition,
-            residual: e.residual,
-        };
         Position {
-            drive: x.instant.drive,
+            drive: x.drive,
             reactions: reactions.collect(),
-            condition: whole.map(|e| e.condition),
-            residual: whole.map(|e| e.residual),
-            by_groups: x.by_groups.iter().flatten().map(worth).collect(),
+            worth: x.worth,
+            by_groups: x.by_groups.clone(),
             drive_power: x.drive_power,
             load_power: x.load_power,
             contour_groups: x
@@ -366,11 +353,12 @@ impl<'a> Position<'a> {
                 .iter()
                 .zip(&s.contour_groups)
                 .map(|(g, (_, letters))| {
-                    let guide = s.linkage.place(&x.instant.pose, letters.guide);
+                    let guide = s.linkage.place(&x.pose, letters.guide);
                     ContourGroup::new(g, guide, methods)
                 })
                 .collect(),
-            links: link_inertias(&s.loads.masses, &s.linkage, &x.instant)
+            links: x
+                .links
                 .iter()
                 .map(|i| LinkMotion {
                     link: &m.bodies[i.body].name,

@@ -1,16 +1,11 @@
-//! Poses over a stroke: against closed forms, against the planar motion by Assur groups, and as the command shows them.
+//! Poses over a stroke: against closed forms, and as the command shows them.
 
 use crate::common::{built_in, json, out, ozols};
 use crate::statics::{file, mechanism, r};
-use ozols::builtin;
 use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::motion::follow::{Followed, Why, follow, slides};
+use ozols::motion::follow::{Followed, Why, follow};
 use ozols::motion::pose::Pose;
 use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
-use ozols::statics::assur::decompose;
-use ozols::statics::planar::PlanarMechanism;
-use ozols::statics::planar_motion::Motion;
-use ozols::statics::pose::Linkage;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Columns of the file's drives in the free state.
@@ -288,85 +283,6 @@ fn the_number_of_steps_does_not_matter() {
         assert_eq!(a.rank.rank, b.rank.rank);
         assert!((a.rank.kept / b.rank.kept - 1.0).abs() < 1e-3, "{name}");
     }
-}
-
-/// The same poses as by Assur groups, in every planar file that those can move.
-#[test]
-fn as_by_assur_groups() {
-    let mut compared = 0;
-    for name in builtin::names() {
-        let m = built_in(name);
-        let Ok(planar) = PlanarMechanism::new(&m, StateId::FREE) else {
-            continue;
-        };
-        let pairs = planar.drives();
-        let Ok(d) = decompose(&planar, &pairs) else {
-            continue;
-        };
-        let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-        let columns = drives(&m, &pose);
-        if columns.len() != pairs.len()
-            || pairs.is_empty()
-            || m.joints[pose.columns[columns[0]].joint].id != planar.pairs[pairs[0]].name
-        {
-            continue;
-        }
-        let unit = if slides(&pose, columns[0]) {
-            pose.length
-        } else {
-            1.0
-        };
-        let linkage = Linkage::new(planar);
-        let metres = if unit == 1.0 {
-            1.0
-        } else {
-            linkage.mechanism.metres
-        };
-        let far = if unit == 1.0 { 1.2 } else { 0.1 * unit };
-        let positions: Vec<f64> = (0..=6).map(|i| far * f64::from(i) / 6.0).collect();
-        let found = follow(&pose, columns[0], &columns[1..], [0.0, far / unit], 6);
-        let si: Vec<f64> = positions.iter().map(|x| x * metres).collect();
-        let (instants, dead) = Motion::new(&linkage, &d, &[1.0]).follow(&si);
-        // A cusp in the pose of the file: no speeds there.
-        if instants.is_empty() {
-            assert!(found.reached.len() < 2, "{name}");
-            continue;
-        }
-        let stops = (
-            dead.map(|d| d.drive / metres),
-            found.stop.map(|s| s.at * unit),
-        );
-        match stops {
-            (None, None) => {}
-            (Some(a), Some(b)) if (a - b).abs() < 1e-6 * unit => {}
-            other => panic!("{name}: {other:?}"),
-        }
-        assert_eq!(instants.len(), found.reached.len(), "{name}");
-        for (now, f) in instants.iter().zip(&found.reached) {
-            let here = f.pose();
-            for j in &m.joints {
-                let p = j.frame.point.each_ref().map(|c| c.to_f64());
-                for l in j.links {
-                    let Some(b) = linkage.mechanism.body_of(l) else {
-                        continue;
-                    };
-                    let local = [0, 1, 2].map(|i| (p[i] - pose.middle[i]) / pose.length);
-                    let moved = here.links[l].point(local);
-                    let to = [0, 1, 2].map(|i| moved[i] * pose.length + pose.middle[i]);
-                    let other = linkage.point(&now.pose, b, linkage.mechanism.flat(p));
-                    let gap = distance(&linkage.mechanism.flat(to), &other) / linkage.size;
-                    assert!(
-                        gap < 1e-9,
-                        "{name}: link {} at {}: {gap:e}",
-                        m.links[l].id,
-                        f.at()
-                    );
-                }
-            }
-        }
-        compared += 1;
-    }
-    assert!(compared >= 8, "{compared}");
 }
 
 #[test]

@@ -169,7 +169,7 @@ proptest! {
         let stroke = Some(Stroke { from: 0.0, to: 1.0, steps: 4 });
         let efforts = |m: &Mechanism| -> Vec<f64> {
             let found = statics(m, StateId::FREE, stroke).unwrap();
-            let of = |x: &ozols::statics::cycle::Moment| x.whole.as_ref().unwrap().reactions.iter().find_map(|r| r.effort).unwrap();
+            let of = |x: &ozols::statics::cycle::Moment| x.reactions.iter().find_map(|r| r.effort).unwrap();
             found.moments.iter().map(of).collect()
         };
         let (a, b) = (efforts(&upright), efforts(&leans));

@@ -1,132 +1,64 @@
-//! Positions, velocities and accelerations over a cycle.
+//! Positions over a cycle.
 
 use super::{file, four_bar_file, mechanism, p, r, shears};
+use ozols::model::loads::Stroke;
 use ozols::model::mechanism::StateId;
-use ozols::statics::assur::{Decomposition, decompose};
-use ozols::statics::planar::PlanarMechanism;
-use ozols::statics::planar_motion::{Instant, Motion};
-use ozols::statics::pose::Linkage;
+use ozols::statics::cycle::{Statics, statics};
+use ozols::statics::planar::PairKind;
+use ozols::statics::pose::Pose;
 
-fn linkage(text: &str) -> (Linkage, Decomposition) {
-    let planar = PlanarMechanism::new(&mechanism(text), StateId::FREE).unwrap();
-    let d = decompose(&planar, &planar.drives()).unwrap();
-    (Linkage::new(planar), d)
-}
-
-fn turns(n: usize) -> Vec<f64> {
-    (0..=n)
-        .map(|i| std::f64::consts::TAU * i as f64 / n as f64)
-        .collect()
-}
-
-/// Greatest gap of any pair's equations, lengths in units of the size.
-fn gap(l: &Linkage, d: &Decomposition, now: &Instant) -> f64 {
+/// Greatest distance of a pair's points on its two bodies, across the guide where it slides, in units of the size.
+fn gap(s: &Statics, pose: &Pose) -> f64 {
     let of = |p: usize| {
-        let drive = d.drives.iter().position(|&x| x == p).map(|i| now.drives[i]);
-        l.gaps(&now.pose, p, drive)
-            .into_iter()
-            .fold(0.0, |m: f64, g| m.max(g.abs()))
+        let pair = &s.linkage.mechanism.pairs[p];
+        let [[ax, ay], [bx, by]] = pair.bodies.map(|b| s.linkage.point(pose, b, pair.point));
+        let [u, v] = s.linkage.along(pose, p);
+        match pair.kind {
+            PairKind::Sliding => (u * (by - ay) - v * (bx - ax)).abs(),
+            PairKind::Turning | PairKind::Rigid => (bx - ax).hypot(by - ay),
+        }
     };
-    (0..l.mechanism.pairs.len()).map(of).fold(0.0, f64::max)
+    let all = (0..s.linkage.mechanism.pairs.len()).map(of);
+    all.fold(0.0, f64::max) / s.linkage.size
+}
+
+fn over(text: &str, [from, to]: [f64; 2], steps: usize, speeds: &[f64]) -> Statics {
+    let mut m = mechanism(text);
+    m.loads.drive_speeds = speeds.to_vec();
+    let stroke = Some(Stroke { from, to, steps });
+    let found = statics(&m, StateId::FREE, stroke).unwrap();
+    assert!(found.dead.is_none(), "{:?}", found.dead);
+    for x in &found.moments {
+        assert!(gap(&found, &x.pose) < 1e-12);
+    }
+    found
 }
 
 #[test]
 fn shears_go_round_and_their_knives_meet() {
-    let (l, d) = linkage(shears());
-    let motion = Motion::new(&l, &d, &[std::f64::consts::PI]);
-    let (found, dead) = motion.follow(&turns(72));
-    assert!(dead.is_none(), "{dead:?}");
-    for now in &found {
-        assert!(gap(&l, &d, now) < 1e-12);
-    }
+    let turn = std::f64::consts::TAU;
+    let s = over(shears(), [0.0, turn], 72, &[std::f64::consts::PI]);
     // After a whole turn everything is where it was, the crank turned by 2π.
-    let (first, last) = (&found[0].pose, &found[72].pose);
-    let crank = l
-        .mechanism
-        .bodies
-        .iter()
-        .position(|b| b.name == "1")
-        .unwrap();
+    let (first, last) = (&s.moments[0].pose, &s.moments[72].pose);
+    let body = |name: &str| {
+        let mut bodies = s.linkage.mechanism.bodies.iter();
+        bodies.position(|b| b.name == name).unwrap()
+    };
     for b in 0..first.len() {
-        let turn = if b == crank {
-            std::f64::consts::TAU
-        } else {
-            0.0
-        };
-        for (c, extra) in [0.0, 0.0, turn].into_iter().enumerate() {
+        let turned = if b == body("1") { turn } else { 0.0 };
+        for (c, extra) in [0.0, 0.0, turned].into_iter().enumerate() {
             assert!((first[b][c] + extra - last[b][c]).abs() < 1e-10);
         }
     }
-    let height = |now: &Instant, name: &str| {
-        let b = l
-            .mechanism
-            .bodies
-            .iter()
-            .position(|b| b.name == name)
-            .unwrap();
-        now.pose[b][1] - first[b][1]
+    let height = |pose: &Pose, name: &str| pose[body(name)][1] - first[body(name)][1];
+    let opening = |i: usize| {
+        let pose = &s.moments[i].pose;
+        height(pose, "11") - height(pose, "10")
     };
-    let opening: Vec<f64> = found
-        .iter()
-        .map(|now| height(now, "11") - height(now, "10"))
-        .collect();
     let closed = (0..72)
-        .min_by(|&a, &b| opening[a].total_cmp(&opening[b]))
+        .min_by(|&a, &b| opening(a).total_cmp(&opening(b)))
         .unwrap();
     assert!((42..=46).contains(&closed), "{closed}");
-}
-
-#[test]
-fn velocities_and_accelerations_are_the_derivatives() {
-    for text in [shears().to_owned(), four_bar_file()] {
-        let (l, d) = linkage(&text);
-        let speed = 2.0;
-        let motion = Motion::new(&l, &d, &[speed]);
-        let h = 1e-4;
-        for k in 0..12 {
-            let s = 0.3 + 0.5 * f64::from(k);
-            let (found, dead) = motion.follow(&[s - h, s, s + h]);
-            assert!(dead.is_none());
-            for b in 0..l.mechanism.bodies.len() {
-                for c in 0..3 {
-                    let at = |i: usize| found[i].pose[b][c];
-                    let dt = h / speed;
-                    let (v, a) = (
-                        (at(2) - at(0)) / (2.0 * dt),
-                        (at(2) - 2.0 * at(1) + at(0)) / (dt * dt),
-                    );
-                    assert!(
-                        (v - found[1].velocity[b][c]).abs() < 1e-6,
-                        "{v} {:?}",
-                        found[1].velocity[b]
-                    );
-                    assert!(
-                        (a - found[1].acceleration[b][c]).abs() < 1e-4,
-                        "{a} {:?}",
-                        found[1].acceleration[b]
-                    );
-                }
-            }
-        }
-    }
-}
-
-/// Greatest difference of velocities and accelerations from central differences of the positions, at speed 1.
-fn off_by(l: &Linkage, d: &Decomposition, speeds: &[f64], s: f64, h: f64) -> [f64; 2] {
-    let motion = Motion::new(l, d, speeds);
-    let (found, dead) = motion.follow(&[s - h, s, s + h]);
-    assert!(dead.is_none(), "{dead:?}");
-    let dt = h / speeds[0];
-    let mut worst = [0.0f64; 2];
-    for b in 0..l.mechanism.bodies.len() {
-        for c in 0..3 {
-            let at = |i: usize| found[i].pose[b][c];
-            let v = (at(2) - at(0)) / (2.0 * dt) - found[1].velocity[b][c];
-            let a = (at(2) - 2.0 * at(1) + at(0)) / (dt * dt) - found[1].acceleration[b][c];
-            worst = [worst[0].max(v.abs()), worst[1].max(a.abs())];
-        }
-    }
-    worst
 }
 
 /// Sliding drives, drives between moving bodies, pins in slots, two drives at once.
@@ -151,13 +83,11 @@ fn drives_of_every_kind_move_as_they_should() {
         r("3", "0", 3.0, 0.0),
     ];
     for joints in [&boom, &slider, &two_slides] {
-        let (l, d) = linkage(&file(joints, ""));
-        let [v, a] = off_by(&l, &d, &[1.0], 0.1, 1e-4);
-        assert!(v < 1e-6 && a < 1e-5, "{joints:?} {v} {a}");
+        over(&file(joints, ""), [0.1, 0.1], 1, &[1.0]);
     }
-    let (l, d) = linkage(ozols::builtin::text("lever-slot-gripper").unwrap());
-    let [v, a] = off_by(&l, &d, &[0.02], 0.002, 1e-6);
-    assert!(v < 1e-6 && a < 1e-3, "{v} {a}");
+    over(&four_bar_file(), [0.0, 1.0], 5, &[1.0]);
+    let slotted = ozols::builtin::text("lever-slot-gripper").unwrap();
+    over(slotted, [2.0, 4.0], 2, &[20.0]);
     let five = file(
         &[
             r("0", "1", 0.0, 0.0),
@@ -170,11 +100,45 @@ fn drives_of_every_kind_move_as_they_should() {
     );
     let at = five.rfind("drive = false").unwrap();
     let five = five[..at].to_owned() + "drive = true" + &five[at + 13..];
-    let (l, d) = linkage(&five);
-    assert_eq!(d.drives.len(), 2);
-    let [v, a] = off_by(&l, &d, &[1.0, -0.5], 0.3, 1e-4);
-    assert!(v < 1e-6 && a < 1e-5, "{v} {a}");
-    let (found, _) = Motion::new(&l, &d, &[1.0, -0.5]).follow(&[0.3]);
-    assert_eq!(found[0].drives, [0.3, -0.15]);
-    assert!((l.drive_position(&found[0].pose, 4) + 0.15).abs() < 1e-12);
+    let s = over(&five, [0.3, 0.3], 1, &[1.0, -0.5]);
+    assert_eq!(s.decomposition.drives.len(), 2);
+    for (&d, wanted) in s.decomposition.drives.iter().zip([0.3, -0.15]) {
+        let [a, b] = s.linkage.mechanism.pairs[d].bodies;
+        let pose = &s.moments[0].pose;
+        assert!((pose[b][2] - pose[a][2] - wanted).abs() < 1e-12);
+    }
+}
+
+/// A drive whose axis is against the normal of the plane goes about the normal all the same.
+#[test]
+fn drives_turn_about_the_normal() {
+    let upright = four_bar_file();
+    let first = "type = \"revolute\"\naxis = [0, 0, ";
+    let against = upright.replacen(&format!("{first}1]"), &format!("{first}-1]"), 1);
+    assert_ne!(upright, against);
+    let [a, b] = [upright, against].map(|text| over(&text, [0.0, 0.5], 2, &[1.0]));
+    for (x, y) in a.moments.iter().zip(&b.moments) {
+        for (p, q) in x.pose.iter().flatten().zip(y.pose.iter().flatten()) {
+            assert!((p - q).abs() < 1e-12);
+        }
+    }
+}
+
+/// With coupler and rocker in a line the crank goes no further.
+#[test]
+fn at_a_dead_point_there_are_no_speeds() {
+    for (beside, dead) in [(0.0, true), (1e-14, true), (0.5, false)] {
+        let text = file(
+            &[
+                r("0", "1", 0.0, 0.0),
+                r("1", "2", 0.0, 1.0),
+                r("2", "3", 2.0, 1.0 + beside),
+                r("3", "0", 4.0, 1.0),
+            ],
+            "[workload]\ndrive_speed = 1\n",
+        );
+        let s = statics(&mechanism(&text), StateId::FREE, None).unwrap();
+        assert_eq!((s.moments.is_empty(), s.dead.is_some()), (dead, dead));
+        assert!(s.dead.is_none_or(|d| d.group == Some(0)), "{beside}");
+    }
 }

@@ -16,7 +16,7 @@ use crate::search::question::space::Choice;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::{Driven, period};
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, about, power, wrench};
-use crate::statics::reactions::solve::link_loads;
+use crate::statics::reactions::loads::link_loads;
 
 /// What a choice puts at one joint.
 #[derive(Debug, Clone)]

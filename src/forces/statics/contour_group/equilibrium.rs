@@ -1,11 +1,13 @@
 //! The twelve equilibrium equations of the four-link group with a closed contour: by LU in double precision, and exactly.
 
-use crate::statics::DenseSystem;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
+use crate::statics::kinetostatics::Worth;
 use crate::statics::pose::{length, minus};
+use crate::statics::{condition, greatest};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
+use ozols_dense::Matrix;
 use std::ops::{Mul, Sub};
 
 /// The two links of each of D, F, K, M, L: the first bears the unknown, the second (if of the group) its opposite.
@@ -16,15 +18,6 @@ const ENDS: [(usize, Option<usize>); 5] = [
     (1, Some(3)),
     (2, Some(3)),
 ];
-
-/// What the twelve by twelve solution is worth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Worth {
-    /// Ratio of the greatest and smallest singular values, moments divided by the group's size.
-    pub condition: f64,
-    /// Greatest force left over in an equation, moments divided by the group's size, over the greatest load.
-    pub residual: f64,
-}
 
 /// The equations with moments about `origins`, in some number system: rows of 12 coefficients and the right side. The
 /// unknowns are the components at D, F, K, M, L, then the guide's reaction and its moment about D.
@@ -100,15 +93,19 @@ pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
         }
     }
     let right: Vec<f64> = rows.iter_mut().filter_map(Vec::pop).collect();
-    let system = DenseSystem::new(&rows);
-    let mut x = system.solve(&right)?;
-    let greatest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let residual = system.residual(&x, &right);
+    let matrix = Matrix::from_fn(12, 12, |r, c| rows[r][c]);
+    let mut x = ozols_dense::solve(&matrix, &right);
+    if !x.iter().all(|v| v.is_finite()) {
+        return None;
+    }
+    let found = matrix.times(&Matrix::column(&x));
+    let left: Vec<f64> = (0..12).map(|r| found[(r, 0)] - right[r]).collect();
+    let load = greatest(&right);
     x[11] *= size;
     let worth = Worth {
-        condition: system.condition(),
-        residual: if greatest > 0.0 {
-            residual / greatest
+        condition: condition(&matrix),
+        residual: if load > 0.0 {
+            greatest(&left) / load
         } else {
             0.0
         },

@@ -1,9 +1,10 @@
 //! The group solved by all three methods, and how far they differ.
 
 use crate::statics::contour_group::delta_point::{self, DeltaSteps};
-use crate::statics::contour_group::equilibrium::{self, Worth};
+use crate::statics::contour_group::equilibrium;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::projective;
+use crate::statics::kinetostatics::Worth;
 use itertools::Itertools;
 
 /// A method for the four-link group with a closed contour.

@@ -7,8 +7,8 @@ use crate::statics::reactions::contact::Contacts;
 use crate::statics::reactions::drives::{Driven, driven};
 use crate::statics::reactions::follow::follow;
 use crate::statics::reactions::geometry::Geometry;
+use crate::statics::reactions::loads::Borne;
 use crate::statics::reactions::solution::Solution;
-use crate::statics::reactions::solve::Reactions;
 use crate::statics::reactions::unsolved::Unsolved;
 
 /// Reactions by position of the first drive.
@@ -52,7 +52,8 @@ pub(crate) fn cycle_with(
         .map(|(at, pose)| {
             (
                 *at,
-                Reactions::moving(m, state, pose, *at, &drives, contacts),
+                Borne::new(m, state, pose, *at, &drives)
+                    .and_then(|borne| borne.solve(m, &drives, contacts)),
             )
         })
         .collect();

@@ -121,6 +121,18 @@ impl Geometry {
         sub(p, mean).map(|x| x / spread)
     }
 
+    /// A point from the middle, in the size, in metres from the origin of the file.
+    #[must_use]
+    pub(crate) fn to_metres(&self, point: [f64; 3]) -> [f64; 3] {
+        add_scaled(self.middle, self.size, point)
+    }
+
+    /// Whether a link is there in the state, and not the frame.
+    #[must_use]
+    pub(crate) fn carries(&self, link: LinkId) -> bool {
+        self.tree.iter().any(|s| s.link == link)
+    }
+
     /// A point of the file, from the middle, in the size; of links that are as in the file.
     #[must_use]
     pub fn of_file(&self, point: [f64; 3]) -> [f64; 3] {

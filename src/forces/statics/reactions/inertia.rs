@@ -6,12 +6,12 @@
 //! that close. Then, by D'Alembert, a link carries -m a at its mass centre and -(I α + ω × I ω) besides.
 
 use crate::closure::tree::TreeStep;
-use crate::geom::vector::{cross, dot};
-use crate::model::loads::{Inertia, Loads};
+use crate::geom::vector::{cross, dot, real};
+use crate::model::loads::Inertia;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
-use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, power, wrench};
+use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, power};
 use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::{greatest, rounding, without};
 use ozols_dense::{Matrix, svd};
@@ -90,6 +90,10 @@ pub(crate) fn motion(
     speeds: &[f64],
 ) -> Result<LinkMotions, Unsolved> {
     let f = geometry.columns.len();
+    if speeds.iter().all(|s| *s == 0.0) {
+        let still = vec![0.0; f];
+        return Ok(along_tree(m.links.len(), geometry, &still, &still));
+    }
     let held = |c: &FreedomColumn| drives.iter().position(|d| *d == (c.joint, c.freedom));
     let given = |c: &FreedomColumn| {
         let speed = held(c).and_then(|i| speeds.get(i)).copied().unwrap_or(0.0);
@@ -200,22 +204,33 @@ fn greatest_entry(inertia: &Inertia) -> f64 {
     }
 }
 
-/// The inertia forces of the links by link, about the geometry's middle, moments in newtons times the size.
+/// A link with mass in motion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MovingMass {
+    /// The link.
+    pub link: LinkId,
+    /// Its mass centre now, from the geometry's middle, in its size.
+    pub centre: [f64; 3],
+    /// Acceleration of the mass centre `[m/s²]`.
+    pub acceleration: [f64; 3],
+    /// Angular acceleration `[rad/s²]`.
+    pub angular_acceleration: [f64; 3],
+    /// -m a, at the mass centre `[N]`.
+    pub force: [f64; 3],
+    /// -(I α + ω × I ω) `[N·m]`.
+    pub moment: [f64; 3],
+}
+
+/// The links with mass in the order of the file, the frame left out, with their inertia forces while the links move so.
 ///
 /// # Errors
-/// Where the drives cannot go at the stated speeds, and where a link that states its inertia for a plane turns in space.
-pub(crate) fn inertia_loads(
+/// Where a link that states its inertia for a plane turns in space.
+pub(crate) fn moving_masses(
     m: &Mechanism,
-    loads: &Loads,
     geometry: &Geometry,
     pose: &Pose,
-    drives: &[Driven],
-) -> Result<Vec<Six>, Unsolved> {
-    let mut out = vec![[0.0; 6]; m.links.len()];
-    if loads.drive_speeds.iter().all(|s| *s == 0.0) {
-        return Ok(out);
-    }
-    let moves = motion(m, geometry, drives, &loads.drive_speeds)?;
+    moves: &LinkMotions,
+) -> Result<Vec<MovingMass>, Unsolved> {
     let size = |v: [f64; 3]| dot(v, v).sqrt();
     let fastest = moves
         .velocity
@@ -230,38 +245,43 @@ pub(crate) fn inertia_loads(
     // Accelerations are sums of terms as great as the squares of the speeds, lengths in the geometry's size.
     let speed = greatest(moves.velocity.iter().flatten());
     let rounding = rounding(0.0, speed * speed, geometry.unknowns());
-    for l in geometry.tree.iter().map(|s| s.link) {
-        let Some(mass) = &m.links[l].mass else {
+    let bare = |v: [f64; 3]| v.map(|x| without(rounding, x));
+    let mut out = Vec::new();
+    for (l, link) in m.links_with_ids() {
+        let Some(mass) = link.mass.as_ref().filter(|_| geometry.carries(l)) else {
             continue;
         };
         let (v, a) = (&moves.velocity[l], &moves.rate[l]);
         let (w, alpha) = (turn(v), turn(a));
-        let file = [0, 1, 2].map(|i| mass.centre[i].to_f64());
-        let p = geometry.place(pose, l, file);
+        let centre = geometry.place(pose, l, real(&mass.centre));
         let at = |t: &Six| {
-            let c = cross(turn(t), p);
+            let c = cross(turn(t), centre);
             [t[3] + c[0], t[4] + c[1], t[5] + c[2]]
         };
-        let (velocity, there) = (at(v), at(a));
-        let round = cross(w, velocity);
-        let force = [0, 1, 2].map(|i| {
-            let acceleration = without(rounding, there[i] + round[i]);
-            0.0 - mass.mass * geometry.size * acceleration
-        });
+        let round = cross(w, at(v));
+        let there = at(a);
+        let acceleration = bare([0, 1, 2].map(|i| there[i] + round[i])).map(|x| x * geometry.size);
         let mut moment = [0.0; 3];
         if let Some(inertia) = &mass.inertia {
             if matches!(inertia, Inertia::Plane(_)) && !flat {
                 return Err(Unsolved::PlaneInertia {
-                    link: m.links[l].id.clone(),
+                    link: link.id.clone(),
                 });
             }
             let gained = times(pose, l, inertia, alpha);
             let carried = cross(w, times(pose, l, inertia, w));
             let rounding = rounding * greatest_entry(inertia);
-            moment =
-                [0, 1, 2].map(|i| 0.0 - without(rounding, gained[i] + carried[i]) / geometry.size);
+            moment = [0, 1, 2].map(|i| 0.0 - without(rounding, gained[i] + carried[i]));
         }
-        out[l] = geometry.within(&wrench(p, force, moment));
+        out.push(MovingMass {
+            link: l,
+            centre,
+            acceleration,
+            angular_acceleration: bare(alpha),
+            // From 0, so that 0 has no sign.
+            force: acceleration.map(|x| 0.0 - mass.mass * x),
+            moment,
+        });
     }
     Ok(out)
 }

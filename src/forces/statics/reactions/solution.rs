@@ -228,7 +228,7 @@ pub(crate) fn present(
         });
         JointReaction {
             joint: j,
-            point: [0, 1, 2].map(|i| geometry.middle[i] + geometry.size * geometry.points[j][i]),
+            point: geometry.to_metres(geometry.points[j]),
             axes,
             force: own([w[3], w[4], w[5]]).map(|x| without(rounding, x)),
             moment: own([w[0], w[1], w[2]]).map(|x| without(of_moments, x * geometry.size)),
@@ -260,7 +260,7 @@ pub(crate) fn passed_by_couplings(
             ends: c.ends,
             efforts: [effort(0), effort(1)],
             teeth: c.teeth.filter(|_| c.meshes).map(|t| ToothForce {
-                point: [0, 1, 2].map(|i| geometry.middle[i] + geometry.size * t.point[i]),
+                point: geometry.to_metres(t.point),
                 force: t.force.map(|f| without(rounding, f * x)),
             }),
         }

@@ -1,68 +1,19 @@
 //! Reactions of a mechanism in one pose.
 
-use crate::geom::expr::Expr;
-use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
+use crate::model::loads::Loads;
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::contact::{Contacts, contacts};
 use crate::statics::reactions::drives::{Driven, driven, period};
 use crate::statics::reactions::equations::{self, System, Transmitted};
-use crate::statics::reactions::geometry::{Geometry, Six, power, wrench};
-use crate::statics::reactions::inertia::inertia_loads;
+use crate::statics::reactions::geometry::{Geometry, Six, power};
+use crate::statics::reactions::loads::link_loads;
 use crate::statics::reactions::solution::{
     NO_STRESS, Solution, Uniqueness, left_over, open, open_couplings, passed_by_couplings, present,
 };
 use crate::statics::reactions::unilateral::{TOLERANCE, pushing};
 use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::{greatest, over_load, rounding};
-
-fn real(v: &[Expr; 3]) -> [f64; 3] {
-    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
-}
-
-/// Weights, forces and moments from outside, by link, about the geometry's middle; those on the frame, on links absent
-/// from the state and of other states are left out, and in planar mode what is across the plane. `drive` is the first drive's position since the pose of the file `[rad]` or in the
-/// file's unit, for forces that act in a range of it; ranges come again after `period`.
-#[must_use]
-pub fn link_loads(
-    m: &Mechanism,
-    loads: &Loads,
-    geometry: &Geometry,
-    pose: &Pose,
-    drive: f64,
-    period: Option<f64>,
-) -> Vec<Six> {
-    let mut out = vec![[0.0; 6]; m.links.len()];
-    let mut there = vec![false; m.links.len()];
-    geometry.tree.iter().for_each(|s| there[s.link] = true);
-    let mut add = |link: LinkId, w: Six| {
-        if there[link] {
-            for (o, x) in out[link].iter_mut().zip(geometry.within(&w)) {
-                *o += x;
-            }
-        }
-    };
-    if let Some(g) = &loads.gravity {
-        let g = real(g);
-        for (l, link) in m.links_with_ids() {
-            if let Some(mass) = &link.mass {
-                let at = geometry.place(pose, l, real(&mass.centre));
-                add(l, wrench(at, g.map(|x| x * mass.mass), [0.0; 3]));
-            }
-        }
-    }
-    let here = |states: Option<&Vec<StateId>>| acts_in(states, geometry.state);
-    let now = |f: &&ExternalForce| here(f.states.as_ref()) && acts_at(f.range, drive, period);
-    for f in loads.forces.iter().filter(now) {
-        let at = geometry.place(pose, f.link, real(&f.point));
-        add(f.link, wrench(at, real(&f.force), [0.0; 3]));
-    }
-    for x in loads.moments.iter().filter(|x| here(x.states.as_ref())) {
-        let moment = real(&x.moment).map(|v| v / geometry.size);
-        add(x.link, wrench([0.0; 3], [0.0; 3], moment));
-    }
-    out
-}
 
 /// Work on undriven motions below this fraction of the loads is none.
 const NO_WORK: f64 = 1e-8;
@@ -86,27 +37,6 @@ impl Reactions {
         Self::at(m, state, loads, &pose, 0.0, &drives)
     }
 
-    /// The same with inertia forces of drives that go at the stated speeds, at any pose, with contacts as asked for.
-    ///
-    /// # Errors
-    /// [`Unsolved`].
-    pub fn moving(
-        m: &Mechanism,
-        state: StateId,
-        pose: &Pose,
-        drive: f64,
-        drives: &[Driven],
-        of_contacts: Contacts,
-    ) -> Result<Solution, Unsolved> {
-        let geometry = Geometry::new(m, state, pose)?;
-        let mut of_links = link_loads(m, &m.loads, &geometry, pose, drive, period(drives));
-        let inertia = inertia_loads(m, &m.loads, &geometry, pose, drives)?;
-        for (all, own) in of_links.iter_mut().zip(&inertia) {
-            all.iter_mut().zip(own).for_each(|(a, b)| *a += b);
-        }
-        Self::bearing(m, &m.loads, &geometry, &of_links, drives, of_contacts)
-    }
-
     /// Reactions at any pose, the first drive `drive` `[rad]` or file units away from the pose of the file, with the
     /// freedoms the drives hold.
     ///
@@ -126,7 +56,7 @@ impl Reactions {
     }
 
     /// Reactions to one wrench a link.
-    fn bearing(
+    pub(crate) fn bearing(
         m: &Mechanism,
         loads: &Loads,
         geometry: &Geometry,

@@ -6,8 +6,7 @@ use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::contour_group::stability::{DistanceErrors, Failure};
 use crate::statics::cycle::Moment;
-use crate::statics::inertia::{LinkInertia, link_inertias};
-use crate::statics::kinetostatics::LoadSource;
+use crate::statics::kinetostatics::{LinkInertia, LoadSource};
 use crate::statics::planar::PairId;
 use crate::view::statics::{StaticsData, magnitudes};
 use crate::view::terminal::layout::prefix;
@@ -54,7 +53,7 @@ fn over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<S
     let mut series: Vec<Series> = Vec::new();
     let mut before = s.found.moments.first().map_or(0, acting);
     for x in &s.found.moments {
-        let at = s.shown(x.instant.drive);
+        let at = s.shown(x.drive);
         if acting(x) != before {
             series
                 .iter_mut()
@@ -202,7 +201,7 @@ impl Charts<'_, '_> {
         // Far out the line only says that the reaction changes its sign.
         let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
         let series = over(self.of, |x| {
-            let guide = linkage.place(&x.instant.pose, letters.guide);
+            let guide = linkage.place(&x.pose, letters.guide);
             let group = x.groups.get(i);
             let solved = group.and_then(|g| Some((g, g.by(self.shown)?)));
             let named = solved.map(|(g, r)| {
@@ -234,8 +233,7 @@ impl Charts<'_, '_> {
         let (m, g) = (&found.linkage.mechanism, &found.decomposition.groups[index]);
         let pairs = g.pairs();
         let mut series = over(self.of, |x| {
-            let all = x.whole.iter().flat_map(|e| &e.reactions);
-            let own = all.filter(|r| pairs.contains(&r.pair));
+            let own = x.reactions.iter().filter(|r| pairs.contains(&r.pair));
             own.map(|r| (m.pairs[r.pair].name.clone(), r.force[0].hypot(r.force[1])))
                 .collect()
         });
@@ -252,8 +250,9 @@ impl Charts<'_, '_> {
     fn drive(&mut self) {
         let m = &self.of.found.linkage.mechanism;
         let mut series = over(self.of, |x| {
-            let all = x.whole.iter().flat_map(|e| &e.reactions);
-            all.filter_map(|r| Some((m.pairs[r.pair].name.clone(), r.effort?)))
+            x.reactions
+                .iter()
+                .filter_map(|r| Some((m.pairs[r.pair].name.clone(), r.effort?)))
                 .collect()
         });
         if series.is_empty() {
@@ -278,8 +277,8 @@ impl Charts<'_, '_> {
         let found = self.of.found;
         let m = &found.linkage.mechanism;
         let links = |x: &Moment, of: &dyn Fn(&LinkInertia) -> f64| -> Vec<(String, f64)> {
-            let all = link_inertias(&found.loads.masses, &found.linkage, &x.instant);
-            all.iter()
+            x.links
+                .iter()
                 .map(|l| (m.bodies[l.body].name.clone(), of(l)))
                 .collect()
         };

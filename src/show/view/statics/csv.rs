@@ -67,7 +67,7 @@ fn of_group<'a>(
         return Vec::new();
     };
     let pose = &g.pose;
-    let guide = linkage.place(&x.instant.pose, l.guide);
+    let guide = linkage.place(&x.pose, l.guide);
     let places = [
         (l.d, l.ternary, pose.d),
         (l.f, l.rods[0], pose.f),

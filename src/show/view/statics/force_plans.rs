@@ -70,7 +70,7 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
             title: format!("{}: force plans of group {name}", s.mechanism),
             subtitle: format!(
                 "At {} {}, where forces from outside load it most; links {}.",
-                figure(s.shown(heaviest.instant.drive)),
+                figure(s.shown(heaviest.drive)),
                 s.unit(),
                 places.join(", ")
             ),

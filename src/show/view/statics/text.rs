@@ -6,8 +6,7 @@ use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::{GroupMethod, GroupSolutions};
 use crate::statics::cycle::Moment;
-use crate::statics::inertia::LinkInertia;
-use crate::statics::kinetostatics::Equilibrium;
+use crate::statics::kinetostatics::{LinkInertia, Worth};
 use crate::statics::planar::PairId;
 use crate::view::claims;
 use crate::view::reactions::text::{NO_STRAIN, no_loads};
@@ -113,11 +112,10 @@ fn write_statics(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> s
             group_table(out, s, i, width)?;
         }
     }
-    let loads = &s.found.loads;
-    let none = loads.forces.is_empty() && loads.moments.is_empty();
-    if none && loads.masses.iter().all(Option::is_none) {
-        writeln!(out, "{}", no_loads(loads.misalignments))?;
-        if loads.misalignments > 0 {
+    if !s.found.loaded {
+        let misalignments = s.of.loads.misalignments.len();
+        writeln!(out, "{}", no_loads(misalignments))?;
+        if misalignments > 0 {
             writeln!(out, "{NO_STRAIN}")?;
         }
     } else {
@@ -251,9 +249,9 @@ impl SolvedMoment<'_> {
     /// A row of its table, forces in `unit`.
     fn row(&self, s: &StaticsData<'_>, letters: &ContourGroup, unit: f64) -> Vec<String> {
         let (g, r) = (self.group, &self.reactions);
-        let mut row = vec![figure(s.shown(self.at.instant.drive))];
+        let mut row = vec![figure(s.shown(self.at.drive))];
         row.extend(magnitudes(r, &g.pose).map(|(_, v)| figure(v / unit)));
-        let guide = s.found.linkage.place(&self.at.instant.pose, letters.guide);
+        let guide = s.found.linkage.place(&self.at.pose, letters.guide);
         row.extend([figure(r.arm), figure(r.guide_offset(&g.pose, guide))]);
         if s.methods.contains(&GroupMethod::Delta) {
             let steps = &g.steps;
@@ -277,8 +275,8 @@ fn joints(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> std::fmt
     let m = &s.found.linkage.mechanism;
     let peak = |p: PairId| {
         let each = s.found.moments.iter().filter_map(|x| {
-            let r = x.whole.as_ref()?.reactions.iter().find(|r| r.pair == p)?;
-            Some((r.force[0].hypot(r.force[1]), r.moment, x.instant.drive))
+            let r = x.reactions.iter().find(|r| r.pair == p)?;
+            Some((r.force[0].hypot(r.force[1]), r.moment, x.drive))
         });
         let all = each.collect_vec();
         let (force, _, at) = *all.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -380,8 +378,8 @@ fn summary(out: &mut String, s: &StaticsData<'_>) -> std::fmt::Result {
     let what = if found.drive_slides() { "N" } else { "N·m" };
     for (&p, name) in found.decomposition.drives.iter().zip(&s.drives) {
         let efforts = found.moments.iter().filter_map(|x| {
-            let r = x.whole.as_ref()?.reactions.iter().find(|r| r.pair == p)?;
-            Some((r.effort?, x.instant.drive))
+            let r = x.reactions.iter().find(|r| r.pair == p)?;
+            Some((r.effort?, x.drive))
         });
         let ends = efforts.minmax_by(|a, b| a.0.total_cmp(&b.0)).into_option();
         let Some((low, high)) = ends else { continue };
@@ -402,7 +400,7 @@ fn summary(out: &mut String, s: &StaticsData<'_>) -> std::fmt::Result {
     };
     let power = greatest(&|x| x.load_power.abs());
     let balance = greatest(&|x| (x.load_power + x.drive_power).abs());
-    let of = |f: fn(&Equilibrium) -> f64| greatest(&move |x| x.whole.as_ref().map_or(f64::NAN, f));
+    let of = |f: fn(&Worth) -> f64| greatest(&move |x| f(&x.worth));
     writeln!(
         out,
         "Equilibrium: condition up to {}, residual up to {:.0e} of the load",

@@ -1,0 +1,174 @@
+//! What the links of a mechanism bear in a pose: weights, inertia forces, and forces and moments from outside.
+
+use crate::geom::vector::real;
+use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
+use crate::model::mechanism::{LinkId, Mechanism, StateId};
+use crate::motion::pose::Pose;
+use crate::statics::reactions::contact::Contacts;
+use crate::statics::reactions::drives::{Driven, period};
+use crate::statics::reactions::geometry::{Geometry, Six, power, wrench};
+use crate::statics::reactions::inertia::{MovingMass, motion, moving_masses};
+use crate::statics::reactions::solution::Solution;
+use crate::statics::reactions::solve::Reactions;
+use crate::statics::reactions::unsolved::Unsolved;
+
+/// Where a load comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadSource {
+    /// Weight.
+    Gravity,
+    /// Inertia force and moment.
+    Inertia,
+    /// A force from outside.
+    External,
+}
+
+/// A force at a point of a link, with a moment.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LinkLoad {
+    /// The link.
+    pub(crate) link: LinkId,
+    /// Where it comes from.
+    pub(crate) source: LoadSource,
+    /// Where it acts now, from the geometry's middle, in its size.
+    pub(crate) point: [f64; 3],
+    /// The force `[N]`.
+    pub(crate) force: [f64; 3],
+    /// The moment besides `[N·m]`.
+    pub(crate) moment: [f64; 3],
+}
+
+/// Weights, each followed by the inertia force of the link, then moments and forces from outside; those on the frame, on links absent
+/// from the state and of other states are left out. `drive` is the first drive's position since the pose of the file `[rad]` or in the
+/// file's unit, for forces that act in a range of it; ranges come again after `period`.
+fn loads_of_links(
+    m: &Mechanism,
+    loads: &Loads,
+    geometry: &Geometry,
+    pose: &Pose,
+    (drive, period): (f64, Option<f64>),
+    masses: &[MovingMass],
+) -> Vec<LinkLoad> {
+    let g = loads.gravity.as_ref().map_or([0.0; 3], real);
+    let mut out = Vec::new();
+    for (link, of) in m.links_with_ids() {
+        let Some(mass) = &of.mass else { continue };
+        let load = |source, force, moment| LinkLoad {
+            link,
+            source,
+            point: geometry.place(pose, link, real(&mass.centre)),
+            force,
+            moment,
+        };
+        out.push(load(
+            LoadSource::Gravity,
+            g.map(|x| x * mass.mass),
+            [0.0; 3],
+        ));
+        let own = masses.iter().filter(|x| x.link == link);
+        out.extend(own.map(|x| load(LoadSource::Inertia, x.force, x.moment)));
+    }
+    let outside = |link, point, force, moment| LinkLoad {
+        link,
+        source: LoadSource::External,
+        point,
+        force,
+        moment,
+    };
+    let here = |states: Option<&Vec<StateId>>| acts_in(states, geometry.state);
+    let moments = loads.moments.iter().filter(|x| here(x.states.as_ref()));
+    out.extend(moments.map(|x| outside(x.link, [0.0; 3], [0.0; 3], real(&x.moment))));
+    let now = |f: &&ExternalForce| here(f.states.as_ref()) && acts_at(f.range, drive, period);
+    out.extend(loads.forces.iter().filter(now).map(|f| {
+        let at = geometry.place(pose, f.link, real(&f.point));
+        outside(f.link, at, real(&f.force), [0.0; 3])
+    }));
+    out.retain(|x| geometry.carries(x.link));
+    out
+}
+
+/// The sum of the loads of each link about the geometry's middle, and in planar mode without what is across the plane.
+fn summed(m: &Mechanism, geometry: &Geometry, loads: &[LinkLoad]) -> Vec<Six> {
+    let mut out = vec![[0.0; 6]; m.links.len()];
+    for x in loads {
+        let moment = x.moment.map(|v| v / geometry.size);
+        let wrench = geometry.within(&wrench(x.point, x.force, moment));
+        out[x.link]
+            .iter_mut()
+            .zip(wrench)
+            .for_each(|(o, w)| *o += w);
+    }
+    out
+}
+
+/// Weights, forces and moments from outside, by link, about the geometry's middle, while the first drive is `drive` away from the pose
+/// of the file; see [`Borne`] for inertia forces.
+#[must_use]
+pub fn link_loads(
+    m: &Mechanism,
+    loads: &Loads,
+    geometry: &Geometry,
+    pose: &Pose,
+    drive: f64,
+    period: Option<f64>,
+) -> Vec<Six> {
+    let all = loads_of_links(m, loads, geometry, pose, (drive, period), &[]);
+    summed(m, geometry, &all)
+}
+
+/// What a mechanism bears in a pose under the loads of the file, inertia forces of the stated drive speeds included.
+#[derive(Debug)]
+pub(crate) struct Borne {
+    /// The pose in numbers.
+    pub(crate) geometry: Geometry,
+    /// One by one.
+    pub(crate) loads: Vec<LinkLoad>,
+    /// How the links with mass move.
+    pub(crate) masses: Vec<MovingMass>,
+    /// Power of the loads `[W]`.
+    pub(crate) power: f64,
+    /// By link.
+    sums: Vec<Six>,
+}
+
+impl Borne {
+    /// The loads at a pose, the first drive `drive` away from the pose of the file.
+    ///
+    /// # Errors
+    /// Where the drives cannot go at the stated speeds, and where a link that states its inertia for a plane turns in space.
+    pub(crate) fn new(
+        m: &Mechanism,
+        state: StateId,
+        pose: &Pose,
+        drive: f64,
+        drives: &[Driven],
+    ) -> Result<Borne, Unsolved> {
+        let geometry = Geometry::new(m, state, pose)?;
+        let moves = motion(m, &geometry, drives, &m.loads.drive_speeds)?;
+        let masses = moving_masses(m, &geometry, pose, &moves)?;
+        let at = (drive, period(drives));
+        let loads = loads_of_links(m, &m.loads, &geometry, pose, at, &masses);
+        let sums = summed(m, &geometry, &loads);
+        let powers = moves.velocity.iter().zip(&sums).map(|(v, w)| power(v, w));
+        Ok(Borne {
+            power: powers.sum::<f64>() * geometry.size,
+            loads,
+            masses,
+            sums,
+            geometry,
+        })
+    }
+
+    /// The reactions to them, with contacts as asked for.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub(crate) fn solve(
+        &self,
+        m: &Mechanism,
+        drives: &[Driven],
+        contacts: Contacts,
+    ) -> Result<Solution, Unsolved> {
+        Reactions::bearing(m, &m.loads, &self.geometry, &self.sums, drives, contacts)
+    }
+}
