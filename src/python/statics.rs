@@ -3,17 +3,14 @@
 use crate::mechanism::Mechanism;
 use crate::told::{Told, failed, json, state};
 use ozols::file::read::workload::motion;
-use ozols::grip::clamped::{ClampingReactions, clamped};
+use ozols::grip::clamped::clamped;
 use ozols::grip::jaw_loads::{Gripping, JawError};
 use ozols::model::mechanism::StateId;
-use ozols::redundancy::stress::exact_self_stresses;
 use ozols::statics::contour_group::solutions::GroupMethod;
 use ozols::statics::reactions::Unsolved;
-use ozols::statics::solve::{Model, SolvedReactions, StaticsError, solve};
-use ozols::view::grip::clamped::{Clamped, NotHeld, pose};
-use ozols::view::reactions::stroke::ReactionsOverStroke;
-use ozols::view::reactions::{Reactions, text::reactions};
-use ozols::view::statics::{StaticsData, csv::csv, text};
+use ozols::statics::solve::{Model, StaticsError, solve};
+use ozols::view::grip::clamped::NotHeld;
+use ozols::view::statics::told::ToldStatics;
 use pyo3::prelude::*;
 
 /// As `ozols statics`.
@@ -61,20 +58,9 @@ fn reactions_of(
             not_held(&NotHeld::because(m, state, &why.to_string()))
         }
         Err(e) => Err(failed(e)),
-        Ok(SolvedReactions::Planar(found)) => {
-            let told = StaticsData::new(m, &found, &GroupMethod::ALL);
-            let csv = csv(&told);
-            Ok((json(&told)?, text::statics(&told, None), Some(csv), None))
-        }
-        Ok(SolvedReactions::Spatial(found)) => {
-            if let ([(_, Ok(one))], None) = (&found.positions[..], stroke) {
-                let exact = exact_self_stresses(m, state, &found.drives);
-                let told = Reactions::new(m, state, one).with_exact(exact);
-                let text = reactions(&told, "pose of the file", None);
-                return Ok((json(&told)?, text, Some(told.csv()), None));
-            }
-            let told = ReactionsOverStroke::new(m, state, &found);
-            Ok((json(&told)?, told.text(None), Some(told.csv()), None))
+        Ok(found) => {
+            let methods = &GroupMethod::ALL;
+            told(&ToldStatics::new(m, state, stroke, &found, methods))
         }
     }
 }
@@ -84,30 +70,14 @@ fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Told> {
     let Some(row) = g.study.hardest() else {
         return not_held(&NotHeld::new(g));
     };
-    let Some(found) = clamped(g, row, spatial).map_err(failed)? else {
-        return not_held(&NotHeld::new(g));
-    };
-    let (m, found) = (&found.mechanism, &found);
-    let grip = Clamped {
-        grip: g,
-        row,
-        found,
-    };
-    let head = grip.text(matches!(found.found, ClampingReactions::Planar(_)), None);
-    match &found.found {
-        ClampingReactions::Planar(s) => {
-            let told = StaticsData::new(m, s, &GroupMethod::ALL);
-            let (body, csv) = (text::statics(&told, None), csv(&told));
-            let told = grip.beside(&told, Some(&m.states[g.state]));
-            Ok((json(&told)?, head + &body, Some(csv), None))
-        }
-        ClampingReactions::Spatial(s) => {
-            let told = Reactions::new(m, g.state, s);
-            let (body, csv) = (reactions(&told, &pose(g, row), None), told.csv());
-            let told = grip.beside(&told, None);
-            Ok((json(&told)?, head + &body, Some(csv), None))
-        }
+    match clamped(g, row, spatial).map_err(failed)? {
+        None => not_held(&NotHeld::new(g)),
+        Some(found) => told(&ToldStatics::round_a_part(g, row, &found)),
     }
+}
+
+fn told(told: &ToldStatics<'_>) -> PyResult<Told> {
+    Ok((json(told)?, told.text(None), Some(told.csv()), None))
 }
 
 fn not_held(told: &NotHeld<'_>) -> PyResult<Told> {

@@ -3,13 +3,11 @@
 use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
 use crate::cli::terminal::{Done, output};
 use crate::format::significant;
-use crate::grip::clamped::{ClampingReactions, clamped};
+use crate::grip::clamped::clamped;
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
-use crate::statics::contour_group::solutions::GroupMethod;
-use crate::view::grip::clamped::{Clamped, NotHeld, pose};
-use crate::view::reactions::{Reactions, text::reactions};
-use crate::view::statics::{StaticsData, csv::csv, text::statics};
+use crate::view::grip::clamped::NotHeld;
+use crate::view::statics::told::ToldStatics;
 use anyhow::{Context, ensure};
 
 /// The diameter asked for, or the hardest; none where it is not held.
@@ -63,37 +61,13 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let Some(found) = clamped(g, row, a.spatial)? else {
         return not_held(g, a);
     };
-    let (m, found) = (&found.mechanism, &found);
-    let grip = Clamped {
-        grip: g,
-        row,
-        found,
-    };
-    let width = output::width(a.output.as_deref());
+    let shown = ToldStatics::round_a_part(g, row, &found);
     output::to(a.output.as_deref(), |out| {
-        match &found.found {
-            ClampingReactions::Planar(s) => {
-                let shown = StaticsData::new(m, s, &GroupMethod::ALL);
-                let state = Some(&*m.states[g.state]);
-                match a.format {
-                    StaticsFormat::Json => output::json(out, &grip.beside(&shown, state))?,
-                    StaticsFormat::Csv => write!(out, "{}", csv(&shown))?,
-                    StaticsFormat::Text => {
-                        let text = statics(&shown, width);
-                        write!(out, "{}{text}", grip.text(true, width))?;
-                    }
-                }
-            }
-            ClampingReactions::Spatial(s) => {
-                let shown = Reactions::new(m, g.state, s);
-                match a.format {
-                    StaticsFormat::Json => output::json(out, &grip.beside(&shown, None))?,
-                    StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-                    StaticsFormat::Text => {
-                        let text = reactions(&shown, &pose(g, row), width);
-                        write!(out, "{}{text}", grip.text(false, width))?;
-                    }
-                }
+        match a.format {
+            StaticsFormat::Json => output::json(out, &shown)?,
+            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
+            StaticsFormat::Text => {
+                write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
             }
         }
         Ok(Done::Found)

@@ -10,18 +10,15 @@ use crate::file::read::workload::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::redundancy::stress::exact_self_stresses;
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;
+use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::object_at;
-use crate::statics::reactions::{Cycle, Unsolved};
 use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve};
-use crate::view;
 use crate::view::grip::clamped::NotHeld;
-use crate::view::reactions::stroke::ReactionsOverStroke as StrokeView;
-use crate::view::reactions::{Reactions, text::reactions};
-use crate::view::statics::{Structures, charts as drawn, csv::csv, force_plans::plans, text};
+use crate::view::statics::told::{ToldReactions, ToldStatics};
+use crate::view::statics::{Structures, charts as drawn, force_plans::plans, text};
 use crate::view::terminal::layout::table;
 use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail};
@@ -81,10 +78,21 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         Err(StaticsError::Spatial(why @ Unsolved::Loose)) => return loose(&m, state, &why, a),
         found => found?,
     };
-    match &found {
-        SolvedReactions::Planar(found) => planar(&m, found, own, a)?,
-        SolvedReactions::Spatial(found) => spatial(&m, state, stroke, found, a)?,
+    let methods: &[GroupMethod] = match a.method {
+        StaticsMethod::Delta => &[GroupMethod::Delta],
+        StaticsMethod::Projective => &[GroupMethod::Projective],
+        StaticsMethod::Equilibrium => &[GroupMethod::Equilibrium],
+        StaticsMethod::All => &GroupMethod::ALL,
     };
+    if let (true, SolvedReactions::Planar(s)) = (own, &found)
+        && s.contour_groups.is_empty()
+    {
+        bail!(
+            "{} has no four-link group with a closed contour, which --method delta and projective are for; use --method equilibrium",
+            m.name
+        );
+    }
+    write(&m, &ToldStatics::new(&m, state, stroke, &found, methods), a)?;
     // A stroke that could not be finished is no success.
     Ok(if found.complete() {
         Done::Found
@@ -126,22 +134,10 @@ fn loose(m: &Mechanism, state: StateId, why: &Unsolved, a: &Statics) -> anyhow::
     })
 }
 
-fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyhow::Result<Done> {
-    let methods: &[GroupMethod] = match a.method {
-        StaticsMethod::Delta => &[GroupMethod::Delta],
-        StaticsMethod::Projective => &[GroupMethod::Projective],
-        StaticsMethod::Equilibrium => &[GroupMethod::Equilibrium],
-        StaticsMethod::All => &GroupMethod::ALL,
-    };
-    if own && found.contour_groups.is_empty() {
-        bail!(
-            "{} has no four-link group with a closed contour, which --method delta and projective are for; use --method equilibrium",
-            m.name
-        );
-    }
-    let shown = view::statics::StaticsData::new(m, found, methods);
-    if let Some(folder) = &a.svg {
-        let plans = plans(&shown)
+/// Writes what was found, with the charts where they are asked for.
+fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<()> {
+    if let (ToldReactions::Planar(s), Some(folder)) = (&shown.reactions, &a.svg) {
+        let plans = plans(s)
             .into_iter()
             .map(|(name, plan)| charts::ChartDrawing {
                 name,
@@ -149,83 +145,55 @@ fn planar(m: &Mechanism, found: &cycle::Statics, own: bool, a: &Statics) -> anyh
                 title: plan.title,
             });
         let plans: Vec<charts::ChartDrawing> = plans.collect();
-        charts::write(folder, Some(&m.name), &drawn::cycle(&shown), &plans)?;
+        charts::write(folder, Some(&m.name), &drawn::cycle(s), &plans)?;
     }
     output::to(a.output.as_deref(), |out| {
         match a.format {
-            StaticsFormat::Json => output::json(out, &shown)?,
-            StaticsFormat::Csv => write!(out, "{}", csv(&shown))?,
+            StaticsFormat::Json => output::json(out, shown)?,
+            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
             StaticsFormat::Text => {
                 let width = output::width(a.output.as_deref());
-                write!(out, "{}", text::statics(&shown, width))?;
-                let loaded = found.moments.iter().any(|x| !x.loads.is_empty());
-                let file = a.file.as_deref().unwrap_or(&m.name);
-                let mut steps = Vec::new();
-                if loaded && a.svg.is_none() {
-                    let gives =
-                        "charts of reactions and accelerations over the cycle, and the force plans";
-                    steps.push(NextCommand::new("statics", file, "--svg charts", gives));
-                }
-                if loaded {
-                    let more = "--format csv -o reactions.csv";
-                    let gives = "every joint's reaction at every position";
-                    steps.push(NextCommand::new("statics", file, more, gives));
-                }
+                write!(out, "{}", shown.text(width))?;
+                let steps = next_steps(m, shown, a);
                 write!(out, "{}", next_commands::text(&steps, width))?;
             }
         }
         Ok(Done::Found)
-    })
+    })?;
+    Ok(())
 }
 
-fn spatial(
-    m: &Mechanism,
-    state: StateId,
-    stroke: Option<Stroke>,
-    found: &Cycle,
-    a: &Statics,
-) -> anyhow::Result<Done> {
-    let width = output::width(a.output.as_deref());
-    if let ([(_, Ok(one))], None) = (&found.positions[..], stroke) {
-        let exact = exact_self_stresses(m, state, &found.drives);
-        let shown = Reactions::new(m, state, one).with_exact(exact);
-        return output::to(a.output.as_deref(), |out| {
-            match a.format {
-                StaticsFormat::Json => output::json(out, &shown)?,
-                StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-                StaticsFormat::Text => {
-                    write!(out, "{}", reactions(&shown, "pose of the file", width))?;
-                    let file = a.file.as_deref().unwrap_or(&m.name);
-                    let step = if shown.unique {
-                        NextCommand::new(
-                            "statics",
-                            file,
-                            "--spatial --format csv -o reactions.csv",
-                            "the components of every joint's reaction",
-                        )
-                    } else {
-                        NextCommand::new(
-                            "search",
-                            file,
-                            "",
-                            "redesigns without redundant constraints, whose reactions are the only ones",
-                        )
-                    };
-                    write!(out, "{}", next_commands::text(&[step], width))?;
-                }
-            }
-            Ok(Done::Found)
-        });
-    }
-    let shown = StrokeView::new(m, state, found);
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => output::json(out, &shown)?,
-            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-            StaticsFormat::Text => write!(out, "{}", shown.text(width))?,
+/// What to run next.
+fn next_steps(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCommand> {
+    let file = a.file.as_deref().unwrap_or(&m.name);
+    let next = |command, more, gives| NextCommand::new(command, file, more, gives);
+    match &shown.reactions {
+        ToldReactions::Planar(s) if s.found.moments.iter().any(|x| !x.loads.is_empty()) => {
+            let charts = next(
+                "statics",
+                "--svg charts",
+                "charts of reactions and accelerations over the cycle, and the force plans",
+            );
+            let all = next(
+                "statics",
+                "--format csv -o reactions.csv",
+                "every joint's reaction at every position",
+            );
+            let charts = a.svg.is_none().then_some(charts);
+            charts.into_iter().chain([all]).collect()
         }
-        Ok(Done::Found)
-    })
+        ToldReactions::Pose(s) if s.unique => vec![next(
+            "statics",
+            "--spatial --format csv -o reactions.csv",
+            "the components of every joint's reaction",
+        )],
+        ToldReactions::Pose(_) => vec![next(
+            "search",
+            "",
+            "redesigns without redundant constraints, whose reactions are the only ones",
+        )],
+        ToldReactions::Planar(_) | ToldReactions::Stroke(_) => Vec::new(),
+    }
 }
 
 fn groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {

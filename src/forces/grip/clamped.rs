@@ -7,11 +7,11 @@ use crate::grip::jaw_loads::{Fit, Gripping, JawError};
 use crate::model::grip::Transmission;
 use crate::model::mechanism::Mechanism;
 use crate::motion::pose::Pose;
-use crate::statics::cycle::{PlanarStaticsError, Statics, statics_at};
+use crate::statics::cycle::{PlanarStaticsError, statics_at};
 use crate::statics::reactions::drives::driven;
 use crate::statics::reactions::geometry::Geometry;
-use crate::statics::reactions::{Reactions, Solution, Unsolved};
-use crate::statics::solve::is_for_space;
+use crate::statics::reactions::{Cycle, Reactions, Unsolved};
+use crate::statics::solve::{SolvedReactions, is_for_space};
 use crate::statics::transmission::rates;
 use thiserror::Error;
 
@@ -33,15 +33,6 @@ pub enum ClampedError {
     Exact(#[from] ExactError),
 }
 
-/// Reactions by the equations that determine them.
-#[derive(Debug, Clone)]
-pub enum ClampingReactions {
-    /// Those of the plane.
-    Planar(Box<Statics>),
-    /// Those of space.
-    Spatial(Box<Solution>),
-}
-
 /// A mechanism round a part.
 #[derive(Debug, Clone)]
 pub struct Clamped {
@@ -52,7 +43,7 @@ pub struct Clamped {
     /// Force `[N]`, or moment `[N·m]`, that the grip asks of one drive of both levers, and whether that drive slides.
     pub effort: Option<(f64, bool)>,
     /// The reactions.
-    pub found: ClampingReactions,
+    pub found: SolvedReactions,
 }
 
 /// What the grip asks of one drive of both levers in a pose, where the mechanism has one.
@@ -90,12 +81,16 @@ pub fn clamped(
         Some(Err(_)) | None => None,
     };
     let found = match planar {
-        Some(found) => ClampingReactions::Planar(Box::new(found)),
+        Some(found) => SolvedReactions::Planar(Box::new(found)),
         None => {
             let home = Pose::of_file(&m, g.state)?;
             let drives = driven(&m, &Geometry::new(&m, g.state, &home)?)?;
             let found = Reactions::at(&m, g.state, &m.loads, &fit.pose, fit.drive, &drives)?;
-            ClampingReactions::Spatial(Box::new(found))
+            SolvedReactions::Spatial(Cycle {
+                drives,
+                positions: vec![(fit.drive, Ok(found))],
+                stopped: None,
+            })
         }
     };
     Ok(Some(Clamped {

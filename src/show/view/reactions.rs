@@ -205,13 +205,9 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// The same, said to have so many self-stresses in exact geometry.
-    #[must_use]
-    pub fn with_exact(self, self_stresses: Option<usize>) -> Self {
-        Reactions {
-            exact_self_stresses: self_stresses.filter(|&n| n != self.self_stresses.len()),
-            ..self
-        }
+    /// Says how many self-stresses there are in exact geometry, where these are others.
+    pub(super) fn compare_with(&mut self, exact: Option<usize>) {
+        self.exact_self_stresses = exact.filter(|&n| n != self.self_stresses.len());
     }
 
     /// One joint a line, and one for each joint of a coupling.

@@ -5,6 +5,7 @@ pub mod charts;
 pub mod csv;
 pub mod force_plans;
 pub mod text;
+pub mod told;
 
 use crate::model::claim::{Claim, Topic};
 use crate::model::mechanism::Mechanism;

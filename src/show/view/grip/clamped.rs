@@ -50,7 +50,7 @@ fn diameter(g: &Gripping, row: &DiameterRow) -> String {
 
 /// The pose in a few words.
 #[must_use]
-pub fn pose(g: &Gripping, row: &DiameterRow) -> String {
+pub(crate) fn pose(g: &Gripping, row: &DiameterRow) -> String {
     format!("round a part of {}", diameter(g, row))
 }
 
