@@ -135,7 +135,7 @@ fn at_a_dead_point_there_are_no_speeds() {
                 r("2", "3", 2.0, 1.0 + beside),
                 r("3", "0", 4.0, 1.0),
             ],
-            "[workload]\ndrive_speed = 1\n",
+            "[workload]\ndrive_speed = 1.0\n",
         );
         let s = statics(&mechanism(&text), StateId::FREE, None).unwrap();
         assert_eq!((s.moments.is_empty(), s.dead.is_some()), (dead, dead));

@@ -86,7 +86,7 @@ fn three_methods_agree_on_the_shears_to_nine_digits() {
         assert!(left_over(&s, m) < 1e-12);
         assert!(m.worth.residual < 1e-12);
         assert_eq!(m.by_groups.len(), s.decomposition.groups.len() + 1);
-        assert!(m.by_groups.iter().all(|w| w.residual < 1e-12));
+        assert!(m.by_groups.iter().all(|w| w.residual < 1e-9));
         cutting += usize::from(m.loads.iter().any(|l| l.source == LoadSource::External));
         for (g, (_, letters)) in m.groups.iter().zip(&s.contour_groups) {
             let (lu, worth) = g.equilibrium.unwrap();
@@ -165,7 +165,7 @@ fn at_rest(text: &str, at: f64) -> Option<[f64; 2]> {
 
 /// The rise of the energy by time, and the moment at `at`.
 fn in_motion(text: &str, at: f64, speed: f64) -> Option<(f64, Statics)> {
-    let (m, h) = (mechanism(text), 1e-3);
+    let (m, h) = (mechanism(text), 1e-4);
     let s = over(text, at - 2.0 * h, at + 2.0 * h, 4);
     let energy = |i: usize| kinetic(&m, &s, i, h / speed) + potential(&m, &s, &s.moments[i]);
     s.dead

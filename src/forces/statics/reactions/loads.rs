@@ -102,7 +102,7 @@ fn summed(m: &Mechanism, geometry: &Geometry, loads: &[LinkLoad]) -> Vec<Six> {
 }
 
 /// Weights, forces and moments from outside, by link, about the geometry's middle, while the first drive is `drive` away from the pose
-/// of the file; see [`Borne`] for inertia forces.
+/// of the file.
 #[must_use]
 pub fn link_loads(
     m: &Mechanism,
