@@ -137,6 +137,12 @@ impl Ruler {
         false
     }
 
+    fn labels_that_fit(&self, room: Room) -> usize {
+        let mut left = self.clone();
+        left.drop_crowded(room);
+        left.ticks.iter().filter(|t| t.label.is_some()).count()
+    }
+
     /// Takes away the labels that would touch the one before or leave the picture.
     fn drop_crowded(&mut self, room: Room) {
         let Room::Across(length, before, after) = room else {
@@ -189,14 +195,12 @@ fn linear(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
         lo = if lo == 0.0 { lo } else { lo - pad };
         hi = if hi == 0.0 { hi } else { hi + pad };
     }
-    let mut ruler = linear_by(lo, hi, 1.0, fit);
-    for count in counts(room) {
-        ruler = linear_by(lo, hi, count, fit);
-        if !ruler.crowded(room) {
-            break;
-        }
-    }
-    ruler
+    let rulers = || counts(room).map(|count| linear_by(lo, hi, count, fit));
+    // One label is no scale: rather some of a crowded ruler's are left out.
+    let good = |r: &Ruler| !r.crowded(room) && r.labels_that_fit(room) >= 2;
+    let most = || rulers().max_by_key(|r| r.labels_that_fit(room));
+    let ruler = rulers().find(good).or_else(most);
+    ruler.unwrap_or_else(|| linear_by(lo, hi, 1.0, fit))
 }
 
 /// Ticks at a 1-2-5 step, about `count` steps in the range.

@@ -383,6 +383,18 @@ fn labels(svg: &str) -> [Vec<String>; 2] {
     ["xt", "yt"].map(|class| texts(svg, class).into_iter().map(|t| t.1).collect())
 }
 
+/// Labels of eleven digits, of which two have room only where one between them is left out.
+#[test]
+fn a_narrow_axis_far_from_zero_has_two_labels() {
+    let (middle, far) = (-206061.6901393063, 0.0007319360059975914);
+    let points = [0.0006494192858009572, far].map(|x| (middle + x, middle));
+    for style in [Style::Line, Style::Points] {
+        let svg = chart(Scale::Linear, Scale::Linear, vec![series("a", style, &points)]).svg();
+        let [x, _] = labels(&svg);
+        assert!(x.len() >= 2 && x[0] != x[1], "{x:?}");
+    }
+}
+
 proptest! {
     #[test]
     fn each_axis_has_two_labels_or_more(
