@@ -21,6 +21,7 @@ pub use radical::ExactError;
 use self::plan::{MAX_FAILURES, PrimePlan};
 use super::expr::Expr;
 use crate::linalg::modp::{Field, Residue};
+use std::collections::BTreeMap;
 
 impl ExactField {
     /// The homomorphism into the `nth` suitable prime field above 2^61; the same expressions give the same field, others most
@@ -63,6 +64,23 @@ impl ExactField {
             found += 1;
         }
         Err(ExactError::NoPrime { nth })
+    }
+
+    /// The homomorphism of rational numbers alone into the field of a prime; what has roots or angles has no value there.
+    ///
+    /// # Panics
+    /// As [`Field::new`].
+    #[must_use]
+    pub fn of_prime(p: u64) -> ExactField {
+        let field = Field::new(p);
+        ExactField {
+            field,
+            order: 1,
+            zeta: field.one(),
+            roots: BTreeMap::new(),
+            radicals: BTreeMap::new(),
+            nested: Vec::new(),
+        }
     }
 
     /// The field of residues. O(1).
