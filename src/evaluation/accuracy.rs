@@ -1,14 +1,16 @@
 //! How right and how fast each method is, and where its numbers fail.
 //!
-//! The [`survey`] asks every method of [`crate::rank::method`] about every built-in mechanism; [`stability`] moves
-//! geometry, size, scale, noise and tolerance until answers turn wrong; [`searching`] compares the ways of searching.
+//! The [`survey`] asks every method of [`crate::rank::method`] about mechanisms of known mobility; [`stability`] moves
+//! geometry, digits, size, unit and prime until answers turn wrong; [`searching`] compares the ways of searching.
 //! Verdicts are the same on every run; only times differ.
 
 pub(crate) mod cases;
-pub mod folder;
+pub mod change;
 pub mod lattice;
 pub mod pictures;
+pub mod said;
 pub mod searching;
+pub mod special;
 pub mod stability;
 pub mod survey;
 pub mod timing;

@@ -1,4 +1,4 @@
-//! Charts as self-contained SVG: lines on linear or log axes, verdict matrices, bands, and a page that gathers them.
+//! Charts as self-contained SVG: lines on linear or log axes, bands of verdicts, and a page that gathers them.
 //!
 //! The SVG is written by a helper of our own: plotters and charts-rs fix the colours, so that one picture cannot be both
 //! light and dark, poloto has no log axis, charming runs V8, none keeps names at line ends apart, and the `svg` crate puts
@@ -16,12 +16,11 @@ mod drawn;
 mod frame;
 mod labels;
 mod line;
-mod matrix;
 mod outline;
 mod page;
 mod polygons;
 
-pub use data::{Axis, Band, Bands, Cell, Chart, Matrix, Scale, Series, Style, VerdictKind};
+pub use data::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind};
 pub use outline::Outline;
 pub use page::page;
 pub use polygons::{Panel, PanelPair, PlanArrow, Polygons};

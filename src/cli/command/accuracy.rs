@@ -1,8 +1,8 @@
 //! `ozols accuracy`.
 
-use crate::accuracy::folder;
+use crate::accuracy::pictures;
 use crate::accuracy::stability::{self, Effort};
-use crate::accuracy::survey::Survey;
+use crate::accuracy::survey::{Survey, cases, generated};
 use crate::accuracy::timing::Stopwatch;
 use crate::builtin;
 use crate::cli::option::Global;
@@ -19,7 +19,7 @@ pub(in crate::cli) struct Accuracy {
     /// Write charts and tables to this folder, index.html first among them; without it only the table is printed.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Fewer repeats and coarser stability charts: some seconds instead of a minute or two.
+    /// Fewer repeats and coarser studies: some seconds instead of a minute or two.
     #[arg(long)]
     quick: bool,
     /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
@@ -38,26 +38,29 @@ pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     let mut bar = Bar::new(args.quiet);
     let clock = machine::processor_time;
     let machine = machine::machine();
-    let built_in = builtin::all();
-    let survey = Survey::new(&built_in, Stopwatch { clock, repeat }, &mut |done, of| {
-        bar.step("timing the methods", done, of);
-    })?;
+    let watch = Stopwatch { clock, repeat };
+    let mut surveyed =
+        |cases, what: &str| Survey::new(cases, watch, &mut |done, of| bar.step(what, done, of));
+    let survey = surveyed(cases(&builtin::all())?, "timing the methods");
+    let generated = surveyed(generated(args.seed), "mechanisms from the seed");
+    let both = [&survey, &generated];
     if let Some(folder) = &a.output {
         let effort = Effort {
             quick: a.quick,
             seed: args.seed,
             clock,
         };
-        let studies = stability::all(&built_in, &survey.cases, effort, &mut |what, done, of| {
+        let studies = stability::all(&survey.cases, effort, &mut |what, done, of| {
             bar.step(what, done, of);
-        })?;
-        let files = folder::files(&survey, &studies, &machine);
-        output::files(folder, files)?;
+        });
+        let quick = if a.quick { " --quick" } else { "" };
+        let made = format!(
+            "Made by: ozols accuracy{quick} --seed {} -o DIR. On {machine}. Beside each chart is its table as CSV.",
+            args.seed
+        );
+        output::files(folder, pictures::files(both, &studies, &machine, &made))?;
         bar.clear();
-        let sentences = studies
-            .iter()
-            .map(|s| (s.title.as_str(), s.sentence.as_str()));
-        let text = summary(&survey, sentences, &machine, output::width(None));
+        let text = summary(both, &studies, &machine, output::width(None));
         return output::to(None, |out| {
             writeln!(
                 out,
@@ -69,7 +72,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     }
     bar.clear();
     output::to(None, |out| {
-        let text = summary(&survey, [], &machine, output::width(None));
+        let text = summary(both, &[], &machine, output::width(None));
         let charts = NextCommand {
             command: "ozols accuracy -o accuracy".to_owned(),
             gives: "the same as charts, and where each method's numbers fail".to_owned(),

@@ -1,5 +1,8 @@
-//! The built-in mechanisms of known mobility, state by state.
+//! Mechanisms of known mobility: those built in, state by state, and others from a seed.
 
+use super::change::Noise;
+use super::lattice::{self, LatticeKind, toggles};
+use super::special::SpecialKind;
 use super::{BuiltIn, Truth};
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_str;
@@ -53,4 +56,43 @@ pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
         }
     }
     Ok(cases)
+}
+
+/// Mechanisms from a seed that no method was made for: special geometry turned and written with six decimals, as it is and with one
+/// joint off by a thousand units of the last; rows of toggles, of four-bars, and lazy tongs.
+///
+/// # Panics
+/// Never: the texts are valid.
+#[must_use]
+pub fn generated(seed: u64) -> Vec<Case> {
+    let mut cases = Vec::new();
+    let mut add = |mut mechanism: Mechanism, name: String, (instantaneous, finite)| {
+        mechanism.name = name;
+        cases.push(Case {
+            mechanism,
+            state: StateId::FREE,
+            truth: Truth {
+                instantaneous,
+                finite,
+            },
+        });
+    };
+    let read =
+        |text: &str| mechanism_from_str("made.toml", text).expect("a generated file is valid");
+    for (k, kind) in SpecialKind::ALL.into_iter().enumerate() {
+        for (i, units) in [0.0, 1000.0].into_iter().cycle().take(6).enumerate() {
+            let text = kind.text(units, 6, true, &mut Noise::new(seed, 100 * k + i));
+            let name = format!("{} {}", kind.name(), i + 1);
+            add(read(&text), name, kind.figures(units > 0.0));
+        }
+    }
+    for levels in 1..=3 {
+        let text = toggles(levels, &mut Noise::new(seed, levels));
+        add(read(&text), format!("toggles {levels}"), (1, 0));
+        for kind in [LatticeKind::FourBars, LatticeKind::Scissors] {
+            let name = format!("{kind:?} {levels}");
+            add(lattice::mechanism(kind, levels), name, (1, 1));
+        }
+    }
+    cases
 }

@@ -1,8 +1,9 @@
 //! Mechanisms of any number of contours, whose mobility is known by construction or by exact ranks.
 
+use super::change::Noise;
+use super::special::Sketch;
 use crate::file::text::mechanism_from_str;
 use crate::model::mechanism::Mechanism;
-use std::fmt::Write;
 
 /// What to build.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,65 +25,39 @@ impl LatticeKind {
     ];
 }
 
-struct LatticeFile(String);
-
-impl LatticeFile {
-    fn new(links: usize) -> LatticeFile {
-        let mut out = String::from("name = \"lattice\"\n");
-        for l in 0..links {
-            let role = match l {
-                0 => "role = \"frame\"\n",
-                _ if l + 1 == links => "role = \"output\"\n",
-                _ => "",
-            };
-            let _ = write!(out, "[[link]]\nid = \"{l}\"\n{role}");
-        }
-        LatticeFile(out)
-    }
-
-    fn joint(&mut self, ends: [usize; 2], kind: &str, point: [usize; 3], axis: [i32; 3]) {
-        let n = self.0.matches("[[joint]]").count();
-        let [a, b] = ends;
-        let _ = write!(
-            self.0,
-            "[[joint]]\nid = \"j{n}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{kind}\"\npoint = {point:?}\naxis = {axis:?}\n"
-        );
-    }
-
-    fn hinge(&mut self, ends: [usize; 2], x: usize, y: usize) {
-        self.joint(ends, "revolute", [x, y, 0], [0, 0, 1]);
-    }
-}
-
 /// A mechanism of `k` contours (for a grid: the next multiple of three).
 ///
 /// # Panics
 /// Never: the text is valid.
 #[must_use]
 pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
-    let mut file;
+    let name = |link: usize| link.to_string();
+    let hinge = |file: &mut Sketch, ends: [usize; 2], [x, y]: [usize; 2]| {
+        let [a, b] = ends.map(name);
+        let point = format!("[{x}, {y}, 0]");
+        file.joint([&a, &b], "revolute", &point, "[0, 0, 1]");
+    };
+    let mut file = Sketch::with_links(0..2 * k + 2);
     match kind {
         LatticeKind::FourBars => {
             // Cranks 1, 3, 5, ... and the couplers between them.
-            file = LatticeFile::new(2 * k + 2);
             for i in 0..=k {
-                file.hinge([0, 2 * i + 1], 3 * i, i % 2);
+                hinge(&mut file, [0, 2 * i + 1], [3 * i, i % 2]);
             }
             for i in 0..k {
                 let (crank, coupler) = (2 * i + 1, if i + 1 == k { 2 * k } else { 2 * i + 2 });
-                file.hinge([crank, coupler], 3 * i + 1, 4 + i % 3);
-                file.hinge([coupler, crank + 2], 3 * i + 3, 3 + i % 4);
+                hinge(&mut file, [crank, coupler], [3 * i + 1, 4 + i % 3]);
+                hinge(&mut file, [coupler, crank + 2], [3 * i + 3, 3 + i % 4]);
             }
         }
         LatticeKind::Scissors => {
             // Bars 2i (rising) and 2i + 1 (falling) cross at (2i + 1, 1).
-            file = LatticeFile::new(2 * k + 2);
             for i in 0..=k {
-                file.hinge([2 * i, 2 * i + 1], 2 * i + 1, 1);
+                hinge(&mut file, [2 * i, 2 * i + 1], [2 * i + 1, 1]);
             }
             for i in 0..k {
-                file.hinge([2 * i, 2 * i + 3], 2 * i + 2, 2);
-                file.hinge([2 * i + 1, 2 * i + 2], 2 * i + 2, 0);
+                hinge(&mut file, [2 * i, 2 * i + 3], [2 * i + 2, 2]);
+                hinge(&mut file, [2 * i + 1, 2 * i + 2], [2 * i + 2, 0]);
             }
         }
         LatticeKind::Grid => {
@@ -96,7 +71,7 @@ pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
             ];
             const AXES: [[i32; 3]; 5] = [[0, 0, 1], [1, 0, 0], [0, 0, 1], [0, 1, 0], [1, 2, -1]];
             let rows = k.div_ceil(3) + 1;
-            file = LatticeFile::new(4 * rows);
+            file = Sketch::with_links(0..4 * rows);
             for l in 0..4 * rows {
                 let neighbours = [(l % 4 < 3, l + 1), (l / 4 + 1 < rows, l + 4)];
                 for (n, (_, to)) in neighbours
@@ -105,11 +80,72 @@ pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
                     .filter(|(_, (there, _))| *there)
                 {
                     let mix = (l * 7 + n * 3) ^ (l / 5);
-                    let point = [mix % 5, (mix / 2) % 7, l % 3];
-                    file.joint([l, *to], TYPES[mix % 6], point, AXES[(mix + l) % 5]);
+                    let point = format!("{:?}", [mix % 5, (mix / 2) % 7, l % 3]);
+                    let axis = format!("{:?}", AXES[(mix + l) % 5]);
+                    file.joint([&name(l), &name(*to)], TYPES[mix % 6], &point, &axis);
                 }
             }
         }
     }
-    mechanism_from_str("lattice.toml", &file.0).expect("a generated file is valid")
+    mechanism_from_str("lattice.toml", &file.text("lattice")).expect("a generated file is valid")
+}
+
+/// The file of a row of toggles that is shaky of order 2^levels: each knee is pushed by the one before by the square of its motion.
+/// At the pose it has one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
+#[must_use]
+pub fn toggles(levels: usize, noise: &mut Noise) -> String {
+    #[allow(clippy::cast_possible_truncation, reason = "130 at most")]
+    let mut length = || 100 + (30.0 * noise.uniform()) as i64;
+    let mut file = Sketch::default();
+    // The first knee lies between two bars along x, each further one between two bars across the last push.
+    let mut knee = [0, 0];
+    for k in 0..levels {
+        let moved = |by: i64| {
+            let mut at = knee;
+            at[k % 2] += by;
+            at
+        };
+        let (a, b) = (format!("a{k}"), format!("b{k}"));
+        file.pin(["0", &a], moved(-length()));
+        file.pin([&a, &b], knee);
+        if k > 0 {
+            file.pin([&format!("b{}", k - 1), &a], knee);
+        }
+        knee = moved(length());
+        if k + 1 == levels {
+            file.pin([&b, "0"], knee);
+        }
+    }
+    file.text("toggles")
+}
+
+/// A planar ladder: a four-bar, and three hinges more for each further contour, at places drawn at random, with four options each. Of
+/// eight contours the diagram does not fit into the default budget.
+///
+/// # Panics
+/// Never: the text is valid.
+#[must_use]
+pub fn ladder(contours: usize) -> Mechanism {
+    let mut noise = Noise::new(1, 0);
+    let mut file = Sketch::default();
+    let mut pin = |a: usize, b: usize| {
+        let at = [(); 2].map(|()| noise.whole(10));
+        file.pin([&a.to_string(), &b.to_string()], at);
+    };
+    for (a, b) in [(0, 1), (1, 3), (3, 2), (2, 0)] {
+        pin(a, b);
+    }
+    let (mut side, mut other) = (1, 2);
+    for i in 1..contours {
+        let (a, b) = (2 * i + 2, 2 * i + 3);
+        pin(side, a);
+        pin(a, b);
+        pin(b, other);
+        (side, other) = (a, b);
+    }
+    let name = format!("planar-ladder-{contours}");
+    let options =
+        "[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n";
+    let text = file.text(&name) + options;
+    mechanism_from_str("ladder.toml", &text).expect("a generated file is valid")
 }

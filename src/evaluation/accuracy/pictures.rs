@@ -1,12 +1,11 @@
-//! The survey as pictures.
+//! The survey as pictures, and the files of a run.
 
-use super::AnswerVerdict;
-use super::survey::{Case, MethodRecord, Reply, Survey};
+use super::stability::Study;
+use super::survey::{MethodRecord, Survey};
 use super::timing::{Machine, quantile};
 use super::tuned::Tuned;
-use crate::chart::{Axis, Bands, Cell, Chart, Matrix, Scale, Series, Style, VerdictKind};
-use crate::format::{duration, list, scientific, signed};
-use crate::rank::method::MobilityMethod;
+use crate::chart::{Axis, Chart, Scale, Series, Style, page};
+use crate::format::{duration, list, scientific};
 use crate::rank::method::registry;
 use crate::score::outcome::pareto::front;
 
@@ -71,7 +70,7 @@ pub fn tuned_name(tuned: &Tuned) -> Option<String> {
 /// Share of right answers against median time of an answer; floating-point methods at their default tolerance, and at
 /// their best where that is another. The tolerance does not change their time.
 #[must_use]
-pub(crate) fn share_time(survey: &Survey, machine: &Machine) -> Chart {
+pub(crate) fn share_time(survey: &Survey, of: &str, machine: &Machine) -> Chart {
     let places = places(survey);
     let front = pareto(&places);
     let at = |p: &MethodPlace| (p.seconds, 100.0 * p.share);
@@ -90,10 +89,9 @@ pub(crate) fn share_time(survey: &Survey, machine: &Machine) -> Chart {
         points: vec![at(p)],
         style: Style::Points,
     }));
-    let sentence = share_sentence(survey, &front);
     Chart {
-        title: "Accuracy against speed".to_owned(),
-        subtitle: format!("{sentence} {}. On {machine}.", repeated(survey)),
+        title: format!("Accuracy against speed: {of}"),
+        subtitle: format!("{}. On {machine}.", repeated(survey)),
         x: Axis {
             label: format!("median {} of an answer, s", machine.time()),
             scale: Scale::Log,
@@ -128,54 +126,6 @@ pub fn repeated(survey: &Survey) -> String {
     }
 }
 
-/// What each method answers: right, right at the pose only, wrong, or nothing since it does not apply.
-#[must_use]
-pub fn answers(survey: &Survey) -> Bands {
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    let bar = |right: usize, pose: usize, wrong: usize| {
-        let ends = [
-            0,
-            right,
-            right + pose,
-            right + pose + wrong,
-            survey.cases.len(),
-        ];
-        let kinds = [
-            VerdictKind::Good,
-            VerdictKind::Warn,
-            VerdictKind::Bad,
-            VerdictKind::None,
-        ];
-        let bands = ends.windows(2).zip(kinds).filter(|(e, _)| e[0] < e[1]);
-        bands
-            .map(|(e, kind)| (e[0] as f64, e[1] as f64, kind))
-            .collect()
-    };
-    let mut rows = Vec::new();
-    for (n, method) in registry::ALL.iter().enumerate() {
-        let s = survey.standing(n);
-        rows.push((method.name().to_owned(), bar(s.right, s.pose, s.wrong())));
-        let tuned = survey.tuned.iter().find(|t| t.method == n);
-        if let Some((t, name)) = tuned.and_then(|t| Some((t, tuned_name(t)?))) {
-            rows.push((name, bar(t.right, t.pose, s.applies - t.right - t.pose)));
-        }
-    }
-    Bands {
-        title: "Right, wrong, or not applicable".to_owned(),
-        subtitle: format!(
-            "Of {} cases each method is right about so many; in doubt: right at the pose of the file, which is not the \
-             finite mobility; no verdict: the method does not apply. {}",
-            survey.cases.len(),
-            tolerances(survey)
-        ),
-        x: Axis {
-            label: "cases".to_owned(),
-            scale: Scale::Linear,
-        },
-        rows,
-    }
-}
-
 /// The best and the default tolerance of each floating-point method, in words.
 #[must_use]
 pub fn tolerances(survey: &Survey) -> String {
@@ -194,7 +144,10 @@ pub fn tolerances(survey: &Survey) -> String {
     format!("Floating point is right most often with {}.", list(&all))
 }
 
-fn share_sentence(survey: &Survey, front: &[&MethodPlace]) -> String {
+/// Which methods are always right, and which no other beats in both share and time.
+#[must_use]
+pub(crate) fn front_sentence(survey: &Survey) -> String {
+    let places = places(survey);
     let cases = survey.cases.len();
     let standings = (0..registry::ALL.len()).map(|m| survey.standing(m));
     let all: Vec<String> = registry::ALL
@@ -208,7 +161,7 @@ fn share_sentence(survey: &Survey, front: &[&MethodPlace]) -> String {
         1 => format!("Only {} is right on all {cases} cases", all[0]),
         _ => format!("{} are right on all {cases} cases", list(&all)),
     };
-    let front: Vec<String> = front
+    let front: Vec<String> = pareto(&places)
         .iter()
         .map(|p| format!("{} ({}, {})", p.name, percent(p.share), duration(p.seconds)))
         .collect();
@@ -219,80 +172,51 @@ fn share_sentence(survey: &Survey, front: &[&MethodPlace]) -> String {
     )
 }
 
-/// Mechanisms down, methods across: right, wrong by how much, or not applicable.
+/// Names and texts of every file, `index.html` last, so that it is there only once all that it shows is. `made` says how.
 #[must_use]
-pub(crate) fn matrix(survey: &Survey) -> Matrix {
-    let columns: Vec<String> = registry::ALL.iter().map(|m| m.name().to_owned()).collect();
-    let rows = survey.cases.iter().map(Case::name).collect();
-    let cell = |case: &Case, (method, reply): (&&dyn MobilityMethod, &Reply)| {
-        let (text, kind) = match reply.verdict {
-            AnswerVerdict::Right => (String::new(), VerdictKind::Good),
-            AnswerVerdict::Pose(by) => (signed(by), VerdictKind::Warn),
-            AnswerVerdict::Wrong(by) => (signed(by), VerdictKind::Bad),
-            AnswerVerdict::Failed => ("fails".to_owned(), VerdictKind::Bad),
-            AnswerVerdict::Silent => ("n/a".to_owned(), VerdictKind::None),
-        };
-        Cell {
-            text,
-            kind,
-            tooltip: tooltip(case, *method, reply),
-        }
-    };
-    let cells = survey.cases.iter().zip(&survey.replies);
-    let cells = cells
-        .map(|(case, replies)| {
-            let pairs = registry::ALL.iter().zip(replies);
-            pairs.map(|pair| cell(case, pair)).collect()
-        })
-        .collect();
-    Matrix {
-        title: "Every method on every mechanism".to_owned(),
-        subtitle: matrix_sentence(survey),
-        columns,
-        rows,
-        cells,
+pub fn files(
+    [built_in, generated]: [&Survey; 2],
+    studies: &[Study],
+    machine: &Machine,
+    made: &str,
+) -> Vec<(String, String)> {
+    let mut shown = Vec::new();
+    for (name, of, survey) in [
+        ("share-time", "built-in mechanisms", built_in),
+        (
+            "share-time-generated",
+            "mechanisms from the seed",
+            generated,
+        ),
+    ] {
+        let chart = share_time(survey, of, machine);
+        let sentence = front_sentence(survey);
+        shown.push((
+            name,
+            chart.title.clone(),
+            sentence,
+            chart.svg(),
+            chart.csv(),
+        ));
     }
-}
-
-fn tooltip(case: &Case, method: &dyn MobilityMethod, reply: &Reply) -> String {
-    let says = match &reply.answer {
-        Ok(a) => format!("says {}", a.mobility),
-        Err(e) => return e.to_string(),
-    };
-    let truth = case.truth;
-    let is = if truth.instantaneous == truth.finite {
-        format!("the mobility is {}", truth.finite)
-    } else {
-        format!(
-            "the finite mobility is {}, at this pose {}",
-            truth.finite, truth.instantaneous
-        )
-    };
-    match reply.verdict {
-        AnswerVerdict::Right => format!("{says}, right"),
-        AnswerVerdict::Pose(_) => format!("{says}; {is}: the method speaks of the pose alone"),
-        _ => format!("{says}; {is}: {}", method.about().guarantee),
+    for study in studies {
+        let sentence = format!("{} What to do: {}", study.conclusion(), study.advice);
+        let title = study.title.to_owned();
+        shown.push((study.name, title, sentence, study.svg(), study.csv()));
     }
-}
-
-fn matrix_sentence(survey: &Survey) -> String {
-    let total = |of: fn(&AnswerVerdict) -> bool| {
-        survey
-            .replies
-            .iter()
-            .flatten()
-            .filter(|r| of(&r.verdict))
-            .count()
-    };
-    let (wrong, pose) = (
-        total(|v| matches!(v, AnswerVerdict::Wrong(_) | AnswerVerdict::Failed)),
-        total(|v| matches!(v, AnswerVerdict::Pose(_))),
-    );
-    format!(
-        "{} cases by {} methods: a tick is the true finite mobility, a number by how much an answer is off; {wrong} \
-         answers are wrong, {pose} are right at the pose of the file but not for the motion, n/a is where a method does \
-         not apply.",
-        survey.cases.len(),
-        registry::ALL.len(),
-    )
+    let mut files = vec![
+        ("survey.csv".to_owned(), built_in.csv()),
+        ("generated.csv".to_owned(), generated.csv()),
+    ];
+    let how = "How this was made".to_owned();
+    let mut parts = vec![(how, made.to_owned(), String::new())];
+    for (name, title, sentence, svg, csv) in shown {
+        let link = format!("<p><a href=\"{name}.csv\">{name}.csv</a></p>");
+        parts.push((title, sentence, svg.clone() + &link));
+        files.push((format!("{name}.csv"), csv));
+        files.push((format!("{name}.svg"), svg));
+    }
+    let title = "Mobility methods: accuracy, speed, stability";
+    files.push(("index.html".to_owned(), page(title, &parts)));
+    files
 }

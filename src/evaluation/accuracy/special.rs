@@ -1,9 +1,10 @@
-//! Small mechanisms written down as files of their own, and those of special geometry with one joint off, made from a seed and written
-//! with so many decimals.
+//! Mechanisms of special geometry with one joint off, made from a seed and written with so many decimals.
 
-use super::change::Noise;
+use super::change::{Noise, at_its_word};
+use crate::file::text::mechanism_from_str;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
+use crate::model::mechanism::Mechanism;
 use std::fmt::Write as _;
 
 /// What is made.
@@ -134,70 +135,72 @@ impl SpecialKind {
         let mut links: Vec<&str> = hinges.iter().flat_map(|h| [h.0, h.1]).collect();
         links.sort_unstable();
         links.dedup();
-        let mut out = format!("name = \"{}\"\n", self.name());
-        for (i, link) in links.iter().enumerate() {
-            let role = match i {
-                0 => "role = \"frame\"\n",
-                1 => "role = \"output\"\n",
-                _ => "",
-            };
-            // Writing to a string does not fail.
-            let _ = write!(out, "[[link]]\nid = \"{link}\"\n{role}");
-        }
-        for (i, (a, b, point, axis)) in hinges.into_iter().enumerate() {
+        let mut file = Sketch::with_links(links);
+        for (a, b, point, axis) in hinges {
             let (point, axis) = (vector(point, decimals), axis_of(axis));
-            let _ = write!(
-                out,
-                "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {point}\naxis = {axis}\n"
-            );
+            file.joint([a, b], "revolute", &point, &axis);
         }
-        out
+        file.text(self.name())
+    }
+
+    /// A special one of whole hundredths, with the joint, whether it is the axis rather than the point, and the coordinate that
+    /// take it off; `None` where directions are no fractions.
+    pub(crate) fn at_its_word(
+        self,
+        noise: &mut Noise,
+    ) -> Option<(Mechanism, (usize, bool, usize))> {
+        let place = match self {
+            SpecialKind::Door => (1, false, 0),
+            SpecialKind::FourBar => (2, true, 0),
+            SpecialKind::Rods => (5, false, 1),
+            SpecialKind::Spherical => return None,
+        };
+        let text = self.text(0.0, 2, false, noise);
+        let m = mechanism_from_str("special.toml", &text).expect("a generated file is valid");
+        Some((at_its_word(&m), place))
     }
 }
 
-/// Links, joints and what couples them, on the way to a file: the first link is the frame, the last the output.
+/// Links and joints on the way to a file: the first link is the frame, the last the output.
 #[derive(Debug, Default)]
-pub(super) struct Sketch {
+pub(crate) struct Sketch {
     links: Vec<String>,
-    tables: String,
-    joints: usize,
+    joints: String,
+    count: usize,
 }
 
 impl Sketch {
-    fn link(&mut self, id: &str) {
-        if !self.links.iter().any(|l| l == id) {
-            self.links.push(id.to_owned());
+    /// One of some links, in this order; joints bring along those that are missing.
+    pub(crate) fn with_links<T: ToString>(links: impl IntoIterator<Item = T>) -> Sketch {
+        Sketch {
+            links: links.into_iter().map(|l| l.to_string()).collect(),
+            ..Sketch::default()
         }
     }
 
-    /// A hinge between two links, at a point and about an axis written as the file is to have them.
-    pub(super) fn hinge(&mut self, ends: [&str; 2], point: [&str; 3], axis: [&str; 3]) {
-        ends.iter().for_each(|l| self.link(l));
-        let [a, b] = ends;
+    /// A joint between two links, at a point and about an axis written as the file is to have them.
+    pub(crate) fn joint(&mut self, ends: [&str; 2], kind: &str, point: &str, axis: &str) {
+        for end in ends {
+            if !self.links.iter().any(|l| l == end) {
+                self.links.push(end.to_owned());
+            }
+        }
         // Writing to a string does not fail.
         let _ = write!(
-            self.tables,
-            "[[joint]]\nid = \"j{}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {point:?}\naxis = {axis:?}\n",
-            self.joints
+            self.joints,
+            "[[joint]]\nid = \"j{}\"\nlinks = {ends:?}\ntype = \"{kind}\"\npoint = {point}\naxis = {axis}\n",
+            self.count
         );
-        self.joints += 1;
+        self.count += 1;
     }
 
     /// A hinge along z at a place of the plane of x and y.
-    pub(super) fn pin(&mut self, ends: [&str; 2], x: &str, y: &str) {
-        self.hinge(ends, [x, y, "0"], ["0", "0", "1"]);
-    }
-
-    /// Couples two joints, counted from 0, by a ratio.
-    pub(super) fn couple(&mut self, [a, b]: [usize; 2], ratio: &str) {
-        let _ = write!(
-            self.tables,
-            "[[coupling]]\njoints = [\"j{a}\", \"j{b}\"]\nratio = \"{ratio}\"\n"
-        );
+    pub(crate) fn pin(&mut self, ends: [&str; 2], [x, y]: [i64; 2]) {
+        self.joint(ends, "revolute", &format!("[{x}, {y}, 0]"), "[0, 0, 1]");
     }
 
     /// The file.
-    pub(super) fn text(&self, name: &str) -> String {
+    pub(crate) fn text(&self, name: &str) -> String {
         let mut out = format!("name = \"{name}\"\n");
         for (i, link) in self.links.iter().enumerate() {
             let role = match i {
@@ -207,6 +210,6 @@ impl Sketch {
             };
             let _ = write!(out, "[[link]]\nid = \"{link}\"\n{role}");
         }
-        out + &self.tables
+        out + &self.joints
     }
 }

@@ -1,53 +1,24 @@
-//! Where numbers fail: geometry, closeness to special ones, shakiness, size, scale, noise, rounding and tolerance moved until
-//! answers turn wrong.
+//! Where numbers fail: closeness to special geometry, digits, size, unit, shakiness and prime moved until answers turn wrong.
 
-pub mod change;
-pub mod close;
-mod digits;
-mod distance;
-mod noise;
-mod offsets;
-mod rounded;
-pub mod said;
-mod scale;
-pub mod shaky;
-mod size;
-pub mod special;
+mod closeness;
+mod limits;
 mod study;
-pub(crate) mod sweep;
-mod tolerance;
 
-use super::BuiltIn;
-use super::survey::Case;
-use crate::file::problem::ImportError;
-
-pub use study::{Effort, Picture, Progress, Study};
+use super::cases::Case;
+pub use study::{Effort, Progress, Study, View};
 
 /// Every study in turn.
-///
-/// # Errors
-/// Where a built-in file is not valid.
-pub fn all(
-    built_in: BuiltIn<'_>,
-    cases: &[Case],
-    effort: Effort,
-    progress: Progress<'_>,
-) -> Result<Vec<Study>, ImportError> {
-    let some: Vec<Case> = cases
-        .iter()
-        .step_by(if effort.quick { 4 } else { 1 })
-        .cloned()
-        .collect();
-    Ok(vec![
-        distance::study(built_in, effort, progress)?,
-        close::study(effort, progress),
-        shaky::study(effort, progress),
-        size::study(effort, progress),
-        scale::study(&some, effort, progress),
-        noise::study(&some, effort, progress),
-        rounded::study(&some, effort, progress),
-        digits::study(&some, effort, progress),
-        offsets::study(effort, progress),
-        tolerance::study(&some, effort, progress),
-    ])
+#[must_use]
+pub fn all(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study> {
+    let step = if effort.quick { 4 } else { 1 };
+    let some: Vec<Case> = cases.iter().step_by(step).cloned().collect();
+    vec![
+        closeness::distance(cases, effort, progress),
+        closeness::digits(effort, progress),
+        closeness::rounded(&some, effort, progress),
+        limits::size(effort, progress),
+        limits::scale(&some, effort, progress),
+        limits::prime(&some, effort, progress),
+        limits::shaky(effort, progress),
+    ]
 }

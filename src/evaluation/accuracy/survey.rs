@@ -1,10 +1,9 @@
-//! Every method on every built-in mechanism.
+//! Every method on every mechanism of known mobility.
 
-pub use super::cases::{Case, cases};
+use super::AnswerVerdict;
+pub use super::cases::{Case, cases, generated};
 use super::timing::{Stopwatch, Timing, quantile};
 use super::tuned::{Tuned, tuned};
-use super::{AnswerVerdict, BuiltIn};
-use crate::file::problem::ImportError;
 use crate::format::csv;
 use crate::rank::method::registry;
 use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
@@ -63,15 +62,11 @@ impl Survey {
     /// Asks every method about every case: all answers first, on all threads; then times one after another.
     ///
     /// `progress` gets the cases done and their number.
-    ///
-    /// # Errors
-    /// Where a built-in file is not valid.
     pub fn new(
-        built_in: BuiltIn<'_>,
+        cases: Vec<Case>,
         watch: Stopwatch,
         progress: &mut dyn FnMut(usize, usize),
-    ) -> Result<Survey, ImportError> {
-        let cases = cases(built_in)?;
+    ) -> Survey {
         let answers: Vec<Vec<Result<Answer, NoAnswer>>> = cases
             .par_iter()
             .map(|c| {
@@ -94,11 +89,11 @@ impl Survey {
             replies.push(registry::ALL.iter().zip(answers).map(reply).collect());
         }
         progress(cases.len(), cases.len());
-        Ok(Survey {
+        Survey {
             tuned: tuned(&cases),
             cases,
             replies,
-        })
+        }
     }
 
     /// The replies of the `m`th method with their cases.
@@ -161,36 +156,6 @@ impl Survey {
         };
         csv::records(self.cases.iter().zip(&self.replies).flat_map(of_case))
     }
-
-    /// One line for each method.
-    pub(crate) fn methods_csv(&self) -> String {
-        csv::records(registry::ALL.iter().enumerate().map(|(n, method)| {
-            let s = self.standing(n);
-            let best = self.tuned.iter().find(|t| t.method == n);
-            #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-            let answered = s.right as f64 / s.applies.max(1) as f64;
-            MethodRow {
-                method: method.name(),
-                title: method.about().title,
-                guarantee: method.about().guarantee,
-                complexity: method.about().complexity,
-                source: method.about().source,
-                cases: self.cases.len(),
-                applies_to: s.applies,
-                right: s.right,
-                right_at_the_pose_only: s.pose,
-                wrong: s.wrong(),
-                does_not_apply: self.cases.len() - s.applies,
-                best_tolerance: best.map(|t| format!("{:.0e}", t.tolerance)),
-                right_at_best_tolerance: best.map(|t| t.right),
-                share_of_all: format!("{:.4}", s.share),
-                share_of_answered: format!("{answered:.4}"),
-                median_seconds: seconds(s.seconds),
-                lower_quartile_seconds: seconds(s.middle_half[0]),
-                upper_quartile_seconds: seconds(s.middle_half[1]),
-            }
-        }))
-    }
 }
 
 /// A line of the survey: what one method said of one case.
@@ -211,29 +176,6 @@ struct ReplyRow {
     least_seconds: String,
     most_seconds: String,
     repeats: usize,
-}
-
-/// A line of the table of methods.
-#[derive(Serialize)]
-struct MethodRow {
-    method: &'static str,
-    title: &'static str,
-    guarantee: &'static str,
-    complexity: &'static str,
-    source: &'static str,
-    cases: usize,
-    applies_to: usize,
-    right: usize,
-    right_at_the_pose_only: usize,
-    wrong: usize,
-    does_not_apply: usize,
-    best_tolerance: Option<String>,
-    right_at_best_tolerance: Option<usize>,
-    share_of_all: String,
-    share_of_answered: String,
-    median_seconds: String,
-    lower_quartile_seconds: String,
-    upper_quartile_seconds: String,
 }
 
 fn seconds(x: f64) -> String {

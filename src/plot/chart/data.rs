@@ -67,32 +67,6 @@ pub enum Style {
     Steps,
 }
 
-/// Verdicts in rows and columns.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Matrix {
-    /// What is shown.
-    pub title: String,
-    /// One sentence under the title, or nothing.
-    pub subtitle: String,
-    /// The heads of the columns.
-    pub columns: Vec<String>,
-    /// The names of the rows.
-    pub rows: Vec<String>,
-    /// The cells, row by row.
-    pub cells: Vec<Vec<Cell>>,
-}
-
-/// A cell of a matrix.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cell {
-    /// What stands in it; a cell without text shows a sign of its kind.
-    pub text: String,
-    /// Its colour.
-    pub kind: VerdictKind,
-    /// What is said when one points at it, or nothing to repeat the text.
-    pub tooltip: String,
-}
-
 /// A verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VerdictKind {
@@ -104,6 +78,18 @@ pub enum VerdictKind {
     Warn,
     /// No verdict.
     None,
+}
+
+impl VerdictKind {
+    /// The class of its colours.
+    pub(super) fn class(self) -> &'static str {
+        match self {
+            VerdictKind::Good => "good",
+            VerdictKind::Bad => "bad",
+            VerdictKind::Warn => "warn",
+            VerdictKind::None => "none",
+        }
+    }
 }
 
 /// A stretch of an axis: from, to, and the verdict between them.

@@ -19,14 +19,13 @@ nav ul{margin:0;padding:0;list-style:none;columns:18rem;column-gap:2rem}
 section{margin-top:2rem;padding-top:1.5rem;border-top:1px solid var(--rule);scroll-margin-top:1rem}
 .wide{overflow-x:auto;margin:0 -1.25rem}
 .wide svg{display:block;height:auto;max-width:max(100%,36rem)}
-.wide svg.oz-matrix{max-width:none}
 @media print{
 @page{margin:15mm}
 body{padding:0;max-width:none;font-size:10pt}
 nav{display:none}
 p{break-after:avoid}
 .wide{overflow:visible;margin:0 -5mm}
-.wide svg,.wide svg.oz-matrix{max-width:100%}
+.wide svg{max-width:100%}
 }
 ";
 
@@ -62,7 +61,9 @@ pub fn page(title: &str, parts: &[(String, String, String)]) -> String {
                             h2 { (heading) }
                             @if !sentence.is_empty() { p { (sentence) } }
                             // Reached by keyboard, since it scrolls.
-                            div.wide tabindex="0" role="group" aria-label=(heading) { (PreEscaped(svg)) }
+                            @if !svg.is_empty() {
+                                div.wide tabindex="0" role="group" aria-label=(heading) { (PreEscaped(svg)) }
+                            }
                         }
                     }
                 }

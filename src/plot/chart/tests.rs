@@ -200,26 +200,6 @@ fn bands_reach_the_edges() {
 }
 
 #[test]
-fn a_cell_says_its_row_and_column() {
-    let cell = |text: &str, tooltip: &str| Cell {
-        text: text.to_owned(),
-        kind: VerdictKind::Warn,
-        tooltip: tooltip.to_owned(),
-    };
-    let matrix = Matrix {
-        title: "Counts".to_owned(),
-        subtitle: String::new(),
-        columns: vec!["QR".to_owned(), "SVD".to_owned()],
-        rows: vec!["bennett".to_owned()],
-        cells: vec![vec![cell("1, 3", ""), cell("", "no gap")]],
-    };
-    let svg = matrix.svg();
-    assert!(svg.contains("<title>bennett, QR: 1, 3</title>"), "{svg}");
-    assert!(svg.contains("<title>bennett, SVD: no gap</title>"), "{svg}");
-    assert!(svg.contains("0 good, 0 bad, 2 in doubt"), "{svg}");
-}
-
-#[test]
 fn a_page_escapes_all_but_the_pictures() {
     let part = |n: u8| {
         (
@@ -301,22 +281,6 @@ fn any_kind() -> impl Strategy<Value = VerdictKind> {
 }
 
 prop_compose! {
-    fn any_matrix()(
-        title in any_text(),
-        columns in prop::collection::vec(any_text(), 0..6),
-        rows in prop::collection::vec(any_text(), 0..40),
-        cells in prop::collection::vec(
-            prop::collection::vec((any_text(), any_kind(), any_text()), 0..8),
-            0..40,
-        ),
-    ) -> Matrix {
-        let cell = |(text, kind, tooltip)| Cell { text, kind, tooltip };
-        let cells = cells.into_iter().map(|row| row.into_iter().map(cell).collect());
-        Matrix { subtitle: title.clone(), title, columns, rows, cells: cells.collect() }
-    }
-}
-
-prop_compose! {
     fn any_bands()(
         texts in prop::collection::vec(any_text(), 3),
         scale in any_scale(),
@@ -368,11 +332,6 @@ proptest! {
     }
 
     #[test]
-    fn any_matrix_is_sound_xml(matrix in any_matrix()) {
-        sound(&matrix.svg());
-    }
-
-    #[test]
     fn any_bands_are_sound_xml(bands in any_bands()) {
         sound(&bands.svg());
     }
@@ -389,7 +348,12 @@ fn a_narrow_axis_far_from_zero_has_two_labels() {
     let (middle, far) = (-206061.6901393063, 0.0007319360059975914);
     let points = [0.0006494192858009572, far].map(|x| (middle + x, middle));
     for style in [Style::Line, Style::Points] {
-        let svg = chart(Scale::Linear, Scale::Linear, vec![series("a", style, &points)]).svg();
+        let svg = chart(
+            Scale::Linear,
+            Scale::Linear,
+            vec![series("a", style, &points)],
+        )
+        .svg();
         let [x, _] = labels(&svg);
         assert!(x.len() >= 2 && x[0] != x[1], "{x:?}");
     }
@@ -413,25 +377,5 @@ proptest! {
                 prop_assert!(x.windows(2).all(|w| w[0] != w[1]) && y.windows(2).all(|w| w[0] != w[1]), "{x:?} {y:?}");
             }
         }
-    }
-}
-
-#[test]
-fn the_heads_of_a_long_matrix_stand_again_every_twenty_five_rows() {
-    let cell = Cell {
-        text: String::new(),
-        kind: VerdictKind::Good,
-        tooltip: String::new(),
-    };
-    let matrix = |rows: usize| Matrix {
-        title: "m".to_owned(),
-        subtitle: String::new(),
-        columns: vec!["first".to_owned(), "second".to_owned()],
-        rows: (0..rows).map(|n| format!("row {n}")).collect(),
-        cells: vec![vec![cell.clone(); 2]; rows],
-    };
-    for (rows, heads) in [(1, 1), (25, 1), (26, 2), (128, 6)] {
-        let svg = matrix(rows).svg();
-        assert_eq!(svg.matches(">second</text>").count(), heads, "{rows} rows");
     }
 }

@@ -4,6 +4,7 @@ use crate::accuracy::AnswerVerdict;
 use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
 use crate::accuracy::searching::pictures::{ranking, wrong};
 use crate::accuracy::searching::record::{Record, Share, Trial, TrialRow, rows};
+use crate::accuracy::stability::Study;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
 use crate::format::{duration, grouped, signed};
@@ -174,11 +175,12 @@ fn notes(t: &Trial) -> String {
     notes.join(" ")
 }
 
-/// A table of the methods, on what machine it was made, then a paragraph for each chart.
+/// A table of the methods, on built-in mechanisms and on those from the seed, on what machine it was made, then a paragraph for
+/// each study.
 #[must_use]
-pub fn summary<'a>(
-    survey: &Survey,
-    sentences: impl IntoIterator<Item = (&'a str, &'a str)>,
+pub fn summary(
+    [survey, generated]: [&Survey; 2],
+    studies: &[Study],
     machine: &Machine,
     width: Option<u16>,
 ) -> String {
@@ -189,6 +191,7 @@ pub fn summary<'a>(
         "at the pose only",
         "wrong",
         "n/a",
+        &format!("right of {} from the seed", generated.cases.len()),
         "median time",
         "middle half",
         "what fails, and why",
@@ -205,28 +208,31 @@ pub fn summary<'a>(
             ": the automatic choice is right on {auto}, the counting formula on {count}"
         );
     }
-    let _ = write!(out, "\n\n{}\n", table(&heads, method_rows(survey), width));
+    let _ = write!(
+        out,
+        "\n\n{}\n",
+        table(&heads, method_rows(survey, generated), width)
+    );
     let _ = write!(
         out,
         "\n{} {}. On {machine}.\n",
         tolerances(survey),
         repeated(survey)
     );
-    for (title, sentence) in sentences {
-        // Writing to a string cannot fail.
-        let _ = write!(out, "\n{title}: {sentence}\n");
+    for study in studies {
+        let _ = write!(out, "\n{}: {}\n", study.title, study.conclusion());
     }
     fit(&out, width)
 }
 
 /// Each method as it is, and with its best tolerance where it has one.
-fn method_rows(survey: &Survey) -> Vec<Vec<String>> {
+fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
     let cases = survey.cases.len();
     let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
     let mut rows = Vec::new();
     for (m, method) in registry::ALL.iter().enumerate() {
         let s = survey.standing(m);
-        let row = |name: String, right: usize, pose: usize, why: String| {
+        let row = |name: String, right: usize, pose: usize, made: String, why: String| {
             let [from, to] = s.middle_half.map(duration);
             vec![
                 name,
@@ -234,6 +240,7 @@ fn method_rows(survey: &Survey) -> Vec<Vec<String>> {
                 count(pose),
                 count(s.applies - right - pose),
                 count(cases - s.applies),
+                made,
                 duration(s.seconds),
                 format!("{from} to {to}"),
                 why,
@@ -243,11 +250,13 @@ fn method_rows(survey: &Survey) -> Vec<Vec<String>> {
             method.name().to_owned(),
             s.right,
             s.pose,
+            generated.standing(m).right.to_string(),
             failures(survey, m),
         ));
         let tuned = survey.tuned.iter().find(|t| t.method == m);
         if let Some((t, name)) = tuned.and_then(|t| Some((t, tuned_name(t)?))) {
-            rows.push(row(name, t.right, t.pose, "its best tolerance".to_owned()));
+            let why = "its best tolerance".to_owned();
+            rows.push(row(name, t.right, t.pose, String::new(), why));
         }
     }
     rows

@@ -1,51 +1,11 @@
-//! What every study is given, and what it gives.
+//! One study: a range of one quantity, cases at each of its values, what is asked of each, and the truth. All studies have the same
+//! loop, the same tally, the same table, one chart and one conclusion.
 
-use crate::accuracy::timing::Clock;
-use crate::chart::{Bands, Chart};
-
-/// A picture of a study.
-#[derive(Debug, Clone)]
-pub struct Picture {
-    /// The stem of its file.
-    pub name: String,
-    /// What is shown.
-    pub title: String,
-    /// The picture.
-    pub svg: String,
-}
-
-/// A series of experiments with what it shows.
-#[derive(Debug, Clone)]
-pub struct Study {
-    /// The stem of its files.
-    pub name: &'static str,
-    /// What was varied.
-    pub title: String,
-    /// What came of it, from the data.
-    pub sentence: String,
-    /// Its pictures.
-    pub pictures: Vec<Picture>,
-    /// Its data.
-    pub csv: String,
-}
-
-impl Picture {
-    pub(super) fn of_bands(name: impl Into<String>, bands: &Bands) -> Picture {
-        Picture {
-            name: name.into(),
-            title: bands.title.clone(),
-            svg: bands.svg(),
-        }
-    }
-
-    pub(super) fn of_chart(name: impl Into<String>, chart: &Chart) -> Picture {
-        Picture {
-            name: name.into(),
-            title: chart.title.clone(),
-            svg: chart.svg(),
-        }
-    }
-}
+use crate::accuracy::said::{Reply, Said, Tally};
+use crate::accuracy::timing::{Clock, quantile};
+use crate::chart::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind};
+use crate::format::{csv, duration, grouped, list, scientific};
+use rayon::prelude::*;
 
 /// How much to do.
 #[derive(Debug, Clone, Copy)]
@@ -60,3 +20,410 @@ pub struct Effort {
 
 /// Is told the study under way, the steps done and their number.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
+
+/// How a study is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum View {
+    /// Where each row is right.
+    Regions,
+    /// Right ones, and those that are wrong and sure, as shares.
+    Shares,
+    /// The time of each row, asked one after another.
+    Times,
+    /// Wrong ones of each row as a share by decades, beside the bound of Schwartz and Zippel: this over the prime. They are timed.
+    Errors(u32),
+}
+
+/// A study.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The stem of its files.
+    pub name: &'static str,
+    /// What was varied.
+    pub title: &'static str,
+    /// The axis across, with its unit.
+    pub axis: &'static str,
+    /// Its head in the table.
+    pub column: &'static str,
+    /// Where it was looked at, ascending.
+    pub values: Vec<f64>,
+    /// How it is drawn.
+    pub view: View,
+    /// What to do about it.
+    pub advice: &'static str,
+    /// What was asked, with the tally at each value.
+    pub(super) rows: Vec<(String, Vec<Tally>)>,
+}
+
+impl Study {
+    /// Asks about so many cases at each value: a reply for each row, `None` where it has none. What is not timed is asked in
+    /// parallel.
+    pub(super) fn asked(
+        mut self,
+        rows: impl IntoIterator<Item = impl ToString>,
+        cases: usize,
+        progress: Progress<'_>,
+        ask: impl Fn(usize, usize) -> Vec<Option<Reply>> + Sync,
+    ) -> Study {
+        let rows = rows.into_iter().map(|r| (r.to_string(), Vec::new()));
+        self.rows = rows.collect();
+        for v in 0..self.values.len() {
+            progress(self.title, v, self.values.len());
+            let found: Vec<Vec<Option<Reply>>> = if self.is_timed() {
+                (0..cases).map(|case| ask(v, case)).collect()
+            } else {
+                (0..cases)
+                    .into_par_iter()
+                    .map(|case| ask(v, case))
+                    .collect()
+            };
+            for (n, row) in self.rows.iter_mut().enumerate() {
+                let mut tally = Tally::default();
+                let replies = found.iter().filter_map(|f| f.get(n)?.as_ref());
+                replies.for_each(|reply| tally.add(reply));
+                row.1.push(tally);
+            }
+        }
+        self
+    }
+
+    fn is_timed(&self) -> bool {
+        matches!(self.view, View::Times | View::Errors(_))
+    }
+
+    /// The table: a line for each row and value that was asked about.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut heads = vec!["asked", self.column, "cases", "right", "undecided"];
+        heads.extend(["wrong_not_exact", "wrong_and_sure", "wrong"]);
+        let timed = self.is_timed();
+        heads.extend(timed.then_some("median_seconds"));
+        let rows = self.rows.iter().flat_map(|(name, tallies)| {
+            self.asked_of(tallies).map(move |(x, t)| {
+                let mut row = vec![name.clone(), format!("{x:e}"), t.all().to_string()];
+                row.extend(t.of.map(|n| n.to_string()));
+                row.push(t.wrong.join("; ").replace('\n', " "));
+                row.extend(timed.then(|| format!("{:.3e}", quantile(&t.seconds, 0.5))));
+                row
+            })
+        });
+        csv::table(&heads, rows)
+    }
+
+    /// The picture.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let share = |said: Said| move |t: &Tally| t.percent(said);
+        match self.view {
+            View::Regions => return self.regions().svg(),
+            View::Shares => {
+                let mut series = self.lines("", Style::Line, share(Said::Right));
+                let sure = self.lines(", wrong and sure", Style::Dashed, share(Said::Wrong));
+                series.extend(sure.into_iter().filter(|s| s.points.iter().any(|p| p.1 > 0.0)));
+                let about = "Solid: right. Dashed, where there are any: wrong and sure. The rest is undecided, or wrong but said not to \
+                             be exact.";
+                self.chart(about.to_owned(), "share of answers, %", Scale::Linear, series)
+            }
+            View::Times => {
+                let series = self.lines("", Style::Line, |t| quantile(&t.seconds, 0.5));
+                let about = "Median over the cases that a method applies to.".to_owned();
+                self.chart(about, "time of an answer, s", Scale::Log, series)
+            }
+            View::Errors(degree) => {
+                let mut series = self.lines("", Style::Line, share(Said::Wrong));
+                series.push(Series {
+                    name: "bound of Schwartz and Zippel, random points".to_owned(),
+                    points: self.values.iter().map(|b| (*b, bound(degree, *b))).collect(),
+                    style: Style::Dashed,
+                });
+                let about = format!("Wrong ranks. The bound is {degree} over the least prime of so many bits.");
+                self.chart(about, "wrong ranks, %", Scale::LogAndZero(-3), series)
+            }
+        }
+        .svg()
+    }
+
+    fn scale(&self) -> Scale {
+        match self.view {
+            View::Errors(_) => Scale::Linear,
+            _ => Scale::Log,
+        }
+    }
+
+    fn x(&self) -> Axis {
+        Axis {
+            label: self.axis.to_owned(),
+            scale: self.scale(),
+        }
+    }
+
+    /// A line for each row, where it was asked.
+    fn lines(&self, after: &str, style: Style, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
+        let line = |(name, tallies): &(String, Vec<Tally>)| Series {
+            name: format!("{name}{after}"),
+            points: self.asked_of(tallies).map(|(x, t)| (x, y(t))).collect(),
+            style,
+        };
+        self.rows.iter().map(line).collect()
+    }
+
+    fn asked_of<'a>(&'a self, of: &'a [Tally]) -> impl Iterator<Item = (f64, &'a Tally)> {
+        let values = self.values.iter().copied().zip(of);
+        values.filter(|(_, t)| t.all() > 0)
+    }
+
+    fn chart(&self, subtitle: String, up: &str, scale: Scale, series: Vec<Series>) -> Chart {
+        Chart {
+            title: self.title.to_owned(),
+            subtitle,
+            x: self.x(),
+            y: Axis {
+                label: up.to_owned(),
+                scale,
+            },
+            series,
+        }
+    }
+
+    fn regions(&self) -> Bands {
+        let kind = |t: &Tally| match t.percent(Said::Right) {
+            _ if t.all() == 0 => VerdictKind::None,
+            100.0 => VerdictKind::Good,
+            right if right + t.percent(Said::Open) >= 90.0 => VerdictKind::Warn,
+            _ => VerdictKind::Bad,
+        };
+        let row = |(name, t): &(String, Vec<Tally>)| {
+            (name.clone(), bands(&self.values, t.iter().map(kind)))
+        };
+        Bands {
+            title: self.title.to_owned(),
+            subtitle: "Right: in all cases; in doubt: right or undecided in nine of ten or more; wrong: in fewer."
+                .to_owned(),
+            x: self.x(),
+            rows: self.rows.iter().map(row).collect(),
+        }
+    }
+
+    /// What came of it, from the data.
+    #[must_use]
+    pub fn conclusion(&self) -> String {
+        match self.view {
+            View::Regions => self.stretches(),
+            View::Shares => self.shares(),
+            View::Times => format!("{} {}", self.stretches(), self.times()),
+            View::Errors(degree) => self.errors(degree),
+        }
+    }
+
+    /// Which rows are always right, and where others are right as often as they ever are.
+    fn stretches(&self) -> String {
+        let (mut always, mut rest) = (Vec::new(), Vec::new());
+        for (name, tallies) in &self.rows {
+            let of: Vec<_> = self.asked_of(tallies).collect();
+            let share = |n: usize| of[n].1.percent(Said::Right);
+            let most = (0..of.len()).map(share).fold(0.0, f64::max);
+            let runs = longest_run(of.len(), |n| share(n) >= most);
+            let Some((first, last)) = runs else { continue };
+            let whole = first == 0 && last + 1 == of.len();
+            if whole && most >= 100.0 {
+                always.push(name.clone());
+                continue;
+            }
+            let [from, to] = [first, last].map(|n| self.value(of[n].0));
+            let place = match () {
+                () if whole => "throughout".to_owned(),
+                () if first == last => format!("at {from}"),
+                () => format!("from {from} to {to}"),
+            };
+            rest.push(format!("{name} {:.0} % {place}", most.floor()));
+        }
+        let told = if always.is_empty() {
+            "nothing".to_owned()
+        } else {
+            list(&always)
+        };
+        let rest = if rest.is_empty() {
+            String::new()
+        } else {
+            format!(" Right most often: {}.", list(&rest))
+        };
+        format!("Right in all cases throughout: {told}.{rest}")
+    }
+
+    /// What is said of each row over all values, and where most of it is wrong and sure.
+    fn shares(&self) -> String {
+        let told = self.rows.iter().map(|(name, tallies)| {
+            let mut sum = Tally::default();
+            for (n, of) in tallies.iter().flat_map(|t| t.of.iter().enumerate()) {
+                sum.of[n % 4] += of;
+            }
+            let worst = self.asked_of(tallies).max_by(|a, b| {
+                let sure = |t: &Tally| t.percent(Said::Wrong);
+                sure(a.1).total_cmp(&sure(b.1))
+            });
+            let worst = worst.filter(|(_, t)| !t.wrong.is_empty()).map_or_else(String::new, |(x, t)| {
+                let (wrong, at) = (t.wrong.len(), self.value(x));
+                format!(" ({wrong} of {} at {at})", t.all())
+            });
+            let [right, open, hedged, sure] = [Said::Right, Said::Open, Said::Hedged, Said::Wrong]
+                .map(|s| format!("{:.1} %", sum.percent(s)));
+            format!(
+                "{name} right {right}, undecided {open}, wrong but said not exact {hedged}, wrong and sure {sure}{worst}"
+            )
+        });
+        let told: Vec<String> = told.collect();
+        format!("{}.", told.join("; "))
+    }
+
+    /// How long each row takes at the largest value it was asked about, and how that grows.
+    fn times(&self) -> String {
+        let told = self.rows.iter().filter_map(|(name, tallies)| {
+            let times = self
+                .asked_of(tallies)
+                .map(|(x, t)| (x, quantile(&t.seconds, 0.5)));
+            let times: Vec<(f64, f64)> = times.collect();
+            let (x1, y1) = *times.last()?;
+            let before = times.iter().rev().find(|(x, y)| x * 3.0 <= x1 && *y > 0.0);
+            let grows = before.map_or_else(String::new, |(x0, y0)| {
+                format!(
+                    ", growing with the power {:.1}",
+                    (y1 / y0).ln() / (x1 / x0).ln()
+                )
+            });
+            Some(format!("{name} {} at {x1}{grows}", duration(y1)))
+        });
+        format!("Times: {}.", told.collect::<Vec<_>>().join("; "))
+    }
+
+    /// Where each row has errors, how many more or fewer than the bound allows, and its time.
+    fn errors(&self, degree: u32) -> String {
+        let told = self.rows.iter().enumerate().map(|(n, (name, tallies))| {
+            let of: Vec<_> = self.asked_of(tallies).collect();
+            let wrong: Vec<_> = of.iter().filter(|(_, t)| !t.wrong.is_empty()).collect();
+            let some = |(bits, t): &&(f64, &Tally)| {
+                let all = grouped(t.all());
+                format!("{} of {all} at {bits} bits", t.wrong.len())
+            };
+            let above = |(b, t): &&(f64, &Tally)| t.percent(Said::Wrong) > bound(degree, *b);
+            let above = match wrong.iter().copied().any(|w| above(&w)) {
+                // The bound speaks of the first row.
+                _ if n > 0 => "",
+                true => " above the bound,",
+                false => " never above the bound,",
+            };
+            let each: Vec<String> = wrong.iter().map(some).collect();
+            let none = if each.is_empty() {
+                "none".to_owned()
+            } else {
+                list(&each)
+            };
+            let times: Vec<f64> = of.iter().map(|(_, t)| quantile(&t.seconds, 0.5)).collect();
+            let [least, most] = [0.0, 1.0].map(|at| duration(quantile(&times, at)));
+            format!("{name}: wrong {none},{above} in {least} to {most} whatever the prime")
+        });
+        format!("{}.", told.collect::<Vec<_>>().join("; "))
+    }
+
+    fn value(&self, x: f64) -> String {
+        match self.view {
+            View::Times => x.to_string(),
+            _ => scientific(x),
+        }
+    }
+}
+
+/// The bound of Schwartz and Zippel for a prime of so many bits, in per cent.
+fn bound(degree: u32, bits: f64) -> f64 {
+    (100.0 * f64::from(degree) / (bits - 1.0).exp2()).min(100.0)
+}
+
+/// The longest run of numbers below `count` that are good, from its first to its last.
+fn longest_run(count: usize, good: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
+    let (mut best, mut begun) = (None::<(usize, usize)>, None);
+    for n in 0..count {
+        if !good(n) {
+            begun = None;
+            continue;
+        }
+        let from = *begun.get_or_insert(n);
+        if best.is_none_or(|(first, last)| n - from > last - first) {
+            best = Some((from, n));
+        }
+    }
+    best
+}
+
+/// Bands about the values of a log axis, neighbours of one kind as one.
+fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
+    let between = |a: usize, b: usize| (values[a] * values[b]).sqrt();
+    let last = values.len().saturating_sub(1);
+    let mut out: Vec<Band> = Vec::new();
+    for (n, kind) in kinds.into_iter().enumerate() {
+        let (from, to) = (
+            between(n.saturating_sub(1), n),
+            between(n, (n + 1).min(last)),
+        );
+        match out.last_mut() {
+            Some(last) if last.2 == kind => last.1 = to,
+            _ => out.push((from, to, kind)),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten cases at each of four values, of which so many are wrong and sure.
+    fn study(view: View, wrong: [usize; 4]) -> Study {
+        let study = Study {
+            name: "s",
+            title: "S",
+            axis: "x",
+            column: "x",
+            values: vec![1e-3, 1e-2, 1e-1, 1.0],
+            view,
+            advice: "",
+            rows: Vec::new(),
+        };
+        study.asked(["m"], 10, &mut |_, _, _| {}, |v, case| {
+            let said = if case < wrong[v] {
+                Said::Wrong
+            } else {
+                Said::Right
+            };
+            vec![Some(Reply::new(said, || format!("c{case}")))]
+        })
+    }
+
+    #[test]
+    fn conclusions_follow_from_the_tallies() {
+        let told = |wrong| study(View::Regions, wrong).conclusion();
+        assert_eq!(told([0; 4]), "Right in all cases throughout: m.");
+        let most = |rest: &str| {
+            format!("Right in all cases throughout: nothing. Right most often: m {rest}.")
+        };
+        assert_eq!(told([0, 0, 1, 0]), most("100 % from 0.001 to 0.01"));
+        assert_eq!(told([4; 4]), most("60 % throughout"));
+        assert_eq!(
+            study(View::Shares, [0, 0, 3, 1]).conclusion(),
+            "m right 90.0 %, undecided 0.0 %, wrong but said not exact 0.0 %, wrong and sure 10.0 % (3 of 10 at 0.1)."
+        );
+        let csv = study(View::Shares, [0, 0, 3, 1]).csv();
+        assert!(csv.contains("m,1e-1,10,7,0,0,3,c0; c1; c2\n"), "{csv}");
+    }
+
+    #[test]
+    fn bands_meet_half_way_and_hold_their_verdict() {
+        let kinds = [
+            VerdictKind::Good,
+            VerdictKind::Good,
+            VerdictKind::Warn,
+            VerdictKind::Bad,
+        ];
+        let b = bands(&[1e-3, 1e-2, 1e-1, 1.0], kinds);
+        assert_eq!((b.len(), b[0].0, b[2].1), (3, 1e-3, 1.0));
+        assert_eq!(b[0].1, b[1].0);
+    }
+}

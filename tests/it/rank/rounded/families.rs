@@ -5,7 +5,7 @@
 
 use super::search_numeric::request;
 use crate::common::fresh;
-use ozols::accuracy::stability::change::Noise;
+use ozols::accuracy::change::Noise;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::rigid::RigidMotion;
 use ozols::model::mechanism::StateId;

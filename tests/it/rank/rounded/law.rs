@@ -5,9 +5,9 @@
 //! seeds drawn afresh, and prints a table.
 
 use super::search_numeric::{plain, request, turned};
-use ozols::accuracy::stability::change::Noise;
-use ozols::accuracy::stability::said;
-use ozols::accuracy::stability::special::SpecialKind;
+use ozols::accuracy::change::Noise;
+use ozols::accuracy::said;
+use ozols::accuracy::special::SpecialKind;
 use ozols::builtin;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::auto::decide;

@@ -1,7 +1,7 @@
 //! Searches of mechanisms that exact arithmetic does not have as they are meant: by singular values, and said so.
 
 use crate::common::{built_in, run_on};
-use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
+use ozols::accuracy::change::{Noise, turned_and_rounded};
 use ozols::builtin;
 use ozols::model::mechanism::{JointOption, Mechanism};
 use ozols::rank::exact::field::exact_field;

@@ -2,7 +2,7 @@
 
 use super::search_numeric::{plain, request, turned};
 use crate::common::run_on;
-use ozols::accuracy::stability::change::Noise;
+use ozols::accuracy::change::Noise;
 use ozols::score::request::Request;
 use serde_json::Value;
 

@@ -2,7 +2,7 @@
 
 use super::digits::door;
 use super::search_numeric::{bare, request, turned};
-use ozols::accuracy::stability::change::Noise;
+use ozols::accuracy::change::Noise;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{Mechanism, StateId};

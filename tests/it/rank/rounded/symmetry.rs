@@ -3,7 +3,7 @@
 
 use super::search_numeric::{bare, request, turned};
 use crate::common::built_in;
-use ozols::accuracy::stability::change::Noise;
+use ozols::accuracy::change::Noise;
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;

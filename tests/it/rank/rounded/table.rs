@@ -2,7 +2,7 @@
 
 use super::cases::{Case, cases};
 use crate::documents::figures::{between, says};
-use ozols::accuracy::stability::change::{Noise, turned_and_rounded};
+use ozols::accuracy::change::{Noise, turned_and_rounded};
 use ozols::model::mechanism::Mechanism;
 use ozols::rank::method::auto::decide;
 use ozols::rank::rounded::verdict::verdict;

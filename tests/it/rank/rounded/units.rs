@@ -2,7 +2,7 @@
 
 use super::search_numeric::{plain, turned};
 use crate::common::near;
-use ozols::accuracy::stability::change::Noise;
+use ozols::accuracy::change::Noise;
 use ozols::closure::Closure;
 use ozols::geom::Reals;
 use ozols::geom::expr::Expr;

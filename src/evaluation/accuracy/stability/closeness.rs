@@ -1,0 +1,225 @@
+//! What if coordinates are a little off: exactly displaced, displaced among digits, or rounded.
+
+use super::study::{Effort, Progress, Study, View};
+use crate::accuracy::Truth;
+use crate::accuracy::cases::Case;
+use crate::accuracy::change::{Noise, power_of_ten, turned_and_rounded};
+use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::special::SpecialKind;
+use crate::closure::Closure;
+use crate::file::text::mechanism_from_str;
+use crate::geom::Reals;
+use crate::geom::expr::Expr;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::method::auto::decide;
+use crate::rank::method::{MobilityMethod, registry};
+use crate::rank::numeric::Elimination;
+
+/// A special mechanism, and the coordinate of a joint's point or axis that takes it off.
+struct Special {
+    mechanism: Mechanism,
+    joint: usize,
+    axis: bool,
+    coordinate: usize,
+    /// The displacement at distance 1.
+    unit: i64,
+    /// The figures of the special one, and of any other.
+    truth: [Truth; 2],
+}
+
+/// Built-in ones with a joint, whether its axis is tilted instead of its point moved, the coordinate, the unit, and what is left.
+const BUILT_IN: [(&str, &str, bool, usize, i64, (i64, i64)); 4] = [
+    ("bennett", "1-2", false, 0, 40, (0, 0)),
+    ("parallelogram-3-rods", "3-4", false, 1, 200, (1, 0)),
+    ("sarrus", "2-3", true, 2, 1, (0, 0)),
+    ("collinear-truss", "1-2", false, 1, 60, (0, 0)),
+];
+
+fn truth((instantaneous, finite): (i64, i64)) -> Truth {
+    Truth {
+        instantaneous,
+        finite,
+    }
+}
+
+impl Special {
+    fn built_in(cases: &[Case]) -> impl Iterator<Item = Special> + '_ {
+        BUILT_IN
+            .into_iter()
+            .filter_map(|(name, joint, axis, coordinate, unit, off)| {
+                let case = cases.iter().find(|c| c.name() == name)?;
+                let mechanism = case.mechanism.clone();
+                Some(Special {
+                    joint: mechanism.joints.iter().position(|j| j.id == joint)?,
+                    mechanism,
+                    axis,
+                    coordinate,
+                    unit,
+                    truth: [case.truth, truth(off)],
+                })
+            })
+    }
+
+    fn drawn(kind: SpecialKind, noise: &mut Noise) -> Option<Special> {
+        let (mechanism, (joint, axis, coordinate)) = kind.at_its_word(noise)?;
+        Some(Special {
+            mechanism,
+            joint,
+            axis,
+            coordinate,
+            unit: 1,
+            truth: [false, true].map(|off| truth(kind.figures(off))),
+        })
+    }
+
+    fn displaced(&self, exponent: i32) -> Mechanism {
+        let mut m = self.mechanism.clone();
+        let joint = m.joints.iter_mut().nth(self.joint);
+        if let Some(joint) = joint {
+            let frame = &mut joint.frame;
+            let vector = if self.axis {
+                &mut frame.axis
+            } else {
+                &mut frame.point
+            };
+            let by = &Expr::from(self.unit) * &power_of_ten(exponent);
+            vector[self.coordinate] = &vector[self.coordinate] + &by;
+        }
+        m
+    }
+}
+
+/// Special mechanisms with one coordinate displaced exactly, by the first to the sixteenth digit: a method is right where it is
+/// right about both.
+pub(super) fn distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    let (each, step) = if effort.quick { (1, 5) } else { (4, 1) };
+    let exponents: Vec<i32> = (-16..=-1).step_by(step).collect();
+    let drawn = (0..SpecialKind::ALL.len() * each).filter_map(|i| {
+        Special::drawn(SpecialKind::ALL[i / each], &mut Noise::new(effort.seed, i))
+    });
+    let all: Vec<Special> = Special::built_in(cases).chain(drawn).collect();
+    let study = Study {
+        name: "stability-distance",
+        title: "Distance from special geometry",
+        axis: "displacement, relative to the size of the mechanism",
+        column: "displacement",
+        values: exponents.iter().map(|&e| 10f64.powi(e)).collect(),
+        view: View::Regions,
+        advice: "Write special geometry as fractions and roots, and take auto: floating point cannot tell it from its neighbours.",
+        rows: Vec::new(),
+    };
+    let names = registry::ALL.map(MobilityMethod::name);
+    study.asked(names, all.len(), progress, |v, case| {
+        let special = &all[case];
+        let off = special.displaced(exponents[v]);
+        let pair = [
+            (&special.mechanism, StateId::FREE, special.truth[0]),
+            (&off, StateId::FREE, special.truth[1]),
+        ];
+        let ask = |m: &&dyn MobilityMethod| Reply::of_method(*m, &pair);
+        registry::ALL.iter().map(ask).collect()
+    })
+}
+
+/// The size of mechanisms of [`SpecialKind`].
+const SIZE: f64 = 2.0;
+
+/// Special mechanisms of so many decimals with one joint off: below half a unit of the last digit the special geometry is true,
+/// above one and a half the offset; between them the digits allow both.
+pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
+    let (each, decimals): (usize, &[i32]) = if effort.quick {
+        (1, &[4, 9])
+    } else {
+        (6, &[3, 6, 9, 12])
+    };
+    let leads = [1.0, 1.6, 2.0, 3.0, 4.0, 5.0];
+    let offsets: Vec<f64> = (-14..=0)
+        .flat_map(|e| leads.map(|lead| lead * 10f64.powi(e)))
+        .collect();
+    let study = Study {
+        name: "stability-digits",
+        title: "Digits and offsets",
+        axis: "offset of one joint, relative to the size of the mechanism",
+        column: "offset",
+        values: offsets.iter().map(|o| o / SIZE).collect(),
+        view: View::Shares,
+        advice: "Write so many digits that an offset that matters is three units of the last one or more.",
+        rows: Vec::new(),
+    };
+    let names = decimals.iter().map(|d| format!("{d} decimals"));
+    study.asked(
+        names,
+        SpecialKind::ALL.len() * each * 2,
+        progress,
+        |v, case| {
+            let (kind, turned) = (SpecialKind::ALL[case / 2 / each], case % 2 == 1);
+            let ask = |&d: &i32| {
+                let units = offsets[v] * 10f64.powi(d);
+                let near = (0.09..0.49).contains(&units) || (1.5..11.0).contains(&units);
+                let far = v.is_multiple_of(leads.len()) && (0.009..1100.0).contains(&units);
+                if !near && (!far || (0.49..1.5).contains(&units)) {
+                    return None;
+                }
+                let mut noise = Noise::new(effort.seed, case);
+                let text = kind.text(units, d.unsigned_abs() as usize, turned, &mut noise);
+                let m = mechanism_from_str("offset.toml", &text).ok()?;
+                let found = decide(&m, StateId::FREE).ok();
+                let [w, finite] = Said::of_decision(found.as_ref(), kind.figures(units > 1.0));
+                Some(Reply::new(w.max(finite), || text))
+            };
+            decimals.iter().map(ask).collect()
+        },
+    )
+}
+
+/// Tolerances of the singular values that are asked beside.
+const TOLERANCES: [f64; 2] = [1e-9, 1e-6];
+
+/// Every built-in mechanism turned at random and rounded, judged by the mechanism as it was.
+pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    let (step, turns) = if effort.quick { (4, 1) } else { (1, 3) };
+    // Finest first: the axis ascends.
+    let decimals: Vec<i32> = (4..=16).rev().step_by(step).collect();
+    let study = Study {
+        name: "stability-rounded",
+        title: "Built-in mechanisms turned and rounded",
+        axis: "unit in the last decimal of points and axes",
+        column: "unit",
+        values: decimals.iter().map(|d| 10f64.powi(-d)).collect(),
+        view: View::Shares,
+        advice: "Give six decimals or more; no tolerance of singular values suits all digits.",
+        rows: Vec::new(),
+    };
+    let names = [
+        "W",
+        "finite mobility",
+        "W by svd at 1e-9",
+        "W by svd at 1e-6",
+    ];
+    study.asked(names, cases.len() * turns, progress, |v, i| {
+        let (case, turn) = (&cases[i / turns], i % turns);
+        let mut noise = Noise::new(effort.seed.wrapping_add(turn as u64), i / turns);
+        let m = turned_and_rounded(
+            &case.mechanism,
+            decimals[v].unsigned_abs() as usize,
+            &mut noise,
+        );
+        let found = decide(&m, case.state).ok();
+        let of = Said::of_decision(
+            found.as_ref(),
+            (case.truth.instantaneous, case.truth.finite),
+        );
+        let closure = Closure::new(&Reals, &m, case.state).ok();
+        let svd = closure.map(|c| Elimination::Svd.mobilities(&c, &TOLERANCES));
+        let svd = [0, 1].map(|n| {
+            let w = svd.as_ref().and_then(|w| w[n]);
+            Said::of(w.is_some(), false, w == Some(case.truth.instantaneous))
+        });
+        let reply = |said| {
+            Some(Reply::new(said, || {
+                format!("{}, turn {}", case.name(), turn + 1)
+            }))
+        };
+        of.into_iter().chain(svd).map(reply).collect()
+    })
+}

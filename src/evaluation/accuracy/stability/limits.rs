@@ -1,0 +1,193 @@
+//! How far methods reach: size, unit of length, order of shakiness, and how small a prime may be.
+
+use super::study::{Effort, Progress, Study, View};
+use crate::accuracy::Truth;
+use crate::accuracy::cases::Case;
+use crate::accuracy::change::{Noise, resized};
+use crate::accuracy::lattice::{self, LatticeKind, toggles};
+use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::timing::Stopwatch;
+use crate::closure::Closure;
+use crate::file::text::mechanism_from_str;
+use crate::geom::exact::ExactField;
+use crate::geom::expr::Expr;
+use crate::linalg::modp::is_prime;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::exact::modular;
+use crate::rank::method::{MobilityMethod, registry};
+use crate::rank::numeric::Elimination;
+use std::collections::HashSet;
+use std::sync::{Mutex, PoisonError};
+
+/// The figures of rows of four-bars and of lazy tongs.
+const ONE: Truth = Truth {
+    instantaneous: 1,
+    finite: 1,
+};
+
+/// Rows of four-bars and lazy tongs of 1 to 200 contours. A method that takes long is not asked about longer ones.
+pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
+    const SIZES: [u32; 10] = [1, 2, 3, 5, 10, 20, 35, 60, 100, 200];
+    const SHAPES: [LatticeKind; 2] = [LatticeKind::FourBars, LatticeKind::Scissors];
+    let (sizes, patience) = if effort.quick {
+        (&SIZES[..8], 0.1)
+    } else {
+        (&SIZES[..], 2.0)
+    };
+    let slow = Mutex::new(HashSet::new());
+    let study = Study {
+        name: "stability-size",
+        title: "Size",
+        axis: "independent contours",
+        column: "contours",
+        values: sizes.iter().map(|&k| f64::from(k)).collect(),
+        view: View::Times,
+        advice: "Beyond 30 contours take the mobility at the pose (modular): motions are not followed there.",
+        rows: Vec::new(),
+    };
+    let names = registry::ALL.map(MobilityMethod::name);
+    study.asked(names, SHAPES.len(), progress, |v, case| {
+        let m = lattice::mechanism(SHAPES[case], sizes[v] as usize);
+        let mut slow = slow.lock().unwrap_or_else(PoisonError::into_inner);
+        let ask = |method: &&dyn MobilityMethod| {
+            if slow.contains(&(method.name(), case)) {
+                return None;
+            }
+            let watch = Stopwatch {
+                clock: effort.clock,
+                repeat: if v < 4 { 5 } else { 1 },
+            };
+            let all = [(&m, StateId::FREE, ONE)];
+            let (reply, time) = watch.time(|| Reply::of_method(*method, &all));
+            if time.median > patience {
+                slow.insert((method.name(), case));
+            }
+            let seconds = time.median;
+            reply.map(|reply| Reply { seconds, ..reply })
+        };
+        registry::ALL.iter().map(ask).collect()
+    })
+}
+
+/// Mechanisms in other units: every length times 10^-6 to 10^6.
+pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    let step = if effort.quick { 3 } else { 1 };
+    let exponents: Vec<i32> = (-6..=6).step_by(step).collect();
+    let study = Study {
+        name: "stability-scale",
+        title: "Unit of length",
+        axis: "all lengths multiplied by",
+        column: "factor",
+        values: exponents.iter().map(|&e| 10f64.powi(e)).collect(),
+        view: View::Regions,
+        advice: "Any unit suits auto; for single precision take one in which the mechanism is some units large.",
+        rows: Vec::new(),
+    };
+    let names = Elimination::ALL
+        .map(|e| e.name())
+        .into_iter()
+        .chain(["modular", "auto"]);
+    let methods: Vec<_> = names.filter_map(registry::by_name).collect();
+    study.asked(
+        methods.iter().map(|m| m.name()),
+        cases.len(),
+        progress,
+        |v, case| {
+            let Case {
+                mechanism,
+                state,
+                truth,
+            } = &cases[case];
+            let m = resized(mechanism, exponents[v]);
+            let ask =
+                |method: &&dyn MobilityMethod| Reply::of_method(*method, &[(&m, *state, *truth)]);
+            methods.iter().map(ask).collect()
+        },
+    )
+}
+
+/// Rows of toggles that have one freedom at the pose and none in truth.
+pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
+    let (each, most) = if effort.quick { (1, 3) } else { (3, 6) };
+    let study = Study {
+        name: "stability-shaky",
+        title: "Order of shakiness",
+        axis: "order of shakiness",
+        column: "order",
+        values: (1..=most).map(|l| f64::from(1u32 << l)).collect(),
+        view: View::Regions,
+        advice: "Where auto leaves a range beyond the second order, the motion that is left cannot be told from none: measure it.",
+        rows: Vec::new(),
+    };
+    let truth = Truth { finite: 0, ..ONE };
+    let names = registry::ALL.map(MobilityMethod::name);
+    study.asked(names, each, progress, |v, case| {
+        let text = toggles(v + 1, &mut Noise::new(effort.seed, 100 * (v + 1) + case));
+        let m = mechanism_from_str("toggles.toml", &text).expect("a generated file is valid");
+        let ask =
+            |method: &&dyn MobilityMethod| Reply::of_method(*method, &[(&m, StateId::FREE, truth)]);
+        registry::ALL.iter().map(ask).collect()
+    })
+}
+
+/// The contours of the rows of four-bars whose points are drawn at random.
+const CONTOURS: u32 = 3;
+
+/// The rank modulo a random prime of 8 to 61 bits: of a row of four-bars whose points are drawn at random, and of built-in
+/// mechanisms of rational coordinates. A minor of the former is of degree 2 a contour in the points, which the bound of Schwartz
+/// and Zippel speaks of.
+pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    const BITS: [u32; 10] = [8, 10, 12, 14, 16, 20, 24, 32, 48, 61];
+    let chain = lattice::mechanism(LatticeKind::FourBars, CONTOURS as usize);
+    let largest = ExactField::of_prime((1 << 61) - 1);
+    let rational = |c: &&Case| Closure::new(&largest, &c.mechanism, c.state).is_ok();
+    let cases: Vec<&Case> = cases.iter().filter(rational).collect();
+    let study = Study {
+        name: "stability-prime",
+        title: "Size of the prime",
+        axis: "bits of the prime",
+        column: "bits",
+        values: BITS.map(f64::from).to_vec(),
+        view: View::Errors(2 * CONTOURS),
+        advice: "Nothing: primes near 2^61 cost no more time than small ones, and err in fewer than one of 10^17 cases.",
+        rows: Vec::new(),
+    };
+    let each = if effort.quick { 500 } else { 10_000 };
+    study.asked(
+        ["random points", "built-in mechanisms"],
+        each,
+        progress,
+        |v, i| {
+            let mut noise = Noise::new(effort.seed, 64 * i + v);
+            let prime = loop {
+                let drawn = 1 | 1 << (BITS[v] - 1) | noise.whole(BITS[v]).unsigned_abs();
+                if is_prime(drawn) {
+                    break drawn;
+                }
+            };
+            let exact = ExactField::of_prime(prime);
+            let ask = |m: &Mechanism, state, w: i64| {
+                // A divisor may vanish: the program then takes another prime.
+                let begun = (effort.clock)();
+                let closure = Closure::new(&exact, m, state).ok()?;
+                let free = closure.columns.len() - modular::rank(&exact, &closure);
+                let seconds = ((effort.clock)() - begun).as_secs_f64();
+                let said = Said::of(true, true, i64::try_from(free) == Ok(w));
+                let reply = Reply::new(said, || format!("{} modulo {prime}", m.name));
+                Some(Reply { seconds, ..reply })
+            };
+            let mut drawn = chain.clone();
+            for joint in &mut drawn.joints {
+                let [x, y, _] = &mut joint.frame.point;
+                [x, y]
+                    .into_iter()
+                    .for_each(|x| *x = Expr::from(noise.whole(61)));
+            }
+            let case = cases.get(i % cases.len().max(1));
+            vec![
+                ask(&drawn, StateId::FREE, 1),
+                case.and_then(|c| ask(&c.mechanism, c.state, c.truth.instantaneous)),
+            ]
+        },
+    )
+}
