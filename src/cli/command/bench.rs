@@ -1,5 +1,6 @@
 //! `ozols bench`.
 
+use crate::accuracy::lattice::ladder;
 use crate::accuracy::searching::record::Trial;
 use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, record, trial};
@@ -27,7 +28,7 @@ enum BenchFormat {
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Bench {
-    /// Paths or names of built-in mechanisms; six built-in ones by default.
+    /// Paths or names of built-in mechanisms; six built-in ones and a planar ladder of eight contours by default.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     files: Vec<Named>,
     #[command(flatten)]
@@ -116,7 +117,8 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     let (mechanisms, mut well) = load::each(files, &a.loops);
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();
-    for (_, m) in &mechanisms {
+    let ladder = a.files.is_empty().then(|| ladder(8));
+    for m in mechanisms.iter().map(|(_, m)| m).chain(&ladder) {
         match asked.run(m, &mut bar) {
             Ok(found) => trials.push(found),
             Err(e) => {
@@ -131,7 +133,11 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     }
     let machine = machine::machine();
     if let Some(folder) = &a.output {
-        output::files(folder, pictures::files(&trials, &machine))?;
+        let made = format!(
+            "Made by: {}. On {machine}.",
+            std::env::args().collect::<Vec<_>>().join(" ")
+        );
+        output::files(folder, pictures::files(&trials, &machine, &made))?;
     }
     output::to(None, |out| {
         match a.format {

@@ -15,6 +15,7 @@ pub use ground_truth::TrialEffort;
 
 use super::timing::{Stopwatch, Timing};
 use crate::model::mechanism::Mechanism;
+use crate::score::outcome::Outcome;
 use crate::score::request::{Check, List, Method, Request};
 use crate::score::run::RunError;
 use crate::search::check::brute::Matrices;
@@ -22,12 +23,13 @@ use crate::search::check::brute_float::Approximate;
 use crate::search::check::pruned::Pruned;
 use crate::search::diagram::Stop;
 use ground_truth::{Truth, listed};
+use num_traits::ToPrimitive;
 use rayon::prelude::*;
 use record::{Record, Trial};
 use search_method::Way;
 use std::hint::black_box;
 
-/// The built-in mechanisms that are looked at unless others are named: few variants and many, special geometry, coupled
+/// The built-in mechanisms that are looked at unless others are named, beside a planar ladder whose diagram does not fit: few variants and many, special geometry, coupled
 /// joints, planar mode, loads to rank by.
 pub const MECHANISMS: [&str; 6] = [
     "gripper-10",
@@ -122,6 +124,7 @@ fn by_diagram(
         counts: None,
         best: truth.best_right(&list)?,
         variants: truth.variants_right(&judged),
+        bracket: bracket(&outcome),
     };
     if !way.only_names() {
         let mut unranked = mechanism.clone();
@@ -191,7 +194,20 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
         counts: cells.and_then(|c| truth.counts_right(&c)),
         best,
         variants: truth.variants_right(&judged),
+        bracket: None,
     })
+}
+
+/// The nodes of a search that was stopped, and the width of its bracket of the determinate variants in per cent of the estimate.
+fn bracket(outcome: &Outcome) -> Option<(f64, f64)> {
+    let estimate = outcome.estimates()[0]?;
+    let nodes = outcome.diagrams.as_ref()?.determinate.nodes;
+    let [least, most] = estimate.between;
+    let least = least.max(outcome.determinate.total.to_f64()?);
+    Some((
+        f64::from(u32::try_from(nodes).ok()?),
+        100.0 * (most - least).max(0.0) / estimate.mean,
+    ))
 }
 
 /// The time of all branches of a search that prunes, or of some in proportion to all: those below beginnings drawn at random,

@@ -2,7 +2,7 @@
 
 use crate::accuracy::AnswerVerdict;
 use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
-use crate::accuracy::searching::pictures::{ranking, wrong};
+use crate::accuracy::searching::pictures::{USE_WHEN, ranking, wrong};
 use crate::accuracy::searching::record::{Record, Share, Trial, TrialRow, rows};
 use crate::accuracy::stability::Study;
 use crate::accuracy::survey::{Case, Survey};
@@ -112,8 +112,9 @@ pub fn bench_text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> St
         "once"
     };
     let clock = machine.time();
+    let when = USE_WHEN.join("\n");
     out + &fit(
-        &format!("Times are {clock}, {times}; on {machine}.\n"),
+        &format!("{when}\n\nTimes are {clock}, {times}; on {machine}.\n"),
         width,
     )
 }

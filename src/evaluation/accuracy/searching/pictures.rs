@@ -1,134 +1,143 @@
 //! Ways of searching as pictures, and what they show in words.
 
-use super::record;
-use super::record::{Record, Share, Trial};
+use super::record::{self, Record, Share, Trial};
+use super::search_method::Way;
 use crate::accuracy::timing::Machine;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
-use crate::format::{duration, grouped, list};
-use crate::score::outcome::pareto::front;
+use crate::format::{figure, grouped, list};
 
-/// A way with its median time in seconds and how often it is right.
-type Point<'a> = (&'a Record, f64, Share);
+/// Which way to take, in three lines.
+pub const USE_WHEN: [&str; 3] = [
+    "Where the diagram fits into --nodes, take it whole: its counts are exact, and --check prime proves them over a second prime.",
+    "Where it does not, a search that is stopped gives a bracket of the counts: raise --nodes to narrow it.",
+    "For a ranking leave --pool to its default: the cheapest 20,000 are scored, and then all that could still win.",
+];
 
-/// What a chart shows: its title, the axes' labels, and a sentence.
-struct ChartWords {
-    title: String,
-    time: String,
-    wrong: String,
-    why: String,
+/// A kind of ways with how many times the time of the whole diagram each takes, and its wrong answers in per cent.
+type Kind = (&'static str, Vec<(f64, f64)>);
+
+/// The kinds of ways over some trials.
+fn kinds(trials: &[Trial]) -> Vec<Kind> {
+    let mut kinds: Vec<Kind> = Vec::new();
+    for trial in trials {
+        let whole = trial.records.iter().find(|r| r.way.is_whole());
+        for record in &trial.records {
+            let names = record.way.only_names();
+            let time = |r: &Record| if names { r.naming } else { r.counting };
+            let times = whole.and_then(time).zip(time(record));
+            let share = match record.way {
+                Way::Pool(_) => record.best,
+                _ => Some(record.variants),
+            };
+            let (Some((of, time)), Some(share)) = (times, share) else {
+                continue;
+            };
+            let point = (time.median / of.median, share.percent_wrong());
+            let name = record.way.kind();
+            match kinds.iter_mut().find(|k| k.0 == name) {
+                Some(kind) => kind.1.push(point),
+                None => kinds.push((name, vec![point])),
+            }
+        }
+    }
+    kinds
 }
 
-fn chart(words: ChartWords, points: &[Point<'_>], machine: &Machine) -> Chart {
-    let places: Vec<_> = points
-        .iter()
-        .map(|(_, t, s)| (*t, -s.percent_wrong()))
-        .collect();
-    let front: Vec<_> = front(&places).into_iter().map(|i| points[i]).collect();
-    // Nothing is right before the fastest.
-    let first = front.first().map(|(_, t, _)| (*t, 100.0));
-    let rest = front.iter().map(|(_, t, s)| (*t, s.percent_wrong()));
-    let mut steps: Vec<(f64, f64)> = first.into_iter().chain(rest).collect();
-    let slowest = points.iter().map(|p| p.1).fold(0.0, f64::max);
-    if let Some(&(_, share)) = steps.last() {
-        steps.push((slowest, share));
-    }
-    let name = |(r, t, s): &Point<'_>| {
-        if s.right == s.of {
-            format!("{} (none wrong, {})", r.way, duration(*t))
-        } else {
-            format!(
-                "{} ({:.1} % wrong, {})",
-                r.way,
-                s.percent_wrong(),
-                duration(*t)
-            )
-        }
-    };
-    let names: Vec<String> = front.iter().map(name).collect();
-    let mut series = vec![Series {
-        name: "Pareto front".to_owned(),
-        points: steps,
-        style: Style::Steps,
-    }];
-    series.extend(points.iter().map(|(r, t, s)| Series {
-        name: r.way.to_string(),
-        points: vec![(*t, s.percent_wrong())],
+/// Every way on every mechanism: its wrong answers against its time, beside those of the whole diagram over one prime.
+#[must_use]
+pub fn overview(trials: &[Trial], machine: &Machine) -> Chart {
+    let series = kinds(trials).into_iter().map(|(name, points)| Series {
+        name: name.to_owned(),
+        points,
         style: Style::Points,
-    }));
-    // A decade below one of all, so that nothing wrong stands apart from a little.
-    let most = points.iter().map(|p| p.2.of).max().unwrap_or(1);
-    let decade = i32::try_from(most.max(1).ilog10()).unwrap_or(0);
+    });
     Chart {
-        title: words.title,
+        title: "Ways of searching: wrong answers against time".to_owned(),
         subtitle: format!(
-            "No way is both faster and less often wrong than {}. {} On {machine}.",
-            list(&names),
-            words.why
+            "A point for each way and mechanism: of the variants looked at those judged wrongly, of a pool the best that it misses. \
+             On {machine}."
         ),
         x: Axis {
-            label: words.time,
+            label: format!(
+                "{}, the whole diagram over one prime being 1",
+                machine.time()
+            ),
             scale: Scale::Log,
         },
         y: Axis {
-            label: words.wrong,
-            scale: Scale::LogAndZero(1 - decade),
+            label: "wrong, %".to_owned(),
+            scale: Scale::LogAndZero(-2),
         },
-        series,
+        series: series.collect(),
     }
 }
 
-/// The share of wrong counts against the time of counting; of ways that give counts.
+/// Which kinds of ways are never wrong, how wrong others are at most, and how long each takes.
 #[must_use]
-pub fn counts(trial: &Trial, machine: &Machine) -> Option<Chart> {
-    let given = trial.records.iter();
-    let points: Vec<_> = given
-        .filter_map(|r| Some((r, r.counting?.median, r.counts?)))
-        .collect();
-    let words = ChartWords {
-        title: format!("{}: wrong counts against time", trial.mechanism),
-        time: format!("{} of counting, s", machine.time()),
-        wrong: "wrong counts, %".to_owned(),
-        why: "Counts of determinate and of admissible variants, by W and number of changes."
-            .to_owned(),
-    };
-    (!points.is_empty()).then(|| chart(words, &points, machine))
+pub fn conclusion(trials: &[Trial]) -> String {
+    let told = kinds(trials).into_iter().map(|(name, points)| {
+        let ends = |of: fn(&(f64, f64)) -> f64| {
+            let values = || points.iter().map(of);
+            [
+                values().fold(f64::INFINITY, f64::min),
+                values().fold(0.0, f64::max),
+            ]
+        };
+        let ([least, most], [_, wrong]) = (ends(|p| p.0), ends(|p| p.1));
+        let wrong = if wrong > 0.0 {
+            format!("wrong in up to {wrong:.1} %")
+        } else {
+            "never wrong".to_owned()
+        };
+        let [least, most] = [least, most].map(figure);
+        format!("{name} {wrong}, in {least} to {most} times the time of the whole diagram")
+    });
+    format!("{}.", told.collect::<Vec<_>>().join("; "))
 }
 
-/// The share of variants that are judged wrongly against the time for all, where brute force cannot look at all; elsewhere
-/// the counts say as much.
+/// The width of the bracket of the determinate variants against the budget of nodes, of searches that are stopped; none where none is.
 #[must_use]
-pub fn variants(trial: &Trial, machine: &Machine) -> Option<Chart> {
-    let given = trial.records.iter();
-    let points: Vec<_> = given
-        .filter_map(|r| Some((r, r.counting?.median, r.variants)))
-        .collect();
-    let words = ChartWords {
-        title: format!("{}: variants judged wrongly against time", trial.mechanism),
-        time: format!("{} for all variants, s", machine.time()),
-        wrong: format!("of {} variants judged wrongly, %", grouped(trial.looked)),
-        why: "What looks at variants one by one looked at some; its time is in proportion to all."
-            .to_owned(),
+pub fn brackets(trials: &[Trial], machine: &Machine) -> Option<Chart> {
+    let of = |trial: &Trial| {
+        let stopped = trial.records.iter();
+        let mut points: Vec<(f64, f64)> = stopped.filter_map(|r| r.bracket).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup();
+        (!points.is_empty()).then(|| Series {
+            name: trial.mechanism.clone(),
+            points,
+            style: Style::Line,
+        })
     };
-    (!trial.whole).then(|| chart(words, &points, machine))
-}
-
-/// The share of wrong ones among the best against the time of naming them; none where no way names any.
-#[must_use]
-pub fn best(trial: &Trial, machine: &Machine) -> Option<Chart> {
-    let named = trial.records.iter();
-    let points: Vec<_> = named
-        .filter_map(|r| Some((r, r.naming?.median, r.best?)))
-        .collect();
-    let words = ChartWords {
-        title: format!(
-            "{}: wrong among the best {} against time",
-            trial.mechanism, trial.top
+    let series: Vec<Series> = trials.iter().filter_map(of).collect();
+    (!series.is_empty()).then(|| Chart {
+        title: "Searches that are stopped: width of the bracket against the budget".to_owned(),
+        subtitle: format!(
+            "The determinate variants that are counted, or the least that the estimate does not contradict with 95 % confidence, to the \
+             most. On {machine}."
         ),
-        time: format!("{} of counting and naming the best, s", machine.time()),
-        wrong: "wrong among the best, %".to_owned(),
-        why: ranking(trial).unwrap_or_else(|| "The order is that of cost.".to_owned()),
-    };
-    (!points.is_empty()).then(|| chart(words, &points, machine))
+        x: Axis {
+            label: "nodes of the diagram".to_owned(),
+            scale: Scale::Log,
+        },
+        y: Axis {
+            label: "width of the bracket, % of the estimate".to_owned(),
+            scale: Scale::LogAndZero(-3),
+        },
+        series,
+    })
+}
+
+/// How wide the bracket of each stopped search is, in words.
+fn bracket_sentence(chart: &Chart) -> String {
+    let told = chart.series.iter().map(|s| {
+        let each = s
+            .points
+            .iter()
+            .map(|(nodes, width)| format!("{} % by {} nodes", figure(*width), figure(*nodes)));
+        format!("{}: {}", s.name, list(&each.collect::<Vec<_>>()))
+    });
+    format!("{}.", told.collect::<Vec<_>>().join("; "))
 }
 
 /// What a ranking is judged by.
@@ -174,25 +183,28 @@ pub fn wrong(trial: &Trial) -> String {
     }
 }
 
-/// Names and texts of every file, `index.html` last, so that it is there only once all that it shows is.
+/// Names and texts of every file, `index.html` last, so that it is there only once all that it shows is; `made` says how.
 #[must_use]
-pub fn files(trials: &[Trial], machine: &Machine) -> Vec<(String, String)> {
+pub fn files(trials: &[Trial], machine: &Machine, made: &str) -> Vec<(String, String)> {
     let mut files = vec![("searches.csv".to_owned(), record::csv(trials))];
-    let mut parts = Vec::new();
-    for (n, trial) in trials.iter().enumerate() {
-        let plain = |c: char| if c.is_alphanumeric() { c } else { '-' };
-        let name: String = trial.mechanism.chars().map(plain).collect();
-        let charts = [
-            ("counts", counts(trial, machine), wrong(trial)),
-            ("variants", variants(trial, machine), String::new()),
-            ("best", best(trial, machine), String::new()),
-        ];
-        for (what, chart, sentence) in charts {
-            let Some(chart) = chart else { continue };
-            files.push((format!("{}-{name}-{what}.svg", n + 1), chart.svg()));
-            parts.push((chart.title.clone(), sentence, chart.svg()));
-        }
+    let each = trials.iter().map(|t| {
+        let ranked = ranking(t).map_or_else(String::new, |r| format!(" {r}"));
+        format!("{}: {}{ranked}", t.mechanism, wrong(t))
+    });
+    let found = each.collect::<Vec<_>>().join(" ");
+    let how = "How this was made".to_owned();
+    let mut parts = vec![(how, made.to_owned(), String::new())];
+    let told = format!("{} {}", conclusion(trials), USE_WHEN.join(" "));
+    let brackets = brackets(trials, machine).map(|c| ("brackets", bracket_sentence(&c), c));
+    for (name, sentence, chart) in [("overview", told, overview(trials, machine))]
+        .into_iter()
+        .chain(brackets)
+    {
+        let link = "<p><a href=\"searches.csv\">searches.csv</a></p>";
+        parts.push((chart.title.clone(), sentence, chart.svg() + link));
+        files.push((format!("{name}.svg"), chart.svg()));
     }
+    parts.push(("Mechanism by mechanism".to_owned(), found, String::new()));
     files.push((
         "index.html".to_owned(),
         page("Ways of searching: accuracy against speed", &parts),

@@ -42,6 +42,8 @@ pub struct Record {
     pub best: Option<Share>,
     /// Variants looked at one by one that it judges rightly.
     pub variants: Share,
+    /// Nodes of a search that was stopped, and how wide its bracket of the determinate variants is, in per cent of the estimate.
+    pub bracket: Option<(f64, f64)>,
 }
 
 /// Every way of searching one mechanism.
@@ -87,6 +89,7 @@ pub struct TrialRow<'a> {
     naming_least_seconds: Option<f64>,
     naming_most_seconds: Option<f64>,
     naming_repeats: Option<usize>,
+    bracket_percent: Option<f64>,
 }
 
 impl<'a> TrialRow<'a> {
@@ -112,6 +115,7 @@ impl<'a> TrialRow<'a> {
             naming_least_seconds: record.naming.map(|t| t.least),
             naming_most_seconds: record.naming.map(|t| t.most),
             naming_repeats: record.naming.map(|t| t.repeats),
+            bracket_percent: record.bracket.map(|b| b.1),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::rank::method::MobilityMethod;
 use crate::rank::numeric::Elimination;
-use crate::score::request::{Check, Request};
+use crate::score::request::{Check, POOL, Request};
 use std::fmt;
 
 /// A way of searching.
@@ -28,8 +28,8 @@ pub(super) fn all(nodes: usize, pool: Option<usize>) -> Vec<Way> {
     let mut ways = [Check::None, Check::Prime, Check::Full]
         .map(Way::Diagram)
         .to_vec();
-    ways.extend([3, 2, 1].map(|quarters| Way::Nodes((nodes * quarters / 4).max(1))));
-    let pools = [10, 100, 1000, 10_000].into_iter();
+    ways.extend([2, 8, 32].map(|part| Way::Nodes((nodes / part).max(1))));
+    let pools = [10, 100, 1000, 10_000, POOL].into_iter();
     ways.extend(
         pools
             .filter(|p| pool.is_some_and(|most| *p < most))
@@ -53,6 +53,23 @@ impl Way {
         request
     }
 
+    /// Whether it is what others are compared with: the whole diagram over one prime.
+    pub(super) fn is_whole(self) -> bool {
+        self == Way::Diagram(Check::None)
+    }
+
+    /// What kind of way it is.
+    pub(super) fn kind(self) -> &'static str {
+        match self {
+            Way::Diagram(_) => "whole diagram",
+            Way::Nodes(_) => "stopped by --nodes, with an estimate",
+            Way::Pool(_) => "ranked --pool",
+            Way::Pruned => "pruned",
+            Way::Brute => "brute force",
+            Way::Float(_) => "brute force, floating point",
+        }
+    }
+
     /// Whether it counts as another way does, and differs in how the best are found or checked alone.
     #[must_use]
     pub(crate) fn only_names(self) -> bool {
@@ -72,7 +89,7 @@ impl Way {
             Way::Diagram(Check::None) => "the diagram over one prime, --check none",
             Way::Diagram(Check::Prime) => "over two primes, --check prime",
             Way::Diagram(Check::Full) => "and each of the best by singular values, --check full",
-            Way::Nodes(_) => "one prime, with a budget of --nodes",
+            Way::Nodes(_) => "one prime, with a budget of --nodes, and an estimate of what is cut",
             Way::Pool(_) => "one prime, with a --pool to rank",
             Way::Pruned => {
                 "depth first, leaving out what cannot become determinate, modulo a prime"
@@ -90,6 +107,7 @@ impl fmt::Display for Way {
             Way::Diagram(Check::Prime) => write!(f, "two primes"),
             Way::Diagram(Check::Full) => write!(f, "full check"),
             Way::Nodes(n) => write!(f, "{n} nodes"),
+            Way::Pool(POOL) => write!(f, "pool of {POOL}, the default"),
             Way::Pool(n) => write!(f, "pool of {n}"),
             Way::Pruned => write!(f, "pruned"),
             Way::Brute => write!(f, "brute force"),
