@@ -1,5 +1,8 @@
 //! Points moved as little as may be, in errors of their digits, so that linear relations hold; each relation is taken only if all
 //! taken so far still hold with no coordinate moved by more than its digits allow.
+//!
+//! Most relations follow from a few others, and most hold as they are written. So what rows tell is kept in reduced echelon form, which
+//! has few entries; the orthonormal directions, which have many, are made of rows when points are to be moved, and not before.
 
 use super::relations::Relation;
 use super::solve::PointEquation;
@@ -24,6 +27,13 @@ const BEYOND: f64 = 1.6;
 const SLACK: f64 = 0.01;
 /// A relation is told by others where so little of it is left.
 const DEPENDENT: f64 = 1e-7;
+/// A row that is off by no more than this, in errors, holds as it is.
+const HOLDS: f64 = 1e-7;
+/// What is left of numbers that cancel.
+const ROUND_OFF: f64 = 1e-12;
+
+/// Coordinates, in errors, with their coefficients; ascending, and none is zero.
+type Sparse = Vec<(usize, f64)>;
 
 /// Points on the way to where relations hold.
 pub(super) struct Projection<'a> {
@@ -33,8 +43,12 @@ pub(super) struct Projection<'a> {
     errors: &'a [Vector],
     /// The displacement of a point that its digits allow, nearest to one that is wished for.
     clipped: &'a dyn Fn(usize, Vector) -> Vector,
-    /// Orthonormal directions that are decided, in errors.
-    basis: Vec<Vec<f64>>,
+    /// Orthonormal directions that the first of the rows decide, in errors; empty where rounding left nothing of one.
+    basis: Vec<Sparse>,
+    /// For each coordinate that the rows tell, what it is in those that they leave free.
+    told: Vec<Option<Sparse>>,
+    /// What `told` was before a relation that may yet be refused.
+    before: Vec<(usize, Option<Sparse>)>,
     /// Independent relations taken.
     pub(super) rows: Vec<PointEquation>,
     /// Sum of squares of moves, in errors.
@@ -51,6 +65,8 @@ impl<'a> Projection<'a> {
     ) -> Projection<'a> {
         Projection {
             start: points.clone(),
+            told: vec![None; 3 * points.len()],
+            before: Vec::new(),
             points,
             errors,
             clipped,
@@ -74,32 +90,19 @@ impl<'a> Projection<'a> {
 
     /// Whether small moves of points in these directions are decided by what is taken.
     pub(super) fn implies(&self, gradients: &[(usize, Vector)]) -> bool {
-        let mut a: Vec<(usize, f64)> = Vec::with_capacity(3 * gradients.len());
-        for (p, g) in gradients {
-            for (k, (g, error)) in g.iter().zip(self.errors[*p]).enumerate() {
-                let (at, by) = (3 * p + k, g * error);
-                match a.iter_mut().find(|x| x.0 == at) {
-                    Some(x) => x.1 += by,
-                    None => a.push((at, by)),
-                }
-            }
-        }
-        let square: f64 = a.iter().map(|x| x.1 * x.1).sum();
-        // The basis is orthonormal, so what is left is what its parts leave of the square.
-        let parts = self
-            .basis
-            .iter()
-            .map(|b| a.iter().map(|(at, x)| x * b[*at]).sum::<f64>());
-        let left = square - parts.map(|p| p * p).sum::<f64>();
-        left <= 1e-12 * square
+        let a = self.weighted(gradients.iter().copied());
+        norm(&self.free_of(&a)) <= 1e-6 * norm(&a)
     }
 
-    /// The move that a row asks for now, in errors; none where it is decided by what is taken.
+    /// The move that a row asks for now, in errors; none where it is decided by what is taken. The directions have to be made.
     pub(super) fn asks(&self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
-        let (a, before) = self.across(row, normals);
-        let left = norm(&a);
-        (left > DEPENDENT * before && before > 0.0)
-            .then(|| (self.residue(row, normals) / left).abs())
+        let a = self.gradient(row, normals);
+        let before = norm(&a);
+        if norm(&self.free_of(&a)) <= DEPENDENT * before {
+            return None;
+        }
+        let left = norm(&self.across(&a));
+        (left > DEPENDENT * before).then(|| (self.residue(row, normals) / left).abs())
     }
 
     /// Takes the relations that hold together within the digits, those refused once more at the end; gives those with what
@@ -111,44 +114,49 @@ impl<'a> Projection<'a> {
     ) -> Vec<(Relation, Taken)> {
         let each = |r: Relation| {
             let became = self.take(&r.rows, normals);
-            (r, became)
+            (r, became, self.rows.len())
         };
-        let mut out: Vec<(Relation, Taken)> = found.into_iter().map(each).collect();
+        let mut out: Vec<(Relation, Taken, usize)> = found.into_iter().map(each).collect();
         // What was too far may be near now that others hold.
-        for (r, became) in &mut out {
-            if *became == Taken::Refused {
+        for (r, became, rows) in &mut out {
+            if *became == Taken::Refused && *rows < self.rows.len() {
                 *became = self.take(&r.rows, normals);
             }
         }
-        out
+        out.into_iter().map(|(r, became, _)| (r, became)).collect()
     }
 
     /// Takes rows all together or not at all.
     pub(super) fn take(&mut self, rows: &[PointEquation], normals: &[Vector]) -> Taken {
-        let limit = self.bold * limit(rows.len());
-        let (points, basis, taken, square) = (
-            self.points.clone(),
-            self.basis.len(),
-            self.rows.len(),
-            self.square,
-        );
+        // What is taken decides most rows: whether they hold is seen without moving a point.
+        let told: Vec<Option<bool>> = rows.iter().map(|r| self.is_told(r, normals)).collect();
+        if told.contains(&Some(false)) {
+            return Taken::Refused;
+        }
+        if !told.contains(&None) {
+            return Taken::Implied;
+        }
+        let most = (self.bold * limit(rows.len())).powi(2);
+        let (points, taken, square) = (self.points.clone(), self.rows.len(), self.square);
         let mut moved = 0.0;
         for row in rows {
-            match self.put(row, normals) {
-                Some(by) => moved += by,
-                None => {
-                    moved = f64::INFINITY;
-                    break;
-                }
+            moved += self.put(row, normals, most).unwrap_or(f64::INFINITY);
+            if moved > most {
+                break;
             }
         }
         let touched = self.rows.len() > taken;
         let by_chance = self.square <= self.bold.powi(2) * most_by_chance(self.rows.len());
-        if moved <= limit * limit && (!touched || (by_chance && self.relax())) {
+        let is_taken = moved <= most && (!touched || (by_chance && self.relax(normals)));
+        let changed = std::mem::take(&mut self.before);
+        if is_taken {
             return if touched { Taken::New } else { Taken::Implied };
         }
+        for (i, of) in changed.into_iter().rev() {
+            self.told[i] = of;
+        }
         self.points = points;
-        self.basis.truncate(basis);
+        self.basis.truncate(taken);
         self.rows.truncate(taken);
         self.square = square;
         Taken::Refused
@@ -157,7 +165,7 @@ impl<'a> Projection<'a> {
     /// Moves points, what is taken kept, to where the digits of all allow it; false where they get no nearer to that.
     ///
     /// Alternating projections: to the box of the digits, and back to where all rows hold.
-    fn relax(&mut self) -> bool {
+    fn relax(&mut self, normals: &[Vector]) -> bool {
         let mut last = f64::INFINITY;
         for round in 0..ROUNDS {
             let mut by = vec![0.0; 3 * self.points.len()];
@@ -185,12 +193,8 @@ impl<'a> Projection<'a> {
                 }
                 last = over;
             }
-            for b in &self.basis {
-                let part: f64 = by.iter().zip(b).map(|(x, y)| x * y).sum();
-                if part != 0.0 {
-                    by.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
-                }
-            }
+            self.make_basis(normals);
+            self.subtract_decided(&mut by);
             for (p, point) in self.points.iter_mut().enumerate() {
                 for k in 0..3 {
                     point[k] += by[3 * p + k] * self.errors[p][k];
@@ -200,59 +204,156 @@ impl<'a> Projection<'a> {
         false
     }
 
-    /// A row in errors, without what is decided, and how large it was with it.
-    fn across(&self, row: &PointEquation, normals: &[Vector]) -> (Vec<f64>, f64) {
-        let n = normals[row.normal];
-        let mut a = vec![0.0; 3 * self.points.len()];
-        for &(p, c) in &row.terms {
-            for k in 0..3 {
-                a[3 * p + k] += f64::from(c) * n[k] * self.errors[p][k];
-            }
-        }
-        let before = norm(&a);
-        for _ in 0..2 {
-            for b in &self.basis {
-                let part: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
-                if part != 0.0 {
-                    a.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
-                }
-            }
-        }
-        (a, before)
+    /// Directions of points in errors, without coordinates that must stay.
+    fn weighted(&self, of: impl IntoIterator<Item = (usize, Vector)>) -> Sparse {
+        let each = of.into_iter().flat_map(|(p, g)| {
+            let by = |k: usize| (3 * p + k, g[k] * self.errors[p][k]);
+            [0, 1, 2].map(by)
+        });
+        added(each.filter(|x| x.1 != 0.0).collect())
     }
 
-    /// Puts one row, and gives the square of the move; none where it contradicts those taken.
-    fn put(&mut self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
-        let (mut a, before) = self.across(row, normals);
-        let residue = self.residue(row, normals);
-        let scale: f64 = row
-            .terms
-            .iter()
-            .map(|&(p, c)| {
-                f64::from(c.abs()) * self.points[p].iter().fold(0.0, |m: f64, x| m.max(x.abs()))
-            })
-            .sum();
-        let round_off = 1e-14 * scale;
-        if before == 0.0 {
-            return (residue.abs() <= round_off).then_some(0.0);
-        }
-        let left = norm(&a);
-        if left < DEPENDENT * before {
-            // Of what follows from others nothing is left but rounding.
-            return (residue.abs() <= round_off + 1e-5 * before).then_some(0.0);
-        }
-        let step = residue / left;
-        a.iter_mut().for_each(|x| *x /= left);
-        for (p, point) in self.points.iter_mut().enumerate() {
-            for k in 0..3 {
-                point[k] -= step * a[3 * p + k] * self.errors[p][k];
+    /// A row in errors.
+    fn gradient(&self, row: &PointEquation, normals: &[Vector]) -> Sparse {
+        let n = normals[row.normal];
+        let terms = row.terms.iter();
+        self.weighted(terms.map(|&(p, c)| (p, n.map(|x| f64::from(c) * x))))
+    }
+
+    /// Returns what is left of a direction in the coordinates that are free.
+    fn free_of(&self, a: &[(usize, f64)]) -> Sparse {
+        let mut out = Sparse::new();
+        for &(i, x) in a {
+            match &self.told[i] {
+                Some(of) => out.extend(of.iter().map(|&(j, y)| (j, x * y))),
+                None => out.push((i, x)),
             }
         }
-        self.basis.push(a);
+        added(out)
+    }
+
+    /// Notes what a row tells that is independent of those before, by its gradient in the free coordinates.
+    fn tell(&mut self, free: &[(usize, f64)]) {
+        let largest = free.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let Some(&(pivot, by)) = largest else {
+            return;
+        };
+        let others = free.iter().filter(|x| x.0 != pivot);
+        let is: Sparse = others.map(|&(i, x)| (i, -x / by)).collect();
+        for i in 0..self.told.len() {
+            let of = self.told[i].as_ref();
+            let Some(of) = of.filter(|of| of.binary_search_by_key(&pivot, |x| x.0).is_ok()) else {
+                continue;
+            };
+            let mut next = Sparse::with_capacity(of.len() + is.len());
+            for &(j, x) in of {
+                match j == pivot {
+                    true => next.extend(is.iter().map(|&(k, y)| (k, x * y))),
+                    false => next.push((j, x)),
+                }
+            }
+            self.before.push((i, self.told[i].replace(added(next))));
+        }
+        self.before.push((pivot, self.told[pivot].replace(is)));
+    }
+
+    /// Whether a row holds that is decided by what is taken; none where it is not.
+    fn is_told(&self, row: &PointEquation, normals: &[Vector]) -> Option<bool> {
+        let a = self.gradient(row, normals);
+        let before = norm(&a);
+        // Of what follows from others nothing is left but rounding.
+        (before == 0.0 || norm(&self.free_of(&a)) < DEPENDENT * before)
+            .then(|| self.holds(row, normals, before))
+    }
+
+    /// Whether a row of some size holds, but for rounding.
+    fn holds(&self, row: &PointEquation, normals: &[Vector], size: f64) -> bool {
+        let farthest = |p: usize| self.points[p].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let terms = row.terms.iter();
+        let scale: f64 = terms.map(|&(p, c)| f64::from(c.abs()) * farthest(p)).sum();
+        self.residue(row, normals).abs() <= 1e-14 * scale + 1e-5 * size
+    }
+
+    /// Makes the directions of the rows that have none yet.
+    pub(super) fn make_basis(&mut self, normals: &[Vector]) {
+        while let Some(row) = self.rows.get(self.basis.len()) {
+            let a = self.gradient(row, normals);
+            let mut across = self.across(&a);
+            let left = norm(&across);
+            if left < DEPENDENT * norm(&a) {
+                across.clear();
+            }
+            across.iter_mut().for_each(|x| x.1 /= left);
+            self.basis.push(across);
+        }
+    }
+
+    /// A direction without what is decided.
+    fn across(&self, a: &[(usize, f64)]) -> Sparse {
+        let mut out = vec![0.0; 3 * self.points.len()];
+        a.iter().for_each(|&(i, x)| out[i] = x);
+        for _ in 0..2 {
+            self.subtract_decided(&mut out);
+        }
+        out.into_iter().enumerate().filter(|x| x.1 != 0.0).collect()
+    }
+
+    fn subtract_decided(&self, a: &mut [f64]) {
+        for b in &self.basis {
+            let part: f64 = b.iter().map(|&(i, y)| a[i] * y).sum();
+            if part != 0.0 {
+                b.iter().for_each(|&(i, y)| a[i] -= part * y);
+            }
+        }
+    }
+
+    /// Puts one row, and gives the square of the move; none where it contradicts those taken, or asks for more than `most` for sure.
+    fn put(&mut self, row: &PointEquation, normals: &[Vector], most: f64) -> Option<f64> {
+        if let Some(holds) = self.is_told(row, normals) {
+            return holds.then_some(0.0);
+        }
+        let a = self.gradient(row, normals);
+        let (before, free) = (norm(&a), self.free_of(&a));
+        let residue = self.residue(row, normals);
+        // Whatever is left across what is decided, it is no longer than what is left in free coordinates.
+        if (residue / norm(&free)).powi(2) > most {
+            return None;
+        }
+        let mut step = 0.0;
+        if residue.abs() > HOLDS * before {
+            self.make_basis(normals);
+            let mut across = self.across(&a);
+            let left = norm(&across);
+            if left < DEPENDENT * before {
+                return self.holds(row, normals, before).then_some(0.0);
+            }
+            step = residue / left;
+            for (i, x) in &mut across {
+                *x /= left;
+                let (p, k) = (*i / 3, *i % 3);
+                self.points[p][k] -= step * *x * self.errors[p][k];
+            }
+            self.basis.push(across);
+        }
         self.rows.push(row.clone());
+        self.tell(&free);
         self.square += step * step;
         Some(step * step)
     }
+}
+
+/// Adds up the coefficients of each coordinate; what cancels to rounding is left out.
+fn added(mut terms: Sparse) -> Sparse {
+    terms.sort_unstable_by_key(|x| x.0);
+    let mut out = Sparse::with_capacity(terms.len());
+    for of in terms.chunk_by(|a, b| a.0 == b.0) {
+        let sum: f64 = of.iter().map(|x| x.1).sum();
+        let largest = of.iter().fold(0.0, |m: f64, x| m.max(x.1.abs()));
+        if sum.abs() > ROUND_OFF * largest {
+            out.push((of[0].0, sum));
+        }
+    }
+    out
 }
 
 /// The largest move for a relation of so many rows, in errors: of more rows the chance is larger that one is far.
@@ -272,6 +373,6 @@ fn most_by_chance(rows: usize) -> f64 {
     n / 3.0 + FAR * (2.0 * n / 9.0).sqrt()
 }
 
-fn norm(a: &[f64]) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
+fn norm(a: &[(usize, f64)]) -> f64 {
+    a.iter().map(|x| x.1 * x.1).sum::<f64>().sqrt()
 }

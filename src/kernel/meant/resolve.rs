@@ -105,13 +105,14 @@ impl Doubts {
             *b == Taken::Refused
                 || (*b == Taken::Implied && !r.rows.iter().all(|w| images.holds(w)))
         };
-        let left_out = |(r, b): &&(Relation, Taken)| {
+        let left_out = |(r, _): &&(Relation, Taken)| {
             let asks = r.rows.iter().filter_map(|w| solved.asks(w, &normals.real));
             let far = asks.fold(0.0, f64::max);
-            *b == Taken::Refused && far > 0.0 && far <= LEFT_OUT
+            far > 0.0 && far <= LEFT_OUT
         };
+        let refused = became.iter().filter(|x| x.1 == Taken::Refused);
         Doubts {
-            left_out: became.iter().filter(left_out).count(),
+            left_out: refused.filter(left_out).count(),
             by_chance: became
                 .iter()
                 .filter(|(r, b)| *b == Taken::New && r.weak)
@@ -161,6 +162,9 @@ fn resolve_with(
         }
     }
     let normals = finder.normals;
+    if became.iter().any(|x| x.1 == Taken::Refused) {
+        solved.make_basis(&normals.real);
+    }
     let without = || stage.scene(&solved.rows[..plain.rows], &plain.points, &normals);
     let scene = stage
         .scene(&solved.rows, &solved.points, &normals)
