@@ -1,10 +1,11 @@
 //! Every built-in mechanism has the figures its file states, with their sources.
 
-use crate::common::built_in;
+use crate::common::{built_in, json};
 use ozols::builtin;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Elimination, Method, analyse};
 use ozols::redundancy::{StateFigures, figures};
+use serde_json::{Value, json as value};
 
 #[test]
 fn every_built_in_mechanism_has_the_figures_it_states() {
@@ -147,4 +148,32 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
             "{name}"
         );
     }
+}
+
+/// What is listed is `catalogs/list.csv`. Where this fails, mend the lines of it that differ.
+#[test]
+fn the_list_has_the_figures_of_the_files() {
+    let listed = json(&["list", "--format", "json"]);
+    let mut computed: Vec<Value> = Vec::new();
+    for (family, names) in builtin::families() {
+        for name in names {
+            let m = built_in(name);
+            for (state, word) in m.states_with_ids() {
+                let f = figures(&m, state).unwrap();
+                computed.push(value!({
+                    "name": name,
+                    "family": family,
+                    "state": word,
+                    "links": f.links,
+                    "joints": f.joints,
+                    "contours": f.contours,
+                    "freedoms": f.freedoms,
+                    "mobility": f.mobility,
+                    "redundant": f.redundant,
+                    "description": m.description,
+                }));
+            }
+        }
+    }
+    assert_eq!(listed, Value::Array(computed));
 }
