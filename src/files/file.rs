@@ -7,8 +7,6 @@ mod digits;
 pub mod disk;
 mod doubted;
 pub mod edit;
-#[doc(hidden)]
-#[doc(hidden)]
 mod lengths;
 pub mod lint;
 pub mod locate;
@@ -25,7 +23,10 @@ pub mod write;
 use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::geom::expr::{Expr, ExprError};
+use itertools::Itertools;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 
 /// A problem and the path of the item it concerns.
 pub(crate) type Finding = (Vec<DocumentStep>, ProblemKind);
@@ -37,12 +38,12 @@ pub(crate) const TOLD: usize = 100;
 /// expressions are read, so this knows the numbers that have names, too.
 #[derive(Default)]
 pub(crate) struct Findings {
-    told: Vec<Finding>,
-    more: usize,
+    told: RefCell<Vec<Finding>>,
+    more: Cell<usize>,
     /// What the file's parameters stand for.
     names: BTreeMap<String, Expr>,
     /// Those that an expression has.
-    used: BTreeSet<String>,
+    used: RefCell<BTreeSet<String>>,
 }
 
 impl Findings {
@@ -52,23 +53,12 @@ impl Findings {
     }
 
     /// The value of an expression; where `pi_is_a_number`, outside of angles, too.
-    pub(crate) fn expression(
-        &mut self,
-        text: &str,
-        pi_is_a_number: bool,
-    ) -> Result<Expr, ExprError> {
-        let (names, used) = (&self.names, &mut self.used);
+    pub(crate) fn expression(&self, text: &str, pi_is_a_number: bool) -> Result<Expr, ExprError> {
         Expr::with_names(text, pi_is_a_number, &mut |word| {
-            let found = names.get(word)?;
-            used.insert(word.to_owned());
+            let found = self.names.get(word)?;
+            self.used.borrow_mut().insert(word.to_owned());
             Some(found.clone())
         })
-    }
-
-    /// Names that no expression had so far.
-    pub(crate) fn unused(&self) -> Vec<String> {
-        let all = self.names.keys().filter(|n| !self.used.contains(*n));
-        all.cloned().collect()
     }
 
     /// The names there are.
@@ -76,41 +66,37 @@ impl Findings {
         self.names.keys().map(String::as_str)
     }
 
-    pub(crate) fn add(&mut self, path: &[DocumentStep], kind: ProblemKind) {
-        if self.told.len() < TOLD {
-            self.told.push((path.to_vec(), kind));
-        } else {
-            self.more += 1;
+    /// Tells of names that no expression had.
+    pub(crate) fn tell_unused(&self) {
+        for name in self.names().filter(|n| !self.used.borrow().contains(*n)) {
+            let at = self.at("parameter").key(name);
+            at.add(ProblemKind::UnusedParameter { name: name.into() });
         }
     }
 
-    /// The entries of a list, which has at most `limit`; the first of them where it has more.
-    pub(crate) fn at_most<'e, T>(
-        &mut self,
-        limit: usize,
-        list: &'e [T],
-        what: &'static str,
-        path: &[DocumentStep],
-    ) -> &'e [T] {
-        let count = list.len();
-        if count > limit {
-            self.add(path, ProblemKind::TooMany { what, count, limit });
-        }
-        &list[..count.min(limit)]
+    /// The file as a whole.
+    pub(crate) fn whole(&self) -> Place<'_> {
+        let path = Vec::new();
+        Place { path, out: self }
+    }
+
+    /// A key of the file.
+    pub(crate) fn at(&self, key: &str) -> Place<'_> {
+        self.whole().key(key)
     }
 
     /// How many there are.
     pub(crate) fn count(&self) -> usize {
-        self.told.len() + self.more
+        self.told.borrow().len() + self.more.get()
     }
 
     /// Those that are told.
-    pub(crate) fn told(mut self) -> Vec<Finding> {
-        if self.more > 0 {
-            let count = self.more;
-            self.told.push((Vec::new(), ProblemKind::More { count }));
+    pub(crate) fn told(self) -> Vec<Finding> {
+        let (mut told, count) = (self.told.into_inner(), self.more.get());
+        if count > 0 {
+            told.push((Vec::new(), ProblemKind::More { count }));
         }
-        self.told
+        told
     }
 
     /// What was made of the file, if nothing is wrong with it.
@@ -120,5 +106,93 @@ impl Findings {
         } else {
             Err(self.told())
         }
+    }
+}
+
+/// A place in the file. What stands there is read by the methods, and what is wrong with it is told.
+#[derive(Clone)]
+pub(crate) struct Place<'f> {
+    path: Vec<DocumentStep>,
+    pub(crate) out: &'f Findings,
+}
+
+impl<'f> Place<'f> {
+    /// The place further by a key.
+    pub(crate) fn key(&self, key: &str) -> Place<'f> {
+        self.step(DocumentStep::Key(key.to_owned()))
+    }
+
+    /// The place further by a place in a list.
+    pub(crate) fn index(&self, i: usize) -> Place<'f> {
+        self.step(DocumentStep::Index(i))
+    }
+
+    fn step(&self, step: DocumentStep) -> Place<'f> {
+        let path = self.path.iter().cloned().chain([step]).collect();
+        Place { path, ..*self }
+    }
+
+    /// The entries of the list that stands here, each with its place.
+    pub(crate) fn all<'e, T>(
+        &self,
+        list: &'e [T],
+    ) -> impl Iterator<Item = (Place<'f>, &'e T)> + use<'f, 'e, T> {
+        let (at, each) = (self.clone(), list.iter().enumerate());
+        each.map(move |(i, e)| (at.index(i), e))
+    }
+
+    /// The same of a list of at most `limit`; the first of them where it has more.
+    pub(crate) fn most<'e, T>(
+        &self,
+        limit: usize,
+        list: &'e [T],
+        what: &'static str,
+    ) -> impl Iterator<Item = (Place<'f>, &'e T)> + use<'f, 'e, T> {
+        let count = list.len();
+        if count > limit {
+            self.add(ProblemKind::TooMany { what, count, limit });
+        }
+        self.all(&list[..count.min(limit)])
+    }
+
+    /// Tells a problem.
+    pub(crate) fn add(&self, kind: ProblemKind) {
+        let mut told = self.out.told.borrow_mut();
+        if told.len() < TOLD {
+            told.push((self.path.clone(), kind));
+        } else {
+            self.out.more.set(self.out.more.get() + 1);
+        }
+    }
+
+    /// Tells of a word that is none of those known.
+    pub(crate) fn unknown(
+        &self,
+        what: &'static str,
+        word: &str,
+        known: impl IntoIterator<Item: Display>,
+    ) {
+        let (word, known) = (word.to_owned(), known.into_iter().join(", "));
+        self.add(ProblemKind::UnknownWord { what, word, known });
+    }
+
+    /// Tells of a value that will not do.
+    pub(crate) fn bad(&self, what: &'static str, value: impl ToString, allowed: &'static str) {
+        let value = value.to_string();
+        self.add(ProblemKind::BadQuantity {
+            what,
+            value,
+            allowed,
+        });
+    }
+
+    /// Tells of a key that goes with another.
+    pub(crate) fn needs(&self, key: &'static str, other: &'static str) {
+        self.key(key).add(ProblemKind::KeyNeeds { key, other });
+    }
+
+    /// Tells of a key that does not go with another.
+    pub(crate) fn excludes(&self, key: &'static str, other: &'static str) {
+        self.key(key).add(ProblemKind::KeyExcludes { key, other });
     }
 }

@@ -1,9 +1,7 @@
 //! Costs by name: of joint types, of options, of a change itself; in a mechanism's file under `[search.costs]`, or in a file beside it.
 
-use crate::file::Findings;
-use crate::file::locate::{Document, DocumentStep, key};
-use crate::file::problem::{ImportError, Problem, ProblemKind};
-use crate::file::read::resolve::cost;
+use crate::file::problem::{ImportError, ProblemKind};
+use crate::file::{Findings, Place};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{CostSpec, Joint, Mechanism};
 use itertools::Itertools;
@@ -22,34 +20,17 @@ pub fn costs_from_str(
     text: &str,
     mechanism: &Mechanism,
 ) -> Result<CostSpec, ImportError> {
-    let fail = |problems| ImportError {
-        file: name.to_owned(),
-        text: text.to_owned(),
-        problems,
-    };
     let stated: BTreeMap<String, f64> = toml::from_str(text).map_err(|e| {
         let why = e.message().trim().replace('\n', ", ");
         let message = format!(
             "{why}; each line is a name and a number, such as spherical = 2 (`ozols show costs` prints them all)"
         );
-        fail(vec![Problem {
-            kind: ProblemKind::Syntax { message },
-            span: e.span(),
-        }])
+        ProblemKind::Syntax { message }.at(name, text, e.span())
     })?;
-    let mut out = Findings::default();
-    let spec = costs(&stated, mechanism, &[], &mut out);
-    out.unless(spec).map_err(|found| {
-        let document = Document::new(text, false);
-        let place = |path: &[_]| document.as_ref().and_then(|d| d.span(path));
-        let problems = found.into_iter().map(|(path, kind)| {
-            let span = place(&path);
-            Problem { kind, span }
-        });
-        let mut problems: Vec<Problem> = problems.collect();
-        problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
-        fail(problems)
-    })
+    let out = Findings::default();
+    let spec = costs(&stated, mechanism, &out.whole());
+    let located = |found| ImportError::located(name, text, false, found);
+    out.unless(spec).map_err(located)
 }
 
 /// What costs that are no joint's are called.
@@ -58,15 +39,14 @@ const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 pub(crate) fn costs(
     stated: &BTreeMap<String, f64>,
     mechanism: &Mechanism,
-    at: &[DocumentStep],
-    out: &mut Findings,
+    at: &Place<'_>,
 ) -> CostSpec {
     let mut spec = CostSpec::default();
     let offered = mechanism.joints.iter().flat_map(Joint::offered);
-    let offered: BTreeSet<String> = offered.map(|o| o.name.clone()).collect();
+    let offered: BTreeSet<&str> = offered.map(|o| o.name.as_str()).collect();
     for (name, &value) in stated {
-        let path = key(at, name);
-        let Some(milli) = cost(value, &path, out) else {
+        let at = at.key(name);
+        let Some(milli) = at.cost(value) else {
             continue;
         };
         match name.as_str() {
@@ -79,15 +59,9 @@ pub(crate) fn costs(
             }
             _ => {
                 let types = JointType::NAMED.iter().map(JointType::name);
-                let words = OTHERS.into_iter().chain(types).map(str::to_owned);
-                out.add(
-                    &path,
-                    ProblemKind::UnknownWord {
-                        what: "cost",
-                        word: name.clone(),
-                        known: words.chain(offered.iter().cloned()).unique().join(", "),
-                    },
-                );
+                let mut known: Vec<&str> = OTHERS.into_iter().chain(types).collect();
+                known.extend(&offered);
+                at.unknown("cost", name, known.iter().unique());
             }
         }
     }

@@ -2,10 +2,10 @@
 //!
 //! The deserializer of TOML ignores the values that a list has too many, and that of JSON calls them "trailing characters".
 
-use crate::file::locate::{DocumentStep, index, key};
+use crate::file::locate::{DocumentStep, last_key};
 use crate::file::problem::ProblemKind;
 use crate::file::schema::json_schema;
-use crate::file::{Finding, Findings};
+use crate::file::{Finding, Findings, Place};
 use serde_json::{Map, Value};
 use std::sync::LazyLock;
 
@@ -13,13 +13,13 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
 
 /// Returns a problem for each list of a document whose length its schema excludes, with the path of the list.
 pub(crate) fn wrong_lengths(document: &Value) -> Vec<Finding> {
-    let mut out = Findings::default();
-    visit(&SCHEMA, document, &[], "", &mut out);
+    let out = Findings::default();
+    visit(&SCHEMA, document, "", &out.whole());
     out.told()
 }
 
 /// Visits a value by what its schema says of it; `owner` names the last thing with an id that it is part of.
-fn visit(schema: &Value, value: &Value, path: &[DocumentStep], owner: &str, out: &mut Findings) {
+fn visit(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
     let all = alternatives(schema);
     match value {
         Value::Array(items) => {
@@ -29,30 +29,27 @@ fn visit(schema: &Value, value: &Value, path: &[DocumentStep], owner: &str, out:
                 (least..=most).contains(&items.len())
             });
             if let Some(schema) = fit.first().and_then(|s| s.get("items")) {
-                for (i, item) in items.iter().enumerate() {
-                    visit(schema, item, &index(path, i), owner, out);
-                }
+                at.all(items)
+                    .for_each(|(at, item)| visit(schema, item, owner, &at));
             } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
-                let (list, count) = (name(path, owner), items.len());
+                let (list, count) = (name(&at.path, owner), items.len());
                 let [least, most] = lengths(schema);
-                out.add(
-                    path,
-                    ProblemKind::Length {
-                        list,
-                        count,
-                        least,
-                        most,
-                    },
-                );
+                at.add(ProblemKind::Length {
+                    list,
+                    count,
+                    least,
+                    most,
+                });
             }
         }
         Value::Object(entries) => {
             let id = entries.get("id").and_then(Value::as_str);
-            let own = id.map(|id| format!(" of {} \"{id}\"", table(path)));
+            let own =
+                id.map(|id| format!(" of {} \"{id}\"", last_key(&at.path).unwrap_or_default()));
             let owner = own.as_deref().unwrap_or(owner);
             for (k, entry) in entries {
                 if let Some(schema) = all.iter().find_map(|s| of_key(s, k)) {
-                    visit(schema, entry, &key(path, k), owner, out);
+                    visit(schema, entry, owner, &at.key(k));
                 }
             }
         }
@@ -102,20 +99,11 @@ fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
     known.or_else(|| schema.get("additionalProperties"))
 }
 
-/// Returns the name of the table that a path leads to: its last key.
-fn table(path: &[DocumentStep]) -> &str {
-    let keys = path.iter().rev().find_map(|step| match step {
-        DocumentStep::Key(k) => Some(k.as_str()),
-        DocumentStep::Index(_) => None,
-    });
-    keys.unwrap_or_default()
-}
-
 /// Returns the name of a list in a message: its key, with its place where it is a list of a list, and its owner.
 fn name(path: &[DocumentStep], owner: &str) -> String {
     let place = match path.last() {
         Some(DocumentStep::Index(i)) => format!("entry {} of ", i + 1),
         _ => String::new(),
     };
-    format!("{place}{}{owner}", table(path))
+    format!("{place}{}{owner}", last_key(path).unwrap_or_default())
 }

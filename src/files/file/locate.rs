@@ -29,6 +29,14 @@ pub(crate) fn index(path: &[DocumentStep], i: usize) -> Vec<DocumentStep> {
         .collect()
 }
 
+/// Returns the last key of a path.
+pub(crate) fn last_key(path: &[DocumentStep]) -> Option<&str> {
+    path.iter().rev().find_map(|step| match step {
+        DocumentStep::Key(k) => Some(k.as_str()),
+        DocumentStep::Index(_) => None,
+    })
+}
+
 /// A document whose items can be found; read once for all its problems.
 #[derive(Debug)]
 pub enum Document<'t> {

@@ -1,7 +1,6 @@
 //! What can be told of a file that is not whole yet: where its items are, and the part of it that hangs on the frame.
 
 use crate::file::read::value::knowing;
-use crate::file::read::value::number::vector;
 use crate::file::schema::{Coordinate, MechanismFile};
 use std::collections::BTreeSet;
 
@@ -9,9 +8,9 @@ use std::collections::BTreeSet;
 #[must_use]
 pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
     let one = |v: &[Coordinate; 3]| {
-        let mut out = knowing(file);
+        let out = knowing(file);
         let before = out.count();
-        let read = vector(v, &[], &mut out);
+        let read = out.whole().vector(v);
         (out.count() == before).then(|| read.map(|e| e.to_f64()))
     };
     [

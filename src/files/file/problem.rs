@@ -1,5 +1,6 @@
 //! What can be wrong with a file, in words that name the item and the remedy.
 
+use crate::file::locate::{Document, DocumentStep};
 use crate::format::plural;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
@@ -199,6 +200,19 @@ pub enum ProblemKind {
     More { count: usize },
 }
 
+impl ProblemKind {
+    /// Returns the problem as the one of a file, where it stands there.
+    pub(crate) fn at(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
+        let (file, text) = (file.to_owned(), text.to_owned());
+        let problems = vec![Problem { kind: self, span }];
+        ImportError {
+            file,
+            text,
+            problems,
+        }
+    }
+}
+
 /// Returns how many values a list may have, in words.
 fn lengths(least: usize, most: usize) -> String {
     if least == most {
@@ -229,6 +243,29 @@ pub struct ImportError {
 }
 
 impl ImportError {
+    /// Returns the problems of a text with their places there, in its order.
+    pub(crate) fn located(
+        file: &str,
+        text: &str,
+        json: bool,
+        found: Vec<(Vec<DocumentStep>, ProblemKind)>,
+    ) -> ImportError {
+        let document = Document::new(text, json);
+        let span = |path: &[_]| document.as_ref().and_then(|d| d.span(path));
+        let problem = |(path, kind): (Vec<_>, _)| Problem {
+            span: span(&path),
+            kind,
+        };
+        let mut problems: Vec<Problem> = found.into_iter().map(problem).collect();
+        problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
+        let (file, text) = (file.to_owned(), text.to_owned());
+        ImportError {
+            file,
+            text,
+            problems,
+        }
+    }
+
     /// Line and column, from 1, of a byte.
     #[must_use]
     pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {

@@ -9,13 +9,11 @@ pub(crate) mod search;
 pub mod value;
 pub mod workload;
 
-use crate::file::locate::{DocumentStep, index, key};
+use crate::file::locate::DocumentStep;
 use crate::file::problem::ProblemKind;
 use crate::file::read::coupling::couplings;
 use crate::file::read::search::ranking::{joint_types, ranking};
-use crate::file::read::value::names::{check_id, link_by_id};
-use crate::file::read::value::number::{direction, vector};
-use crate::file::read::value::{ENTRIES, knowing, length_unit, unused};
+use crate::file::read::value::{ENTRIES, knowing, length_unit};
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
 use crate::file::read::workload::loads::loads;
@@ -26,6 +24,7 @@ use crate::geom::expr::Expr;
 use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, SearchSpec};
+use itertools::Itertools;
 use joints::{joints, states};
 use links::{connected, contours, links};
 use search::search;
@@ -33,27 +32,23 @@ use value::LIMITS;
 use value::tolerance::tolerance;
 
 /// The claims of a file; one of an unknown topic is a problem.
-pub(crate) fn claims(file: &MechanismFile, out: &mut Findings) -> Vec<Claim> {
-    let mut list = Vec::new();
-    for (i, c) in file.claim.iter().enumerate() {
-        let Some(topic) = Topic::ALL.into_iter().find(|t| t.word() == c.topic) else {
-            let key = |k: &str| DocumentStep::Key(k.to_owned());
-            let path = [key("claim"), DocumentStep::Index(i), key("topic")];
+pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
+    let claim = |(at, c): (crate::file::Place<'_>, &crate::file::schema::ClaimEntry)| {
+        let topic = Topic::ALL.into_iter().find(|t| t.word() == c.topic);
+        if topic.is_none() {
             let known = disjunction(Topic::ALL.map(Topic::word));
-            let (what, word) = ("topic", c.topic.clone());
-            out.add(&path, ProblemKind::UnknownWord { what, word, known });
-            continue;
-        };
-        list.push(Claim {
-            topic,
+            at.key("topic").unknown("topic", &c.topic, [known]);
+        }
+        Some(Claim {
+            topic: topic?,
             source: c.source.clone(),
             says: c.says.clone(),
             right: c.right.clone(),
             scan: c.scan.clone(),
             evidence: c.evidence.clone(),
-        });
-    }
-    list
+        })
+    };
+    out.at("claim").all(&file.claim).filter_map(claim).collect()
 }
 
 /// Refuses a file of too many entries before any of them is read.
@@ -66,10 +61,8 @@ fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
         ("points", file.point.len(), LIMITS.1),
     ] {
         if count > limit {
-            return Err(vec![(
-                vec![DocumentStep::Key(what[..what.len() - 1].to_owned())],
-                ProblemKind::TooMany { what, count, limit },
-            )]);
+            let at = vec![DocumentStep::Key(what[..what.len() - 1].to_owned())];
+            return Err(vec![(at, ProblemKind::TooMany { what, count, limit })]);
         }
     }
     Ok(())
@@ -80,13 +73,13 @@ fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
 /// # Errors
 /// The problems found, the first hundred of them.
 pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
-    let mut out = knowing(file);
+    let out = knowing(file);
     few_enough(file)?;
-    let length_unit = length_unit(file, &mut out);
-    let mode = mode(file, &mut out);
-    let links = links(file, &mut out);
-    let states = states(file, &mut out);
-    let joints = joints(file, &links, &states, &mut out);
+    let length_unit = length_unit(file, &out);
+    let mode = mode(file, &out);
+    let links = links(file, &out);
+    let states = states(file, &out);
+    let joints = joints(file, &links, &states, &out);
     if out.count() > 0 {
         return Err(out.told());
     }
@@ -110,114 +103,73 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
         claims: Vec::new(),
         assumed: file.assumed.clone(),
     };
-    connected(&mechanism, &mut out);
-    if !size(&mechanism, &mut out) {
+    connected(&mechanism, &out);
+    if !size(&mechanism, &out) {
         return Err(out.told());
     }
-    couplings(file, &mut mechanism, &mut out);
-    mechanism.contours = contours(file, &mechanism, &mut out);
-    mechanism.search = search(file, &mechanism, &mut out);
-    mechanism.loads = loads(file, &mechanism, &mut out);
-    mechanism.loads.grip = grip(file, length_unit.metres, Some(&mechanism), &mut out);
-    mechanism.loads.drive = drive(file, length_unit.metres, Some(&mechanism), &mut out);
-    mechanism.ranking = ranking(file, &mechanism, &mut out);
-    let (joint_types, costs) = joint_types(file, &mechanism, &mut out);
+    couplings(file, &mut mechanism, &out);
+    mechanism.contours = contours(file, &mechanism, &out);
+    mechanism.search = search(file, &mechanism, &out);
+    mechanism.loads = loads(file, &mechanism, &out);
+    mechanism.loads.grip = grip(file, length_unit.metres, Some(&mechanism), &out);
+    mechanism.loads.drive = drive(file, length_unit.metres, Some(&mechanism), &out);
+    mechanism.ranking = ranking(file, &mechanism, &out);
+    let (joint_types, costs) = joint_types(file, &mechanism, &out);
     mechanism.joint_types = joint_types;
     let by_type = &mut mechanism.search.costs.by_type_milli;
     by_type.extend(costs);
     // [search.costs] come first and win.
     by_type.sort_by(|a, b| a.0.cmp(&b.0));
     by_type.dedup_by(|later, first| later.0 == first.0);
-    mechanism.points = points(file, &mechanism, &mut out);
-    tolerance(file, &mut mechanism, &mut out);
-    mechanism.expected = expected(file, &mechanism, &mut out);
-    mechanism.claims = claims(file, &mut out);
+    mechanism.points = points(file, &mechanism, &out);
+    tolerance(file, &mut mechanism, &out);
+    mechanism.expected = expected(file, &mechanism, &out);
+    mechanism.claims = claims(file, &out);
     if out.count() == 0 {
-        unused(&mut out);
+        out.tell_unused();
     }
     out.unless(mechanism)
 }
 
-pub(crate) fn points(
-    file: &MechanismFile,
-    mechanism: &Mechanism,
-    out: &mut Findings,
-) -> Vec<PointOfInterest> {
+fn points(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<PointOfInterest> {
     let mut points = Vec::with_capacity(file.point.len());
-    for (i, entry) in file.point.iter().enumerate() {
-        let at = index(&[DocumentStep::Key("point".to_owned())], i);
+    for (i, (at, entry)) in out.at("point").all(&file.point).enumerate() {
         let twice = file.point[..i].iter().any(|p| p.id == entry.id);
-        check_id("point", &entry.id, twice, &key(&at, "id"), out);
-        let place = vector(&entry.point, &key(&at, "point"), out);
-        if let Some(link) = link_by_id(&mechanism.links, &entry.link, &key(&at, "link"), out) {
-            points.push(PointOfInterest {
-                id: entry.id.clone(),
-                link,
-                point: place,
-            });
-        }
+        at.check_id("point", &entry.id, twice);
+        let (id, point) = (entry.id.clone(), at.key("point").vector(&entry.point));
+        let link = at.key("link").link(&mechanism.links, &entry.link);
+        points.extend(link.map(|link| PointOfInterest { id, link, point }));
     }
     points
 }
 
-pub(crate) fn mode(file: &MechanismFile, out: &mut Findings) -> Mode {
-    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
+fn mode(file: &MechanismFile, out: &Findings) -> Mode {
     match file.mode.as_deref().unwrap_or("spatial") {
         "planar" => {
-            let at = root("plane_normal");
-            let given = file.plane_normal.as_ref().map(|v| direction(v, &at, out));
+            let at = out.at("plane_normal");
+            let given = file.plane_normal.as_ref().map(|v| at.direction(v));
             let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
             if normal.iter().all(|c| c.to_f64() == 0.0) {
-                out.add(
-                    &at,
-                    ProblemKind::ZeroVector {
-                        joint: "of the plane".to_owned(),
-                        what: "normal",
-                    },
-                );
+                let (joint, what) = ("of the plane".to_owned(), "normal");
+                at.add(ProblemKind::ZeroVector { joint, what });
             }
             Mode::Planar { normal }
         }
         other => {
             if other != "spatial" {
-                let known = "spatial, planar".to_owned();
-                out.add(
-                    &root("mode"),
-                    ProblemKind::UnknownWord {
-                        what: "mode",
-                        word: other.to_owned(),
-                        known,
-                    },
-                );
+                out.at("mode").unknown("mode", other, ["spatial", "planar"]);
             }
             Mode::Spatial
         }
     }
 }
 
-pub(crate) fn expected(
-    file: &MechanismFile,
-    mechanism: &Mechanism,
-    out: &mut Findings,
-) -> Vec<Expected> {
+fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Expected> {
     let mut list = Vec::new();
-    for (i, e) in file.expected.iter().enumerate() {
+    for (at, e) in out.at("expected").all(&file.expected) {
         let state = e.state.clone().unwrap_or_else(|| "free".to_owned());
         if !mechanism.states.contains(&state) {
-            let path = [
-                DocumentStep::Key("expected".to_owned()),
-                DocumentStep::Index(i),
-                DocumentStep::Key("state".to_owned()),
-            ];
-            let known = mechanism.states.join(", ");
-            out.add(
-                &path,
-                ProblemKind::UnknownWord {
-                    what: "state",
-                    word: state.clone(),
-                    known,
-                },
-            );
+            at.key("state").unknown("state", &state, &mechanism.states);
         }
         list.push(Expected {
             state,
@@ -234,7 +186,7 @@ pub(crate) fn expected(
 }
 
 /// Whether no state's closure matrix is too large: a row for each constraint of a contour, a column for each freedom.
-pub(crate) fn size(m: &Mechanism, out: &mut Findings) -> bool {
+fn size(m: &Mechanism, out: &Findings) -> bool {
     let mut fits = true;
     let dim = match m.mode {
         Mode::Spatial => 6,
@@ -242,23 +194,18 @@ pub(crate) fn size(m: &Mechanism, out: &mut Findings) -> bool {
     };
     for (state, name) in m.states_with_ids() {
         let joints = || m.joints_in(state).map(|j| &m.joints[j]);
-        let mut touched: Vec<_> = joints().flat_map(|j| j.links).collect();
-        touched.sort_unstable();
-        touched.dedup();
+        let touched = joints().flat_map(|j| j.links).unique().count();
         // The links of a state hang together.
-        let contours = (joints().count() + 1).saturating_sub(touched.len());
+        let contours = (joints().count() + 1).saturating_sub(touched);
         let columns: usize = joints().map(|j| j.joint_type.freedoms().len()).sum();
         if dim * contours * columns > ENTRIES {
             fits = false;
-            out.add(
-                &[],
-                ProblemKind::TooEntangled {
-                    state: name.clone(),
-                    rows: dim * contours,
-                    columns,
-                    limit: ENTRIES,
-                },
-            );
+            out.whole().add(ProblemKind::TooEntangled {
+                state: name.clone(),
+                rows: dim * contours,
+                columns,
+                limit: ENTRIES,
+            });
         }
     }
     fits

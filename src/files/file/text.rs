@@ -2,13 +2,14 @@
 //! fall apart.
 
 use crate::file::lengths::wrong_lengths;
-use crate::file::locate::{Document, DocumentStep};
-use crate::file::problem::{ImportError, Problem, ProblemKind};
+use crate::file::locate::last_key;
+use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::schema::MechanismFile;
-use crate::file::{Finding, Findings, digits};
+use crate::file::{Finding, Findings, Place, digits};
 use crate::model::mechanism::Mechanism;
 use serde_json::Value;
+use std::ops::Range;
 
 /// Largest file read, in bytes.
 pub const MAX_BYTES: usize = 4 << 20;
@@ -41,21 +42,14 @@ pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportErr
 
 /// The text in the bytes of a file that is not too large.
 pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> {
-    let fail = |kind| ImportError {
-        file: name.to_owned(),
-        text: String::new(),
-        problems: vec![Problem { kind, span: None }],
-    };
-    if bytes.len() > MAX_BYTES {
-        return Err(fail(ProblemKind::TooLarge {
-            bytes: bytes.len(),
-            limit: MAX_BYTES,
-        }));
+    let limit = MAX_BYTES;
+    if bytes.len() > limit {
+        let bytes = bytes.len();
+        return Err(ProblemKind::TooLarge { bytes, limit }.at(name, "", None));
     }
     std::str::from_utf8(bytes).map_err(|e| {
-        fail(ProblemKind::NotUtf8 {
-            at: e.valid_up_to(),
-        })
+        let at = e.valid_up_to();
+        ProblemKind::NotUtf8 { at }.at(name, "", None)
     })
 }
 
@@ -65,41 +59,26 @@ pub fn read<T>(
     text: &str,
     make: impl FnOnce(&MechanismFile) -> Result<T, Vec<Finding>>,
 ) -> Result<T, ImportError> {
-    let fail = |problems| ImportError {
-        file: name.to_owned(),
-        text: text.to_owned(),
-        problems,
-    };
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
-        return Err(fail(vec![Problem {
-            kind: ProblemKind::Empty,
-            span: None,
-        }]));
+        return Err(ProblemKind::Empty.at(name, text, None));
     }
-    let located = |found: Vec<Finding>| {
-        let document = Document::new(text, is_json(name));
-        let mut problems: Vec<Problem> = found
-            .into_iter()
-            .map(|(path, kind)| Problem {
-                kind,
-                span: document.as_ref().and_then(|d| d.span(&path)),
-            })
-            .collect();
-        problems.sort_by_key(|p| p.span.as_ref().map_or(usize::MAX, |s| s.start));
-        fail(problems)
-    };
+    let json = is_json(name);
+    let located = |found| ImportError::located(name, text, json, found);
     // First of all, as the deserializer of TOML ignores the values that a list has too many.
-    let lengths = values(text, is_json(name)).map(|all| wrong_lengths(&all));
+    let lengths = values(text, json).map(|all| wrong_lengths(&all));
     if let Some(found) = lengths.filter(|found| !found.is_empty()) {
         return Err(located(found));
     }
-    let file = if is_json(name) {
+    let file = if json {
         from_json(text)
     } else {
         from_toml(text)
     };
-    let mut file = file.map_err(|p| fail(vec![p]))?;
-    digits::keep(&mut file, text, is_json(name));
+    let mut file = file.map_err(|(message, span)| {
+        let message = with_remedy(message);
+        ProblemKind::Syntax { message }.at(name, text, span)
+    })?;
+    digits::keep(&mut file, text, json);
     // Written out they are no TOML and no JSON: only what is escaped can hold any.
     let controls = if text.contains('\\') {
         controls(&file)
@@ -130,20 +109,19 @@ pub(crate) fn is_json(name: &str) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("json"))
 }
 
-fn from_toml(text: &str) -> Result<MechanismFile, Problem> {
-    toml::from_str(text).map_err(|e| {
-        let message = if e.message().contains("as i128") {
-            // The deserializer's own words speak of its types.
-            "this whole number is beyond 64 bits; choose another length_unit, or write it as a decimal".to_owned()
-        } else {
-            with_remedy(e.message().trim().replace('\n', ", "))
-        };
-        Problem { kind: ProblemKind::Syntax { message }, span: e.span() }
-    })
+/// What is wrong with a text, and where.
+type Syntax = (String, Option<Range<usize>>);
+
+fn from_toml(text: &str) -> Result<MechanismFile, Syntax> {
+    toml::from_str(text).map_err(|e| (e.message().trim().replace('\n', ", "), e.span()))
 }
 
 /// What to do about a value that is missing or of another kind.
 fn with_remedy(message: String) -> String {
+    // The deserializer's own words speak of its types.
+    if message.contains("as i128") {
+        return "this whole number is beyond 64 bits; choose another length_unit, or write it as a decimal".to_owned();
+    }
     if message == "floating-point number overflowed" {
         return format!("{message}; choose another length_unit");
     }
@@ -155,7 +133,7 @@ fn with_remedy(message: String) -> String {
     }
 }
 
-fn from_json(text: &str) -> Result<MechanismFile, Problem> {
+fn from_json(text: &str) -> Result<MechanismFile, Syntax> {
     serde_json::from_str(text).map_err(|e| {
         let line_start: usize = text
             .split_inclusive('\n')
@@ -174,14 +152,9 @@ fn from_json(text: &str) -> Result<MechanismFile, Problem> {
         let message = full
             .rsplit_once(" at line ")
             .map_or(full.as_str(), |(m, _)| m);
-        let message = with_remedy(message.to_owned());
-        let end = (at + 1..=line.len())
-            .find(|&i| line.is_char_boundary(i))
-            .unwrap_or(line.len());
-        Problem {
-            kind: ProblemKind::Syntax { message },
-            span: Some(line_start + at..line_start + end),
-        }
+        let end = (at + 1..=line.len()).find(|&i| line.is_char_boundary(i));
+        let span = line_start + at..line_start + end.unwrap_or(line.len());
+        (message.to_owned(), Some(span))
     })
 }
 
@@ -193,45 +166,33 @@ const PROSE: [&str; 3] = ["description", "sources", "assumed"];
 /// # Complexity
 /// The file is written out once as a value.
 pub(crate) fn controls(file: &MechanismFile) -> Vec<Finding> {
-    let mut out = Findings::default();
+    let out = Findings::default();
     if let Ok(value) = serde_json::to_value(file) {
-        below(&value, &mut Vec::new(), &mut out);
+        below(&value, &out.whole());
     }
     out.told()
 }
 
-fn below(value: &Value, path: &mut Vec<DocumentStep>, out: &mut Findings) {
+fn below(value: &Value, at: &Place<'_>) {
     match value {
-        Value::String(text) => check(text, path, out),
-        Value::Array(all) => {
-            for (i, value) in all.iter().enumerate() {
-                path.push(DocumentStep::Index(i));
-                below(value, path, out);
-                path.pop();
-            }
-        }
+        Value::String(text) => check(text, at),
+        Value::Array(all) => at.all(all).for_each(|(at, value)| below(value, &at)),
         Value::Object(all) => {
             for (key, value) in all {
-                check(key, path, out);
-                path.push(DocumentStep::Key(key.clone()));
-                below(value, path, out);
-                path.pop();
+                check(key, at);
+                below(value, &at.key(key));
             }
         }
         Value::Null | Value::Bool(_) | Value::Number(_) => {}
     }
 }
 
-fn check(text: &str, path: &[DocumentStep], out: &mut Findings) {
-    let key = path.iter().rev().find_map(|s| match s {
-        DocumentStep::Key(key) => Some(key.as_str()),
-        DocumentStep::Index(_) => None,
-    });
-    let key = key.unwrap_or("the file");
+fn check(text: &str, at: &Place<'_>) {
+    let key = last_key(&at.path).unwrap_or("the file");
     let allowed = |c: char| PROSE.contains(&key) && (c == '\n' || c == '\t');
     let found = text.chars().find(|&c| c.is_control() && !allowed(c));
     if let Some(found) = found {
         let (key, found) = (key.to_owned(), found.escape_unicode().to_string());
-        out.add(path, ProblemKind::Control { key, found });
+        at.add(ProblemKind::Control { key, found });
     }
 }

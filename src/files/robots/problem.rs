@@ -1,6 +1,6 @@
 //! What can be wrong with a robot description, in words that name the element and the remedy.
 
-use crate::file::problem::{ImportError, Problem, ProblemKind};
+use crate::file::problem::{ImportError, ProblemKind};
 use std::ops::Range;
 use thiserror::Error;
 
@@ -69,19 +69,13 @@ pub(crate) enum RobotProblem {
 impl RobotProblem {
     /// The problem with its place.
     pub(crate) fn at(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
-        ImportError {
-            file: file.to_owned(),
-            text: text.to_owned(),
-            problems: vec![Problem {
-                kind: match self {
-                    RobotProblem::Rigid { links } => ProblemKind::Rigid { links },
-                    other => ProblemKind::Syntax {
-                        message: other.to_string(),
-                    },
-                },
-                span,
-            }],
-        }
+        let kind = match self {
+            RobotProblem::Rigid { links } => ProblemKind::Rigid { links },
+            other => ProblemKind::Syntax {
+                message: other.to_string(),
+            },
+        };
+        kind.at(file, text, span)
     }
 }
 

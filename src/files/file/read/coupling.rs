@@ -2,11 +2,9 @@
 
 use crate::closure::coupling::{coefficient, in_plane, length_ratio};
 use crate::closure::twist::{MotionSpace, joint_twists};
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::value::number::number;
 use crate::file::schema::MechanismFile;
+use crate::file::{Findings, Place};
 use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
@@ -16,74 +14,54 @@ use crate::model::mechanism::{Frame, JointId, JointOption, Mechanism};
 use itertools::Itertools;
 
 /// Reads the couplings, and takes from coupled joints the options that cannot be coupled alike.
-pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) {
-    for (i, entry) in file.coupling.iter().enumerate() {
-        let at = [
-            DocumentStep::Key("coupling".to_owned()),
-            DocumentStep::Index(i),
-        ];
-        let joints = key(&at, "joints");
-        let ends: Vec<CoupledFreedom> = entry
-            .joints
-            .iter()
-            .enumerate()
-            .filter_map(|(n, word)| end(mechanism, word, &index(&joints, n), out))
-            .collect();
+pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
+    for (at, entry) in out.at("coupling").all(&file.coupling) {
+        let joints = at.key("joints");
+        let ends = joints.all(&entry.joints);
+        let ends = ends
+            .filter_map(|(at, word)| end(mechanism, word, &at))
+            .collect_vec();
         let before = out.count();
-        let ratio = number(&entry.ratio, &key(&at, "ratio"), out);
+        let ratio = at.key("ratio").number(&entry.ratio);
         if out.count() == before && ratio.to_f64() == 0.0 {
-            out.add(&key(&at, "ratio"), ProblemKind::ZeroRatio);
+            at.key("ratio").add(ProblemKind::ZeroRatio);
         }
         let &[a, b] = ends.as_slice() else { continue };
-        let names = || [a, b].map(|e| mechanism.joints[e.joint].id.clone());
-        let [first, second] = names();
-        if a.joint == b.joint {
-            out.add(&joints, ProblemKind::CouplesItself { joint: first });
-            continue;
-        }
-        if mechanism.joints[a.joint].states != mechanism.joints[b.joint].states {
-            out.add(&joints, ProblemKind::CouplesStates { first, second });
-            continue;
-        }
+        let [first, second] = [a, b].map(|e| mechanism.joints[e.joint].id.clone());
         let twice = |c: &Coupling| c.ends == [a, b] || c.ends == [b, a];
-        if mechanism.couplings.iter().any(twice) {
-            out.add(&joints, ProblemKind::CoupledTwice { first, second });
-            continue;
+        let [i, j] = [a, b].map(|e| &mechanism.joints[e.joint]);
+        if a.joint == b.joint {
+            joints.add(ProblemKind::CouplesItself { joint: first });
+        } else if i.states != j.states {
+            joints.add(ProblemKind::CouplesStates { first, second });
+        } else if mechanism.couplings.iter().any(twice) {
+            joints.add(ProblemKind::CoupledTwice { first, second });
+        } else {
+            let (ends, gear) = ([a, b], entry.gear);
+            let coupling = Coupling { ends, ratio, gear };
+            if ExactField::for_expressions([&coefficient(mechanism, &coupling)], 0).is_err() {
+                at.add(ProblemKind::CouplingInexact { first, second });
+            } else {
+                mechanism.couplings.push(coupling);
+            }
         }
-        let coupling = Coupling {
-            ends: [a, b],
-            ratio,
-            gear: entry.gear,
-        };
-        if ExactField::for_expressions([&coefficient(mechanism, &coupling)], 0).is_err() {
-            out.add(&at, ProblemKind::CouplingInexact { first, second });
-            continue;
-        }
-        mechanism.couplings.push(coupling);
     }
     offered(file, mechanism, out);
 }
 
 /// A freedom by the name of its joint, or joint:freedom.
-fn end(
-    mechanism: &Mechanism,
-    word: &str,
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> Option<CoupledFreedom> {
+fn end(mechanism: &Mechanism, word: &str, at: &Place<'_>) -> Option<CoupledFreedom> {
     let whole = mechanism.joint(word).map(|j| (j, None));
     let parts = || {
         let (id, freedom) = word.rsplit_once(':')?;
         Some((mechanism.joint(id)?, Some(freedom)))
     };
     let Some((joint, freedom)) = whole.or_else(parts) else {
-        let ids = mechanism.joints.iter().take(30).map(|j| j.id.as_str());
-        let (id, known) = (word.to_owned(), ids.collect_vec().join(", "));
-        out.add(path, ProblemKind::UnknownJoint { id, known });
+        at.unknown_joint(mechanism, word);
         return None;
     };
     let found = freedom_of(mechanism, joint, freedom);
-    found.map_err(|problem| out.add(path, problem)).ok()
+    found.map_err(|problem| at.add(problem)).ok()
 }
 
 /// The freedom that a word names, or the only one of its joint.
@@ -141,33 +119,23 @@ fn definite(t: &JointType, freedom: Freedom) -> bool {
 
 /// Takes options away that lack the coupled freedom, or have it about another axis. In a joint's own list that is a
 /// problem.
-fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &mut Findings) {
+fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
     for j in mechanism.joint_ids() {
         let coupled = coupled_freedoms(mechanism, j);
         if coupled.is_empty() {
             continue;
         }
-        let joint = &mechanism.joints[j];
-        let keeps: Vec<bool> = joint
-            .options
-            .iter()
-            .map(|o| keeps_coupled(o, &joint.options[0], &coupled))
-            .collect();
-        for (option, _) in joint.options.iter().zip(&keeps).filter(|(_, k)| !**k) {
-            if file.joint[j].options.is_some() {
-                let path = [
-                    DocumentStep::Key("joint".to_owned()),
-                    DocumentStep::Index(j.index()),
-                ];
-                let (joint, option) = (joint.id.clone(), option.name.clone());
-                let problem = ProblemKind::LosesCoupling { joint, option };
-                out.add(&key(&path, "options"), problem);
+        let joint = &mut mechanism.joints[j];
+        let present = joint.options[0].clone();
+        let at = out.at("joint").index(j.index()).key("options");
+        joint.options.retain(|o| {
+            let keeps = keeps_coupled(o, &present, &coupled);
+            if !keeps && file.joint[j].options.is_some() {
+                let (joint, option) = (joint.id.clone(), o.name.clone());
+                at.add(ProblemKind::LosesCoupling { joint, option });
             }
-        }
-        let mut keeps = keeps.into_iter();
-        mechanism.joints[j]
-            .options
-            .retain(|_| keeps.next().unwrap_or(true));
+            keeps
+        });
     }
 }
 

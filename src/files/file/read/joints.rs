@@ -1,14 +1,11 @@
 //! The joints: ends, type, place, the states they act in.
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{frame, joint_type, motion_name, option};
 use crate::file::read::search::options;
 use crate::file::read::value::LIMITS;
-use crate::file::read::value::names::{check_id, link_by_id};
-use crate::file::read::value::number::{direction, pitch, vector};
-use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading, Words};
+use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading};
+use crate::file::{Findings, Place};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, Joint, JointOption, Link, LinkId, StateId};
@@ -18,22 +15,17 @@ use itertools::Itertools;
 const MOST_STATES: usize = 100;
 
 /// The names of the states, `free` first.
-pub(crate) fn states(file: &MechanismFile, out: &mut Findings) -> Vec<String> {
-    let named = file.joint.iter().flat_map(|j| words(j.state.as_ref()));
-    let mut states: Vec<String> = ["free".to_owned()]
-        .into_iter()
+pub(crate) fn states(file: &MechanismFile, out: &Findings) -> Vec<String> {
+    let named = file.joint.iter().filter_map(|j| j.state.as_ref());
+    let named = named.flat_map(|w| w.list()).cloned();
+    let mut states = std::iter::once("free".to_owned())
         .chain(named)
         .unique()
-        .collect();
+        .collect_vec();
     if states.len() > MOST_STATES {
-        out.add(
-            &[DocumentStep::Key("joint".to_owned())],
-            ProblemKind::TooMany {
-                what: "states",
-                count: states.len(),
-                limit: MOST_STATES,
-            },
-        );
+        let (what, count, limit) = ("states", states.len(), MOST_STATES);
+        out.at("joint")
+            .add(ProblemKind::TooMany { what, count, limit });
         states.truncate(MOST_STATES);
     }
     states
@@ -43,48 +35,31 @@ pub(crate) fn joints(
     file: &MechanismFile,
     links: &[Link],
     states: &[String],
-    out: &mut Findings,
+    out: &Findings,
 ) -> Vec<Joint> {
-    (0..file.joint.len())
-        .filter_map(|i| joint(file, i, links, states, out))
-        .collect()
-}
-
-fn words(w: Option<&Words>) -> Vec<String> {
-    match w {
-        None => Vec::new(),
-        Some(Words::One(s)) => vec![s.clone()],
-        Some(Words::Many(v)) => v.clone(),
-    }
+    let all = out.at("joint").all(&file.joint).enumerate();
+    let all = all.filter_map(|(i, (at, entry))| {
+        let twice = file.joint[..i].iter().any(|j| j.id == entry.id);
+        at.check_id("joint", &entry.id, twice);
+        joint(file, entry, links, states, &at)
+    });
+    all.collect()
 }
 
 fn joint(
     file: &MechanismFile,
-    i: usize,
+    entry: &JointEntry,
     links: &[Link],
     states: &[String],
-    out: &mut Findings,
+    at: &Place<'_>,
 ) -> Option<Joint> {
-    let entry = &file.joint[i];
-    let at = [
-        DocumentStep::Key("joint".to_owned()),
-        DocumentStep::Index(i),
-    ];
-    check_id(
-        "joint",
-        &entry.id,
-        file.joint[..i].iter().any(|j| j.id == entry.id),
-        &key(&at, "id"),
-        out,
-    );
-    let ends = ends(entry, links, &key(&at, "links"), out);
-    let found = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), &at, out);
-    let Some(joint_type) = found else {
+    let ends = ends(entry, links, &at.key("links"));
+    let Some(joint_type) = joint_type(&entry.id, &entry.kind, entry.freedoms.as_ref(), at) else {
         // The rest depends on the type, but a bad point is worth telling in the same run.
-        vector(&entry.point, &key(&at, "point"), out);
+        at.key("point").vector(&entry.point);
         return None;
     };
-    let frame = place(entry, &joint_type, &at, out);
+    let frame = place(entry, &joint_type, at);
     let present = JointOption {
         name: motion_name(&joint_type),
         joint_type: joint_type.clone(),
@@ -92,19 +67,14 @@ fn joint(
         cost_milli: None,
         state: None,
     };
-    let states_of = entry.state.as_ref().map(|w| {
-        words(Some(w))
-            .iter()
-            .filter_map(|w| states.iter().position(|s| s == w).map(StateId::new))
-            .collect::<Vec<_>>()
-    });
-    let in_free = states_of
-        .as_ref()
-        .is_none_or(|s| s.contains(&StateId::FREE));
-    let (drive, drive_freedom) = driven(&entry.drive, &joint_type, &at, out);
+    let state = |w: &String| states.iter().position(|s| s == w).map(StateId::new);
+    let of = entry.state.as_ref();
+    let of = of.map(|w| w.list().iter().filter_map(state).collect_vec());
+    let in_free = of.as_ref().is_none_or(|s| s.contains(&StateId::FREE));
+    let (drive, drive_freedom) = driven(&entry.drive, &joint_type, at);
     let changeable = in_free && !drive && joint_type != JointType::Fixed;
-    let options = options(file, entry, &present, changeable, states, &at, out);
-    let unloading = unloading(file, entry, &frame, states, &at, out);
+    let options = options(file, entry, &present, changeable, states, at);
+    let unloading = unloading(file, entry, &frame, states, at);
     Some(Joint {
         id: entry.id.clone(),
         links: ends,
@@ -112,37 +82,29 @@ fn joint(
         frame,
         drive,
         drive_freedom,
-        states: states_of,
+        states: of,
         options,
         unloading,
     })
 }
 
 /// The links that a joint joins; the first of the file in place of one that is not known.
-fn ends(
-    entry: &JointEntry,
-    links: &[Link],
-    at: &[DocumentStep],
-    out: &mut Findings,
-) -> [LinkId; 2] {
-    let mut ends = [LinkId::new(0); 2];
-    for (e, id) in entry.links.iter().enumerate() {
-        ends[e] = link_by_id(links, id, &index(at, e), out).unwrap_or(ends[e]);
-    }
+fn ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
+    let end = |e: usize| {
+        at.index(e)
+            .link(links, &entry.links[e])
+            .unwrap_or(LinkId::new(0))
+    };
+    let ends = [end(0), end(1)];
     if entry.links[0] == entry.links[1] {
         let (joint, link) = (entry.id.clone(), entry.links[0].clone());
-        out.add(at, ProblemKind::SelfLoop { joint, link });
+        at.add(ProblemKind::SelfLoop { joint, link });
     }
     ends
 }
 
 /// Whether a joint is driven, and in which freedom where the file names one.
-fn driven(
-    word: &DriveWord,
-    joint_type: &JointType,
-    at: &[DocumentStep],
-    out: &mut Findings,
-) -> (bool, Option<Freedom>) {
+fn driven(word: &DriveWord, joint_type: &JointType, at: &Place<'_>) -> (bool, Option<Freedom>) {
     let word = match word {
         DriveWord::Driven(drive) => return (*drive, None),
         DriveWord::Freedom(word) => word,
@@ -150,15 +112,8 @@ fn driven(
     let own = joint_type.freedoms();
     let named = Freedom::from_name(word).filter(|f| own.contains(f));
     if named.is_none() {
-        let known = own.iter().map(|f| f.name()).join(", ");
-        out.add(
-            &key(at, "drive"),
-            ProblemKind::UnknownWord {
-                what: "freedom to drive",
-                word: word.clone(),
-                known,
-            },
-        );
+        let known = own.iter().map(|f| f.name());
+        at.key("drive").unknown("freedom to drive", word, known);
     }
     (true, named)
 }
@@ -169,79 +124,50 @@ fn unloading(
     entry: &JointEntry,
     frame: &Frame,
     states: &[String],
-    at: &[DocumentStep],
-    out: &mut Findings,
+    at: &Place<'_>,
 ) -> Vec<JointOption> {
     let (list, from) = match &entry.unloading {
         None | Some(Unloading::Allowed(false)) => return Vec::new(),
-        Some(Unloading::Allowed(true)) => {
-            let from = key(&[DocumentStep::Key("search".to_owned())], "unloading");
-            (&file.search.unloading, from)
-        }
-        Some(Unloading::List(list)) => (list, key(at, "unloading")),
+        Some(Unloading::Allowed(true)) => (&file.search.unloading, at.out.at("search")),
+        Some(Unloading::List(list)) => (list, at.clone()),
     };
-    let list = out.at_most(LIMITS.2, list, "unloading joints in one place", &from);
-    list.iter()
-        .enumerate()
-        .filter_map(|(n, e)| option(&entry.id, frame, e, states, &index(&from, n), out))
+    let from = from.key("unloading");
+    let list = from.most(LIMITS.2, list, "unloading joints in one place");
+    list.filter_map(|(at, e)| option(&entry.id, frame, e, states, &at))
         .collect()
 }
 
-fn place(
-    entry: &JointEntry,
-    joint_type: &JointType,
-    at: &[DocumentStep],
-    out: &mut Findings,
-) -> Frame {
-    let point = vector(&entry.point, &key(at, "point"), out);
-    let axis = match (&entry.axis, joint_type) {
-        (Some(v), _) => direction(v, &key(at, "axis"), out),
-        (None, JointType::Spherical | JointType::Fixed) => [0, 0, 1].map(Expr::from),
-        (None, _) => {
-            let what = "an axis, such as axis = [0, 0, 1]";
-            out.add(
-                at,
-                ProblemKind::Missing {
-                    joint: entry.id.clone(),
-                    kind: entry.kind.clone(),
-                    what,
-                },
-            );
-            [0, 0, 1].map(Expr::from)
-        }
+fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
+    let (joint, kind) = (&entry.id, &entry.kind);
+    let missing = |what| {
+        let (joint, kind) = (joint.clone(), kind.clone());
+        at.add(ProblemKind::Missing { joint, kind, what });
     };
+    let point = at.key("point").vector(&entry.point);
+    let axis = entry.axis.as_ref().map(|v| at.key("axis").direction(v));
+    if axis.is_none() && !matches!(joint_type, JointType::Spherical | JointType::Fixed) {
+        missing("an axis, such as axis = [0, 0, 1]");
+    }
+    let axis = axis.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
     let reference = entry
         .reference
         .as_ref()
-        .map(|v| direction(v, &key(at, "reference"), out));
+        .map(|v| at.key("reference").direction(v));
     let screws = joint_type.freedoms().contains(&Freedom::Screw);
-    let stated = [
-        ("pitch", entry.pitch.is_some()),
-        ("lead", entry.lead.is_some()),
-    ];
-    match (stated.into_iter().find(|s| s.1), screws) {
+    let stated = [("pitch", &entry.pitch), ("lead", &entry.lead)];
+    match (stated.into_iter().find(|s| s.1.is_some()), screws) {
         (None, true) => {
-            let what =
-                "a lead, the translation per turn, such as lead = 5 (or a pitch, per radian)";
-            out.add(
-                at,
-                ProblemKind::Missing {
-                    joint: entry.id.clone(),
-                    kind: entry.kind.clone(),
-                    what,
-                },
-            );
+            missing("a lead, the translation per turn, such as lead = 5 (or a pitch, per radian)")
         }
         (Some((what, _)), false) => {
-            let (joint, kind) = (entry.id.clone(), entry.kind.clone());
-            out.add(
-                &key(at, what),
-                ProblemKind::Superfluous { joint, kind, what },
-            );
+            let (joint, kind) = (joint.clone(), kind.clone());
+            at.key(what)
+                .add(ProblemKind::Superfluous { joint, kind, what });
         }
         _ => {}
     }
-    let pitch = pitch([entry.pitch.as_ref(), entry.lead.as_ref()], at, out);
-    let pitch = pitch.unwrap_or_else(|| Expr::from(0));
-    frame(&entry.id, point, axis, reference, pitch, at, out)
+    let pitch = at
+        .pitch(&entry.pitch, &entry.lead)
+        .unwrap_or_else(|| Expr::from(0));
+    frame(joint, point, axis, reference, pitch, at)
 }

@@ -2,64 +2,38 @@
 
 use crate::closure::contour::closed_walk;
 use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::value::names::{check_id, joint_by_id};
 use crate::file::read::workload::loads::mass;
 use crate::file::schema::{MechanismFile, Words};
-use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, Role, StateId};
+use crate::model::mechanism::{JointId, Link, Mechanism, Role, StateId};
 use std::collections::BTreeSet;
 
-pub(crate) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
+pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
-    for (i, entry) in file.link.iter().enumerate() {
-        let at = [DocumentStep::Key("link".to_owned()), DocumentStep::Index(i)];
-        check_id(
-            "link",
-            &entry.id,
-            links.iter().any(|l| l.id == entry.id),
-            &key(&at, "id"),
-            out,
-        );
+    for (at, entry) in out.at("link").all(&file.link) {
+        at.check_id("link", &entry.id, links.iter().any(|l| l.id == entry.id));
         let role = match entry.role.as_deref() {
             None => Role::Inner,
             Some("frame") => Role::Frame,
             Some("output") => Role::Output,
             Some("object") => Role::Object,
             Some(word) => {
-                let known = "frame, output, object".to_owned();
-                out.add(
-                    &key(&at, "role"),
-                    ProblemKind::UnknownWord {
-                        what: "role",
-                        word: word.to_owned(),
-                        known,
-                    },
-                );
+                at.key("role")
+                    .unknown("role", word, ["frame", "output", "object"]);
                 Role::Inner
             }
         };
         if let (Role::Frame, Some(first)) = (role, links.iter().find(|l| l.role == Role::Frame)) {
-            out.add(
-                &key(&at, "role"),
-                ProblemKind::SecondFrame {
-                    first: first.id.clone(),
-                    second: entry.id.clone(),
-                },
-            );
+            let (first, second) = (first.id.clone(), entry.id.clone());
+            at.key("role")
+                .add(ProblemKind::SecondFrame { first, second });
         }
-        links.push(Link {
-            id: entry.id.clone(),
-            role,
-            mass: mass(entry, &at, out),
-        });
+        let (id, mass) = (entry.id.clone(), mass(entry, &at));
+        links.push(Link { id, role, mass });
     }
     let has = |role| links.iter().any(|l| l.role == role);
     if !has(Role::Frame) {
-        out.add(
-            &[DocumentStep::Key("link".to_owned())],
-            ProblemKind::NoFrame,
-        );
+        out.at("link").add(ProblemKind::NoFrame);
     }
     if !has(Role::Output) {
         outputs(file, &mut links);
@@ -70,11 +44,11 @@ pub(crate) fn links(file: &MechanismFile, out: &mut Findings) -> Vec<Link> {
 /// Where no link is said to be an output, all are that move in the free state: nothing then is idle, and a search keeps all
 /// motions.
 fn outputs(file: &MechanismFile, links: &mut [Link]) {
-    let free = file.joint.iter().filter(|j| match &j.state {
-        None => true,
-        Some(Words::One(state)) => state == "free",
-        Some(Words::Many(states)) => states.iter().any(|s| s == "free"),
-    });
+    let is_free = |w: &Words| w.list().iter().any(|s| s == "free");
+    let free = file
+        .joint
+        .iter()
+        .filter(|j| j.state.as_ref().is_none_or(is_free));
     let there: BTreeSet<&String> = free.flat_map(|j| &j.links).collect();
     for link in links {
         if link.role == Role::Inner && there.contains(&link.id) {
@@ -84,22 +58,12 @@ fn outputs(file: &MechanismFile, links: &mut [Link]) {
 }
 
 /// Every link must hang on the frame in each state it has joints in.
-pub(crate) fn connected(mechanism: &Mechanism, out: &mut Findings) {
-    let at = |l: LinkId| {
-        [
-            DocumentStep::Key("link".to_owned()),
-            DocumentStep::Index(l.index()),
-            DocumentStep::Key("id".to_owned()),
-        ]
-    };
+pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
+    let at = |l: usize| out.at("link").index(l).key("id");
     for (l, link) in mechanism.links_with_ids() {
         if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
-            out.add(
-                &at(l),
-                ProblemKind::Unused {
-                    link: link.id.clone(),
-                },
-            );
+            let link = link.id.clone();
+            at(l.index()).add(ProblemKind::Unused { link });
         }
     }
     for (s, state) in mechanism.states_with_ids() {
@@ -117,48 +81,29 @@ pub(crate) fn connected(mechanism: &Mechanism, out: &mut Findings) {
                 }
             }
         }
-        for (l, link) in mechanism
-            .links_with_ids()
-            .filter(|(l, _)| !reached.contains(l))
-        {
+        let all = mechanism.links_with_ids();
+        for (l, link) in all.filter(|(l, _)| !reached.contains(l)) {
             let here = joints
                 .iter()
                 .any(|&j| mechanism.joints[j].links.contains(&l));
             if here || (s == StateId::FREE && link.role == Role::Output) {
-                out.add(
-                    &at(l),
-                    ProblemKind::Disconnected {
-                        link: link.id.clone(),
-                        state: state.clone(),
-                    },
-                );
+                let (link, state) = (link.id.clone(), state.clone());
+                at(l.index()).add(ProblemKind::Disconnected { link, state });
             }
         }
     }
 }
 
-pub(crate) fn contours(
-    file: &MechanismFile,
-    mechanism: &Mechanism,
-    out: &mut Findings,
-) -> Vec<Vec<JointId>> {
-    let mut contours = Vec::new();
-    for (i, entry) in file.contour.iter().enumerate() {
-        let at = [
-            DocumentStep::Key("contour".to_owned()),
-            DocumentStep::Index(i),
-            DocumentStep::Key("joints".to_owned()),
-        ];
-        let joints: Vec<JointId> = entry
-            .joints
-            .iter()
-            .enumerate()
-            .filter_map(|(n, id)| joint_by_id(mechanism, id, &index(&at, n), out))
-            .collect();
-        if joints.len() == entry.joints.len() && closed_walk(mechanism, &joints).is_none() {
-            out.add(&at, ProblemKind::OpenContour);
+pub(crate) fn contours(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Vec<Vec<JointId>> {
+    let contour = |joints: &[String], at: crate::file::Place<'_>| {
+        let named = at.all(joints).filter_map(|(at, id)| at.joint(m, id));
+        let named: Vec<JointId> = named.collect();
+        if named.len() == joints.len() && closed_walk(m, &named).is_none() {
+            at.add(ProblemKind::OpenContour);
         }
-        contours.push(joints);
-    }
-    contours
+        named
+    };
+    let all = out.at("contour").all(&file.contour);
+    all.map(|(at, entry)| contour(&entry.joints, at.key("joints")))
+        .collect()
 }

@@ -1,9 +1,7 @@
 //! Joint frames and options from their entries.
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
+use crate::file::Place;
 use crate::file::problem::ProblemKind;
-use crate::file::read::value::number::{direction, pitch, vector};
 use crate::file::schema::{OptionEntry, OptionTable};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
@@ -40,25 +38,23 @@ fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     })
 }
 
-/// The frame with these parts; problems are reported at `path`.
+/// The frame with these parts of a joint; problems are told of the keys of the table that stands `at` a place.
 pub(crate) fn frame(
     joint: &str,
     point: [Expr; 3],
     axis: [Expr; 3],
     reference: Option<[Expr; 3]>,
     pitch: Expr,
-    path: &[DocumentStep],
-    out: &mut Findings,
+    at: &Place<'_>,
 ) -> Frame {
     let mut axis = axis;
+    let joint = || joint.to_owned();
+    let zero = |what: &'static str| {
+        let joint = joint();
+        at.key(what).add(ProblemKind::ZeroVector { joint, what });
+    };
     if is_zero(&axis) {
-        out.add(
-            &key(path, "axis"),
-            ProblemKind::ZeroVector {
-                joint: joint.to_owned(),
-                what: "axis",
-            },
-        );
+        zero("axis");
         axis = [0, 0, 1].map(Expr::from);
     }
     let across = || {
@@ -68,22 +64,12 @@ pub(crate) fn frame(
     };
     let reference = match reference {
         Some(r) if is_zero(&r) => {
-            out.add(
-                &key(path, "reference"),
-                ProblemKind::ZeroVector {
-                    joint: joint.to_owned(),
-                    what: "reference",
-                },
-            );
+            zero("reference");
             across()
         }
         Some(r) if parallel(&r, &axis) => {
-            out.add(
-                &key(path, "reference"),
-                ProblemKind::ParallelReference {
-                    joint: joint.to_owned(),
-                },
-            );
+            at.key("reference")
+                .add(ProblemKind::ParallelReference { joint: joint() });
             across()
         }
         Some(r) => r,
@@ -102,111 +88,63 @@ pub(crate) fn joint_type(
     joint: &str,
     kind: &str,
     freedoms: Option<&Vec<String>>,
-    path: &[DocumentStep],
-    out: &mut Findings,
+    at: &Place<'_>,
 ) -> Option<JointType> {
-    if let (Some(t), None) = (JointType::from_name(kind), freedoms) {
-        return Some(t);
-    }
+    let known = JointType::from_name(kind);
+    let names = || (joint.to_owned(), kind.to_owned());
     match (kind, freedoms) {
-        ("custom", Some(words)) => Some(JointType::Custom(custom_freedoms(
-            joint,
-            words,
-            &key(path, "freedoms"),
-            out,
-        ))),
-        ("custom", None) => {
-            let what = "freedoms, such as freedoms = [\"rz\", \"tx\"]";
-            out.add(
-                path,
-                ProblemKind::Missing {
-                    joint: joint.to_owned(),
-                    kind: kind.to_owned(),
-                    what,
-                },
-            );
-            None
+        (_, None) if known.is_some() => return known,
+        ("custom", Some(words)) => {
+            let list = custom_freedoms(joint, words, &at.key("freedoms"));
+            return Some(JointType::Custom(list));
         }
-        (known, Some(_)) if JointType::from_name(known).is_some() => {
-            let (joint, kind) = (joint.to_owned(), kind.to_owned());
-            out.add(
-                &key(path, "freedoms"),
-                ProblemKind::Superfluous {
-                    joint,
-                    kind,
-                    what: "freedoms",
-                },
-            );
-            None
+        ("custom", None) => {
+            let ((joint, kind), what) = (names(), "freedoms, such as freedoms = [\"rz\", \"tx\"]");
+            at.add(ProblemKind::Missing { joint, kind, what });
+        }
+        (_, Some(_)) if known.is_some() => {
+            let ((joint, kind), what) = (names(), "freedoms");
+            at.key(what)
+                .add(ProblemKind::Superfluous { joint, kind, what });
         }
         _ => {
             let known = JointType::NAMED
                 .iter()
                 .map(JointType::name)
-                .chain(["custom"])
-                .join(", ");
-            out.add(
-                &key(path, "type"),
-                ProblemKind::UnknownWord {
-                    what: "joint type",
-                    word: kind.to_owned(),
-                    known,
-                },
-            );
-            None
+                .chain(["custom"]);
+            at.key("type").unknown("joint type", kind, known);
         }
     }
+    None
 }
 
 /// The freedoms that words name, each once.
-fn custom_freedoms(
-    joint: &str,
-    words: &[String],
-    at: &[DocumentStep],
-    out: &mut Findings,
-) -> Vec<Freedom> {
+fn custom_freedoms(joint: &str, words: &[String], at: &Place<'_>) -> Vec<Freedom> {
     let mut list = Vec::new();
-    for (i, w) in words.iter().enumerate() {
+    for (at, w) in at.all(words) {
         match Freedom::from_name(w) {
             Some(f) if list.contains(&f) => {
-                out.add(
-                    &index(at, i),
-                    ProblemKind::RepeatedFreedom {
-                        joint: joint.to_owned(),
-                        freedom: w.clone(),
-                    },
-                );
+                let (joint, freedom) = (joint.to_owned(), w.clone());
+                at.add(ProblemKind::RepeatedFreedom { joint, freedom });
             }
             Some(f) => list.push(f),
-            None => {
-                let known = Freedom::ALL.iter().map(|(_, n)| *n).join(", ");
-                out.add(
-                    &index(at, i),
-                    ProblemKind::UnknownWord {
-                        what: "freedom",
-                        word: w.clone(),
-                        known,
-                    },
-                );
-            }
+            None => at.unknown("freedom", w, Freedom::ALL.iter().map(|(_, n)| n)),
         }
     }
     list
 }
 
-/// A cost in thousandths.
-pub(crate) fn cost(value: f64, path: &[DocumentStep], out: &mut Findings) -> Option<i64> {
-    if !(0.0..=1e6).contains(&value) {
-        out.add(
-            path,
-            ProblemKind::BadCost {
-                value: value.to_string(),
-            },
-        );
-        return None;
+impl Place<'_> {
+    /// A cost in thousandths.
+    pub(crate) fn cost(&self, value: f64) -> Option<i64> {
+        if !(0.0..=1e6).contains(&value) {
+            let value = value.to_string();
+            self.add(ProblemKind::BadCost { value });
+            return None;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "at most 1e9")]
+        Some((value * 1000.0).round() as i64)
     }
-    #[allow(clippy::cast_possible_truncation, reason = "at most 1e9")]
-    Some((value * 1000.0).round() as i64)
 }
 
 /// What an option without a name of its own is called.
@@ -223,72 +161,54 @@ pub(crate) fn option(
     present: &Frame,
     entry: &OptionEntry,
     states: &[String],
-    path: &[DocumentStep],
-    out: &mut Findings,
+    at: &Place<'_>,
 ) -> Option<JointOption> {
     let table = entry.table();
     let kind = table.kind.as_deref().unwrap_or("custom");
-    let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), path, out)?;
-    let frame = option_frame(joint, present, &table, path, out);
-    let name = table
-        .name
-        .clone()
-        .unwrap_or_else(|| motion_name(&joint_type));
+    let joint_type = joint_type(joint, kind, table.freedoms.as_ref(), at)?;
+    let frame = option_frame(joint, present, &table, at);
     let state = table.state.as_ref().and_then(|name| {
         let known = states.iter().position(|s| s == name);
         if known.is_none() {
-            out.add(
-                &key(path, "state"),
-                ProblemKind::UnknownWord {
-                    what: "state",
-                    word: name.clone(),
-                    known: states.join(", "),
-                },
-            );
+            at.key("state").unknown("state", name, states);
         }
         known.map(StateId::new)
     });
-    let cost_milli = table.cost.and_then(|c| cost(c, &key(path, "cost"), out));
     Some(JointOption {
-        name,
+        name: table
+            .name
+            .clone()
+            .unwrap_or_else(|| motion_name(&joint_type)),
         joint_type,
         frame,
-        cost_milli,
+        cost_milli: table.cost.and_then(|c| at.key("cost").cost(c)),
         state,
     })
 }
 
 /// The frame of an option: what its table leaves out is as the joint has it.
-fn option_frame(
-    joint: &str,
-    present: &Frame,
-    table: &OptionTable,
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> Frame {
-    let axis = table.axis.as_ref().map_or_else(
-        || present.axis.clone(),
-        |v| direction(v, &key(path, "axis"), out),
-    );
-    let stated = table.reference.as_ref();
-    let reference = stated.map_or_else(
-        || Some(present.reference.clone()).filter(|r| !parallel(r, &axis)),
-        |v| Some(direction(v, &key(path, "reference"), out)),
-    );
-    let screw = [table.pitch.as_ref(), table.lead.as_ref()];
-    let pitch = pitch(screw, path, out).unwrap_or_else(|| present.pitch.clone());
-    let point = table.point.as_ref().map_or_else(
-        || present.point.clone(),
-        |p| vector(p, &key(path, "point"), out),
-    );
+fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_>) -> Frame {
+    let axis = table.axis.as_ref().map(|v| at.key("axis").direction(v));
+    let axis = axis.unwrap_or_else(|| present.axis.clone());
+    let reference = table
+        .reference
+        .as_ref()
+        .map(|v| at.key("reference").direction(v));
+    let own = || Some(present.reference.clone()).filter(|r| !parallel(r, &axis));
+    let reference = reference.or_else(own);
+    let pitch = at.pitch(&table.pitch, &table.lead);
+    let pitch = pitch.unwrap_or_else(|| present.pitch.clone());
+    let point = table.point.as_ref().map(|p| at.key("point").vector(p));
+    let point = point.unwrap_or_else(|| present.point.clone());
     if table.axis.is_some() || table.reference.is_some() {
-        return frame(joint, point, axis, reference, pitch, path, out);
+        return frame(joint, point, axis, reference, pitch, at);
     }
     // Those directions are looked at already.
+    let reference = present.reference.clone();
     Frame {
         point,
         axis,
-        reference: present.reference.clone(),
+        reference,
         pitch,
     }
 }

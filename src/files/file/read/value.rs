@@ -7,13 +7,10 @@ pub(crate) mod quantity;
 pub(in crate::file::read) mod tolerance;
 
 use crate::file::Findings;
-use crate::file::locate::{DocumentStep, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::value::number::number;
 use crate::file::schema::MechanismFile;
 use crate::geom::expr::{Expr, WORDS};
 use crate::model::mechanism::LengthUnit;
-use itertools::Itertools;
 use std::collections::BTreeMap;
 
 /// Most links, joints (and as many contours), and options of one joint in a file.
@@ -46,19 +43,12 @@ const UNITS: [LengthUnit; 5] = [
 ];
 
 /// The file's unit of length.
-pub(crate) fn length_unit(file: &MechanismFile, out: &mut Findings) -> LengthUnit {
+pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
     let symbol = file.length_unit.as_deref().unwrap_or("m");
     let found = UNITS.into_iter().find(|u| u.symbol == symbol);
     found.unwrap_or_else(|| {
-        let known = UNITS.iter().map(|u| u.symbol).join(", ");
-        out.add(
-            &[DocumentStep::Key("length_unit".to_owned())],
-            ProblemKind::UnknownWord {
-                what: "length unit",
-                word: symbol.to_owned(),
-                known,
-            },
-        );
+        let known = UNITS.iter().map(|u| u.symbol);
+        out.at("length_unit").unknown("length unit", symbol, known);
         UNITS[0]
     })
 }
@@ -67,23 +57,22 @@ pub(crate) fn length_unit(file: &MechanismFile, out: &mut Findings) -> LengthUni
 const MOST: usize = 64;
 
 /// Returns the parameters of a file by name.
-fn parameters(file: &MechanismFile, out: &mut Findings) -> BTreeMap<String, Expr> {
-    let at = [DocumentStep::Key("parameter".to_owned())];
+fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
+    let at = out.at("parameter");
     if file.parameter.len() > MOST {
         let (what, count, limit) = ("parameters", file.parameter.len(), MOST);
-        out.add(&at, ProblemKind::TooMany { what, count, limit });
+        at.add(ProblemKind::TooMany { what, count, limit });
         return BTreeMap::new();
     }
     let mut all = BTreeMap::new();
     for (name, value) in &file.parameter {
-        let path = key(&at, name);
+        let at = at.key(name);
         let first = name.starts_with(|c: char| c.is_ascii_alphabetic());
         let rest = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         if !first || !rest || WORDS.contains(&name.as_str()) {
-            let name = name.clone();
-            out.add(&path, ProblemKind::BadParameter { name });
+            at.add(ProblemKind::BadParameter { name: name.clone() });
         }
-        all.insert(name.clone(), number(value, &path, out));
+        all.insert(name.clone(), at.number(value));
     }
     all
 }
@@ -91,15 +80,7 @@ fn parameters(file: &MechanismFile, out: &mut Findings) -> BTreeMap<String, Expr
 /// Returns findings that know the parameters of a file.
 pub(crate) fn knowing(file: &MechanismFile) -> Findings {
     let mut out = Findings::default();
-    let all = parameters(file, &mut out);
+    let all = parameters(file, &out);
     out.know(all);
     out
-}
-
-/// Tells of parameters that nothing depends on.
-pub(crate) fn unused(out: &mut Findings) {
-    for name in out.unused() {
-        let path = key(&[DocumentStep::Key("parameter".to_owned())], &name);
-        out.add(&path, ProblemKind::UnusedParameter { name });
-    }
 }

@@ -7,7 +7,6 @@ pub(crate) mod loads;
 pub mod motion;
 pub mod trajectory;
 
-use crate::file::locate::DocumentStep;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::read::claims;
@@ -44,13 +43,10 @@ pub struct WorkloadFile<T> {
 /// # Errors
 /// Every problem found, each with its place.
 pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec>, ImportError> {
-    let missing = ProblemKind::NoWorkload {
-        table: "grip",
-        example: "lever-gripper",
-    };
-    read(name, text_of(name, bytes)?, |file| {
-        workload(file, grip, missing)
-    })
+    let (table, example) = ("grip", "lever-gripper");
+    let missing = ProblemKind::NoWorkload { table, example };
+    let text = text_of(name, bytes)?;
+    read(name, text, |file| workload(file, grip, missing))
 }
 
 /// Reads `[workload.drive]`; names that end in `.json` are JSON, all others TOML.
@@ -58,13 +54,10 @@ pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec
 /// # Errors
 /// Every problem found, each with its place.
 pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<DriveSpec>, ImportError> {
-    let missing = ProblemKind::NoWorkload {
-        table: "drive",
-        example: "torsion-module",
-    };
-    read(name, text_of(name, bytes)?, |file| {
-        workload(file, drive, missing)
-    })
+    let (table, example) = ("drive", "torsion-module");
+    let missing = ProblemKind::NoWorkload { table, example };
+    let text = text_of(name, bytes)?;
+    read(name, text, |file| workload(file, drive, missing))
 }
 
 /// Reads a file that has workload tables and no mechanism: its name and those of its tables; `None` for other files.
@@ -80,10 +73,10 @@ pub fn tables_alone(
         if tables.is_empty() || !file.link.is_empty() || !file.joint.is_empty() {
             return Ok(None);
         }
-        let mut out = knowing(file);
-        let unit = length_unit(file, &mut out).metres;
-        grip(file, unit, None, &mut out);
-        drive(file, unit, None, &mut out);
+        let out = knowing(file);
+        let unit = length_unit(file, &out).metres;
+        grip(file, unit, None, &out);
+        drive(file, unit, None, &out);
         out.unless(Some((file.name.clone(), tables)))
     })
 }
@@ -100,20 +93,20 @@ pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
 
 fn workload<T>(
     file: &MechanismFile,
-    table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &mut Findings) -> Option<T>,
+    table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &Findings) -> Option<T>,
     missing: ProblemKind,
 ) -> Result<WorkloadFile<T>, Vec<Finding>> {
-    let mut out = knowing(file);
+    let out = knowing(file);
     let mechanism = if file.link.is_empty() && file.joint.is_empty() {
         None
     } else {
         Some(build(file)?)
     };
-    let length_unit = length_unit(file, &mut out);
-    let spec = table(file, length_unit.metres, mechanism.as_ref(), &mut out);
-    let claims = claims(file, &mut out);
+    let length_unit = length_unit(file, &out);
+    let spec = table(file, length_unit.metres, mechanism.as_ref(), &out);
+    let claims = claims(file, &out);
     if spec.is_none() && out.count() == 0 {
-        out.add(&[DocumentStep::Key("workload".to_owned())], missing);
+        out.at("workload").add(missing);
     }
     match spec {
         Some(spec) if out.count() == 0 => Ok(WorkloadFile {

@@ -1,204 +1,117 @@
 //! `[ranking]` and `[joint_types]`.
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::cost;
 use crate::file::schema::{JointTypeEntry, MechanismFile, RankingEntry};
+use crate::file::{Findings, Place};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism, StateId};
 use crate::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term, TypeOverride};
-use itertools::Itertools;
 
 /// Most terms and limits.
 const MOST: usize = 100;
 
-fn term(word: &str, at: &[DocumentStep], out: &mut Findings) -> Option<Term> {
+fn term(word: &str, at: &Place<'_>) -> Option<Term> {
     let found = Term::from_name(word);
     if found.is_none() {
-        out.add(
-            &key(at, "term"),
-            ProblemKind::UnknownWord {
-                what: "term",
-                word: word.to_owned(),
-                known: Term::ALL.iter().map(|t| t.name()).join(", "),
-            },
-        );
+        at.key("term")
+            .unknown("term", word, Term::ALL.map(Term::name));
     }
     found
 }
 
-fn bad(
-    out: &mut Findings,
-    at: &[DocumentStep],
-    what: &'static str,
-    value: f64,
-    allowed: &'static str,
-) {
-    let value = value.to_string();
-    out.add(
-        at,
-        ProblemKind::BadQuantity {
-            what,
-            value,
-            allowed,
-        },
-    );
-}
-
-/// Where `[ranking]` stands.
-fn root() -> [DocumentStep; 1] {
-    [DocumentStep::Key("ranking".to_owned())]
-}
-
 /// The ranking a file asks for, if any.
-pub(crate) fn ranking(
-    file: &MechanismFile,
-    mechanism: &Mechanism,
-    out: &mut Findings,
-) -> Option<Ranking> {
+pub(crate) fn ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
-    let order = order(entry, out);
-    let clearance = clearance(entry, out);
-    let terms = terms(entry, out);
-    let limits = limits(entry, out);
-    let states = ranked_states(entry, mechanism, out);
+    let at = &out.at("ranking");
     Some(Ranking {
-        states,
-        order,
-        terms,
-        limits,
-        clearance,
+        order: order(entry, at),
+        clearance: clearance(entry, at),
+        terms: terms(entry, &at.key("terms")),
+        limits: limits(entry, &at.key("limits")),
+        states: ranked_states(entry, m, &at.key("states")),
     })
 }
 
 /// How terms are weighed against each other.
-fn order(entry: &RankingEntry, out: &mut Findings) -> Order {
+fn order(entry: &RankingEntry, at: &Place<'_>) -> Order {
     let word = entry.order.as_deref().unwrap_or("weighted");
     let order = Order::ALL.iter().find(|(_, w)| *w == word);
     if order.is_none() {
-        out.add(
-            &key(&root(), "order"),
-            ProblemKind::UnknownWord {
-                what: "order",
-                word: word.to_owned(),
-                known: Order::ALL.iter().map(|(_, w)| *w).join(", "),
-            },
-        );
+        at.key("order")
+            .unknown("order", word, Order::ALL.iter().map(|(_, w)| w));
     }
     order.map_or(Order::Weighted, |(o, _)| *o)
 }
 
 /// How clearances add up.
-fn clearance(entry: &RankingEntry, out: &mut Findings) -> ClearanceSum {
+fn clearance(entry: &RankingEntry, at: &Place<'_>) -> ClearanceSum {
     match entry.clearance.as_deref() {
         None | Some("worst") => ClearanceSum::Worst,
         Some("rms") => ClearanceSum::Rms,
         Some(word) => {
-            out.add(
-                &key(&root(), "clearance"),
-                ProblemKind::UnknownWord {
-                    what: "sum of clearances",
-                    word: word.to_owned(),
-                    known: "worst, rms".to_owned(),
-                },
-            );
+            let at = at.key("clearance");
+            at.unknown("sum of clearances", word, ["worst", "rms"]);
             ClearanceSum::Worst
         }
     }
 }
 
 /// The terms with their weights.
-fn terms(entry: &RankingEntry, out: &mut Findings) -> Vec<(Term, f64)> {
-    let list = key(&root(), "terms");
+fn terms(entry: &RankingEntry, at: &Place<'_>) -> Vec<(Term, f64)> {
     let mut terms: Vec<(Term, f64)> = Vec::new();
-    let entries = out.at_most(MOST, &entry.terms, "terms", &list);
-    for (i, t) in entries.iter().enumerate() {
-        let at = index(&list, i);
+    for (at, t) in at.most(MOST, &entry.terms, "terms") {
         let weight = t.weight.unwrap_or(1.0);
         if !(0.0..=1e12).contains(&weight) {
-            bad(
-                out,
-                &key(&at, "weight"),
-                "weight",
-                weight,
-                "a number from 0 to 1e12",
-            );
+            at.key("weight")
+                .bad("weight", weight, "a number from 0 to 1e12");
         }
-        let Some(term) = term(&t.term, &at, out) else {
+        let Some(term) = term(&t.term, &at) else {
             continue;
         };
         if terms.iter().any(|(other, _)| *other == term) {
-            out.add(
-                &key(&at, "term"),
-                ProblemKind::Duplicate {
-                    what: "[ranking]",
-                    id: t.term.clone(),
-                },
-            );
+            let (what, id) = ("[ranking]", t.term.clone());
+            at.key("term").add(ProblemKind::Duplicate { what, id });
         }
         terms.push((term, weight));
     }
     if entry.terms.is_empty() {
-        out.add(
-            &list,
-            ProblemKind::UnknownWord {
-                what: "list of terms",
-                word: "[]".to_owned(),
-                known: Term::ALL.iter().map(|t| t.name()).join(", "),
-            },
-        );
+        at.unknown("list of terms", "[]", Term::ALL.map(Term::name));
     }
     terms
 }
 
 /// The bounds that variants must keep.
-fn limits(entry: &RankingEntry, out: &mut Findings) -> Vec<Limit> {
-    let list = key(&root(), "limits");
+fn limits(entry: &RankingEntry, at: &Place<'_>) -> Vec<Limit> {
     let mut limits = Vec::new();
-    let entries = out.at_most(MOST, &entry.limits, "limits", &list);
-    for (i, l) in entries.iter().enumerate() {
-        let at = index(&list, i);
-        for (k, bound) in [("min", l.min), ("max", l.max)] {
+    for (at, l) in at.most(MOST, &entry.limits, "limits") {
+        let (min, max) = (l.min, l.max);
+        for (k, bound) in [("min", min), ("max", max)] {
             if let Some(x) = bound.filter(|x| !x.is_finite()) {
-                bad(out, &key(&at, k), "limit", x, "a finite number");
+                at.key(k).bad("limit", x, "a finite number");
             }
         }
-        if let Some(term) = term(&l.term, &at, out) {
-            let (min, max) = (l.min, l.max);
-            limits.push(Limit { term, min, max });
-        }
+        limits.extend(term(&l.term, &at).map(|term| Limit { term, min, max }));
     }
     limits
 }
 
 /// The states that count in the ranking: free, and those in which the gripper holds its part.
-fn ranked_states(entry: &RankingEntry, mechanism: &Mechanism, out: &mut Findings) -> Vec<StateId> {
-    let grip = mechanism.loads.grip.as_ref().and_then(|g| g.contacts);
-    let counts = |s: StateId| {
-        let of_grip = grip.and_then(|c| mechanism.joints[c[0]].states.as_ref());
-        s == StateId::FREE || of_grip.is_some_and(|states| states.contains(&s))
-    };
-    let list = key(&root(), "states");
+fn ranked_states(entry: &RankingEntry, m: &Mechanism, at: &Place<'_>) -> Vec<StateId> {
+    let grip = m.loads.grip.as_ref().and_then(|g| g.contacts);
+    let of_grip = grip.and_then(|c| m.joints[c[0]].states.as_ref());
+    let counts = |s: &StateId| *s == StateId::FREE || of_grip.is_some_and(|all| all.contains(s));
     let mut states = Vec::new();
-    let words = out.at_most(MOST, &entry.states, "states", &list);
-    for (i, word) in words.iter().enumerate() {
-        let found = mechanism.state(word);
-        match found.filter(|&s| counts(s)) {
-            Some(s) => states.push(s),
-            None => out.add(
-                &index(&list, i),
-                ProblemKind::UnknownWord {
-                    what: "state to rank in (free, or one with the contacts of [workload.grip])",
-                    word: word.clone(),
-                    known: mechanism
-                        .state_ids()
-                        .filter(|&s| counts(s))
-                        .map(|s| mechanism.states[s].as_str())
-                        .join(", "),
-                },
-            ),
+    for (at, word) in at.most(MOST, &entry.states, "states") {
+        let found = m.state(word).filter(counts);
+        if found.is_none() {
+            let what = "state to rank in (free, or one with the contacts of [workload.grip])";
+            at.unknown(
+                what,
+                word,
+                m.state_ids().filter(counts).map(|s| &m.states[s]),
+            );
         }
+        states.extend(found);
     }
     states
 }
@@ -207,31 +120,22 @@ fn ranked_states(entry: &RankingEntry, mechanism: &Mechanism, out: &mut Findings
 pub(crate) fn joint_types(
     file: &MechanismFile,
     mechanism: &Mechanism,
-    out: &mut Findings,
+    out: &Findings,
 ) -> (Vec<TypeOverride>, Vec<(String, i64)>) {
-    let root = [DocumentStep::Key("joint_types".to_owned())];
     let (mut found, mut costs) = (Vec::new(), Vec::new());
     let offered = |name: &str| {
         let mut all = mechanism.joints.iter().flat_map(Joint::offered);
         all.any(|o| o.name == name)
     };
     for (name, entry) in &file.joint_types {
-        let at = key(&root, name);
+        let at = out.at("joint_types").key(name);
         if name != "custom" && JointType::from_name(name).is_none() && !offered(name) {
             let known = JointType::NAMED.iter().map(JointType::name);
-            out.add(
-                &at,
-                ProblemKind::UnknownWord {
-                    what: "joint type",
-                    word: name.clone(),
-                    known: known.chain(["custom"]).join(", "),
-                },
-            );
+            at.unknown("joint type", name, known.chain(["custom"]));
         }
-        check_figures(entry, &at, out);
-        if let Some(milli) = entry.cost.and_then(|c| cost(c, &key(&at, "cost"), out)) {
-            costs.push((name.clone(), milli));
-        }
+        check_figures(entry, &at);
+        let milli = entry.cost.and_then(|c| at.key("cost").cost(c));
+        costs.extend(milli.map(|milli| (name.clone(), milli)));
         let says = TypeOverride {
             name: name.clone(),
             capacity_force: entry.capacity_force,
@@ -249,29 +153,20 @@ pub(crate) fn joint_types(
 }
 
 /// Whether what a type bears lies in range.
-fn check_figures(entry: &JointTypeEntry, at: &[DocumentStep], out: &mut Findings) {
-    for (k, what, value, least) in [
+fn check_figures(entry: &JointTypeEntry, at: &Place<'_>) {
+    let above = (f64::MIN_POSITIVE, "a number above 0, up to 1e12");
+    for (k, what, value, (least, allowed)) in [
+        ("capacity_force", "capacity", entry.capacity_force, above),
+        ("capacity_moment", "capacity", entry.capacity_moment, above),
         (
-            "capacity_force",
-            "capacity",
-            entry.capacity_force,
-            f64::MIN_POSITIVE,
+            "clearance",
+            "clearance",
+            entry.clearance,
+            (0.0, "a number from 0 to 1e12"),
         ),
-        (
-            "capacity_moment",
-            "capacity",
-            entry.capacity_moment,
-            f64::MIN_POSITIVE,
-        ),
-        ("clearance", "clearance", entry.clearance, 0.0),
     ] {
         if let Some(x) = value.filter(|x| !(least..=1e12).contains(x)) {
-            let allowed = if least > 0.0 {
-                "a number above 0, up to 1e12"
-            } else {
-                "a number from 0 to 1e12"
-            };
-            bad(out, &key(at, k), what, x, allowed);
+            at.key(k).bad(what, x, allowed);
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Numbers from their entries: lengths, directions, pitches.
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
+use crate::file::Place;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::Coordinate;
 use crate::geom::expr::{Expr, ExprError, WrittenNumber};
@@ -14,114 +13,95 @@ const RANGE: (f64, f64) = (1e-40, 1e12);
 /// A component of a direction that is a smaller part of the largest one is what a program makes of 0.
 const NOTHING: f64 = 1e-40;
 
-/// A number in the range of lengths.
-pub(crate) fn number(c: &Coordinate, path: &[DocumentStep], out: &mut Findings) -> Expr {
-    let read = read_number(c, false, path, out);
-    in_range(read, path, out)
-}
+impl Place<'_> {
+    /// A number in the range of lengths.
+    pub(crate) fn number(&self, c: &Coordinate) -> Expr {
+        self.in_range(self.read_number(c, false))
+    }
 
-/// Three numbers in the range of lengths.
-pub(crate) fn vector(v: &[Coordinate; 3], path: &[DocumentStep], out: &mut Findings) -> [Expr; 3] {
-    [0, 1, 2].map(|i| number(&v[i], &index(path, i), out))
-}
+    /// Three numbers in the range of lengths.
+    pub(crate) fn vector(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
+        [0, 1, 2].map(|i| self.index(i).number(&v[i]))
+    }
 
-/// A direction of any length, made longer or shorter by a power of ten where its numbers are beyond the range of lengths.
-pub(crate) fn direction(
-    v: &[Coordinate; 3],
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> [Expr; 3] {
-    let read = [0, 1, 2].map(|i| read_number(&v[i], false, &index(path, i), out));
-    let sizes = read.each_ref().map(|e| e.to_f64().abs());
-    if sizes.iter().all(|&s| is_usual(s)) {
-        return read;
+    /// A direction of any length, made longer or shorter by a power of ten where its numbers are beyond the range of lengths.
+    pub(crate) fn direction(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
+        let read = [0, 1, 2].map(|i| self.index(i).read_number(&v[i], false));
+        let largest = read.iter().map(|e| e.to_f64().abs()).fold(0.0, f64::max);
+        if read.iter().all(|e| is_usual(e.to_f64().abs())) {
+            return read;
+        }
+        let kept = read.map(|e| {
+            let nothing = e.written() != WrittenNumber::No && e.to_f64().abs() < NOTHING * largest;
+            if nothing { Expr::from(0) } else { e }
+        });
+        if largest == 0.0 || is_usual(largest) {
+            return kept;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "at most 324 in size")]
+        let power = largest.log10().floor() as i32;
+        let ten = BigRational::from_integer(BigInt::from(10));
+        let factor = Expr::rational(num_traits::Pow::pow(&ten, -power));
+        kept.map(|e| e.scaled_as_written(&e * &factor, 10f64.powi(-power)))
     }
-    let largest = sizes.into_iter().fold(0.0, f64::max);
-    let nothing =
-        |e: &Expr, size: f64| e.written() != WrittenNumber::No && size < NOTHING * largest;
-    let mut kept =
-        read.into_iter().zip(sizes).map(
-            |(e, size)| {
-                if nothing(&e, size) { Expr::from(0) } else { e }
-            },
-        );
-    let kept = [(); 3].map(|()| kept.next().unwrap_or_else(|| Expr::from(0)));
-    if largest == 0.0 || is_usual(largest) {
-        return kept;
-    }
-    #[allow(clippy::cast_possible_truncation, reason = "at most 324 in size")]
-    let power = largest.log10().floor() as i32;
-    let ten = BigRational::from_integer(BigInt::from(10));
-    let factor = Expr::rational(num_traits::Pow::pow(&ten, -power));
-    kept.map(|e| e.scaled_as_written(&e * &factor, 10f64.powi(-power)))
-}
 
-/// The pitch of a screw, per radian, from that or from its lead, which is per turn; none where neither stands.
-pub(crate) fn pitch(
-    [pitch, lead]: [Option<&Coordinate>; 2],
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> Option<Expr> {
-    if pitch.is_some() && lead.is_some() {
-        let (key, other) = ("lead", "pitch");
-        out.add(
-            &self::key(path, key),
-            ProblemKind::KeyExcludes { key, other },
-        );
+    /// The pitch of a screw, per radian, from that or from its lead, which is per turn; none where neither stands.
+    pub(crate) fn pitch(
+        &self,
+        pitch: &Option<Coordinate>,
+        lead: &Option<Coordinate>,
+    ) -> Option<Expr> {
+        if pitch.is_some() && lead.is_some() {
+            self.excludes("lead", "pitch");
+        }
+        if let Some(c) = pitch {
+            let at = self.key("pitch");
+            return Some(at.in_range(at.read_number(c, true)));
+        }
+        let lead = self.key("lead").number(lead.as_ref()?);
+        let turn = Expr::from(2) * Expr::pi();
+        if lead.is_zero_rational() {
+            return Some(lead);
+        }
+        let pitch = lead.div(&turn)?;
+        Some(lead.scaled_as_written(pitch, 1.0 / std::f64::consts::TAU))
     }
-    if let Some(c) = pitch {
-        let at = key(path, "pitch");
-        let read = read_number(c, true, &at, out);
-        return Some(in_range(read, &at, out));
+
+    fn in_range(&self, e: Expr) -> Expr {
+        let size = e.to_f64().abs();
+        // An irrational expression may cancel to zero, and is then zero; a number that is too small for doubles is not.
+        let lost = size == 0.0 && e.as_rational().is_some() && !e.is_zero_rational();
+        if is_usual(size) && !lost {
+            return e;
+        }
+        self.add(ProblemKind::OutOfRange { value: short(&e) });
+        Expr::from(0)
     }
-    let lead = number(lead?, &key(path, "lead"), out);
-    let turn = Expr::from(2) * Expr::pi();
-    if lead.is_zero_rational() {
-        return Some(lead);
+
+    fn read_number(&self, c: &Coordinate, pi_is_a_number: bool) -> Expr {
+        let parsed = match c {
+            Coordinate::Integer(i) => Ok(Expr::from(*i).written_as(WrittenNumber::Whole)),
+            Coordinate::Decimal(x) => Expr::from_f64(*x),
+            Coordinate::Expression(s) => self.out.expression(s, pi_is_a_number),
+        };
+        parsed.unwrap_or_else(|e| {
+            let known = self.out.names().join(", ");
+            let parameters = match e {
+                ExprError::UnknownWord { .. } if !known.is_empty() => {
+                    format!(", and the parameters {known}")
+                }
+                _ => String::new(),
+            };
+            let message = format!("{e}{parameters}");
+            self.add(ProblemKind::BadNumber { message });
+            Expr::from(0)
+        })
     }
-    let pitch = lead.div(&turn)?;
-    Some(lead.scaled_as_written(pitch, 1.0 / std::f64::consts::TAU))
 }
 
 /// Whether a coordinate has a size that is calculated with; 0 has.
 fn is_usual(size: f64) -> bool {
     size == 0.0 || (RANGE.0..=RANGE.1).contains(&size)
-}
-
-fn in_range(e: Expr, path: &[DocumentStep], out: &mut Findings) -> Expr {
-    let size = e.to_f64().abs();
-    // An irrational expression may cancel to zero, and is then zero; a number that is too small for doubles is not.
-    let lost = size == 0.0 && e.as_rational().is_some() && !e.is_zero_rational();
-    if is_usual(size) && !lost {
-        return e;
-    }
-    out.add(path, ProblemKind::OutOfRange { value: short(&e) });
-    Expr::from(0)
-}
-
-fn read_number(
-    c: &Coordinate,
-    pi_is_a_number: bool,
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> Expr {
-    let parsed = match c {
-        Coordinate::Integer(i) => Ok(Expr::from(*i).written_as(WrittenNumber::Whole)),
-        Coordinate::Decimal(x) => Expr::from_f64(*x),
-        Coordinate::Expression(s) => out.expression(s, pi_is_a_number),
-    };
-    parsed.unwrap_or_else(|e| {
-        let known = out.names().join(", ");
-        let parameters = match e {
-            ExprError::UnknownWord { .. } if !known.is_empty() => {
-                format!(", and the parameters {known}")
-            }
-            _ => String::new(),
-        };
-        let message = format!("{e}{parameters}");
-        out.add(path, ProblemKind::BadNumber { message });
-        Expr::from(0)
-    })
 }
 
 /// A number as it is written, or in short where that takes more than a line has room for.

@@ -1,10 +1,7 @@
 //! How well numbers are known, where the file states it.
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
-use crate::file::problem::ProblemKind;
-use crate::file::read::value::number::number;
 use crate::file::schema::{Coordinate, MechanismFile};
+use crate::file::{Findings, Place};
 use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::geom::extent::diagonal;
 use crate::geom::vector::{length, real};
@@ -16,7 +13,7 @@ const MOST_TURN: f64 = 0.1;
 const MOST_SHIFT: f64 = 0.1;
 
 /// Puts what is stated in place of what digits say.
-pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findings) {
+pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings) {
     let across = diagonal(m.joints.iter().map(|j| real(&j.frame.point)));
     // Joints that are all in one place have no size.
     let most = if across > 0.0 {
@@ -24,34 +21,25 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findi
     } else {
         f64::INFINITY
     };
-    let mut shift = |c: Option<&Coordinate>, path: &[DocumentStep]| {
-        let allowed = "0, or at most a tenth of the distance across the joints";
-        stated(c?, path, most, allowed, out)
-    };
-    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
-    let of_file = file.tolerance.as_ref();
-    let lengths = shift(
-        of_file.and_then(|t| t.length.as_ref()),
-        &key(&root("tolerance"), "length"),
+    let allowed = "0, or at most a tenth of the distance across the joints";
+    let shift = |at: Place<'_>, c: &Option<Coordinate>| at.stated(c, most, allowed);
+    let (of_file, at) = (
+        file.tolerance.clone().unwrap_or_default(),
+        out.at("tolerance"),
     );
-    let each = file.joint.iter().enumerate();
-    let of_joints: Vec<Option<f64>> = each
-        .map(|(i, j)| {
-            let at = index(&root("joint"), i);
-            shift(j.tolerance.as_ref(), &key(&at, "tolerance"))
-        })
+    let lengths = shift(at.key("length"), &of_file.length);
+    let of_joints: Vec<Option<f64>> = out
+        .at("joint")
+        .all(&file.joint)
+        .map(|(at, j)| shift(at.key("tolerance"), &j.tolerance))
         .collect();
-    let each = file.point.iter().enumerate();
-    let of_points: Vec<Option<f64>> = each
-        .map(|(i, p)| {
-            let at = index(&root("point"), i);
-            shift(p.tolerance.as_ref(), &key(&at, "tolerance"))
-        })
+    let of_points: Vec<Option<f64>> = out
+        .at("point")
+        .all(&file.point)
+        .map(|(at, p)| shift(at.key("tolerance"), &p.tolerance))
         .collect();
-    let directions = of_file.and_then(|t| t.direction.as_ref()).and_then(|c| {
-        let at = key(&root("tolerance"), "direction");
-        stated(c, &at, MOST_TURN, "0, or at most 0.1 rad", out)
-    });
+    let at = at.key("direction");
+    let directions = at.stated(&of_file.direction, MOST_TURN, "0, or at most 0.1 rad");
     for (joint, own) in m.joints.iter_mut().zip(of_joints) {
         joint_at(joint, lengths, directions, own);
     }
@@ -60,33 +48,20 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &mut Findi
     }
 }
 
-/// A tolerance, nothing where it is none.
-fn stated(
-    c: &Coordinate,
-    path: &[DocumentStep],
-    most: f64,
-    allowed: &'static str,
-    out: &mut Findings,
-) -> Option<f64> {
-    let before = out.count();
-    let value = number(c, path, out).to_f64();
-    if out.count() > before {
-        return None;
+impl Place<'_> {
+    /// A tolerance, nothing where it is none.
+    fn stated(&self, c: &Option<Coordinate>, most: f64, allowed: &'static str) -> Option<f64> {
+        let before = self.out.count();
+        let value = self.number(c.as_ref()?).to_f64();
+        if self.out.count() > before {
+            return None;
+        }
+        let fits = (0.0..=most).contains(&value);
+        if !fits {
+            self.bad("tolerance", value, allowed);
+        }
+        fits.then_some(value)
     }
-    if !(0.0..=most).contains(&value) {
-        let what = "tolerance";
-        let value = value.to_string();
-        out.add(
-            path,
-            ProblemKind::BadQuantity {
-                what,
-                value,
-                allowed,
-            },
-        );
-        return None;
-    }
-    Some(value)
 }
 
 fn joint_at(joint: &mut Joint, lengths: Option<f64>, directions: Option<f64>, own: Option<f64>) {

@@ -3,17 +3,17 @@
 mod inertias;
 mod programme;
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep as Place, index, key};
-use crate::file::read::value::quantity::{Bound, ValueTable};
+use crate::file::problem::ProblemKind;
+use crate::file::read::value::quantity::Bound;
 use crate::file::schema::{Coordinate, DriveEntry, MechanismFile};
+use crate::file::{Findings, Place};
 use crate::model::drive::{Cam, Damping, DriveSpec, Push};
 use crate::model::mechanism::Mechanism;
 use inertias::inertias;
 pub(crate) use programme::regular;
 use programme::{MOST, programme};
 
-fn damping(t: &mut ValueTable<'_>, e: &DriveEntry) -> Option<Damping> {
+fn damping(t: &Place<'_>, e: &DriveEntry) -> Option<Damping> {
     let viscous = t.not_negative("viscous_damping", &e.viscous_damping, 1.0);
     let coulomb = t.not_negative("friction_moment", &e.friction_moment, 1.0);
     (viscous.is_some() || coulomb.is_some()).then(|| Damping {
@@ -22,41 +22,29 @@ fn damping(t: &mut ValueTable<'_>, e: &DriveEntry) -> Option<Damping> {
     })
 }
 
-fn cam(t: &mut ValueTable<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
+fn cam(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
     let stroke = t.positive("spring_stroke", &e.spring_stroke, unit);
     let mounting = t.not_negative("mounting_coefficient", &e.mounting_coefficient, 1.0);
-    let efficiency = t.optional(
-        "cam_efficiency",
-        e.cam_efficiency.as_ref(),
-        1.0,
-        Bound::Range(1e-6, 1.0, "a number above 0, up to 1"),
-    );
+    let share = Bound::Range(1e-6, 1.0, "a number above 0, up to 1");
+    let efficiency = t.optional("cam_efficiency", &e.cam_efficiency, 1.0, share);
     if stroke.is_none() {
-        for (k, _) in [
+        let of_cam = [
             ("mounting_coefficient", mounting),
             ("cam_efficiency", efficiency),
-        ]
-        .iter()
-        .filter(|(_, v)| v.is_some())
-        {
-            t.needs(k, "spring_stroke beside it");
-        }
+        ];
+        let given = of_cam.into_iter().filter(|(_, v)| v.is_some());
+        given.for_each(|(k, _)| t.needs(k, "spring_stroke beside it"));
     }
     let radius = t.positive("cam_radius", &e.cam_radius, unit);
     let roller = t.positive("roller_radius", &e.roller_radius, unit);
-    let profile = radius.zip(roller);
     match (stroke, radius, roller) {
         (_, Some(_), None) => t.needs("cam_radius", "roller_radius beside it"),
         (_, None, Some(_)) => t.needs("roller_radius", "cam_radius beside it"),
         (None, Some(_), Some(_)) => t.needs("cam_radius", "spring_stroke beside it"),
         (Some(stroke), Some(radius), Some(roller)) if radius <= stroke + roller => {
-            let path = key(&t.at, "cam_radius");
-            t.bad(
-                &path,
-                "cam_radius",
-                (radius / unit).to_string(),
-                "more than spring_stroke and roller_radius together, so that the cam keeps clear of the axis",
-            );
+            let allowed = "more than spring_stroke and roller_radius together, so that the cam keeps clear of the axis";
+            t.key("cam_radius")
+                .bad("cam_radius", radius / unit, allowed);
         }
         _ => {}
     }
@@ -64,55 +52,46 @@ fn cam(t: &mut ValueTable<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
         stroke,
         mounting: mounting.unwrap_or(0.0),
         efficiency: efficiency.unwrap_or(1.0),
-        profile,
+        profile: radius.zip(roller),
     })
 }
 
 /// Time of a whole oscillation.
-fn period(t: &mut ValueTable<'_>, e: &DriveEntry) -> f64 {
+fn period(t: &Place<'_>, e: &DriveEntry) -> f64 {
     let whole = t.positive("period", &e.period, 1.0);
     let half = t.positive("swing_time", &e.swing_time, 1.0);
     match (whole, half) {
-        (Some(period), None) => period,
-        (None, Some(half)) => 2.0 * half,
-        (Some(_), Some(_)) => {
-            t.excludes("swing_time", "period");
-            1.0
-        }
-        (None, None) => {
-            let at = t.at.clone();
-            t.needs_at(&at, "drive", "period, or swing_time, its half");
-            1.0
-        }
+        (Some(period), None) => return period,
+        (None, Some(half)) => return 2.0 * half,
+        (Some(_), Some(_)) => t.excludes("swing_time", "period"),
+        (None, None) => lacks(t, "period, or swing_time, its half"),
     }
+    1.0
+}
+
+/// Tells what the table lacks.
+fn lacks(t: &Place<'_>, other: &'static str) {
+    let key = "drive";
+    t.add(ProblemKind::KeyNeeds { key, other });
 }
 
 /// The diameters that bars come in, ascending.
-fn diameters(t: &mut ValueTable<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
-    let at = key(&t.at, "diameters");
-    let mut diameters = Vec::new();
-    let entries = t.out.at_most(MOST, &e.diameters, "diameters", &at);
-    for (i, d) in entries.iter().enumerate() {
-        diameters.push(t.number_at(&index(&at, i), "diameter", d, unit, Bound::Positive));
-    }
+fn diameters(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
+    let at = t.key("diameters");
+    let entries = at.most(MOST, &e.diameters, "diameters");
+    let entries = entries.map(|(at, d)| at.value("diameter", d, unit, Bound::Positive));
+    let mut diameters: Vec<f64> = entries.collect();
     diameters.sort_by(f64::total_cmp);
     diameters
 }
 
 /// The angle missing after a swing without the cam, where it was measured.
-fn missing_angle(t: &mut ValueTable<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
-    let missing = e
-        .missing_angle
-        .as_ref()
-        .map(|c| t.angle("missing_angle", c));
+fn missing_angle(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
+    let key = "missing_angle";
+    let missing = e.missing_angle.as_ref().map(|c| t.key(key).angle(key, c));
     if let Some(found) = missing.filter(|m| !(0.0..twist).contains(m)) {
-        let path = key(&t.at, "missing_angle");
-        t.bad(
-            &path,
-            "missing_angle",
-            format!("{} degrees", found.to_degrees()),
-            "an angle from 0 to below half the swing",
-        );
+        let allowed = "an angle from 0 to below half the swing";
+        t.key(key).bad_angle(key, found, allowed);
     }
     missing
 }
@@ -122,20 +101,12 @@ pub(crate) fn drive(
     file: &MechanismFile,
     unit: f64,
     mechanism: Option<&Mechanism>,
-    out: &mut Findings,
+    out: &Findings,
 ) -> Option<DriveSpec> {
     let e = file.workload.drive.as_ref()?;
-    let at = ["workload", "drive"]
-        .map(|k| Place::Key(k.to_owned()))
-        .to_vec();
-    let t = &mut ValueTable { at, out };
-    let twist = t.angle_in(
-        "swing_angle",
-        &e.swing_angle,
-        1e-3,
-        3600.0,
-        "an angle above 0, up to 3600 degrees",
-    ) / 2.0;
+    let t = &out.at("workload").key("drive");
+    let allowed = "an angle above 0, up to 3600 degrees";
+    let twist = t.angle_in("swing_angle", &e.swing_angle, [1e-3, 3600.0], allowed) / 2.0;
     let period = period(t, e);
     let (inertias, payload) = inertias(t, e, unit, mechanism);
     let diameters = diameters(t, e, unit);
@@ -143,10 +114,9 @@ pub(crate) fn drive(
     let damping = damping(t, e);
     let cam = cam(t, e, unit);
     let push = push(t, e, twist);
-    let capture = e
-        .latch_capture
-        .as_ref()
-        .map(|c| t.angle_in("latch_capture", c, 0.0, 3600.0, "an angle from 0"));
+    let capture = e.latch_capture.as_ref();
+    let range = [0.0, 3600.0];
+    let capture = capture.map(|c| t.angle_in("latch_capture", c, range, "an angle from 0"));
     let modulus = "a modulus from 1e3 to 1e12 Pa, such as 8e10 for steel";
     let modulus = Bound::Range(1e3, 1e12, modulus);
     let stress = Bound::Range(1e3, 1e12, "a stress from 1e3 to 1e12 Pa, such as 4e8");
@@ -155,8 +125,8 @@ pub(crate) fn drive(
         period,
         inertias,
         payload,
-        shear_modulus: t.number("shear_modulus", &e.shear_modulus, 1.0, modulus),
-        allowable_stress: t.number("allowable_stress", &e.allowable_stress, 1.0, stress),
+        shear_modulus: t.figure("shear_modulus", &e.shear_modulus, 1.0, modulus),
+        allowable_stress: t.figure("allowable_stress", &e.allowable_stress, 1.0, stress),
         length: t.positive("torsion_length", &e.torsion_length, unit),
         max_length: t.positive("max_length", &e.max_length, unit),
         diameters,
@@ -173,58 +143,50 @@ pub(crate) fn drive(
 const PIECES: usize = 1000;
 
 /// The cam's push over a swing of half as much as twice `twist`.
-fn push(t: &mut ValueTable<'_>, e: &DriveEntry, twist: f64) -> Push {
+fn push(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Push {
     if let Some(list) = &e.feed_moments {
         return pieces(t, e, list, twist);
     }
-    let from = e.feed_from.as_ref();
-    let from = from.map_or(0.0, |c| t.angle("feed_from", c));
+    let key = "feed_from";
+    let from = e
+        .feed_from
+        .as_ref()
+        .map_or(0.0, |c| t.key(key).angle(key, c));
     if !(-twist..twist).contains(&from) {
-        let path = key(&t.at, "feed_from");
-        t.bad(
-            &path,
-            "feed_from",
-            format!("{} degrees", from.to_degrees()),
-            "an angle within the swing, 0 being its middle",
-        );
+        let allowed = "an angle within the swing, 0 being its middle";
+        t.key(key).bad_angle(key, from, allowed);
     }
     let energy = t.not_negative("feed_energy", &e.feed_energy, 1.0);
     Push::Even { energy, from }
 }
 
-fn pieces(t: &mut ValueTable<'_>, e: &DriveEntry, list: &[[Coordinate; 2]], twist: f64) -> Push {
-    let beside = [
-        ("feed_energy", e.feed_energy.is_some()),
-        ("feed_from", e.feed_from.is_some()),
-    ];
-    for (k, _) in beside.into_iter().filter(|(_, given)| *given) {
-        t.excludes(k, "feed_moments");
+fn pieces(t: &Place<'_>, e: &DriveEntry, list: &[[Coordinate; 2]], twist: f64) -> Push {
+    for (k, given) in [("feed_energy", &e.feed_energy), ("feed_from", &e.feed_from)] {
+        if given.is_some() {
+            t.excludes(k, "feed_moments");
+        }
     }
-    let at = key(&t.at, "feed_moments");
+    let at = t.key("feed_moments");
     if list.is_empty() || list.len() > PIECES {
-        t.bad(&at, "number of pieces", list.len().to_string(), "1 to 1000");
+        at.bad("number of pieces", list.len(), "1 to 1000");
         return Push::Pieces(Vec::new());
     }
     let mut pieces: Vec<(f64, f64)> = Vec::new();
-    for (i, [from, moment]) in list.iter().enumerate() {
-        let path = index(&at, i);
-        let from = t.angle_at(&index(&path, 0), "feed_moments", from);
+    for (at, [from, moment]) in at.all(list) {
+        let (begins, at) = (at.index(0), at.index(1));
+        let from = begins.angle("feed_moments", from);
         let after = pieces.last().map(|p| p.0);
         if !(-twist..twist).contains(&from) || after.is_some_and(|last| from <= last) {
-            t.bad(
-                &index(&path, 0),
-                "beginning of a piece",
-                format!("{} degrees", from.to_degrees()),
-                "an angle within the swing, 0 being its middle, beyond that of the piece before",
-            );
+            let allowed =
+                "an angle within the swing, 0 being its middle, beyond that of the piece before";
+            begins.bad_angle("beginning of a piece", from, allowed);
         }
         let bound = match after {
             // The push begins with what pushes.
             None => Bound::Positive,
             Some(_) => Bound::NotNegative,
         };
-        let moment = t.number_at(&index(&path, 1), "moment", moment, 1.0, bound);
-        pieces.push((from, moment));
+        pieces.push((from, at.value("moment", moment, 1.0, bound)));
     }
     Push::Pieces(pieces)
 }

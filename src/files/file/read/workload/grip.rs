@@ -1,10 +1,8 @@
 //! The `[workload.grip]` table.
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
-use crate::file::read::value::names::joint_by_id;
-use crate::file::read::value::quantity::{Bound, ValueTable, word};
+use crate::file::read::value::quantity::Bound;
 use crate::file::schema::{Diameters, Gravity, GripEntry, MechanismFile};
+use crate::file::{Findings, Place};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
 use itertools::Itertools;
@@ -14,66 +12,59 @@ const GRAVITY: f64 = 9.80665;
 /// Most diameters and accelerations.
 const MOST: usize = 1000;
 
-fn diameters(t: &mut ValueTable<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
-    let at = key(&t.at, "diameters");
-    let mut list = match &entry.diameters {
-        None => return vec![nominal],
-        Some(Diameters::List(list)) if list.is_empty() || list.len() > MOST => {
-            t.bad(
-                &at,
-                "number of diameters",
-                list.len().to_string(),
-                "1 to 1000",
-            );
-            return vec![nominal];
-        }
-        Some(Diameters::List(list)) => {
-            let each = list.iter().enumerate();
-            each.map(|(i, c)| t.number_at(&index(&at, i), "diameter", c, unit, Bound::Positive))
-                .collect_vec()
-        }
-        Some(Diameters::Steps(s)) => {
-            let from = t.number_at(&key(&at, "from"), "diameter", &s.from, 1.0, Bound::Positive);
-            let to = t.number_at(&key(&at, "to"), "diameter", &s.to, 1.0, Bound::Positive);
-            if to < from {
-                let path = key(&at, "to");
-                t.bad(
-                    &path,
-                    "the greatest diameter",
-                    to.to_string(),
-                    "one not below `from`",
-                );
-            }
-            let Some(count) = usize::try_from(s.count)
-                .ok()
-                .filter(|n| (1..=MOST).contains(n))
-            else {
-                let path = key(&at, "count");
-                t.bad(
-                    &path,
-                    "number of diameters",
-                    s.count.to_string(),
-                    "1 to 1000",
-                );
-                return vec![nominal];
-            };
-            let step = (to - from) / (count.max(2) - 1) as f64;
-            // Steps in the unit of the file, so that a list of them says the same.
-            (0..count)
-                .map(|i| (from + step * i as f64) * unit)
-                .collect()
-        }
+/// What a file says of the mass of a part: what contacts and loads need.
+const MASS: &str = "the mass of the part: mass, or density and part_length";
+/// What names of joints need.
+pub(super) const MECHANISM: &str = "a mechanism in the same file: links and joints";
+
+/// The diameters in ascending order, each once; the nominal one where they cannot be read.
+fn diameters(t: &Place<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
+    let Some(entry) = &entry.diameters else {
+        return vec![nominal];
     };
+    let mut list = listed(&t.key("diameters"), entry, unit).unwrap_or(vec![nominal]);
     list.sort_by(f64::total_cmp);
     list.dedup();
     list
 }
 
+/// The diameters as they are listed or stepped; none where they are not 1 to 1000.
+fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
+    let (what, allowed) = ("number of diameters", "1 to 1000");
+    let s = match entry {
+        Diameters::List(list) if list.is_empty() || list.len() > MOST => {
+            at.bad(what, list.len(), allowed);
+            return None;
+        }
+        Diameters::List(list) => {
+            let each = at.all(list);
+            let each = each.map(|(at, c)| at.value("diameter", c, unit, Bound::Positive));
+            return Some(each.collect());
+        }
+        Diameters::Steps(s) => s,
+    };
+    let end = |k: &str, c| at.key(k).value("diameter", c, 1.0, Bound::Positive);
+    let (from, to) = (end("from", &s.from), end("to", &s.to));
+    if to < from {
+        let allowed = "one not below `from`";
+        at.key("to").bad("the greatest diameter", to, allowed);
+    }
+    let count = usize::try_from(s.count).ok();
+    let Some(count) = count.filter(|n| (1..=MOST).contains(n)) else {
+        at.key("count").bad(what, s.count, allowed);
+        return None;
+    };
+    let step = (to - from) / (count.max(2) - 1) as f64;
+    // Steps in the unit of the file, so that a list of them says the same.
+    let each = (0..count).map(|i| (from + step * i as f64) * unit);
+    Some(each.collect())
+}
+
 /// What the part weighs at each diameter; none where the file does not say, or says it twice.
-fn part_mass(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
-    let mass = t.optional("mass", e.mass.as_ref(), 1.0, Bound::Positive);
-    let density = t.optional("density", e.density.as_ref(), 1.0, Bound::Positive);
-    let length = t.optional("part_length", e.part_length.as_ref(), unit, Bound::Positive);
+fn part_mass(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
+    let mass = t.positive("mass", &e.mass, 1.0);
+    let density = t.positive("density", &e.density, 1.0);
+    let length = t.positive("part_length", &e.part_length, unit);
     match (mass, density, length) {
         (Some(m), None, None) => return Some(PartMass::Constant(m)),
         (None, Some(density), Some(length)) => return Some(PartMass::Cylinder { density, length }),
@@ -85,9 +76,8 @@ fn part_mass(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<PartMas
                 ("any_acceleration", e.any_acceleration.is_some()),
                 ("safety", e.safety.is_some()),
             ];
-            for (k, _) in loads.into_iter().filter(|(_, given)| *given) {
-                t.needs(k, "the mass of the part: mass, or density and part_length");
-            }
+            let given = loads.into_iter().filter(|(_, given)| *given);
+            given.for_each(|(k, _)| t.needs(k, MASS));
         }
         (Some(_), _, _) => t.excludes("mass", "density or part_length"),
         (None, Some(_), None) => t.needs("density", "part_length beside it"),
@@ -97,53 +87,45 @@ fn part_mass(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<PartMas
 }
 
 /// Gravity in the gripper's axes; down where left out.
-fn gravity(t: &mut ValueTable<'_>, e: &GripEntry) -> Toward {
+fn gravity(t: &Place<'_>, e: &GripEntry) -> Toward {
     match &e.gravity {
         None => Toward::Fixed([0.0, -GRAVITY, 0.0]),
-        Some(Gravity::Vector(v)) => Toward::Fixed(t.vector("gravity", v, 1.0)),
+        Some(Gravity::Vector(v)) => Toward::Fixed(t.key("gravity").reals(v, 1.0)),
         Some(Gravity::Word(w)) => {
-            word(t, "gravity", Some(w), &[("any", ())]);
+            if w != "any" {
+                t.key("gravity").unknown("gravity", w, ["any"]);
+            }
             Toward::Any(GRAVITY)
         }
     }
 }
 
 /// The accelerations of the gripper, each a case; one at rest where there are none, nothing where there are too many.
-fn accelerations(t: &mut ValueTable<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
-    let at = key(&t.at, "accelerations");
-    if e.accelerations.len() > MOST {
-        t.bad(
-            &at,
-            "number of accelerations",
-            e.accelerations.len().to_string(),
-            "at most 1000",
-        );
+fn accelerations(t: &Place<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
+    let (at, count) = (t.key("accelerations"), e.accelerations.len());
+    if count > MOST {
+        at.bad("number of accelerations", count, "at most 1000");
         return None;
     }
-    let mut accelerations = Vec::new();
-    for (i, v) in e.accelerations.iter().enumerate() {
-        let v = crate::file::read::value::number::vector(v, &index(&at, i), t.out);
-        accelerations.push(Toward::Fixed(v.map(|x| x.to_f64())));
+    let each = at.all(&e.accelerations);
+    let mut all = each
+        .map(|(at, v)| Toward::Fixed(at.reals(v, 1.0)))
+        .collect_vec();
+    let any = t.not_negative("any_acceleration", &e.any_acceleration, 1.0);
+    all.extend(any.map(Toward::Any));
+    if all.is_empty() {
+        all.push(Toward::Fixed([0.0; 3]));
     }
-    let any = t.optional(
-        "any_acceleration",
-        e.any_acceleration.as_ref(),
-        1.0,
-        Bound::NotNegative,
-    );
-    accelerations.extend(any.map(Toward::Any));
-    if accelerations.is_empty() {
-        accelerations.push(Toward::Fixed([0.0; 3]));
-    }
-    Some(accelerations)
+    Some(all)
 }
 
 /// What the gripper must hold, where the file says what the part weighs.
-fn load(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
+fn load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let mass = part_mass(t, e, unit)?;
     let Some(friction) = &e.friction else {
+        let key = if e.mass.is_some() { "mass" } else { "density" };
         t.needs(
-            if e.mass.is_some() { "mass" } else { "density" },
+            key,
             "friction, the coefficient between part and faces, beside it",
         );
         return None;
@@ -155,98 +137,62 @@ fn load(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
         ("equal", LeverDrive::Equal),
         ("independent", LeverDrive::Independent),
     ];
+    let coefficient = Bound::Range(0.0, 10.0, "a coefficient from 0 to 10");
+    let factor = Bound::Range(1.0, 1000.0, "a factor from 1 to 1000");
+    let centre = e.centre_of_mass.as_ref();
     Some(GripLoad {
         mass,
-        centre_of_mass: e
-            .centre_of_mass
-            .as_ref()
-            .map_or([0.0; 3], |v| t.vector("centre_of_mass", v, unit)),
+        centre_of_mass: centre.map_or([0.0; 3], |v| t.key("centre_of_mass").reals(v, unit)),
         gravity,
         accelerations,
-        friction: t.number(
-            "friction",
-            friction,
-            1.0,
-            Bound::Range(0.0, 10.0, "a coefficient from 0 to 10"),
-        ),
-        safety: t
-            .optional(
-                "safety",
-                e.safety.as_ref(),
-                1.0,
-                Bound::Range(1.0, 1000.0, "a factor from 1 to 1000"),
-            )
-            .unwrap_or(1.0),
-        levers: word(t, "levers", e.levers.as_ref(), &kinds),
+        friction: t.figure("friction", friction, 1.0, coefficient),
+        safety: t.optional("safety", &e.safety, 1.0, factor).unwrap_or(1.0),
+        levers: t.word("levers", &e.levers, &kinds),
     })
 }
 
 fn transmission(
-    t: &mut ValueTable<'_>,
+    t: &Place<'_>,
     e: &GripEntry,
     unit: f64,
     mechanism: Option<&Mechanism>,
 ) -> Transmission {
-    let arm = t.optional("drive_arm", e.drive_arm.as_ref(), unit, Bound::Positive);
-    match (arm, &e.lever_joints) {
-        (Some(_), Some(_)) => {
-            t.excludes("lever_joints", "drive_arm");
-            Transmission::Unknown
-        }
-        (Some(arm), None) => Transmission::Arm(arm),
-        (None, None) => Transmission::Unknown,
-        (None, Some(ids)) => {
-            let Some(m) = mechanism else {
-                t.needs(
-                    "lever_joints",
-                    "a mechanism in the same file: links and joints",
-                );
-                return Transmission::Unknown;
-            };
+    let arm = t.positive("drive_arm", &e.drive_arm, unit);
+    match (arm, &e.lever_joints, mechanism) {
+        (Some(_), Some(_), _) => t.excludes("lever_joints", "drive_arm"),
+        (Some(arm), None, _) => return Transmission::Arm(arm),
+        (None, None, _) => {}
+        (None, Some(_), None) => t.needs("lever_joints", MECHANISM),
+        (None, Some(ids), Some(m)) => {
             if m.joints.iter().filter(|j| j.drive).count() != 1 {
                 t.needs("lever_joints", "one joint with drive = true");
             }
-            match joints(t, "lever_joints", ids, m)[..] {
-                [a, b] => Transmission::Joints([a, b]),
-                _ => Transmission::Unknown,
+            if let [a, b] = joints(&t.key("lever_joints"), ids, m)[..] {
+                return Transmission::Joints([a, b]);
             }
         }
     }
+    Transmission::Unknown
 }
 
 /// The joints that a list names; shorter than the list where some are not known.
-fn joints(t: &mut ValueTable<'_>, k: &'static str, ids: &[String], m: &Mechanism) -> Vec<JointId> {
-    let at = key(&t.at, k);
-    let each = ids
-        .iter()
-        .enumerate()
-        .filter_map(|(i, id)| joint_by_id(m, id, &index(&at, i), t.out));
-    each.collect()
+fn joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
+    at.all(ids).filter_map(|(at, id)| at.joint(m, id)).collect()
 }
 
 /// What contacts need of the rest of the table.
-fn contacts_go_with(t: &mut ValueTable<'_>, spec: &GripSpec) {
-    if spec.load.is_none() {
-        t.needs(
-            "contacts",
-            "the mass of the part: mass, or density and part_length",
-        );
+fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
+    let levers = spec.load.as_ref().map(|l| l.levers);
+    if levers.is_none() {
+        t.needs("contacts", MASS);
     }
-    if spec
-        .load
-        .as_ref()
-        .is_some_and(|l| l.levers == LeverDrive::Independent)
-    {
-        t.needs(
-            "contacts",
-            "levers = \"coupled\" or \"equal\": the mechanism has one drive for both",
-        );
+    if levers == Some(LeverDrive::Independent) {
+        let other = "levers = \"coupled\" or \"equal\": the mechanism has one drive for both";
+        t.needs("contacts", other);
     }
     if spec.pivots == Pivots::Nominal {
-        t.needs(
-            "contacts",
-            "pivots = \"fixed\": the mechanism's own stand where they are",
-        );
+        let other = "pivots = \"fixed\": the mechanism's own stand where they are";
+        t.needs("contacts", other);
     }
 }
 
@@ -263,44 +209,38 @@ struct Clamp<'a> {
 
 impl Clamp<'_> {
     /// Whether each contact is between the part and its lever, and all act in the same states.
-    fn check_contacts(&self, t: &mut ValueTable<'_>) {
+    fn check_contacts(&self, at: &Place<'_>) {
         let m = self.mechanism;
-        let at = key(&t.at, "contacts");
-        for (i, &j) in self.contacts.iter().enumerate() {
+        for (i, (at, &j)) in at.all(&self.contacts).enumerate() {
             let joint = &m.joints[j];
             let lever = &m.joints[self.levers[i / 2]];
             let touches = joint.links.iter().any(|&l| Some(l) == self.part);
-            let on_lever = joint
-                .links
-                .iter()
-                .any(|l| lever.links.contains(l) && *l != m.frame());
-            if !touches || !on_lever {
-                t.bad(&index(&at, i), "contact", format!("{:?}", joint.id), match i / 2 {
-                    0 => "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints",
-                    _ => "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints",
-                });
+            let shared = |l: &LinkId| lever.links.contains(l) && *l != m.frame();
+            let allowed = if !touches || !joint.links.iter().any(shared) {
+                match i / 2 {
+                    0 => {
+                        "a joint between the part (a link of role \"object\") and the link that turns in the first of lever_joints"
+                    }
+                    _ => {
+                        "a joint between the part (a link of role \"object\") and the link that turns in the second of lever_joints"
+                    }
+                }
             } else if joint.states.is_none() || joint.states != m.joints[self.contacts[0]].states {
-                t.bad(
-                    &index(&at, i),
-                    "contact",
-                    format!("{:?}", joint.id),
-                    "one with the same `state` as the other contacts, such as state = \"clamped\"",
-                );
-            }
+                "one with the same `state` as the other contacts, such as state = \"clamped\""
+            } else {
+                continue;
+            };
+            at.bad("contact", format!("{:?}", joint.id), allowed);
         }
     }
 
     /// Whether the levers turn on the frame.
-    fn check_pivots(&self, t: &mut ValueTable<'_>) {
+    fn check_pivots(&self, at: &Place<'_>) {
         let m = self.mechanism;
-        for (k, &j) in self.levers.iter().enumerate() {
+        for (at, &j) in at.all(&self.levers) {
             if !m.joints[j].links.contains(&m.frame()) {
-                t.bad(
-                    &index(&key(&t.at, "lever_joints"), k),
-                    "lever joint",
-                    format!("{:?}", m.joints[j].id),
-                    "a joint at the frame: with contacts, the pivots stand still",
-                );
+                let allowed = "a joint at the frame: with contacts, the pivots stand still";
+                at.bad("lever joint", format!("{:?}", m.joints[j].id), allowed);
             }
         }
     }
@@ -316,62 +256,39 @@ impl Clamp<'_> {
 }
 
 /// The joints that stand for the contacts: each joins the part to the lever that is to touch it there.
-fn contacts(
-    t: &mut ValueTable<'_>,
-    e: &GripEntry,
-    spec: &GripSpec,
-    m: &Mechanism,
-) -> Option<[JointId; 4]> {
+fn contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Mechanism) -> Option<[JointId; 4]> {
     let ids = e.contacts.as_ref()?;
     let Transmission::Joints(levers) = spec.transmission else {
         if e.lever_joints.is_none() {
-            t.needs(
-                "contacts",
-                "lever_joints, the joints that the two levers turn in, beside it",
-            );
+            let other = "lever_joints, the joints that the two levers turn in, beside it";
+            t.needs("contacts", other);
         }
         return None;
     };
     contacts_go_with(t, spec);
-    let [upper_far, upper_near, lower_far, lower_near] = joints(t, "contacts", ids, m)[..] else {
-        return None;
-    };
+    let at = t.key("contacts");
+    let contacts: [JointId; 4] = joints(&at, ids, m).try_into().ok()?;
+    let held =
+        |l: &LinkId| m.links[*l].role == Role::Object && m.joints[contacts[0]].links.contains(l);
     let clamp = Clamp {
         mechanism: m,
         levers,
-        contacts: [upper_far, upper_near, lower_far, lower_near],
-        part: m
-            .link_ids()
-            .find(|&l| m.links[l].role == Role::Object && m.joints[upper_far].links.contains(&l)),
+        contacts,
+        part: m.link_ids().find(held),
     };
-    clamp.check_contacts(t);
-    clamp.check_pivots(t);
+    clamp.check_contacts(&at);
+    clamp.check_pivots(&t.key("lever_joints"));
     if !clamp.holds_alone() {
-        let at = key(&t.at, "contacts");
-        t.bad(
-            &at,
-            "list of contacts",
-            format!("{ids:?}"),
-            "all four joints of the part, each once: nothing else may hold it",
-        );
+        let allowed = "all four joints of the part, each once: nothing else may hold it";
+        at.bad("list of contacts", format!("{ids:?}"), allowed);
     }
-    Some(clamp.contacts)
+    Some(contacts)
 }
 
 /// Where the pivots of the levers stand.
-fn pivots(t: &mut ValueTable<'_>, e: &GripEntry, unit: f64) -> Pivots {
-    let fixed = word(
-        t,
-        "pivots",
-        e.pivots.as_ref(),
-        &[("fixed", true), ("nominal", false)],
-    );
-    let distance = t.optional(
-        "pivot_distance",
-        e.pivot_distance.as_ref(),
-        unit,
-        Bound::NotNegative,
-    );
+fn pivots(t: &Place<'_>, e: &GripEntry, unit: f64) -> Pivots {
+    let fixed = t.word("pivots", &e.pivots, &[("fixed", true), ("nominal", false)]);
+    let distance = t.not_negative("pivot_distance", &e.pivot_distance, unit);
     if distance.is_some() && !fixed {
         t.needs("pivot_distance", "pivots = \"fixed\"");
     }
@@ -388,44 +305,26 @@ pub(crate) fn grip(
     file: &MechanismFile,
     unit: f64,
     mechanism: Option<&Mechanism>,
-    out: &mut Findings,
+    out: &Findings,
 ) -> Option<GripSpec> {
     let e = file.workload.grip.as_ref()?;
-    let at = ["workload", "grip"]
-        .map(|k| DocumentStep::Key(k.to_owned()))
-        .to_vec();
-    let t = &mut ValueTable { at, out };
-    let prism_angle = t.angle_in(
-        "prism_angle",
-        &e.prism_angle,
-        1.0,
-        179.0,
-        "an angle from 1 to 179 degrees: at 180 the faces form no V",
-    );
-    let mounting_angle = t.angle_in(
-        "mounting_angle",
-        &e.mounting_angle,
-        0.0,
-        179.0,
-        "an angle from 0 to 179 degrees",
-    );
-    let diameter = t.number("diameter", &e.diameter, unit, Bound::Positive);
+    let t = &out.at("workload").key("grip");
+    let allowed = "an angle from 1 to 179 degrees: at 180 the faces form no V";
+    let prism_angle = t.angle_in("prism_angle", &e.prism_angle, [1.0, 179.0], allowed);
+    let allowed = "an angle from 0 to 179 degrees";
+    let mounting_angle = t.angle_in("mounting_angle", &e.mounting_angle, [0.0, 179.0], allowed);
+    let diameter = t.figure("diameter", &e.diameter, unit, Bound::Positive);
     let pivots = pivots(t, e, unit);
     let mut spec = GripSpec {
-        lever_length: t.number("lever_length", &e.lever_length, unit, Bound::Positive),
+        lever_length: t.figure("lever_length", &e.lever_length, unit, Bound::Positive),
         prism_angle,
         mounting_angle,
         diameter,
         diameters: diameters(t, e, unit, diameter),
         pivots,
-        face_length: t.optional("face_length", e.face_length.as_ref(), unit, Bound::Positive),
+        face_length: t.positive("face_length", &e.face_length, unit),
         lever_width: t
-            .optional(
-                "lever_width",
-                e.lever_width.as_ref(),
-                unit,
-                Bound::NotNegative,
-            )
+            .not_negative("lever_width", &e.lever_width, unit)
             .unwrap_or(0.0),
         may_cross: e.levers_cross,
         load: load(t, e, unit),
@@ -434,9 +333,7 @@ pub(crate) fn grip(
     };
     match mechanism {
         Some(m) => spec.contacts = contacts(t, e, &spec, m),
-        None if e.contacts.is_some() => {
-            t.needs("contacts", "a mechanism in the same file: links and joints");
-        }
+        None if e.contacts.is_some() => t.needs("contacts", MECHANISM),
         None => {}
     }
     Some(spec)

@@ -1,17 +1,12 @@
 //! Masses of links and the `[workload]` table.
 
-use crate::file::Findings;
-use crate::file::locate::{DocumentStep, index, key};
 use crate::file::problem::ProblemKind;
-use crate::file::read::value::names::{link_by_id, states_by_name};
-use crate::file::read::value::number::vector;
 use crate::file::read::workload::joint_loads::{faces, misalignments, moments, stiffness};
-use crate::file::read::workload::motion::{
-    LARGEST, MAX_FORCES, MAX_STEPS, POSITION, SPEED, position, quantity, speed,
-};
+use crate::file::read::workload::motion::{LARGEST, MAX_FORCES, MAX_STEPS};
 use crate::file::schema::{
     ForceEntry, InertiaEntry, LinkEntry, MechanismFile, Quantities, Quantity, StrokeEntry,
 };
+use crate::file::{Findings, Place};
 use crate::model::loads::{ExternalForce, Inertia, Loads, MassProperties, Stroke};
 use crate::model::mechanism::Mechanism;
 
@@ -23,119 +18,76 @@ fn fits(x: f64) -> bool {
     (0.0..=LARGEST).contains(&x)
 }
 
-/// Notes a figure of a link that will not do.
-fn bad(
-    out: &mut Findings,
-    path: &[DocumentStep],
-    what: &'static str,
-    value: String,
-    allowed: &'static str,
-) {
-    let kind = ProblemKind::BadQuantity {
-        what,
-        value,
-        allowed,
-    };
-    out.add(path, kind);
-}
-
 /// Inertia about the mass centre, where an entry states one that is in range.
-fn inertia(
-    entry: Option<&InertiaEntry>,
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> Option<Inertia> {
-    match entry? {
-        InertiaEntry::Plane(x) if fits(*x) => Some(Inertia::Plane(*x)),
+fn inertia(entry: Option<&InertiaEntry>, at: &Place<'_>) -> Option<Inertia> {
+    let list = match entry? {
+        InertiaEntry::Plane(x) if fits(*x) => return Some(Inertia::Plane(*x)),
         InertiaEntry::Plane(x) => {
-            bad(out, path, "inertia", x.to_string(), NOT_NEGATIVE);
-            None
+            at.bad("inertia", x, NOT_NEGATIVE);
+            return None;
         }
-        InertiaEntry::List(v) => {
-            let diagonal = v.iter().take(3).all(|x| fits(*x));
-            let finite = v.iter().all(|x| x.abs() <= LARGEST);
-            match v[..] {
-                [a, b, c] if diagonal => Some(Inertia::Principal([a, b, c])),
-                [a, b, c, d, e, f] if diagonal && finite => {
-                    Some(Inertia::Tensor([a, b, c, d, e, f]))
-                }
-                _ => {
-                    let allowed = "one number, 3 about the axes or 6 of a tensor, those on the diagonal from 0 to 1e12";
-                    bad(out, path, "inertia", format!("{v:?}"), allowed);
-                    None
-                }
-            }
+        InertiaEntry::List(list) => list,
+    };
+    let diagonal = list.iter().take(3).all(|x| fits(*x));
+    let finite = list.iter().all(|x| x.abs() <= LARGEST);
+    match list[..] {
+        [a, b, c] if diagonal => Some(Inertia::Principal([a, b, c])),
+        [a, b, c, d, e, f] if diagonal && finite => Some(Inertia::Tensor([a, b, c, d, e, f])),
+        _ => {
+            let allowed = "one number, 3 about the axes or 6 of a tensor, those on the diagonal from 0 to 1e12";
+            at.bad("inertia", format!("{list:?}"), allowed);
+            None
         }
     }
 }
 
 /// The mass of a link, where its entry states one.
-pub(crate) fn mass(
-    entry: &LinkEntry,
-    at: &[DocumentStep],
-    out: &mut Findings,
-) -> Option<MassProperties> {
-    let centre = entry
-        .centre
-        .as_ref()
-        .map(|c| vector(c, &key(at, "centre"), out));
-    let inertia = inertia(entry.inertia.as_ref(), &key(at, "inertia"), out);
+pub(crate) fn mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> {
+    let centre = entry.centre.as_ref().map(|c| at.key("centre").vector(c));
+    let inertia = inertia(entry.inertia.as_ref(), &at.key("inertia"));
     if let Some(x) = entry.mass.filter(|&x| !fits(x)) {
-        bad(out, &key(at, "mass"), "mass", x.to_string(), NOT_NEGATIVE);
+        at.key("mass").bad("mass", x, NOT_NEGATIVE);
     }
-    let missing = match (entry.mass, &centre, &entry.inertia) {
-        (Some(mass), Some(centre), _) => {
+    let what = match (entry.mass, centre) {
+        (Some(mass), Some(centre)) => {
             return Some(MassProperties {
                 mass,
-                centre: centre.clone(),
+                centre,
                 inertia,
             });
         }
-        (None, None, None) => return None,
-        (Some(_), None, _) => "centre, its mass centre at the pose of the file",
-        (None, _, _) => "mass, in kg",
+        (None, None) if entry.inertia.is_none() => return None,
+        (Some(_), None) => "centre, its mass centre at the pose of the file",
+        (None, _) => "mass, in kg",
     };
-    out.add(
-        at,
-        ProblemKind::LinkNeeds {
-            link: entry.id.clone(),
-            what: missing,
-        },
-    );
+    let link = entry.id.clone();
+    at.add(ProblemKind::LinkNeeds { link, what });
     None
 }
 
 /// The `[workload]` table.
-pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findings) -> Loads {
-    let at = [DocumentStep::Key("workload".to_owned())];
-    let entry = &file.workload;
-    let mut forces = Vec::new();
-    let path = key(&at, "force");
-    let entries = out.at_most(MAX_FORCES, &entry.force, "forces", &path);
-    for (i, f) in entries.iter().enumerate() {
-        forces.extend(force(f, &index(&path, i), mechanism, out));
-    }
-    let moments = moments(entry, mechanism, &at, out);
-    let stiffness = stiffness(entry, &at, out);
-    let faces = faces(entry, mechanism, &at, out);
-    let misalignments = misalignments(entry, mechanism, &at, out);
-    let path = key(&at, "drive_speed");
-    let drive_speeds = drive_speeds(entry.drive_speed.as_ref(), mechanism, &path, out);
+pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Loads {
+    let (at, entry) = (&out.at("workload"), &file.workload);
+    let forces = at.key("force");
+    let forces = forces.most(MAX_FORCES, &entry.force, "forces");
+    let forces = forces
+        .filter_map(|(at, f)| force(f, mechanism, &at))
+        .collect();
+    let moments = moments(entry, mechanism, &at.key("moment"));
+    let stiffness = stiffness(entry, &at.key("stiffness"));
+    let faces = faces(entry, mechanism, &at.key("contact"));
+    let misalignments = misalignments(entry, mechanism, &at.key("misalignment"));
+    let speeds = entry.drive_speed.as_ref();
+    let drive_speeds = drive_speeds(speeds, mechanism, &at.key("drive_speed"));
     Loads {
-        gravity: entry
-            .gravity
-            .as_ref()
-            .map(|g| vector(g, &key(&at, "gravity"), out)),
+        gravity: entry.gravity.as_ref().map(|g| at.key("gravity").vector(g)),
         forces,
         moments,
         faces,
         stiffness,
         misalignments,
         drive_speeds,
-        stroke: entry
-            .stroke
-            .as_ref()
-            .map(|s| stroke(s, &key(&at, "stroke"), out)),
+        stroke: entry.stroke.as_ref().map(|s| stroke(s, &at.key("stroke"))),
         // These name joints and links; they are read once all of those are.
         grip: None,
         drive: None,
@@ -143,35 +95,19 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &mut Findi
 }
 
 /// A force from outside, where its link is known.
-fn force(
-    f: &ForceEntry,
-    at: &[DocumentStep],
-    mechanism: &Mechanism,
-    out: &mut Findings,
-) -> Option<ExternalForce> {
-    let point = vector(&f.point, &key(at, "point"), out);
-    let force = vector(&f.force, &key(at, "force"), out);
-    let mut end = |q: &Option<Quantity>, k: &str, open: f64| {
-        q.as_ref().map_or(open, |q| {
-            quantity(q, position, "drive position", POSITION, &key(at, k), out)
-        })
-    };
-    let from = end(&f.from, "from", f64::NEG_INFINITY);
-    let to = end(&f.to, "to", f64::INFINITY);
+fn force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<ExternalForce> {
+    let point = at.key("point").vector(&f.point);
+    let force = at.key("force").vector(&f.force);
+    let end = |q: &Option<Quantity>, k: &str| q.as_ref().map(|q| at.key(k).position(q));
+    let from = end(&f.from, "from").unwrap_or(f64::NEG_INFINITY);
+    let to = end(&f.to, "to").unwrap_or(f64::INFINITY);
     if from > to {
-        out.add(
-            &key(at, "to"),
-            ProblemKind::BadQuantity {
-                what: "end of the range",
-                value: to.to_string(),
-                allowed: "at or after its beginning",
-            },
-        );
+        at.key("to")
+            .bad("end of the range", to, "at or after its beginning");
     }
-    let states = states_by_name(mechanism, f.state.as_ref(), &key(at, "state"), out);
-    let link = link_by_id(&mechanism.links, &f.link, &key(at, "link"), out)?;
+    let states = at.key("state").states(mechanism, f.state.as_ref());
     Some(ExternalForce {
-        link,
+        link: at.key("link").link(&mechanism.links, &f.link)?,
         point,
         force,
         range: (f.from.is_some() || f.to.is_some()).then_some([from, to]),
@@ -180,62 +116,27 @@ fn force(
 }
 
 /// The speeds of the drives, no more of them than there are drives.
-fn drive_speeds(
-    entry: Option<&Quantities>,
-    mechanism: &Mechanism,
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> Vec<f64> {
+fn drive_speeds(entry: Option<&Quantities>, mechanism: &Mechanism, at: &Place<'_>) -> Vec<f64> {
     let speeds = match entry {
         None => Vec::new(),
-        Some(Quantities::One(q)) => vec![quantity(q, speed, "drive speed", SPEED, path, out)],
-        Some(Quantities::Many(list)) => list
-            .iter()
-            .enumerate()
-            .map(|(i, q)| quantity(q, speed, "drive speed", SPEED, &index(path, i), out))
-            .collect(),
+        Some(Quantities::One(q)) => vec![at.speed(q)],
+        Some(Quantities::Many(list)) => at.all(list).map(|(at, q)| at.speed(q)).collect(),
     };
     let drives = mechanism.joints.iter().filter(|j| j.drive).count();
-    if speeds.len() > drives {
-        out.add(
-            path,
-            ProblemKind::TooMany {
-                what: "drive speeds",
-                count: speeds.len(),
-                limit: drives,
-            },
-        );
+    let (what, count, limit) = ("drive speeds", speeds.len(), drives);
+    if count > limit {
+        at.add(ProblemKind::TooMany { what, count, limit });
     }
     speeds
 }
 
-fn stroke(s: &StrokeEntry, at: &[DocumentStep], out: &mut Findings) -> Stroke {
-    let from = quantity(
-        &s.from,
-        position,
-        "drive position",
-        POSITION,
-        &key(at, "from"),
-        out,
-    );
-    let to = quantity(
-        &s.to,
-        position,
-        "drive position",
-        POSITION,
-        &key(at, "to"),
-        out,
-    );
+fn stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
+    let from = at.key("from").position(&s.from);
+    let to = at.key("to").position(&s.to);
     let steps = usize::try_from(s.steps).unwrap_or(0);
     if !(1..=MAX_STEPS).contains(&steps) {
-        out.add(
-            &key(at, "steps"),
-            ProblemKind::BadQuantity {
-                what: "number of steps",
-                value: s.steps.to_string(),
-                allowed: "a whole number from 1 to 100000",
-            },
-        );
+        let allowed = "a whole number from 1 to 100000";
+        at.key("steps").bad("number of steps", s.steps, allowed);
     }
     Stroke { from, to, steps }
 }

@@ -1,8 +1,6 @@
 //! Positions and speeds of drives, with the units that files may write.
 
-use crate::file::Findings;
-use crate::file::locate::DocumentStep;
-use crate::file::problem::ProblemKind;
+use crate::file::Place;
 use crate::file::schema::Quantity;
 use crate::model::loads::Stroke;
 use thiserror::Error;
@@ -15,14 +13,12 @@ pub(crate) const MAX_STEPS: usize = 100_000;
 pub(in crate::file::read) const LARGEST: f64 = 1e12;
 
 /// A drive position in radians or the file's length unit: "1.5", "1.5rad", "360deg".
-#[must_use]
-pub(crate) fn position(text: &str) -> Option<f64> {
+fn position(text: &str) -> Option<f64> {
     with_units(text, &[("deg", 1f64.to_radians()), ("rad", 1.0)])
 }
 
 /// A drive speed in rad/s or the file's length unit per second: "6.28", "60rpm", "30deg/s".
-#[must_use]
-pub(crate) fn speed(text: &str) -> Option<f64> {
+fn speed(text: &str) -> Option<f64> {
     let rpm = std::f64::consts::TAU / 60.0;
     let units = [("rpm", rpm), ("deg/s", 1f64.to_radians()), ("rad/s", 1.0)];
     with_units(text, &units)
@@ -63,32 +59,41 @@ fn with_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     (value.abs() <= LARGEST).then_some(value)
 }
 
-pub(crate) fn quantity(
-    q: &Quantity,
-    parse: fn(&str) -> Option<f64>,
-    what: &'static str,
-    allowed: &'static str,
-    path: &[DocumentStep],
-    out: &mut Findings,
-) -> f64 {
-    let (value, shown) = match q {
-        Quantity::Number(x) => (Some(*x).filter(|x| x.abs() <= LARGEST), x.to_string()),
-        Quantity::Text(t) => (parse(t), format!("{t:?}")),
-    };
-    value.unwrap_or_else(|| {
-        out.add(
-            path,
-            ProblemKind::BadQuantity {
-                what,
-                value: shown,
-                allowed,
-            },
-        );
-        0.0
-    })
-}
+impl Place<'_> {
+    /// A number with a unit; 0 where it is none.
+    fn quantity(
+        &self,
+        q: &Quantity,
+        parse: fn(&str) -> Option<f64>,
+        what: &'static str,
+        allowed: &'static str,
+    ) -> f64 {
+        let (value, shown) = match q {
+            Quantity::Number(x) => (Some(*x).filter(|x| x.abs() <= LARGEST), x.to_string()),
+            Quantity::Text(t) => (parse(t), format!("{t:?}")),
+        };
+        if value.is_none() {
+            self.bad(what, shown, allowed);
+        }
+        value.unwrap_or(0.0)
+    }
 
-pub(in crate::file::read) const POSITION: &str =
-    "a number of radians or length units such as 1.5, or an angle such as \"90deg\"";
-pub(in crate::file::read) const SPEED: &str =
-    "a number of rad/s or length units per second, or a speed such as \"60rpm\" or \"30deg/s\"";
+    /// A position of a drive.
+    pub(crate) fn position(&self, q: &Quantity) -> f64 {
+        let allowed =
+            "a number of radians or length units such as 1.5, or an angle such as \"90deg\"";
+        self.quantity(q, position, "drive position", allowed)
+    }
+
+    /// A speed of a drive.
+    pub(crate) fn speed(&self, q: &Quantity) -> f64 {
+        let allowed = "a number of rad/s or length units per second, or a speed such as \"60rpm\" or \"30deg/s\"";
+        self.quantity(q, speed, "drive speed", allowed)
+    }
+
+    /// A small turn.
+    pub(crate) fn turn(&self, q: &Quantity) -> f64 {
+        let allowed = "a number of radians, or an angle such as \"0.1deg\"";
+        self.quantity(q, position, "angle", allowed)
+    }
+}

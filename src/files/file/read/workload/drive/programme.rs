@@ -1,7 +1,7 @@
 //! Swings and dwells in order.
 
-use crate::file::locate::{index, key};
-use crate::file::read::value::quantity::{Bound, ValueTable, word};
+use crate::file::Place;
+use crate::file::read::value::quantity::Bound;
 use crate::file::schema::DriveEntry;
 use crate::model::drive::ProgrammeStep;
 
@@ -21,13 +21,9 @@ pub(crate) fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<
 }
 
 /// The steps of a file: those it lists, or as many swings as it asks for.
-pub(crate) fn programme(t: &mut ValueTable<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
-    let dwell = t.optional(
-        "dwell",
-        e.dwell.as_ref(),
-        1.0,
-        Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s"),
-    );
+pub(crate) fn programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
+    let time = Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s");
+    let dwell = t.optional("dwell", &e.dwell, 1.0, time);
     let Some(list) = &e.programme else {
         return swings(t, e, dwell);
     };
@@ -36,49 +32,34 @@ pub(crate) fn programme(t: &mut ValueTable<'_>, e: &DriveEntry) -> Vec<Programme
         ("swings", e.swings.is_some()),
         ("dwell", e.dwell.is_some()),
     ];
-    for (k, _) in beside.into_iter().filter(|(_, given)| *given) {
-        t.excludes(k, "programme");
-    }
-    let at = key(&t.at, "programme");
+    let given = beside.into_iter().filter(|(_, given)| *given);
+    given.for_each(|(k, _)| t.excludes(k, "programme"));
+    let at = t.key("programme");
     if list.is_empty() || list.len() > MOST {
-        t.bad(&at, "number of steps", list.len().to_string(), "1 to 10000");
+        at.bad("number of steps", list.len(), "1 to 10000");
         return Vec::new();
     }
     let mut steps = Vec::new();
-    for (i, text) in list.iter().enumerate() {
-        match step(text) {
-            Some(s) => steps.push(s),
-            None => t.bad(
-                &index(&at, i),
-                "step",
-                format!("{text:?}"),
-                "\"1\", \"2\" or a dwell such as \"wait 0.3\"",
-            ),
+    for (at, text) in at.all(list) {
+        let found = step(text);
+        if found.is_none() {
+            let allowed = "\"1\", \"2\" or a dwell such as \"wait 0.3\"";
+            at.bad("step", format!("{text:?}"), allowed);
         }
+        steps.extend(found);
     }
     steps
 }
 
 /// The steps of a file that gives the number of swings and the dwell after each.
-fn swings(t: &mut ValueTable<'_>, e: &DriveEntry, dwell: Option<f64>) -> Vec<ProgrammeStep> {
-    let stepwise = word(
-        t,
-        "motion",
-        e.motion.as_ref(),
-        &[("stepwise", true), ("reversing", false)],
-    );
-    let count = e.swings.unwrap_or(8);
-    let Some(count) = usize::try_from(count)
-        .ok()
-        .filter(|n| (1..=MOST).contains(n))
-    else {
-        let path = key(&t.at, "swings");
-        t.bad(
-            &path,
-            "number of swings",
-            count.to_string(),
-            "a whole number from 1 to 10000",
-        );
+fn swings(t: &Place<'_>, e: &DriveEntry, dwell: Option<f64>) -> Vec<ProgrammeStep> {
+    let ways = [("stepwise", true), ("reversing", false)];
+    let stepwise = t.word("motion", &e.motion, &ways);
+    let stated = e.swings.unwrap_or(8);
+    let count = usize::try_from(stated).ok();
+    let Some(count) = count.filter(|n| (1..=MOST).contains(n)) else {
+        let allowed = "a whole number from 1 to 10000";
+        t.key("swings").bad("number of swings", stated, allowed);
         return Vec::new();
     };
     regular(stepwise, count, dwell.filter(|d| *d > 0.0))
