@@ -14,6 +14,7 @@ pub use number::{Coordinate, Quantities, Quantity};
 pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 pub use workload::{
@@ -37,19 +38,15 @@ pub struct MechanismFile {
     #[serde(default)]
     pub assumed: Vec<String>,
     /// Unit of all lengths: m (the default), mm, cm, um or in.
-    #[serde(default)]
     pub length_unit: Option<String>,
     /// "spatial" (the default, 6 rows per contour) or "planar" (3 rows).
-    #[serde(default)]
     pub mode: Option<String>,
     /// Normal of the plane of motion in planar mode; z by default.
-    #[serde(default)]
     pub plane_normal: Option<[Coordinate; 3]>,
     /// Numbers by name, for expressions: `[parameter]` with `height = 40`, and `point = [0, "2*height", 0]`.
     #[serde(default)]
     pub parameter: BTreeMap<String, Coordinate>,
     /// How well numbers are known: half a unit of their last digit where left out.
-    #[serde(default)]
     pub tolerance: Option<ToleranceEntry>,
     /// The rigid bodies.
     #[serde(default)]
@@ -73,7 +70,6 @@ pub struct MechanismFile {
     #[serde(default)]
     pub workload: WorkloadEntry,
     /// How `ozols search` ranks variants under the workload; by cost alone where left out.
-    #[serde(default)]
     pub ranking: Option<RankingEntry>,
     /// What joint types bear, in place of the built-in catalogue: `[joint_types.spherical]`.
     #[serde(default)]
@@ -93,16 +89,12 @@ pub struct LinkEntry {
     /// Name, unique among links.
     pub id: String,
     /// "frame", "output" or "object"; nothing for the rest.
-    #[serde(default)]
     pub role: Option<String>,
     /// Mass in kg.
-    #[serde(default)]
     pub mass: Option<f64>,
     /// Mass centre, at the pose of the file.
-    #[serde(default)]
     pub centre: Option<[Coordinate; 3]>,
     /// Inertia about the mass centre in kg·m²: a number about the plane's normal, or 3 or 6 in space.
-    #[serde(default)]
     pub inertia: Option<InertiaEntry>,
 }
 
@@ -120,40 +112,31 @@ pub struct JointEntry {
     #[serde(rename = "type")]
     pub kind: String,
     /// Freedoms of a custom joint: rx, ry, rz, tx, ty, tz, screw.
-    #[serde(default)]
     pub freedoms: Option<Vec<String>>,
     /// Origin of the joint's frame.
     pub point: [Coordinate; 3],
     /// Direction of z, of any length; z where left out for spherical and fixed joints.
-    #[serde(default)]
     pub axis: Option<[Coordinate; 3]>,
     /// Direction that x is made from; by default the first of the global x, y, z not parallel to the axis.
-    #[serde(default)]
     pub reference: Option<[Coordinate; 3]>,
     /// Translation per turn of a helical joint: what catalogues of screws call its lead.
-    #[serde(default)]
     pub lead: Option<Coordinate>,
     /// Translation per radian of a helical joint, in place of its lead; may have pi in it: "5/(2*pi)".
-    #[serde(default)]
     pub pitch: Option<Coordinate>,
     /// The point is within so much of what is meant, in the file's unit of length; 0 where it is exact.
-    #[serde(default)]
     pub tolerance: Option<Coordinate>,
     /// Whether the mechanism is driven here: true, or the freedom that is driven, such as "tz", where the joint has several. A
     /// driven joint is not changed unless it has options of its own.
     #[serde(default)]
     pub drive: DriveWord,
     /// The state, or list of states, in which the joint is present; all where left out.
-    #[serde(default)]
     pub state: Option<Words>,
     /// What a search may put here instead of the `[search]` list.
-    #[serde(default)]
     pub options: Option<Vec<OptionEntry>>,
     /// Names of options never put here.
     #[serde(default)]
     pub forbid: Vec<String>,
     /// Joints that may be inserted here in series: true for those of `[search]`, or a list.
-    #[serde(default)]
     pub unloading: Option<Unloading>,
 }
 
@@ -220,35 +203,26 @@ impl OptionEntry {
 #[serde(deny_unknown_fields)]
 pub struct OptionTable {
     /// The type; custom where only freedoms are given.
-    #[serde(default, rename = "type")]
+    #[serde(rename = "type")]
     pub kind: Option<String>,
     /// Freedoms of a custom joint.
-    #[serde(default)]
     pub freedoms: Option<Vec<String>>,
     /// Origin, the joint's own by default.
-    #[serde(default)]
     pub point: Option<[Coordinate; 3]>,
     /// Direction of z, the joint's own by default.
-    #[serde(default)]
     pub axis: Option<[Coordinate; 3]>,
     /// Direction that x is made from; by default the joint's own, and where that is parallel to the option's axis, the first of
     /// the global x, y, z not parallel to it.
-    #[serde(default)]
     pub reference: Option<[Coordinate; 3]>,
     /// Translation per turn of a helical joint: what catalogues of screws call its lead.
-    #[serde(default)]
     pub lead: Option<Coordinate>,
     /// Translation per radian of a helical joint, in place of its lead; may have pi in it: "5/(2*pi)".
-    #[serde(default)]
     pub pitch: Option<Coordinate>,
     /// Name shown in results.
-    #[serde(default)]
     pub name: Option<String>,
     /// Cost, in place of the table's.
-    #[serde(default)]
     pub cost: Option<f64>,
     /// The state that must be searched for it to be offered; offered in any search where left out.
-    #[serde(default)]
     pub state: Option<String>,
 }
 
@@ -285,33 +259,26 @@ pub struct PointEntry {
     /// Where it is at the pose of the file.
     pub point: [Coordinate; 3],
     /// The point is within so much of what is meant, in the file's unit of length; 0 where it is exact.
-    #[serde(default)]
     pub tolerance: Option<Coordinate>,
 }
 
 /// What a search may do.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct SearchEntry {
     /// Options of joints without their own, except drives, fixed joints and contacts.
-    #[serde(default)]
     pub options: Vec<OptionEntry>,
     /// Unloading joints for places with `unloading = true`.
-    #[serde(default)]
     pub unloading: Vec<OptionEntry>,
     /// Links besides the outputs that must not gain a motion.
-    #[serde(default)]
     pub hold: Vec<String>,
     /// Pairs of joints that are mirror images.
-    #[serde(default)]
     pub mirror: Vec<[String; 2]>,
     /// Joints that become each other when the mechanism is turned about one axis, each the next and the last the first: pairs by
     /// half a turn, or groups of three by a third. Not beside mirror images.
-    #[serde(default)]
     pub turn: Vec<Vec<String>>,
     /// Costs by option or type name, and `change`, `driven` (of changing a driven joint besides), `link` and `harmful` (of each
     /// harmful redundant constraint that a searched state adds).
-    #[serde(default)]
     pub costs: BTreeMap<String, f64>,
 }
 
@@ -320,25 +287,18 @@ pub struct SearchEntry {
 #[serde(deny_unknown_fields)]
 pub struct ExpectedEntry {
     /// The state; free by default.
-    #[serde(default)]
     pub state: Option<String>,
     /// W, instantaneous, idle freedoms included.
-    #[serde(default)]
     pub mobility: Option<i64>,
     /// W of the motion that is really there; smaller than `mobility` at singular and shaky poses.
-    #[serde(default)]
     pub finite_mobility: Option<i64>,
     /// Dimension of the output links' motion.
-    #[serde(default)]
     pub working_mobility: Option<i64>,
     /// W less the working mobility.
-    #[serde(default)]
     pub local_mobility: Option<i64>,
     /// σ of the whole state.
-    #[serde(default)]
     pub redundant: Option<i64>,
     /// σ that the state adds to the free one.
-    #[serde(default)]
     pub external_redundant: Option<i64>,
     /// Publication or derivation.
     #[serde(default)]
@@ -356,10 +316,8 @@ pub struct ClaimEntry {
     /// What is said there.
     pub says: String,
     /// What is right instead; left out where the claim holds.
-    #[serde(default)]
     pub right: Option<String>,
     /// The part of a scanned text that a refutation rests on, where a misread letter would explain it.
-    #[serde(default)]
     pub scan: Option<String>,
     /// What that rests on.
     pub evidence: String,
@@ -368,7 +326,7 @@ pub struct ClaimEntry {
 impl MechanismFile {
     /// The file as JSON, without what is left at its default.
     #[must_use]
-    pub fn json(&self) -> serde_json::Value {
+    pub fn json(&self) -> Value {
         let mut value = serde_json::to_value(self).unwrap_or_default();
         strip(&mut value);
         value
@@ -376,8 +334,7 @@ impl MechanismFile {
 }
 
 /// Removes what says nothing: null, false, "" (but for names) and empty tables and lists.
-fn strip(value: &mut serde_json::Value) {
-    use serde_json::Value;
+fn strip(value: &mut Value) {
     match value {
         Value::Array(items) => items.iter_mut().for_each(strip),
         Value::Object(map) => {
@@ -402,8 +359,22 @@ fn strip(value: &mut serde_json::Value) {
 /// assert!(schema["properties"]["joint"].is_object());
 /// ```
 #[must_use]
-pub fn json_schema() -> serde_json::Value {
+pub fn json_schema() -> Value {
     let mut schema = schemars::schema_for!(MechanismFile);
     schema.insert("$id".to_owned(), "urn:ozols:mechanism:1".into());
-    schema.to_value()
+    let mut schema = schema.to_value();
+    default_to_null(&mut schema);
+    schema
+}
+
+/// Says of each key that may be null that null is what stands for one that is left out.
+fn default_to_null(schema: &mut Value) {
+    let Value::Object(own) = schema else { return };
+    let is_null = |kind: &Value| kind == "null" || kind["type"] == "null";
+    let kinds = own.get("type").or(own.get("anyOf"));
+    let kinds = kinds.and_then(Value::as_array);
+    if kinds.is_some_and(|all| all.iter().any(is_null)) {
+        own.insert("default".to_owned(), Value::Null);
+    }
+    own.values_mut().for_each(default_to_null);
 }

@@ -19,66 +19,49 @@ pub struct GripEntry {
     /// Nominal diameter D of the part.
     pub diameter: Coordinate,
     /// Diameters to be held: a list, or { from, to, count }; the nominal one where left out.
-    #[serde(default)]
     pub diameters: Option<Diameters>,
     /// "fixed" (the default): the pivots stay where `diameter` is nominal, the levers turn to fit other parts; "nominal": the
     /// pivots are set anew for each diameter.
-    #[serde(default)]
     pub pivots: Option<String>,
     /// a, from the pivots to the axis of symmetry, in place of the one that follows from `diameter`.
-    #[serde(default)]
     pub pivot_distance: Option<Coordinate>,
     /// Length of the faces from the vertex; contacts beyond it do not hold.
-    #[serde(default)]
     pub face_length: Option<Coordinate>,
     /// Width of the levers, which must keep clear of each other; 0 where left out.
-    #[serde(default)]
     pub lever_width: Option<Coordinate>,
     /// Whether the levers lie in planes of their own and may cross, as they do where l2 > l1; false where left out.
     #[serde(default)]
     pub levers_cross: bool,
     /// Mass of the part in kg.
-    #[serde(default)]
     pub mass: Option<Coordinate>,
     /// Density of the part in kg/m³, in place of its mass; with `part_length`.
-    #[serde(default)]
     pub density: Option<Coordinate>,
     /// Length of the part, with `density`.
-    #[serde(default)]
     pub part_length: Option<Coordinate>,
     /// Mass centre of the part from the middle of the jaws; [0, 0, 0] where left out.
-    #[serde(default)]
     pub centre_of_mass: Option<[Coordinate; 3]>,
     /// Acceleration of gravity in m/s² in the gripper's axes, or "any" where the robot turns the gripper about;
     /// [0, -9.80665, 0] where left out.
-    #[serde(default)]
     pub gravity: Option<Gravity>,
     /// Accelerations of the gripper in m/s² in its own axes, each a case of its own.
     #[serde(default)]
     pub accelerations: Vec<[Coordinate; 3]>,
     /// Acceleration of the gripper in m/s² in any direction.
-    #[serde(default)]
     pub any_acceleration: Option<Coordinate>,
     /// Coefficient of friction between part and faces.
-    #[serde(default)]
     pub friction: Option<Coordinate>,
     /// Factor on the load; 1 where left out.
-    #[serde(default)]
     pub safety: Option<Coordinate>,
     /// "coupled" (the default): one drive turns both levers by the same angle; "equal": the same moment on both;
     /// "independent": a drive each.
-    #[serde(default)]
     pub levers: Option<String>,
     /// Travel of the drive per radian of the levers, which makes drive moments a drive force.
-    #[serde(default)]
     pub drive_arm: Option<Coordinate>,
     /// The joints that the two levers turn in, upper and lower, in place of `drive_arm`: the travel follows from the
     /// mechanism, whose pose in the file is that of the nominal diameter.
-    #[serde(default)]
     pub lever_joints: Option<[String; 2]>,
     /// The joints of the part that stand for its contacts: upper far, upper near, lower far, lower near. In the states that
     /// have them, `ozols statics` and `ozols search` load the jaws with the contact forces found here. Needs `lever_joints`.
-    #[serde(default)]
     pub contacts: Option<[String; 4]>,
 }
 

@@ -46,10 +46,8 @@ pub enum Quantities {
 #[serde(deny_unknown_fields)]
 pub struct ToleranceEntry {
     /// Points, pitches and leads are within so much of what is meant, in the file's unit of length; 0 where they are exact.
-    #[serde(default)]
     pub length: Option<Coordinate>,
     /// Axes and references are, in radians; 0 where they are exact.
-    #[serde(default)]
     pub direction: Option<Coordinate>,
 }
 

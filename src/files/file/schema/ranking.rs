@@ -7,23 +7,18 @@ use serde::{Deserialize, Serialize};
 
 /// How `ozols search` ranks variants under the workload.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct RankingEntry {
     /// "weighted" (the default), "lexicographic" or "pareto".
-    #[serde(default)]
     pub order: Option<String>,
     /// The terms, the most important first.
-    #[serde(default)]
     pub terms: Vec<TermEntry>,
     /// Bounds that variants must keep.
-    #[serde(default)]
     pub limits: Vec<LimitEntry>,
     /// How clearances add up to the output error: "worst" (the default) or "rms".
-    #[serde(default)]
     pub clearance: Option<String>,
     /// The states that count, "free" or those with the contacts of [workload.grip]; all of them that have loads where left
     /// out. A variant's score is the worst over them.
-    #[serde(default)]
     pub states: Vec<String>,
 }
 
@@ -36,7 +31,6 @@ pub struct TermEntry {
     #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
     /// Its weight, 1 by default.
-    #[serde(default)]
     pub weight: Option<f64>,
 }
 
@@ -55,10 +49,8 @@ pub struct LimitEntry {
     #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
     /// Not below.
-    #[serde(default)]
     pub min: Option<f64>,
     /// Not above.
-    #[serde(default)]
     pub max: Option<f64>,
 }
 
@@ -67,15 +59,11 @@ pub struct LimitEntry {
 #[serde(deny_unknown_fields)]
 pub struct JointTypeEntry {
     /// Its cost, as under `[search.costs]`.
-    #[serde(default)]
     pub cost: Option<f64>,
     /// The force it bears in N.
-    #[serde(default)]
     pub capacity_force: Option<f64>,
     /// The moment it bears in N·m.
-    #[serde(default)]
     pub capacity_moment: Option<f64>,
     /// Play between its parts, from the middle to the end, in m.
-    #[serde(default)]
     pub clearance: Option<f64>,
 }

@@ -8,38 +8,28 @@ use std::collections::BTreeMap;
 
 /// Loads and drive, for `ozols statics`; a gripper, for `ozols grip`.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct WorkloadEntry {
     /// Acceleration of gravity in m/s², such as [0, -9.81, 0]; none where left out.
-    #[serde(default)]
     pub gravity: Option<[Coordinate; 3]>,
     /// Forces from outside.
-    #[serde(default)]
     pub force: Vec<ForceEntry>,
     /// Moments from outside.
-    #[serde(default)]
     pub moment: Vec<MomentEntry>,
     /// Faces of the contacts with a clamped object, for `ozols statics --unilateral`.
-    #[serde(default)]
     pub contact: Vec<ContactEntry>,
     /// Stiffness of joints by the name of their type, `default` for the rest: `[workload.stiffness.spherical]`.
-    #[serde(default)]
     pub stiffness: BTreeMap<String, StiffnessEntry>,
     /// Joints made or mounted askew.
-    #[serde(default)]
     pub misalignment: Vec<MisalignmentEntry>,
     /// Speed of the drive in rad/s, or the file's length unit per second; "60rpm" and "30deg/s" will do too. One for
     /// each drive where there are several.
-    #[serde(default)]
     pub drive_speed: Option<Quantities>,
     /// The cycle.
-    #[serde(default)]
     pub stroke: Option<StrokeEntry>,
     /// Clamping levers and what they must hold, for `ozols grip`.
-    #[serde(default)]
     pub grip: Option<GripEntry>,
     /// Two discs on a torsion bar, for `ozols drive`.
-    #[serde(default)]
     pub drive: Option<DriveEntry>,
 }
 
@@ -54,13 +44,10 @@ pub struct ForceEntry {
     /// The force in N.
     pub force: [Coordinate; 3],
     /// It acts from this position of the first drive, in each turn: radians or "90deg", or the file's length unit.
-    #[serde(default)]
     pub from: Option<Quantity>,
     /// And up to this one.
-    #[serde(default)]
     pub to: Option<Quantity>,
     /// State or states it acts in, such as "free" for a force that stands for a part; all where left out.
-    #[serde(default)]
     pub state: Option<Words>,
 }
 
@@ -85,7 +72,6 @@ pub struct MomentEntry {
     /// The moment in N·m.
     pub moment: [Coordinate; 3],
     /// State or states it acts in; all where left out.
-    #[serde(default)]
     pub state: Option<Words>,
 }
 
@@ -96,10 +82,8 @@ pub struct ContactEntry {
     /// The joint.
     pub joint: String,
     /// Coefficient of friction; as much friction as it takes where left out.
-    #[serde(default)]
     pub friction: Option<Coordinate>,
     /// Radius of the face, within which the pressure has its centre; anywhere where left out.
-    #[serde(default)]
     pub radius: Option<Coordinate>,
 }
 
@@ -120,10 +104,8 @@ pub struct MisalignmentEntry {
     /// The joint.
     pub joint: String,
     /// Small turn: radians or "0.1deg".
-    #[serde(default)]
     pub angle: Option<Quantity>,
     /// Small shift, in the file's unit of length.
-    #[serde(default)]
     pub length: Option<f64>,
     /// About or along x, y or z of the joint's own frame.
     pub axis: String,
@@ -150,90 +132,64 @@ pub struct DriveEntry {
     /// 2 φ0, from one latched position to the next.
     pub swing_angle: Coordinate,
     /// τ in s, a whole oscillation: two swings.
-    #[serde(default)]
     pub period: Option<Coordinate>,
     /// Time of one swing in s, in place of `period`.
-    #[serde(default)]
     pub swing_time: Option<Coordinate>,
     /// I in kg·m², the largest inertia of a disc with its payload.
-    #[serde(default)]
     pub inertia: Option<Coordinate>,
     /// Inertia in kg·m² of the bare disc, in place of `inertia`; with the payload.
-    #[serde(default)]
     pub disc_inertia: Option<Coordinate>,
     /// The link whose mass and inertia are those of the bare disc, in place of `disc_inertia`; it turns on the frame.
-    #[serde(default)]
     pub disc_link: Option<String>,
     /// Mass of the payload in kg, taken as a point.
-    #[serde(default)]
     pub payload_mass: Option<Coordinate>,
     /// From the axis to the payload.
-    #[serde(default)]
     pub payload_radius: Option<Coordinate>,
     /// Inertia of the second disc in kg·m² where it differs.
-    #[serde(default)]
     pub second_inertia: Option<Coordinate>,
     /// G of the bar in Pa.
     pub shear_modulus: Coordinate,
     /// Allowable shear stress of the bar in Pa.
     pub allowable_stress: Coordinate,
     /// Length of the bar to begin with; it is lengthened until strong enough.
-    #[serde(default)]
     pub torsion_length: Option<Coordinate>,
     /// Greatest length of the bar.
-    #[serde(default)]
     pub max_length: Option<Coordinate>,
     /// Diameters that bars come in; any where left out.
     #[serde(default)]
     pub diameters: Vec<Coordinate>,
     /// Δφ, the angle missing after a swing without the cam, measured.
-    #[serde(default)]
     pub missing_angle: Option<Coordinate>,
     /// Damping moment per speed in N·m·s/rad.
-    #[serde(default)]
     pub viscous_damping: Option<Coordinate>,
     /// Moment of dry friction in N·m.
-    #[serde(default)]
     pub friction_moment: Option<Coordinate>,
     /// S, stroke of the cam spring's end.
-    #[serde(default)]
     pub spring_stroke: Option<Coordinate>,
     /// ψ0, deformation of the mounted spring over its stroke; 0 where left out.
-    #[serde(default)]
     pub mounting_coefficient: Option<Coordinate>,
     /// η, mean efficiency of the cam; 1 where left out.
-    #[serde(default)]
     pub cam_efficiency: Option<Coordinate>,
     /// From the disc's axis to the centre of the follower's roller where it is lifted; with `roller_radius` the cam's profile
     /// follows.
-    #[serde(default)]
     pub cam_radius: Option<Coordinate>,
     /// Radius of the follower's roller.
-    #[serde(default)]
     pub roller_radius: Option<Coordinate>,
     /// Work of the cam in a swing in J, in place of what friction takes by equation (12).
-    #[serde(default)]
     pub feed_energy: Option<Coordinate>,
     /// Where the cam begins to push, from the middle of the swing; the middle where left out. It pushes up to the latch.
-    #[serde(default)]
     pub feed_from: Option<Coordinate>,
     /// In place of `feed_energy` and `feed_from`, a push of several moments: where each piece begins, from the middle of the
     /// swing, and its moment in N·m, as in [[0, 0.5], [20, 0.3]]. The last lasts up to the latch.
-    #[serde(default)]
     pub feed_moments: Option<Vec<[Coordinate; 2]>>,
     /// How far short of its groove a latch still catches a disc; 1 degree where left out.
-    #[serde(default)]
     pub latch_capture: Option<Coordinate>,
     /// "stepwise" (the default): the discs take turns, and both step on the same way; "reversing": one disc goes to and fro.
-    #[serde(default)]
     pub motion: Option<String>,
     /// Number of swings; 8 where left out.
-    #[serde(default)]
     pub swings: Option<i64>,
     /// Dwell after each swing in s; none where left out.
-    #[serde(default)]
     pub dwell: Option<Coordinate>,
     /// In place of `motion`, `swings` and `dwell`: steps such as ["1", "wait 0.3", "2"], a disc swinging or a dwell in s.
-    #[serde(default)]
     pub programme: Option<Vec<String>>,
 }
